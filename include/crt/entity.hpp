@@ -1,0 +1,68 @@
+#pragma once
+
+#include <concepts>
+#include <crt/material.hpp>
+#include <crt/primitives.hpp>
+#include <crt/transform.hpp>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+namespace crt {
+
+struct EntityNode;
+
+/// Something in a scene: a primitive, or several combined by constructive solid geometry, placed by
+/// transforms. An immutable value: copies share, and any thread may use it. Combining and placing
+/// are O(1) and give new entities.
+class Entity {
+ public:
+  /// Takes any primitive; throws Error (invalid_argument) naming the field that is out of range.
+  Entity(Primitive primitive);  // NOLINT(google-explicit-constructor): a primitive is an entity
+
+  template <class Shape>
+    requires(!std::same_as<Shape, Primitive> && !std::same_as<Shape, Entity> &&
+             std::constructible_from<Primitive, Shape>)
+  Entity(Shape shape)  // NOLINT(google-explicit-constructor): so that Sphere{...} + Box{...} reads as it should
+      : Entity(Primitive(std::move(shape))) {}
+
+  /// Internal: takes a node of the tree.
+  explicit Entity(std::shared_ptr<const EntityNode> node) : node_(std::move(node)) {}
+
+  /// This entity moved by `transform`, after whatever moved it before. A transform that flattens
+  /// space (no inverse) or has a number that is not finite is an error.
+  Entity transformed(const Transform& transform) const;
+
+  /// This entity with `material` on every part that has no material of its own.
+  Entity with_material(SharedMaterial material) const;
+
+  /// This entity under a number of the caller's choice, reported in hits. Without one it is the
+  /// entity's place in Scene::entities. The outermost id holds.
+  Entity with_id(std::uint32_t id) const;
+
+  /// Whether it has an inside: false if any part of it is a mere surface (Disc, Triangle, HalfPlane).
+  bool is_solid() const;
+
+  const EntityNode& node() const { return *node_; }
+  const std::shared_ptr<const EntityNode>& shared_node() const { return node_; }
+
+ private:
+  std::shared_ptr<const EntityNode> node_;
+};
+
+/// Union: what is in either. Parts keep their materials. Surfaces may take part in it.
+Entity operator+(const Entity& a, const Entity& b);
+
+/// Difference: what is in `a` and not in `b`; the cut has b's material. Both must be solids.
+Entity operator-(const Entity& a, const Entity& b);
+
+/// Intersection: what is in both. Both must be solids. (C++ gives ^ a low precedence: bracket it.)
+Entity operator^(const Entity& a, const Entity& b);
+
+/// Unions, intersections and differences of many; at least one part each.
+Entity csg_union(std::span<const Entity> parts);
+Entity csg_intersection(std::span<const Entity> parts);
+/// `from` without any of the cutters (there may be none).
+Entity csg_difference(const Entity& from, std::span<const Entity> cutters);
+
+}  // namespace crt

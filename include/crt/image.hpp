@@ -1,0 +1,83 @@
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <crt/color.hpp>
+#include <crt/settings.hpp>
+#include <crt/stats.hpp>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace crt {
+
+/// How Image::write goes about it.
+struct WriteOptions {
+  /// Leaves out of the file what changes from run to run (the render time), so that equal pictures
+  /// are equal files.
+  bool reproducible = false;
+};
+
+/// A picture: rows of linear RGBA floats from the top, alpha premultiplied. What rendering gives,
+/// and what panoramas and image maps take.
+class Image {
+ public:
+  Image() = default;
+
+  /// A black, fully covered picture. Throws Error if a side is below 1 or there are over 2^27 pixels.
+  Image(int width, int height);
+
+  /// Reads a file of any format that OpenImageIO knows (PNG, JPEG, EXR, HDR, TIFF, ...). Throws
+  /// Error (io) if it is missing or broken.
+  static Image read(const std::filesystem::path& path);
+
+  /// The same from a file's content in memory; `name` (its ending tells the format) is for messages.
+  static Image decode(std::span<const std::byte> content, const std::string& name);
+
+  /// Writes a file whose format its ending says: .png and .tif 8-bit with Settings::gamma applied,
+  /// .exr and .hdr linear floats. It is written under another name and then renamed, so that no half
+  /// file is ever seen. Throws Error (io, or unsupported for an unknown ending).
+  void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
+
+  int width() const { return width_; }
+  int height() const { return height_; }
+  bool empty() const { return pixels_.empty(); }
+
+  /// 4 * width * height floats.
+  std::span<const float> pixels() const { return pixels_; }
+  std::span<float> pixels() { return pixels_; }
+
+  /// The pixel in column x from the left, row y from the top; no check.
+  Color at(int x, int y) const;
+  void set(int x, int y, const Color& color);
+
+  /// The 8-bit RGBA bytes a file gets: clamp(c)^(1/gamma), rounded to nearest, alpha straight; with
+  /// show_clip, red where a channel passes 1.
+  std::vector<std::uint8_t> to_rgba8() const;
+
+  /// Whether the values are as a display wants them (read from an 8- or 16-bit file), not linear.
+  /// Where such an image serves in a scene it is raised to Settings::gamma, so that at any gamma it
+  /// shows as it is.
+  bool display_encoded() const { return display_encoded_; }
+  void set_display_encoded(bool encoded) { display_encoded_ = encoded; }
+
+  /// The settings it was rendered with: gamma and show_clip act when it is written, the texts and
+  /// the rest go into the file.
+  const Settings& settings() const { return settings_; }
+  void set_settings(Settings settings) { settings_ = std::move(settings); }
+
+  const RenderStats& stats() const { return stats_; }
+  RenderStats& stats() { return stats_; }
+
+ private:
+  int width_ = 0;
+  int height_ = 0;
+  bool display_encoded_ = false;
+  std::vector<float> pixels_;
+  Settings settings_;
+  RenderStats stats_;
+};
+
+}  // namespace crt

@@ -1,0 +1,22 @@
+#pragma once
+
+#include <crt/background.hpp>
+#include <crt/camera.hpp>
+#include <crt/entity.hpp>
+#include <crt/light.hpp>
+#include <crt/settings.hpp>
+#include <vector>
+
+namespace crt {
+
+/// The description of a picture: plain values, freely edited, without cost. Nothing is computed
+/// until `prepare`, and editing a scene never touches what was prepared from it.
+struct Scene {
+  std::vector<Entity> entities;
+  std::vector<Light> lights;
+  Camera camera;
+  Background background = SolidBackground{};
+  Settings settings;
+};
+
+}  // namespace crt

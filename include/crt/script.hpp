@@ -1,0 +1,93 @@
+// Running scripts of the CRT language: text in, a Scene or diagnostics out. A script can do nothing
+// that this C++ API cannot.
+#pragma once
+
+#include <crt/error.hpp>
+#include <crt/scene.hpp>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace crt {
+
+/// A place in a script. Lines and columns count from 1; columns count code points, tabs as one.
+struct SourcePlace {
+  std::string file;
+  int line = 0;
+  int column = 0;
+  int length = 1;  ///< of the marked piece on that line, in code points
+
+  friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
+};
+
+enum class Severity { warning, error };
+
+/// Something to tell about a script.
+struct Diagnostic {
+  Severity severity = Severity::error;
+  ErrorCode code = ErrorCode::script;
+  std::string message;  ///< one line, with what was expected and a suggestion where there is one
+  SourcePlace place;
+  std::string source_line;  ///< the text of that line, without its end
+  /// For an error inside macros: where each was called, innermost first.
+  std::vector<std::pair<std::string, SourcePlace>> calls;
+};
+
+/// "scene.crt:3:5: error: ..." with the source line and a caret under it, then the calls; ends in a newline.
+std::string format_diagnostic(const Diagnostic& diagnostic);
+
+/// A JSON array of objects: severity, code, message, file, line, column, length, source, calls.
+std::string diagnostics_to_json(const std::vector<Diagnostic>& diagnostics);
+
+/// What a script may use up; passing one is an ordinary error (ErrorCode::limit) at its place.
+struct ScriptLimits {
+  std::uint64_t steps = 50'000'000;     ///< expressions evaluated
+  std::uint64_t entities = 10'000'000;  ///< made or put into the scene
+  std::size_t call_depth = 256;         ///< macros within macros; at most 1000
+  std::size_t list_length = 10'000'000;
+  std::size_t string_bytes = 16 << 20;
+  std::size_t memory_bytes = std::size_t{2} << 30;  ///< about what all lists and strings hold together
+  std::size_t source_bytes = 64 << 20;              ///< of a script and its imports together
+  std::size_t errors = 20;                          ///< reported before giving up
+};
+
+struct ScriptOptions {
+  /// Where images and imports are looked for after the script's own directory; a path with a
+  /// leading '/' is looked for in these alone.
+  std::vector<std::filesystem::path> resource_directories;
+  /// Lets paths leave those directories.
+  bool allow_outside_files = false;
+  /// The frame of an animation, the constant `t`.
+  double t = 0;
+  /// Top-level variables set from outside, as script expressions ("n", "18"): what the script
+  /// assigns to them at the top level is ignored.
+  std::vector<std::pair<std::string, std::string>> variables;
+  /// Attributes of Settings that win over the script's, as script expressions ("gamma", "2.2").
+  std::vector<std::pair<std::string, std::string>> settings;
+  ScriptLimits limits;
+  /// Gets what `print` prints, a line at a time without its end. From the calling thread.
+  std::function<void(std::string_view)> print;
+  /// Asked for each file (its resolved path) before the file system is; nothing means: read it from there.
+  std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file;
+};
+
+struct ScriptResult {
+  /// Present if there was no error.
+  std::optional<Scene> scene;
+  std::vector<Diagnostic> diagnostics;
+};
+
+/// Runs a script. `name` stands for it in messages and its directory is where its files are looked
+/// for. Never throws for what a script does; errors are in the result.
+ScriptResult run_script(std::string_view text, const std::string& name, const ScriptOptions& options = {});
+
+/// The same for a file; a missing one is a diagnostic with ErrorCode::io.
+ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOptions& options = {});
+
+}  // namespace crt

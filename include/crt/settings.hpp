@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace crt {
+
+/// What the distance D in a light's falloff / D^2 is.
+enum class FalloffModel {
+  path,   ///< the whole way from the camera over all bounces to the light (the thesis's rule)
+  light,  ///< from the lit point to the light
+};
+
+/// How a scene is rendered; everything that is neither geometry, light nor camera.
+struct Settings {
+  // What the picture's file says of it.
+  std::string title;
+  std::string author;
+  std::string date;
+  std::string notes;
+
+  /// Size in pixels: each in [1, 65536], together at most 2^27.
+  int width = 640;
+  int height = 480;
+  /// 8- and 16-bit files store clamp(c)^(1/gamma); in [0.1, 10].
+  double gamma = 1;
+  /// n x n rays a pixel, in [1, 64].
+  int supersampling = 1;
+  /// Points of the lens for each of them, in [1, 65536]; 1 means no lens.
+  int dof_samples = 1;
+  /// Bounces followed after the camera's ray, in [0, 256].
+  int recursion_depth = 3;
+  /// A ray whose share of the pixel is below this in every channel is not traced; in [0, 1].
+  double min_weight = 1.0 / 1024;
+  FalloffModel falloff_model = FalloffModel::path;
+  /// Marks pixels with a channel above 1 in red.
+  bool show_clip = false;
+  /// Of the random numbers: another seed, another noise.
+  std::uint64_t seed = 0;
+};
+
+}  // namespace crt

@@ -1,0 +1,42 @@
+#pragma once
+
+#include <cstdint>
+#include <string>
+
+namespace crt {
+
+/// What a render did. Counts are exact and do not depend on the number of threads.
+struct RenderStats {
+  // Rays by kind.
+  std::uint64_t camera_rays = 0;
+  std::uint64_t shadow_rays = 0;
+  std::uint64_t reflection_rays = 0;
+  std::uint64_t refraction_rays = 0;
+  /// Rays not traced because their weight was below Settings::min_weight.
+  std::uint64_t rays_below_min_weight = 0;
+  /// Rays not traced because the recursion depth was reached.
+  std::uint64_t rays_beyond_depth = 0;
+  /// Camera samples that reached the fixed bound on rays a sample (65536) and dropped the rest.
+  std::uint64_t samples_over_ray_bound = 0;
+
+  // Work. These may vary with the way the acceleration structure was built.
+  std::uint64_t intersection_tests = 0;  ///< rays against primitives or CSG objects
+  std::uint64_t interval_events = 0;     ///< crossings sorted and flipped inside CSG objects
+
+  /// How often the solids around a point were looked up, and media entered or left.
+  std::uint64_t media_lookups = 0;
+  std::uint64_t media_changes = 0;
+  std::uint64_t pattern_lookups = 0;
+  std::uint64_t lens_samples = 0;
+
+  std::uint64_t pixels = 0;
+  int threads = 0;  ///< that were allowed to work on it
+
+  // Wall-clock seconds by stage; 0 for a stage that the library did not do.
+  double parse_seconds = 0;
+  double prepare_seconds = 0;
+  double trace_seconds = 0;
+  double write_seconds = 0;
+};
+
+}  // namespace crt

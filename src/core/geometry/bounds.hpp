@@ -1,0 +1,54 @@
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+/// An axis-parallel box; empty if lower > upper in any coordinate, possibly infinite.
+struct Bounds {
+  Vec3 lower{std::numeric_limits<double>::infinity()};
+  Vec3 upper{-std::numeric_limits<double>::infinity()};
+
+  static Bounds everything() {
+    return {Vec3(-std::numeric_limits<double>::infinity()), Vec3(std::numeric_limits<double>::infinity())};
+  }
+
+  bool empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }
+
+  bool finite() const {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    return lower.x > -inf && lower.y > -inf && lower.z > -inf && upper.x < inf && upper.y < inf && upper.z < inf;
+  }
+
+  void include(const Vec3& point) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], point[axis]);
+      upper[axis] = std::max(upper[axis], point[axis]);
+    }
+  }
+
+  void include(const Bounds& other) {
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = std::min(lower[axis], other.lower[axis]);
+      upper[axis] = std::max(upper[axis], other.upper[axis]);
+    }
+  }
+
+  /// What both have in common; may be empty.
+  Bounds clipped(const Bounds& other) const {
+    Bounds result;
+    for (int axis = 0; axis < 3; ++axis) {
+      result.lower[axis] = std::max(lower[axis], other.lower[axis]);
+      result.upper[axis] = std::min(upper[axis], other.upper[axis]);
+    }
+    return result;
+  }
+
+  /// Whether the two have a point in common (touching counts).
+  bool touches(const Bounds& other) const { return !clipped(other).empty(); }
+};
+
+}  // namespace crt::core

@@ -1,0 +1,45 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+
+#include "core/math/double_double.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+inline constexpr std::uint32_t no_face = 0xffffffffu;
+
+/// Which side of a face a ray leaves to: where the outward normal points, or into the solid.
+enum class Side : std::uint8_t { outside, inside };
+
+/// Where a ray starts, if it starts on a surface and not in free space.
+struct RayStart {
+  std::uint32_t face = no_face;
+  Side side = Side::outside;
+};
+
+/// A ray in the object space of one primitive. Origin and direction are unevaluated sums of two
+/// doubles (the second far smaller), so that entering the space loses nothing; without a transform
+/// the low parts are 0.
+struct ObjectRay {
+  Vec3 origin{0, 0, 0};
+  Vec3 origin_low{0, 0, 0};
+  Vec3 direction{0, 0, 1};
+  Vec3 direction_low{0, 0, 0};
+  RayStart start;
+
+  /// The point at t relative to `center`: the shift that keeps distant rays exact. Its error is
+  /// about one rounding of the result, not of the way there, if the point is near the center.
+  Vec3 from_center(const Vec3& center, double t) const {
+    Vec3 result;
+    for (int axis = 0; axis < 3; ++axis) {
+      const DoubleDouble offset = two_sum(origin[axis], -center[axis]);
+      result[axis] = std::fma(t, direction[axis], offset.hi) +
+                     (offset.lo + origin_low[axis] + t * direction_low[axis]);
+    }
+    return result;
+  }
+};
+
+}  // namespace crt::core

@@ -1,0 +1,87 @@
+// What every primitive can be asked once a scene is prepared: the one interface between geometry
+// and everything that follows rays.
+//
+// Notation: a ray is the *whole line* o + t d, with t in (-inf, inf) and d of any length but 0; t is
+// never rescaled. "Object space" is the space of the primitive's own public parameters, before any
+// transform of the entity. Faces of a primitive are numbered from 0 in the order its header tells.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "core/geometry/bounds.hpp"
+#include "core/geometry/object_ray.hpp"
+#include "core/geometry/surface.hpp"
+#include "crt/primitives.hpp"
+
+namespace crt::core {
+
+/// A point where a ray passes through a face of a primitive.
+struct Crossing {
+  double t = 0;
+  /// |t - true t| is at most this: the standard tier's bound of docs/numerics.md, in units of t.
+  double error = 0;
+  std::uint32_t face = 0;
+  /// The how-manieth meeting of this ray with this face's surface (the whole plane, the whole
+  /// quadric), in order of t from 0, counted over the whole line. Two primitives with an equal
+  /// surface give its crossings equal numbers.
+  std::uint8_t root = 0;
+  /// Into the solid; for a mere surface: against its normal.
+  bool entering = false;
+};
+
+/// Crossings along one ray. Reused from ray to ray so that no ray allocates.
+using CrossingList = std::vector<Crossing>;
+
+/// What is known of a point on a face.
+struct SurfacePoint {
+  Vec3 position;  ///< in object space, on the surface to rounding
+  Vec3 normal;    ///< unit length, in object space, out of the solid
+  double u = 0;
+  double v = 0;
+};
+
+class Shape {
+ public:
+  Shape() = default;
+  Shape(const Shape&) = delete;
+  Shape& operator=(const Shape&) = delete;
+  virtual ~Shape() = default;
+
+  /// False for mere surfaces, which have no inside.
+  virtual bool is_solid() const = 0;
+
+  /// A box in object space that holds the shape, rounded outwards; infinite where the shape is.
+  virtual Bounds bounds() const = 0;
+
+  /// Appends every crossing of the whole line in ascending t. For a solid they alternate between
+  /// entering and leaving, and what is returned is whether the line is inside at t = -inf; a
+  /// tangent (double) root is left out, so is a stretch of length zero. For a surface: false.
+  ///
+  /// If ray.start.face is not no_face the ray starts on that face: the root there is *exactly* t = 0,
+  /// by removing it from the equation and not by comparing; ray.start.side says to which side of
+  /// the face (as its outward normal has it) the ray leaves, and the crossings agree with that:
+  /// leaving a convex solid outwards it has no crossing at t > 0.
+  virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
+
+  /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray.
+  virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const = 0;
+
+  /// How many faces there are, and the surface that a face is a piece of (for finding faces that
+  /// coincide).
+  virtual std::uint32_t face_count() const = 0;
+  virtual Surface surface(std::uint32_t face) const = 0;
+};
+
+/// Checks a primitive's parameters; throws Error (invalid_argument) naming the field.
+void validate(const Primitive& primitive);
+
+/// Whether a primitive is a solid, without making its shape.
+bool is_solid(const Primitive& primitive);
+
+/// Makes the shape of a (valid) primitive.
+std::unique_ptr<const Shape> make_shape(const Primitive& primitive);
+
+}  // namespace crt::core

@@ -1,0 +1,129 @@
+// The inside of a PreparedScene: what the renderer and the ray queries see of it.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "core/geometry/object_ray.hpp"
+#include "core/scene/features.hpp"
+#include "crt/scene.hpp"
+
+namespace crt::core {
+
+class Accelerator;
+
+inline constexpr std::uint32_t nothing = 0xffffffffu;
+
+/// The place a ray leaves from, by identity: (leaf, face) is the piece of surface, `surface` the
+/// whole surface it belongs to (shared by all faces of the scene that coincide).
+struct StartPoint {
+  std::uint32_t object = nothing;
+  std::uint32_t leaf = nothing;
+  std::uint32_t face = no_face;
+  std::uint32_t surface = nothing;
+  Side side = Side::outside;
+  /// Crossings of *other* surfaces up to this t are at the start too (rounding of the start point).
+  double t_error = 0;
+};
+
+/// A ray in the world: origin + t * direction, t_min < t < t_max.
+struct WorldRay {
+  Vec3 origin{0, 0, 0};
+  Vec3 direction{0, 0, 1};
+  double t_min = 0;
+  double t_max = std::numeric_limits<double>::infinity();
+  StartPoint start;
+};
+
+/// A crossing, as found: numbers only, no shading data yet.
+struct RayHit {
+  double t = std::numeric_limits<double>::infinity();
+  double error = 0;
+  std::uint32_t object = nothing;  ///< what Embree knows: a lone primitive or a CSG object
+  std::uint32_t leaf = nothing;    ///< the primitive that the face belongs to
+  std::uint32_t face = no_face;
+  bool entering = false;
+
+  bool found() const { return object != nothing; }
+};
+
+/// Everything about a hit that shading may ask for.
+struct HitPoint {
+  double t = 0;
+  Vec3 position{0, 0, 0};
+  Vec3 normal{0, 1, 0};          ///< world, unit length, out of the solid
+  Vec3 object_position{0, 0, 0};  ///< in the primitive's own space: where patterns live
+  double u = 0;
+  double v = 0;
+  std::uint32_t material = 0;   ///< index into PreparedData::materials()
+  std::uint32_t entity_id = 0;  ///< the user's
+  std::uint32_t object = nothing;
+  std::uint32_t leaf = nothing;
+  bool entering = false;
+  bool solid = false;  ///< a boundary of a volume, not a mere surface
+};
+
+/// A material with what can be told of it beforehand.
+struct PreparedMaterial {
+  SharedMaterial description;
+  double diffuse = 1;     ///< the default resolved
+  bool opaque = true;     ///< lets nothing through anywhere
+  bool absorbing = false;
+};
+
+/// Counters that one thread keeps while it works.
+struct TraversalStats {
+  std::uint64_t intersection_tests = 0;
+  std::uint64_t interval_events = 0;
+};
+
+/// Immutable after prepare(); every member function is safe from any number of threads.
+class PreparedData {
+ public:
+  explicit PreparedData(const Scene& scene);
+  ~PreparedData();
+  PreparedData(const PreparedData&) = delete;
+  PreparedData& operator=(const PreparedData&) = delete;
+
+  /// The nearest crossing; equal t goes to the object that comes first in the scene.
+  RayHit intersect(const WorldRay& ray, TraversalStats& stats) const;
+
+  /// Whether there is any crossing at all.
+  bool occluded(const WorldRay& ray, TraversalStats& stats) const;
+
+  /// Every crossing in ascending t. With `stop_at_opaque`, returns false as soon as one of an opaque
+  /// material is found (the list is then of no use); otherwise true.
+  bool crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out, TraversalStats& stats) const;
+
+  /// Of each solid that holds the start of the ray (just after it, for a ray that starts on a
+  /// surface), the crossing at which the ray leaves it, the farthest first: outermost to innermost
+  /// for nested solids.
+  void surrounding(const WorldRay& ray, std::vector<RayHit>& out, TraversalStats& stats) const;
+
+  /// What shading needs of a hit that `ray` found.
+  HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const;
+
+  /// The material of a hit, without the rest.
+  std::uint32_t hit_material(const RayHit& hit) const;
+
+  /// Where a ray starts that leaves a hit to the given side of the surface.
+  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
+
+  const std::vector<PreparedMaterial>& materials() const { return materials_; }
+  const Features& features() const { return features_; }
+  /// Lights, camera, background and settings as given (and checked); entities are left out.
+  const Scene& scene() const { return scene_; }
+  double prepare_seconds() const { return prepare_seconds_; }
+
+ private:
+  Scene scene_;
+  std::vector<PreparedMaterial> materials_;
+  Features features_;
+  std::unique_ptr<const Accelerator> accelerator_;
+  double prepare_seconds_ = 0;
+};
+
+}  // namespace crt::core
