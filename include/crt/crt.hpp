@@ -18,5 +18,6 @@
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
 #include <crt/transform.hpp>
+#include <crt/validate.hpp>
 #include <crt/vec.hpp>
 #include <crt/version.hpp>

@@ -1,0 +1,28 @@
+# How every target of the project is compiled: the interface target crt_compile.
+add_library(crt_compile INTERFACE)
+target_compile_features(crt_compile INTERFACE cxx_std_20)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+set(CMAKE_CXX_VISIBILITY_PRESET hidden)
+set(CMAKE_VISIBILITY_INLINES_HIDDEN ON)
+
+target_compile_options(crt_compile INTERFACE -Wall -Wextra -Wconversion -Wshadow)
+if(CRT_WERROR)
+  target_compile_options(crt_compile INTERFACE -Werror)
+endif()
+
+# The compiler must not fuse a * b + c on its own: results would depend on it. Every fma is written.
+target_compile_options(crt_compile INTERFACE -ffp-contract=off)
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  target_compile_options(crt_compile INTERFACE -march=x86-64-v3)
+endif()
+
+if(CRT_SANITIZE)
+  target_compile_options(crt_compile INTERFACE
+    -fsanitize=${CRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
+  target_link_options(crt_compile INTERFACE -fsanitize=${CRT_SANITIZE})
+endif()
+if(CRT_COVERAGE)
+  target_compile_options(crt_compile INTERFACE --coverage -g -O0)
+  target_link_options(crt_compile INTERFACE --coverage)
+endif()
