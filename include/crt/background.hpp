@@ -25,7 +25,7 @@ enum class PanoramaProjection {
 
 /// A picture all around.
 struct PanoramaBackground {
-  std::shared_ptr<const Image> image;
+  std::shared_ptr<const Image> image{};
   PanoramaProjection projection = PanoramaProjection::spherical;
   /// Turns the picture about y, in radians.
   double angle = 0;

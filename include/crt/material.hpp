@@ -21,7 +21,7 @@ struct Material {
   double refractive_index = 1;
   /// Strength of the diffuse light, >= 0. By default what is neither mirrored nor let through:
   /// max(0, 1 - reflectivity - transparency).
-  std::optional<double> diffuse;
+  std::optional<double> diffuse{};
   /// Strength of the highlight, >= 0.
   double specular = 0;
   /// Sharpness of the highlight: the exponent of its cosine, >= 0.
@@ -29,7 +29,7 @@ struct Material {
   /// Absorption inside the solid per scene unit and channel, >= 0 (Beer-Lambert).
   Color absorption = {0, 0, 0};
   /// Tilts the normal as if the surface were raised by the luminance of this pattern times `bump_height`.
-  std::optional<Pattern> bump;
+  std::optional<Pattern> bump{};
   /// Height of the bumps in scene units.
   double bump_height = 0.1;
 };

@@ -71,7 +71,7 @@ struct Wood {
 
 /// A picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v` times, bilinear.
 struct ImageMap {
-  std::shared_ptr<const Image> image;
+  std::shared_ptr<const Image> image{};
   double repeat_u = 1;
   double repeat_v = 1;
 };

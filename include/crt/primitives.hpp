@@ -15,7 +15,7 @@ namespace crt {
 struct Sphere {
   Vec3 center{0, 0, 0};
   double radius = 1;
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// An axis-parallel box between any two opposite corners, which must differ in every coordinate.
@@ -23,7 +23,7 @@ struct Sphere {
 struct Box {
   Vec3 corner_a{-1, -1, -1};
   Vec3 corner_b{1, 1, 1};
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// The half-space behind a plane: `normal` (any length but 0) points out of the solid.
@@ -31,7 +31,7 @@ struct Box {
 struct Plane {
   Vec3 normal{0, 1, 0};
   Vec3 position{0, 0, 0};
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// A surface: the half of the plane through `position` across `normal` that lies on the `direction`
@@ -41,7 +41,7 @@ struct HalfPlane {
   Vec3 position{0, 0, 0};
   /// Must not be parallel to `normal`; what of it is across the normal counts.
   Vec3 direction{1, 0, 0};
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// A solid cylinder between the centres of its two caps. (u, v): angle about the axis and height on
@@ -50,7 +50,7 @@ struct Cylinder {
   Vec3 from{0, 0, 0};
   Vec3 to{0, 1, 0};
   double radius = 1;
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// A solid cone or frustum: `radius` at `from`, `radius2` (0 or more: 0 is a point) at `to`.
@@ -60,7 +60,7 @@ struct Cone {
   Vec3 to{0, 1, 0};
   double radius = 1;
   double radius2 = 0;
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// All points within `thickness` of the circle of the given `radius` about `center` across `axis`:
@@ -71,7 +71,7 @@ struct Torus {
   Vec3 axis{0, 1, 0};
   double radius = 1;
   double thickness = 0.25;
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// A surface: the flat disc about `center` across `normal`. (u, v): angle and distance, in [0, 1].
@@ -79,7 +79,7 @@ struct Disc {
   Vec3 center{0, 0, 0};
   Vec3 normal{0, 1, 0};
   double radius = 1;
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// A surface: a flat triangle, which must have an area. (u, v): the weights of b and c.
@@ -87,7 +87,7 @@ struct Triangle {
   Vec3 a{0, 0, 0};
   Vec3 b{1, 0, 0};
   Vec3 c{0, 1, 0};
-  std::optional<SharedMaterial> material;
+  std::optional<SharedMaterial> material{};
 };
 
 /// Every primitive there is. A new one is added here; nothing else lists them all.

@@ -17,12 +17,12 @@ struct Region {
 
 struct RenderOptions {
   /// Renders only this part of the picture: the image has its size. The pixels are those of the whole.
-  std::optional<Region> region;
+  std::optional<Region> region{};
   /// Threads at most; 0 takes what the calling TBB arena has, 1 starts none.
   int threads = 0;
   /// Called now and then, from one thread at a time, with the share done: first 0, never less than
   /// before, last 1. Returning false cancels: render() then throws Error (cancelled).
-  std::function<bool(double)> progress;
+  std::function<bool(double)> progress{};
 };
 
 /// Renders the picture. The pixels depend on the scene alone: not on threads, tiles or regions.

@@ -12,9 +12,9 @@ namespace crt {
 /// The description of a picture: plain values, freely edited, without cost. Nothing is computed
 /// until `prepare`, and editing a scene never touches what was prepared from it.
 struct Scene {
-  std::vector<Entity> entities;
-  std::vector<Light> lights;
-  Camera camera;
+  std::vector<Entity> entities{};
+  std::vector<Light> lights{};
+  Camera camera{};
   Background background = SolidBackground{};
   Settings settings;
 };

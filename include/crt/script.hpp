@@ -18,7 +18,7 @@ namespace crt {
 
 /// A place in a script. Lines and columns count from 1; columns count code points, tabs as one.
 struct SourcePlace {
-  std::string file;
+  std::string file{};
   int line = 0;
   int column = 0;
   int length = 1;  ///< of the marked piece on that line, in code points
@@ -32,11 +32,11 @@ enum class Severity { warning, error };
 struct Diagnostic {
   Severity severity = Severity::error;
   ErrorCode code = ErrorCode::script;
-  std::string message;  ///< one line, with what was expected and a suggestion where there is one
-  SourcePlace place;
-  std::string source_line;  ///< the text of that line, without its end
+  std::string message{};  ///< one line, with what was expected and a suggestion where there is one
+  SourcePlace place{};
+  std::string source_line{};  ///< the text of that line, without its end
   /// For an error inside macros: where each was called, innermost first.
-  std::vector<std::pair<std::string, SourcePlace>> calls;
+  std::vector<std::pair<std::string, SourcePlace>> calls{};
 };
 
 /// "scene.crt:3:5: error: ..." with the source line and a caret under it, then the calls; ends in a newline.
@@ -60,27 +60,27 @@ struct ScriptLimits {
 struct ScriptOptions {
   /// Where images and imports are looked for after the script's own directory; a path with a
   /// leading '/' is looked for in these alone.
-  std::vector<std::filesystem::path> resource_directories;
+  std::vector<std::filesystem::path> resource_directories{};
   /// Lets paths leave those directories.
   bool allow_outside_files = false;
   /// The frame of an animation, the constant `t`.
   double t = 0;
   /// Top-level variables set from outside, as script expressions ("n", "18"): what the script
   /// assigns to them at the top level is ignored.
-  std::vector<std::pair<std::string, std::string>> variables;
+  std::vector<std::pair<std::string, std::string>> variables{};
   /// Attributes of Settings that win over the script's, as script expressions ("gamma", "2.2").
-  std::vector<std::pair<std::string, std::string>> settings;
-  ScriptLimits limits;
+  std::vector<std::pair<std::string, std::string>> settings{};
+  ScriptLimits limits{};
   /// Gets what `print` prints, a line at a time without its end. From the calling thread.
-  std::function<void(std::string_view)> print;
+  std::function<void(std::string_view)> print{};
   /// Asked for each file (its resolved path) before the file system is; nothing means: read it from there.
-  std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file;
+  std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file{};
 };
 
 struct ScriptResult {
   /// Present if there was no error.
-  std::optional<Scene> scene;
-  std::vector<Diagnostic> diagnostics;
+  std::optional<Scene> scene{};
+  std::vector<Diagnostic> diagnostics{};
 };
 
 /// Runs a script. `name` stands for it in messages and its directory is where its files are looked

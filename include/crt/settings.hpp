@@ -14,10 +14,10 @@ enum class FalloffModel {
 /// How a scene is rendered; everything that is neither geometry, light nor camera.
 struct Settings {
   // What the picture's file says of it.
-  std::string title;
-  std::string author;
-  std::string date;
-  std::string notes;
+  std::string title{};
+  std::string author{};
+  std::string date{};
+  std::string notes{};
 
   /// Size in pixels: each in [1, 65536], together at most 2^27.
   int width = 640;
