@@ -43,6 +43,9 @@ class Entity {
   /// Whether it has an inside: false if any part of it is a mere surface (Disc, Triangle, HalfPlane).
   bool is_solid() const;
 
+  /// How many primitives it is made of, a part that occurs twice counted twice (saturating).
+  std::uint64_t primitive_count() const;
+
   const EntityNode& node() const { return *node_; }
   const std::shared_ptr<const EntityNode>& shared_node() const { return node_; }
 

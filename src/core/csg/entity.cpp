@@ -1,0 +1,200 @@
+#include "crt/entity.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/csg/entity_node.hpp"
+#include "core/geometry/shape.hpp"
+#include "crt/error.hpp"
+
+namespace crt {
+
+namespace {
+
+std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
+  return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max()
+                                                           : a + b;
+}
+
+Entity make_entity(EntityNode::Content content) {
+  return Entity(std::make_shared<const EntityNode>(std::move(content)));
+}
+
+/// The entity's wrapper to add to: its own, or a new one that changes nothing.
+EntityWrapper wrapper_of(const Entity& entity) {
+  if (const auto* wrapper = std::get_if<EntityWrapper>(&entity.node().content)) return *wrapper;
+  EntityWrapper wrapper;
+  wrapper.child = entity.shared_node();
+  return wrapper;
+}
+
+void require_solid(const Entity& entity, const char* operation) {
+  if (entity.is_solid()) return;
+  throw Error(ErrorCode::invalid_argument,
+              std::string("an operand of the ") + operation +
+                  " has no inside: Disc, Triangle and HalfPlane are surfaces, and only solids can be cut");
+}
+
+Entity combine(CsgOperator op, std::span<const Entity> parts) {
+  CsgOperation operation{.op = op, .parts = {}};
+  operation.parts.reserve(parts.size());
+  for (const Entity& part : parts) operation.parts.push_back(part.shared_node());
+  return make_entity(std::move(operation));
+}
+
+void require_finite(const Transform& transform) {
+  for (const Vec3& v : {transform.row_x, transform.row_y, transform.row_z, transform.translation}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      if (std::isfinite(v[axis])) continue;
+      throw Error(ErrorCode::invalid_argument, "a transform must consist of finite numbers", "transform");
+    }
+  }
+}
+
+constexpr double smallest_scale = 1e-100;
+constexpr double largest_scale = 1e100;
+
+/// Refuses what flattens space or leaves the range of sizes that geometry is made for.
+void require_usable(const core::PreciseTransform& transform) {
+  const Transform map = transform.rounded();
+  double largest = 0;
+  for (const Vec3& v : {map.row_x, map.row_y, map.row_z}) {
+    for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(v[axis]));
+  }
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(map.translation[axis]));
+  if (!(largest >= smallest_scale && largest <= largest_scale && farthest <= largest_scale)) {
+    throw Error(ErrorCode::invalid_argument,
+                "a transform must keep sizes and places between 1e-100 and 1e100", "transform");
+  }
+  // The determinant of the map with its largest entry brought to about 1, where 0 means flat.
+  const double unit = std::exp2(-std::ilogb(largest));
+  const core::PreciseTransform scaled(
+      Transform{map.row_x * unit, map.row_y * unit, map.row_z * unit, Vec3(0)});
+  bool flat = !(std::abs(core::determinant(scaled).value()) > std::numeric_limits<double>::min());
+  if (!flat) {
+    const Transform back = core::inverse(scaled).rounded();
+    for (const Vec3& v : {back.row_x, back.row_y, back.row_z}) {
+      for (int axis = 0; axis < 3; ++axis) flat = flat || !(std::abs(v[axis]) <= largest_scale);
+    }
+  }
+  if (flat) {
+    throw Error(ErrorCode::invalid_argument, "a transform must not flatten space (it has no inverse)",
+                "transform");
+  }
+}
+
+}  // namespace
+
+EntityNode::EntityNode(Content new_content) : content(std::move(new_content)) {
+  if (const auto* primitive = std::get_if<Primitive>(&content)) {
+    solid = core::is_solid(*primitive);
+  } else if (const auto* wrapper = std::get_if<EntityWrapper>(&content)) {
+    solid = wrapper->child->solid;
+    primitive_count = wrapper->child->primitive_count;
+  } else {
+    primitive_count = 0;
+    for (const EntityPointer& part : std::get<CsgOperation>(content).parts) {
+      solid = solid && part->solid;
+      primitive_count = saturating_sum(primitive_count, part->primitive_count);
+    }
+  }
+}
+
+EntityNode::~EntityNode() {
+  // A list of nodes that only this destructor still holds, linked through themselves.
+  EntityPointer doomed;
+  const auto release = [&doomed](EntityPointer& child) {
+    if (child && child.use_count() == 1) {
+      // Nobody else can see the node any more, so it may be changed.
+      auto& node = const_cast<EntityNode&>(*child);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+      node.next_to_free_ = std::move(doomed);
+      doomed = std::move(child);
+    }
+    child.reset();
+  };
+  const auto release_children = [&release](Content& held) {
+    if (auto* wrapper = std::get_if<EntityWrapper>(&held)) release(wrapper->child);
+    if (auto* operation = std::get_if<CsgOperation>(&held)) {
+      for (EntityPointer& part : operation->parts) release(part);
+    }
+  };
+  release_children(content);
+  while (doomed) {
+    auto& node = const_cast<EntityNode&>(*doomed);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+    EntityPointer rest = std::move(node.next_to_free_);
+    EntityPointer last = std::move(doomed);
+    doomed = std::move(rest);
+    release_children(node.content);
+  }
+}
+
+Entity::Entity(Primitive primitive) {
+  core::validate(primitive);
+  node_ = std::make_shared<const EntityNode>(std::move(primitive));
+}
+
+Entity Entity::transformed(const Transform& transform) const {
+  require_finite(transform);
+  EntityWrapper wrapper = wrapper_of(*this);
+  wrapper.to_parent = core::compose(core::PreciseTransform(transform), wrapper.to_parent);
+  require_usable(wrapper.to_parent);
+  return make_entity(std::move(wrapper));
+}
+
+Entity Entity::with_material(SharedMaterial material) const {
+  EntityWrapper wrapper = wrapper_of(*this);
+  if (!wrapper.material) wrapper.material = std::move(material);
+  return make_entity(std::move(wrapper));
+}
+
+Entity Entity::with_id(std::uint32_t id) const {
+  EntityWrapper wrapper = wrapper_of(*this);
+  wrapper.id = id;
+  return make_entity(std::move(wrapper));
+}
+
+bool Entity::is_solid() const {
+  return node_->solid;
+}
+
+std::uint64_t Entity::primitive_count() const {
+  return node_->primitive_count;
+}
+
+Entity csg_union(std::span<const Entity> parts) {
+  if (parts.empty()) throw Error(ErrorCode::invalid_argument, "a union needs at least one part", "parts");
+  return parts.size() == 1 ? parts[0] : combine(CsgOperator::set_union, parts);
+}
+
+Entity csg_intersection(std::span<const Entity> parts) {
+  if (parts.empty())
+    throw Error(ErrorCode::invalid_argument, "an intersection needs at least one part", "parts");
+  for (const Entity& part : parts) require_solid(part, "intersection");
+  return parts.size() == 1 ? parts[0] : combine(CsgOperator::intersection, parts);
+}
+
+Entity csg_difference(const Entity& from, std::span<const Entity> cutters) {
+  require_solid(from, "difference");
+  for (const Entity& cutter : cutters) require_solid(cutter, "difference");
+  if (cutters.empty()) return from;
+  std::vector<Entity> parts{from};
+  parts.insert(parts.end(), cutters.begin(), cutters.end());
+  return combine(CsgOperator::difference, parts);
+}
+
+Entity operator+(const Entity& a, const Entity& b) {
+  return csg_union(std::array{a, b});
+}
+
+Entity operator-(const Entity& a, const Entity& b) {
+  return csg_difference(a, std::span(&b, 1));
+}
+
+Entity operator^(const Entity& a, const Entity& b) {
+  return csg_intersection(std::array{a, b});
+}
+
+}  // namespace crt

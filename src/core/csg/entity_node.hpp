@@ -1,0 +1,52 @@
+// The CSG tree as a user builds it: immutable nodes that entities share.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <variant>
+#include <vector>
+
+#include "core/math/precise_transform.hpp"
+#include "crt/entity.hpp"
+
+namespace crt {
+
+using EntityPointer = std::shared_ptr<const EntityNode>;
+
+enum class CsgOperator { set_union, intersection, difference };
+
+/// A combination of at least two parts; a difference takes all others from the first.
+struct CsgOperation {
+  CsgOperator op = CsgOperator::set_union;
+  std::vector<EntityPointer> parts;
+};
+
+/// What an entity wears: where it is, its material and number. Wrappers never nest: wrapping one
+/// again makes a new one around the same child, so chains of a million transforms cost nothing later.
+struct EntityWrapper {
+  core::PreciseTransform to_parent;
+  std::optional<SharedMaterial> material;  ///< for parts without one of their own
+  std::optional<std::uint32_t> id;
+  EntityPointer child;
+};
+
+struct EntityNode {
+  using Content = std::variant<Primitive, CsgOperation, EntityWrapper>;
+
+  explicit EntityNode(Content new_content);
+  EntityNode(const EntityNode&) = delete;
+  EntityNode& operator=(const EntityNode&) = delete;
+  /// Frees without recursion, however deep the tree is, and without allocating.
+  ~EntityNode();
+
+  Content content;
+  bool solid = true;
+  /// Primitives in the tree below, each path counted (saturates at the largest value).
+  std::uint64_t primitive_count = 1;
+
+ private:
+  EntityPointer next_to_free_;
+};
+
+}  // namespace crt

@@ -1,0 +1,184 @@
+#include "core/csg/evaluate.hpp"
+
+#include <algorithm>
+#include <limits>
+#include <tuple>
+
+namespace crt::core {
+
+RayStart start_on_leaf(const Leaf& leaf, std::span<const FaceSurface> face_surfaces,
+                       const SurfaceStart& start) {
+  if (start.surface == no_face) return {};
+  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
+    const FaceSurface& candidate = face_surfaces[leaf.first_face + face];
+    if (candidate.surface != start.surface) continue;
+    const bool outside = (start.side == Side::outside) != candidate.flipped;
+    return {.face = face, .side = outside ? Side::outside : Side::inside};
+  }
+  return {};
+}
+
+bool line_meets(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  // Three roundings go into each t: of the difference, the quotient, and none of the comparison.
+  constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
+  double t_enter = -inf;
+  double t_leave = inf;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double lower = bounds.lower[axis];
+    const double upper = bounds.upper[axis];
+    if (direction[axis] == 0) {
+      if (origin[axis] < lower || origin[axis] > upper) return false;
+      continue;
+    }
+    double first = (lower - origin[axis]) / direction[axis];
+    double second = (upper - origin[axis]) / direction[axis];
+    if (first > second) std::swap(first, second);
+    t_enter = std::max(t_enter, first - slack * std::abs(first));
+    t_leave = std::min(t_leave, second + slack * std::abs(second));
+  }
+  return t_enter <= t_leave;
+}
+
+CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
+                             std::span<const FaceSurface> face_surfaces, const CsgRay& ray,
+                             CsgWorkspace& workspace)
+    : program_(program),
+      leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
+      ray_(ray),
+      work_(workspace) {
+  work_.nodes_.resize(program.nodes.size());
+  for (std::size_t i = 0; i < program.nodes.size(); ++i)
+    work_.nodes_[i] = {program.nodes[i].count_outside, 0, false};
+  work_.leaf_values_.assign(program.leaf_count(), 0);
+  collect(face_surfaces);
+  while (position_ < work_.crossings_.size() && work_.crossings_[position_].t <= ray_.t_min) {
+    const std::size_t end = cluster_end(position_);
+    flip(position_, end);
+    position_ = end;
+  }
+  starts_inside_ = value(0);
+}
+
+void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
+  work_.crossings_.clear();
+  ++stamp_;
+  for (std::uint32_t index = 0; index < program_.leaf_count(); ++index) {
+    const Leaf& leaf = leaves_[index];
+    if (!line_meets(leaf.bounds, ray_.origin, ray_.direction)) continue;
+    ObjectRay object_ray = leaf.placement.to_object(ray_.origin, ray_.direction);
+    object_ray.start = start_on_leaf(leaf, face_surfaces, ray_.start);
+    work_.leaf_crossings_.clear();
+    if (leaf.shape->crossings(object_ray, work_.leaf_crossings_)) flip_leaf(index);
+    for (const Crossing& crossing : work_.leaf_crossings_) {
+      const std::uint32_t surface = face_surfaces[leaf.first_face + crossing.face].surface;
+      double t = crossing.t;
+      // What coincides with the start but is another surface: rounding alone says on which side.
+      if (surface != ray_.start.surface && t > ray_.t_min &&
+          t - crossing.error <= ray_.t_min + ray_.start.t_error) {
+        t = ray_.t_min;
+      }
+      work_.crossings_.push_back(
+          {t, crossing.error, index, crossing.face, surface, crossing.root, crossing.entering});
+    }
+  }
+  work_.events += work_.crossings_.size();
+  if (program_.coincident_faces) unify_coincident();
+  std::sort(work_.crossings_.begin(), work_.crossings_.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
+    return std::tie(a.t, a.leaf, a.entering) < std::tie(b.t, b.leaf, b.entering);
+  });
+}
+
+void CsgEvaluation::unify_coincident() {
+  auto& crossings = work_.crossings_;
+  std::sort(crossings.begin(), crossings.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
+    return std::tie(a.surface, a.root, a.leaf) < std::tie(b.surface, b.root, b.leaf);
+  });
+  for (std::size_t i = 1; i < crossings.size(); ++i) {
+    const CsgCrossing& first = crossings[i - 1];
+    if (crossings[i].surface != first.surface || crossings[i].root != first.root) continue;
+    crossings[i].t = first.t;
+    crossings[i].error = first.error;
+  }
+}
+
+std::size_t CsgEvaluation::cluster_end(std::size_t begin) const {
+  const auto& crossings = work_.crossings_;
+  const CsgCrossing& first = crossings[begin];
+  std::size_t end = begin + 1;
+  while (end < crossings.size() && crossings[end].t - first.t <= first.error + crossings[end].error) ++end;
+  return end;
+}
+
+bool CsgEvaluation::value(std::uint32_t node) const {
+  return work_.nodes_[node].count >= program_.nodes[node].needed;
+}
+
+bool CsgEvaluation::flip(std::size_t begin, std::size_t end) {
+  const bool before = value(0);
+  ++stamp_;
+  for (std::size_t i = begin; i < end; ++i) flip_leaf(work_.crossings_[i].leaf);
+  return value(0) != before;
+}
+
+void CsgEvaluation::flip_leaf(std::uint32_t leaf) {
+  work_.leaf_values_[leaf] ^= 1;
+  bool now = (work_.leaf_values_[leaf] != 0) != leaves_[leaf].complemented;
+  std::uint32_t node = program_.leaf_parents[leaf];
+  while (true) {
+    auto& state = work_.nodes_[node];
+    const bool before = value(node);
+    if (state.stamp != stamp_) {
+      state.stamp = stamp_;
+      state.value_before = before;
+    }
+    state.count += now ? 1u : ~0u;
+    const bool after = value(node);
+    if (after == before || node == 0) return;
+    now = after;
+    node = program_.nodes[node].parent;
+  }
+}
+
+bool CsgEvaluation::caused_change(std::uint32_t leaf) const {
+  const bool now = value(0);
+  if (((work_.leaf_values_[leaf] != 0) != leaves_[leaf].complemented) != now) return false;
+  std::uint32_t node = program_.leaf_parents[leaf];
+  while (true) {
+    const auto& state = work_.nodes_[node];
+    if (state.stamp != stamp_ || state.value_before == now || value(node) != now) return false;
+    if (node == 0) return true;
+    node = program_.nodes[node].parent;
+  }
+}
+
+CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
+  const CsgCrossing* cause = nullptr;
+  for (std::size_t i = begin; i < end; ++i) {
+    const CsgCrossing& crossing = work_.crossings_[i];
+    // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
+    if (crossing.entering != (work_.leaf_values_[crossing.leaf] != 0)) continue;
+    if (cause != nullptr && cause->leaf <= crossing.leaf) continue;
+    if (caused_change(crossing.leaf)) cause = &crossing;
+  }
+  if (cause == nullptr) cause = &work_.crossings_[begin];
+  return {.t = work_.crossings_[begin].t,
+          .error = cause->error,
+          .leaf = cause->leaf,
+          .face = cause->face,
+          .entering = value(0)};
+}
+
+bool CsgEvaluation::next(CsgHit& hit) {
+  while (position_ < work_.crossings_.size() && work_.crossings_[position_].t < ray_.t_max) {
+    const std::size_t begin = position_;
+    const std::size_t end = cluster_end(begin);
+    position_ = end;
+    if (!flip(begin, end)) continue;
+    hit = blame(begin, end);
+    return true;
+  }
+  return false;
+}
+
+}  // namespace crt::core

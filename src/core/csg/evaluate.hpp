@@ -1,0 +1,121 @@
+// Interval evaluation of a CSG object along a ray.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/csg/program.hpp"
+
+namespace crt::core {
+
+/// A leaf's crossing among those of its whole object.
+struct CsgCrossing {
+  double t = 0;
+  double error = 0;
+  std::uint32_t leaf = 0;  ///< within the object
+  std::uint32_t face = 0;
+  std::uint32_t surface = 0;
+  std::uint8_t root = 0;
+  bool entering = false;  ///< the primitive, whether or not it is complemented
+};
+
+/// A crossing of the object's own boundary.
+struct CsgHit {
+  double t = 0;
+  double error = 0;
+  std::uint32_t leaf = 0;  ///< within the object: whose face it is, and so whose material
+  std::uint32_t face = 0;
+  bool entering = false;  ///< the object
+};
+
+/// Where a ray starts: on a whole surface, on its side as that surface's canonical orientation has
+/// it; in free space if `surface` is no_face.
+struct SurfaceStart {
+  std::uint32_t surface = no_face;
+  Side side = Side::outside;
+  double t_error = 0;
+};
+
+struct CsgRay {
+  Vec3 origin{0, 0, 0};
+  Vec3 direction{0, 0, 1};
+  double t_min = 0;
+  double t_max = 0;
+  SurfaceStart start;
+};
+
+/// Memory that one thread reuses from ray to ray.
+class CsgWorkspace {
+ public:
+  /// Crossings handled since it was made.
+  std::uint64_t events = 0;
+
+ private:
+  friend class CsgEvaluation;
+
+  struct NodeState {
+    std::uint32_t count = 0;
+    std::uint32_t stamp = 0;  ///< of the cluster in which it was last touched
+    bool value_before = false;
+  };
+
+  CrossingList leaf_crossings_;
+  std::vector<CsgCrossing> crossings_;
+  std::vector<NodeState> nodes_;
+  std::vector<std::uint8_t> leaf_values_;
+  std::vector<std::uint32_t> flipped_;
+};
+
+/// A face of `leaf` that lies on the ray's starting surface, as the leaf's own ray needs to know it;
+/// none if the ray does not start on the leaf.
+RayStart start_on_leaf(const Leaf& leaf, std::span<const FaceSurface> face_surfaces,
+                       const SurfaceStart& start);
+
+/// Whether the line through the box comes near it at all; rounded towards yes.
+bool line_meets(const Bounds& bounds, const Vec3& origin, const Vec3& direction);
+
+/// Walks along a ray through one CSG object, from one crossing of its boundary to the next.
+///
+///  1. Collect the crossings of every leaf with the whole line (leaves whose box the line misses
+///     have none). Crossings of one surface by different leaves get one t.
+///  2. Sort by t. Crossings that their error bounds cannot tell apart form a *cluster*.
+///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do.
+///     Only the root's value before and after counts, so pieces without length vanish.
+///  4. Clusters up to t_min (and what coincides with the surface the ray starts on) only set the
+///     state; after that each change of the root is a hit. Its face is that of the lowest leaf
+///     through whose changes, node by node, the root changed.
+///
+/// Costs O(leaves met + crossings * depth) after step 1, and a box test a leaf in step 1.
+class CsgEvaluation {
+ public:
+  CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
+                std::span<const FaceSurface> face_surfaces, const CsgRay& ray, CsgWorkspace& workspace);
+
+  /// Whether the start of the ray (just after t_min) is inside the object.
+  bool starts_inside() const { return starts_inside_; }
+
+  /// The next crossing of the boundary with t < t_max; false if there is none.
+  bool next(CsgHit& hit);
+
+ private:
+  void collect(std::span<const FaceSurface> face_surfaces);
+  void unify_coincident();
+  std::size_t cluster_end(std::size_t begin) const;
+  /// Flips everything in [begin, end) and returns whether the root changed.
+  bool flip(std::size_t begin, std::size_t end);
+  void flip_leaf(std::uint32_t leaf);
+  bool value(std::uint32_t node) const;
+  CsgHit blame(std::size_t begin, std::size_t end) const;
+  bool caused_change(std::uint32_t leaf) const;
+
+  const CsgProgram& program_;
+  std::span<const Leaf> leaves_;
+  CsgRay ray_;
+  CsgWorkspace& work_;
+  std::size_t position_ = 0;
+  std::uint32_t stamp_ = 0;
+  bool starts_inside_ = false;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,133 @@
+#include "core/csg/placement.hpp"
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+namespace crt::core {
+
+namespace {
+
+const Vec3& row(const Transform& transform, int index) {
+  if (index == 0) return transform.row_x;
+  return index == 1 ? transform.row_y : transform.row_z;
+}
+
+/// row . v + offset, to about the rounding of the result.
+DoubleDouble apply(const PreciseVec3& row, const Vec3& v, const DoubleDouble& offset) {
+  return row[0] * DoubleDouble(v.x) + row[1] * DoubleDouble(v.y) + row[2] * DoubleDouble(v.z) + offset;
+}
+
+}  // namespace
+
+Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.rounded()) {
+  const Transform unmoved{.translation = to_world_.translation};
+  if (to_world_ == Transform{}) return;
+  kind_ = to_world_ == unmoved ? Kind::translation : Kind::affine;
+  to_object_ = inverse(PreciseTransform(to_world_));
+}
+
+ObjectRay Placement::to_object(const Vec3& origin, const Vec3& direction) const {
+  ObjectRay ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  if (kind_ == Kind::identity) return ray;
+  for (int axis = 0; axis < 3; ++axis) {
+    if (kind_ == Kind::translation) {
+      const DoubleDouble moved = two_sum(origin[axis], -to_world_.translation[axis]);
+      ray.origin[axis] = moved.hi;
+      ray.origin_low[axis] = moved.lo;
+      continue;
+    }
+    const auto index = static_cast<std::size_t>(axis);
+    const DoubleDouble start = apply(to_object_.rows[index], origin, to_object_.translation[index]);
+    const DoubleDouble along = apply(to_object_.rows[index], direction, 0.0);
+    ray.origin[axis] = start.hi;
+    ray.origin_low[axis] = start.lo;
+    ray.direction[axis] = along.hi;
+    ray.direction_low[axis] = along.lo;
+  }
+  return ray;
+}
+
+Vec3 Placement::point_to_object(const Vec3& world) const {
+  const ObjectRay ray = to_object(world, Vec3(0));
+  return ray.origin + ray.origin_low;
+}
+
+Vec3 Placement::point_to_world(const Vec3& object) const {
+  if (kind_ == Kind::identity) return object;
+  if (kind_ == Kind::translation) return object + to_world_.translation;
+  Vec3 result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const Vec3& m = row(to_world_, axis);
+    result[axis] = (two_product(m.x, object.x) + two_product(m.y, object.y) + two_product(m.z, object.z) +
+                    DoubleDouble(to_world_.translation[axis]))
+                       .value();
+  }
+  return result;
+}
+
+Vec3 Placement::covector_to_world(const Vec3& object) const {
+  if (kind_ != Kind::affine) return object;
+  Vec3 result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto index = static_cast<std::size_t>(axis);
+    result[axis] = to_object_.rows[0][index].hi * object.x + to_object_.rows[1][index].hi * object.y +
+                   to_object_.rows[2][index].hi * object.z;
+  }
+  return result;
+}
+
+Vec3 Placement::normal_to_world(const Vec3& object) const {
+  if (kind_ != Kind::affine) return object;
+  const Vec3 covector = covector_to_world(object);
+  // Brought near 1 first, so that no square over- or underflows.
+  const double largest = std::max({std::abs(covector.x), std::abs(covector.y), std::abs(covector.z)});
+  return glm::normalize(covector * std::exp2(-std::ilogb(largest)));
+}
+
+Bounds Placement::bounds_to_world(const Bounds& object) const {
+  if (kind_ == Kind::identity || object.empty()) return object;
+  constexpr double inf = std::numeric_limits<double>::infinity();
+  Bounds result;
+  for (int axis = 0; axis < 3; ++axis) {
+    // Interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics Gems 1990);
+    // `size` bounds the rounding of the sums.
+    double lower = to_world_.translation[axis];
+    double upper = lower;
+    double size = std::abs(lower);
+    for (int index = 0; index < 3; ++index) {
+      const double factor = row(to_world_, axis)[index];
+      if (factor == 0) continue;
+      const double first = factor * object.lower[index];
+      const double second = factor * object.upper[index];
+      lower += std::min(first, second);
+      upper += std::max(first, second);
+      size +=
+          std::max(std::isfinite(first) ? std::abs(first) : 0, std::isfinite(second) ? std::abs(second) : 0);
+    }
+    const double slack = size * (8 * std::numeric_limits<double>::epsilon());
+    result.lower[axis] = std::nextafter(lower - slack, -inf);
+    result.upper[axis] = std::nextafter(upper + slack, inf);
+  }
+  return result;
+}
+
+void Placement::plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset,
+                               PreciseVec3& world_normal, DoubleDouble& world_offset) const {
+  // n . (A p + a) = offset  <=>  (n A) . p = offset - n . a, with (A, a) the map to object space.
+  if (kind_ == Kind::identity) {
+    world_normal = normal;
+    world_offset = offset;
+    return;
+  }
+  world_offset = offset;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    world_normal[axis] = normal[0] * to_object_.rows[0][axis] + normal[1] * to_object_.rows[1][axis] +
+                         normal[2] * to_object_.rows[2][axis];
+    world_offset = world_offset - normal[axis] * to_object_.translation[axis];
+  }
+}
+
+}  // namespace crt::core

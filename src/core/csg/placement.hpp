@@ -1,0 +1,51 @@
+// Where a primitive's object space lies in the world.
+#pragma once
+
+#include "core/geometry/bounds.hpp"
+#include "core/geometry/object_ray.hpp"
+#include "core/math/precise_transform.hpp"
+#include "crt/transform.hpp"
+
+namespace crt::core {
+
+/// All the transforms of an entity in one. By definition the placement *is* the map to the world
+/// rounded to 12 doubles; its inverse is kept in double-double, so that a ray enters object space
+/// with far less error than a double has.
+class Placement {
+ public:
+  Placement() = default;
+  explicit Placement(const PreciseTransform& to_world);
+
+  bool is_identity() const { return kind_ == Kind::identity; }
+  bool is_translation() const { return kind_ != Kind::affine; }
+  const Transform& to_world() const { return to_world_; }
+
+  /// The ray origin + t * direction in object space, with the same t.
+  ObjectRay to_object(const Vec3& origin, const Vec3& direction) const;
+
+  Vec3 point_to_object(const Vec3& world) const;
+  Vec3 point_to_world(const Vec3& object) const;
+
+  /// A covector (such as the gradient of a function of the object point) as the world sees it; its
+  /// length matters.
+  Vec3 covector_to_world(const Vec3& object) const;
+
+  /// A unit normal from a unit normal.
+  Vec3 normal_to_world(const Vec3& object) const;
+
+  /// A box around the image of a box, rounded outwards.
+  Bounds bounds_to_world(const Bounds& object) const;
+
+  /// The plane {p : normal . p = offset} of object space as the world sees it.
+  void plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset, PreciseVec3& world_normal,
+                      DoubleDouble& world_offset) const;
+
+ private:
+  enum class Kind { identity, translation, affine };
+
+  Kind kind_ = Kind::identity;
+  Transform to_world_;
+  PreciseTransform to_object_;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,55 @@
+// A CSG tree compiled for rays: complements pushed to the leaves, equal operators merged, so that
+// only monotone AND and OR nodes are left, each a counter of its true children.
+//
+// Notation: a *leaf* is a primitive with its placement; its *value* at a point is whether the point
+// is inside (for a complemented leaf: outside). A node is true if at least `needed` of its children
+// are: 1 for OR, all for AND. Node 0 is the root; its value says whether the point is in the solid.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/csg/placement.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+/// The id of a whole surface, shared by all faces that lie on it, and which way the face is turned
+/// against the surface's own canonical orientation.
+struct FaceSurface {
+  std::uint32_t surface = 0;
+  bool flipped = false;
+};
+
+/// A primitive in its place.
+struct Leaf {
+  std::unique_ptr<const Shape> shape;
+  Placement placement;
+  Bounds bounds;  ///< in the world
+  std::uint32_t material = 0;
+  std::uint32_t entity_id = 0;
+  std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
+  std::uint32_t face_count = 0;
+  bool complemented = false;  ///< a cutter: its outside is what the solid keeps
+};
+
+struct CsgNode {
+  std::uint32_t parent = 0;
+  std::uint32_t needed = 1;
+  /// True children where every leaf is outside of its primitive: at infinity, for bounded leaves.
+  std::uint32_t count_outside = 0;
+};
+
+struct CsgProgram {
+  std::vector<CsgNode> nodes;
+  /// The node above each leaf, in the order of leaves.
+  std::vector<std::uint32_t> leaf_parents;
+  /// Leaves of the object are this and the following ones of the scene.
+  std::uint32_t first_leaf = 0;
+  /// Some of its faces lie on one surface.
+  bool coincident_faces = false;
+
+  std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }
+};
+
+}  // namespace crt::core

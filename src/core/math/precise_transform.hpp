@@ -1,0 +1,36 @@
+// Affine maps of more than double precision.
+#pragma once
+
+#include <array>
+
+#include "core/math/double_double.hpp"
+#include "crt/transform.hpp"
+
+namespace crt::core {
+
+/// A vector of double-doubles.
+using PreciseVec3 = std::array<DoubleDouble, 3>;
+
+/// An affine map with entries of about 106 bits: what nested transforms are composed in.
+struct PreciseTransform {
+  std::array<PreciseVec3, 3> rows{PreciseVec3{1.0, 0.0, 0.0}, PreciseVec3{0.0, 1.0, 0.0},
+                                  PreciseVec3{0.0, 0.0, 1.0}};
+  PreciseVec3 translation{0.0, 0.0, 0.0};
+
+  PreciseTransform() = default;
+  explicit PreciseTransform(const Transform& transform);
+
+  /// Every entry rounded to the nearest double.
+  Transform rounded() const;
+};
+
+/// The map that applies `first` and then `second`.
+PreciseTransform compose(const PreciseTransform& second, const PreciseTransform& first);
+
+/// The determinant of the linear part.
+DoubleDouble determinant(const PreciseTransform& transform);
+
+/// The inverse; the determinant must not be 0.
+PreciseTransform inverse(const PreciseTransform& transform);
+
+}  // namespace crt::core
