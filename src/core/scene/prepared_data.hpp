@@ -7,8 +7,11 @@
 #include <optional>
 #include <vector>
 
+#include "core/csg/program.hpp"
 #include "core/geometry/object_ray.hpp"
 #include "core/scene/features.hpp"
+#include "core/shading/prepared_background.hpp"
+#include "core/shading/prepared_material.hpp"
 #include "crt/scene.hpp"
 
 namespace crt::core {
@@ -54,24 +57,18 @@ struct RayHit {
 struct HitPoint {
   double t = 0;
   Vec3 position{0, 0, 0};
-  Vec3 normal{0, 1, 0};          ///< world, unit length, out of the solid
+  Vec3 normal{0, 1, 0};           ///< world, unit length, out of the solid
   Vec3 object_position{0, 0, 0};  ///< in the primitive's own space: where patterns live
+  Vec3 object_normal{0, 1, 0};    ///< in that space, unit length, out of the solid
   double u = 0;
   double v = 0;
   std::uint32_t material = 0;   ///< index into PreparedData::materials()
   std::uint32_t entity_id = 0;  ///< the user's
   std::uint32_t object = nothing;
   std::uint32_t leaf = nothing;
+  std::uint32_t face = no_face;
   bool entering = false;
   bool solid = false;  ///< a boundary of a volume, not a mere surface
-};
-
-/// A material with what can be told of it beforehand.
-struct PreparedMaterial {
-  SharedMaterial description;
-  double diffuse = 1;     ///< the default resolved
-  bool opaque = true;     ///< lets nothing through anywhere
-  bool absorbing = false;
 };
 
 /// Counters that one thread keeps while it works.
@@ -96,11 +93,12 @@ class PreparedData {
 
   /// Every crossing in ascending t. With `stop_at_opaque`, returns false as soon as one of an opaque
   /// material is found (the list is then of no use); otherwise true.
-  bool crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out, TraversalStats& stats) const;
+  bool crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
+                 TraversalStats& stats) const;
 
   /// Of each solid that holds the start of the ray (just after it, for a ray that starts on a
   /// surface), the crossing at which the ray leaves it, the farthest first: outermost to innermost
-  /// for nested solids.
+  /// for nested solids. A solid that the ray never leaves has t = infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, TraversalStats& stats) const;
 
   /// What shading needs of a hit that `ray` found.
@@ -112,7 +110,11 @@ class PreparedData {
   /// Where a ray starts that leaves a hit to the given side of the surface.
   StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
 
+  /// The primitive in its place that a hit is of: bumps ask for it.
+  const Leaf& leaf(const HitPoint& point) const;
+
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
+  const PreparedBackground& background() const { return *background_; }
   const Features& features() const { return features_; }
   /// Lights, camera, background and settings as given (and checked); entities are left out.
   const Scene& scene() const { return scene_; }
@@ -121,6 +123,7 @@ class PreparedData {
  private:
   Scene scene_;
   std::vector<PreparedMaterial> materials_;
+  std::unique_ptr<const PreparedBackground> background_;
   Features features_;
   std::unique_ptr<const Accelerator> accelerator_;
   double prepare_seconds_ = 0;

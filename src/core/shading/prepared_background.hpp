@@ -1,0 +1,28 @@
+// What rays see that hit nothing.
+#pragma once
+
+#include <memory>
+
+#include "core/shading/texture.hpp"
+#include "crt/background.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+/// A background made ready. A panorama's middle column is straight ahead (+z) at angle 0, and +x is
+/// to the right of it: across the picture goes atan2(d.x, d.z) + angle.
+class PreparedBackground {
+ public:
+  PreparedBackground(const Background& background, TexturePool& textures);
+
+  /// The colour in a direction (unit length), not premultiplied.
+  Color color(const Vec3& direction) const;
+
+ private:
+  Color panorama(const PanoramaBackground& panorama, const Vec3& direction) const;
+
+  Background background_;
+  std::shared_ptr<const Texture> texture_;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,48 @@
+// Pictures made ready for looking up: in linear light, whatever they were read from.
+#pragma once
+
+#include <map>
+#include <memory>
+
+#include "crt/image.hpp"
+
+namespace crt::core {
+
+/// What a lookup between texels does where the picture ends.
+enum class TextureWrap { repeat, clamp };
+
+/// A picture in linear light. One that is display-encoded is raised to the given gamma, once, into a
+/// copy; any other is shared as it is.
+class Texture {
+ public:
+  /// `image` must not be null.
+  Texture(std::shared_ptr<const Image> image, double gamma);
+
+  int width() const { return image_->width(); }
+  int height() const { return image_->height(); }
+
+  /// Whether every texel covers fully.
+  bool opaque() const { return opaque_; }
+
+  /// Bilinear, at (x, y) in texels: (0.5, 0.5) is the centre of the top left one. Any finite
+  /// position is valid. The colour is straight (not premultiplied); where nothing covers it is black.
+  Color bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const;
+
+ private:
+  std::shared_ptr<const Image> image_;
+  bool opaque_ = true;
+};
+
+/// The textures of one scene, so that a picture used twice is made ready once.
+class TexturePool {
+ public:
+  explicit TexturePool(double gamma) : gamma_(gamma) {}
+
+  std::shared_ptr<const Texture> get(const std::shared_ptr<const Image>& image);
+
+ private:
+  double gamma_;
+  std::map<const Image*, std::shared_ptr<const Texture>> textures_;
+};
+
+}  // namespace crt::core
