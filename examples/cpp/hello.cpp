@@ -1,0 +1,23 @@
+// A ball with a corner cut out, on a floor: the smallest program that makes a picture.
+#include <crt/crt.hpp>
+#include <iostream>
+
+int main() try {
+  const crt::Material red{.color = crt::Color{0.8, 0.1, 0.1}, .specular = 0.4, .shininess = 40};
+  const crt::Material mirror{.color = crt::grey(0.9), .reflectivity = 0.4};
+
+  const crt::Entity ball = crt::Sphere{.center = {0, 1, 0}, .radius = 1, .material = red};
+  const crt::Entity corner = crt::Box{.corner_a = {0, 1, 0}, .corner_b = {2, 3, -2}, .material = mirror};
+
+  crt::Scene scene;
+  scene.entities = {ball - corner, crt::Plane{.normal = {0, 1, 0}, .position = {0, 0, 0}}};
+  scene.lights = {crt::PointLight{.origin = {3, 5, -4}, .ambient = 0.1}};
+  scene.camera = {.position = {2, 2.5, -4}, .pointing = {0, 0.9, 0}, .fov = 0.7};
+  scene.background = crt::GradientBackground{};
+  scene.settings = {.width = 480, .height = 360, .gamma = 2.2, .supersampling = 3};
+
+  crt::render(crt::prepare(scene)).write("hello.png");
+} catch (const crt::Error& error) {
+  std::cerr << "hello: " << error.what() << '\n';
+  return 1;
+}

@@ -1,0 +1,11 @@
+# Runs PROGRAM in an empty FOLDER and fails unless it leaves PICTURE there, a PNG file.
+file(REMOVE_RECURSE ${FOLDER})
+file(MAKE_DIRECTORY ${FOLDER})
+execute_process(COMMAND ${PROGRAM} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status)
+if(NOT status EQUAL 0)
+  message(FATAL_ERROR "${PROGRAM} ended with ${status}")
+endif()
+file(READ ${FOLDER}/${PICTURE} signature LIMIT 8 HEX)
+if(NOT signature STREQUAL "89504e470d0a1a0a")
+  message(FATAL_ERROR "${FOLDER}/${PICTURE} is no PNG file")
+endif()
