@@ -1,0 +1,75 @@
+// From a place in the picture to a ray in the world.
+//
+// Notation: a pixel position (x, y) counts pixels from the picture's top left corner, so the middle
+// of the first pixel is (0.5, 0.5). nx and ny are the same place from -1 to 1, to the right and up.
+// The camera's directions are left-handed and of unit length: right, up, and forward.
+#pragma once
+
+#include "core/camera/aperture_shape.hpp"
+#include "crt/camera.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+struct CameraRay {
+  Vec3 origin{0, 0, 0};
+  Vec3 direction{0, 0, 1};  ///< unit length
+};
+
+/// A camera made ready for a picture of some size. Immutable.
+class CameraRays {
+ public:
+  /// Takes a camera whose values are valid (crt::validate) and a picture of at least one pixel.
+  CameraRays(const Camera& camera, int width, int height);
+
+  /// The ray through the middle of the lens.
+  CameraRay ray(double x, double y) const;
+
+  /// The ray from a point of the lens (see aperture_point) to where the ray through its middle is in
+  /// focus: on the plane at the focal distance for pinhole and orthographic cameras. Spherical and
+  /// cylindrical ones look backwards too, where no such plane is; they are in focus at the focal
+  /// distance along each ray, that is on a sphere.
+  CameraRay ray(double x, double y, const LensPoint& lens_point) const;
+
+  /// The lens point of two numbers in [0, 1).
+  LensPoint lens_point(double u, double v) const { return aperture_point(aperture_shape_, u, v); }
+
+  /// Whether the lens has any size.
+  bool has_lens() const { return lens_radius_ > 0; }
+
+  const Vec3& right() const { return right_; }
+  const Vec3& up() const { return up_; }
+  const Vec3& forward() const { return forward_; }
+
+ private:
+  /// A ray through the middle of the lens and how it goes on: `to_focus` leads from its origin to
+  /// the point in focus.
+  struct CentralRay {
+    Vec3 origin;
+    Vec3 direction;
+    Vec3 to_focus;
+  };
+
+  CentralRay central_ray(double x, double y) const;
+  CentralRay pinhole_ray(double nx, double ny) const;
+  CentralRay spherical_ray(double nx, double ny) const;
+  CentralRay cylindrical_ray(double nx, double ny) const;
+  CentralRay orthographic_ray(double nx, double ny) const;
+
+  Vec3 position_;
+  Vec3 right_;
+  Vec3 up_;
+  Vec3 forward_;
+  Projection projection_;
+  ApertureShape aperture_shape_;
+  double width_;
+  double height_;
+  /// What nx = 1 and ny = 1 stand for: angles in radians where the projection turns, otherwise
+  /// lengths on the plane at distance 1.
+  double half_across_;
+  double half_up_;
+  double focal_distance_;
+  double lens_radius_;
+};
+
+}  // namespace crt::core
