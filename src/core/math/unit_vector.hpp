@@ -1,0 +1,36 @@
+// Lengths and directions of vectors of any magnitude.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+/// A direction and how far it is to go.
+struct DirectionAndLength {
+  Vec3 direction{0, 0, 0};  ///< unit length; 0 for a vector that is 0 or not finite
+  double length = 0;
+};
+
+/// Splits a vector. Where the square of its length would overflow or lose bits it is first scaled
+/// by a power of two, which changes nothing else.
+inline DirectionAndLength direction_and_length(const Vec3& v) {
+  constexpr double safe_square_min = 0x1p-900;
+  constexpr double safe_square_max = 0x1p+900;
+  const double square = glm::dot(v, v);
+  if (square > safe_square_min && square < safe_square_max) {
+    const double length = std::sqrt(square);
+    return {v / length, length};
+  }
+  const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+  if (!(largest > 0) || !std::isfinite(largest)) return {Vec3(0), largest};
+  const int exponent = std::ilogb(largest);
+  const Vec3 scaled(std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent));
+  const double length = std::sqrt(glm::dot(scaled, scaled));
+  return {scaled / length, std::scalbn(length, exponent)};
+}
+
+}  // namespace crt::core

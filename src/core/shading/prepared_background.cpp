@@ -1,0 +1,47 @@
+#include "core/shading/prepared_background.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "core/shading/rgb.hpp"
+
+namespace crt::core {
+
+namespace {
+constexpr double full_turn = 2 * std::numbers::pi;
+}
+
+PreparedBackground::PreparedBackground(const Background& background, TexturePool& textures)
+    : background_(background) {
+  if (const auto* panorama = std::get_if<PanoramaBackground>(&background_)) {
+    texture_ = textures.get(panorama->image);
+  }
+}
+
+Color PreparedBackground::color(const Vec3& direction) const {
+  if (const auto* solid = std::get_if<SolidBackground>(&background_)) return solid->color;
+  if (const auto* gradient = std::get_if<GradientBackground>(&background_)) {
+    return mix(gradient->horizon, gradient->sky, std::min(1.0, std::abs(direction.y)));
+  }
+  return panorama(std::get<PanoramaBackground>(background_), direction);
+}
+
+Color PreparedBackground::panorama(const PanoramaBackground& panorama, const Vec3& direction) const {
+  const double width = texture_->width();
+  const double height = texture_->height();
+  const double across = std::atan2(direction.x, direction.z) + panorama.angle;
+  const double level = std::hypot(direction.x, direction.z);
+  const double x = (0.5 + across / full_turn) * width;
+
+  double y = 0.5 * height;
+  if (panorama.projection == PanoramaProjection::spherical) {
+    y -= std::atan2(direction.y, level) / std::numbers::pi * height;
+  } else {
+    // The cylinder has radius 1, so that a texel is as high as it is wide.
+    y -= direction.y / level * width / full_turn;
+  }
+  return texture_->bilinear(x, y, TextureWrap::repeat, TextureWrap::clamp);
+}
+
+}  // namespace crt::core

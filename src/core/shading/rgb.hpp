@@ -1,0 +1,31 @@
+// Colours to compute with: three channels of linear light.
+#pragma once
+
+#include "crt/color.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+/// Red, green, blue; the vector's operators act on each channel.
+using Rgb = Vec3;
+
+inline Rgb rgb(const Color& color) {
+  return {color.r, color.g, color.b};
+}
+
+inline bool is_black(const Rgb& light) {
+  return light.x == 0 && light.y == 0 && light.z == 0;
+}
+
+/// How bright a colour looks: the weights of Rec. ITU-R BT.709, item 3.2.
+inline double luminance(const Color& color) {
+  return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
+}
+
+/// From a (share 0) to b (share 1), in every channel and alpha.
+inline Color mix(const Color& a, const Color& b, double share) {
+  return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b),
+          a.a + share * (b.a - a.a)};
+}
+
+}  // namespace crt::core

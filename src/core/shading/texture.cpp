@@ -1,0 +1,88 @@
+#include "core/shading/texture.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/shading/rgb.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Takes a display-encoded picture to linear light. The gamma curve is of the straight colours.
+std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma) {
+  auto linear = std::make_shared<Image>(encoded);
+  const std::span<float> values = linear->pixels();
+  for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
+    const double alpha = values[pixel + 3];
+    for (std::size_t channel = 0; channel < 3 && alpha > 0; ++channel) {
+      const double straight = std::max(0.0, values[pixel + channel] / alpha);
+      values[pixel + channel] = static_cast<float>(std::pow(straight, gamma) * alpha);
+    }
+  }
+  linear->set_display_encoded(false);
+  return linear;
+}
+
+bool covers_fully(const Image& image) {
+  const std::span<const float> values = image.pixels();
+  for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
+    if (values[pixel + 3] < 1) return false;
+  }
+  return true;
+}
+
+/// Two neighbouring texels along one side of the picture and the share of the second.
+struct Neighbours {
+  int first = 0;
+  int second = 0;
+  double share = 0;
+};
+
+Neighbours neighbours(double position, int size, TextureWrap wrap) {
+  double from_center = position - 0.5;
+  if (wrap == TextureWrap::clamp) {
+    from_center = std::clamp(from_center, 0.0, size - 1.0);
+  } else {
+    from_center = std::fmod(from_center, size);
+    if (from_center < 0) from_center += size;
+    if (!(from_center < size)) from_center = 0;  // a tiny negative number rounds up to the size
+  }
+  Neighbours result;
+  result.first = static_cast<int>(from_center);
+  result.share = from_center - result.first;
+  const int next = result.first + 1;
+  result.second = next < size ? next : (wrap == TextureWrap::clamp ? size - 1 : 0);
+  return result;
+}
+
+Color straight(const Color& premultiplied) {
+  const double alpha = std::clamp(premultiplied.a, 0.0, 1.0);
+  if (alpha == 1) return {premultiplied.r, premultiplied.g, premultiplied.b, 1};
+  if (!(alpha > 0)) return {0, 0, 0, 0};
+  return {premultiplied.r / alpha, premultiplied.g / alpha, premultiplied.b / alpha, alpha};
+}
+
+}  // namespace
+
+Texture::Texture(std::shared_ptr<const Image> image, double gamma)
+    : image_(image->display_encoded() && gamma != 1 ? to_linear_light(*image, gamma) : std::move(image)),
+      opaque_(covers_fully(*image_)) {}
+
+Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const {
+  const Neighbours column = neighbours(x, width(), wrap_x);
+  const Neighbours row = neighbours(y, height(), wrap_y);
+  const Color upper =
+      mix(image_->at(column.first, row.first), image_->at(column.second, row.first), column.share);
+  const Color lower =
+      mix(image_->at(column.first, row.second), image_->at(column.second, row.second), column.share);
+  return straight(mix(upper, lower, row.share));
+}
+
+std::shared_ptr<const Texture> TexturePool::get(const std::shared_ptr<const Image>& image) {
+  std::shared_ptr<const Texture>& texture = textures_[image.get()];
+  if (!texture) texture = std::make_shared<const Texture>(image, gamma_);
+  return texture;
+}
+
+}  // namespace crt::core
