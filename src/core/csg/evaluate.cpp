@@ -18,26 +18,26 @@ RayStart start_on_leaf(const Leaf& leaf, std::span<const FaceSurface> face_surfa
   return {};
 }
 
-bool line_meets(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
+LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
   constexpr double inf = std::numeric_limits<double>::infinity();
-  // Three roundings go into each t: of the difference, the quotient, and none of the comparison.
+  // Two roundings go into each t: of the difference and of the quotient.
   constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
-  double t_enter = -inf;
-  double t_leave = inf;
+  constexpr LineSpan miss{inf, -inf};
+  LineSpan span{-inf, inf};
   for (int axis = 0; axis < 3; ++axis) {
     const double lower = bounds.lower[axis];
     const double upper = bounds.upper[axis];
     if (direction[axis] == 0) {
-      if (origin[axis] < lower || origin[axis] > upper) return false;
+      if (origin[axis] < lower || origin[axis] > upper) return miss;
       continue;
     }
     double first = (lower - origin[axis]) / direction[axis];
     double second = (upper - origin[axis]) / direction[axis];
     if (first > second) std::swap(first, second);
-    t_enter = std::max(t_enter, first - slack * std::abs(first));
-    t_leave = std::min(t_leave, second + slack * std::abs(second));
+    span.enter = std::max(span.enter, first - slack * std::abs(first));
+    span.leave = std::min(span.leave, second + slack * std::abs(second));
   }
-  return t_enter <= t_leave;
+  return span;
 }
 
 CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
@@ -65,8 +65,11 @@ void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
   ++stamp_;
   for (std::uint32_t index = 0; index < program_.leaf_count(); ++index) {
     const Leaf& leaf = leaves_[index];
-    if (!line_meets(leaf.bounds, ray_.origin, ray_.direction)) continue;
-    ObjectRay object_ray = leaf.placement.to_object(ray_.origin, ray_.direction);
+    // A leaf that the line misses, has passed or meets too late stays outside.
+    const LineSpan span = span_in_box(leaf.bounds, ray_.origin, ray_.direction);
+    if (span.enter > span.leave || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max)
+      continue;
+    ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
     object_ray.start = start_on_leaf(leaf, face_surfaces, ray_.start);
     work_.leaf_crossings_.clear();
     if (leaf.shape->crossings(object_ray, work_.leaf_crossings_)) flip_leaf(index);

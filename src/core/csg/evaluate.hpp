@@ -72,8 +72,12 @@ class CsgWorkspace {
 RayStart start_on_leaf(const Leaf& leaf, std::span<const FaceSurface> face_surfaces,
                        const SurfaceStart& start);
 
-/// Whether the line through the box comes near it at all; rounded towards yes.
-bool line_meets(const Bounds& bounds, const Vec3& origin, const Vec3& direction);
+/// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
+struct LineSpan {
+  double enter = 0;
+  double leave = 0;
+};
+LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direction);
 
 /// Walks along a ray through one CSG object, from one crossing of its boundary to the next.
 ///

@@ -24,8 +24,8 @@ struct FaceSurface {
 /// A primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
-  Placement placement;
-  Bounds bounds;  ///< in the world
+  const Placement* placement = nullptr;  ///< shared by leaves that are placed alike; the scene owns it
+  Bounds bounds;                         ///< in the world
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces

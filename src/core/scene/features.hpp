@@ -1,12 +1,20 @@
 #pragma once
 
+#include <vector>
+
+#include "core/shading/prepared_material.hpp"
+
+namespace crt {
+struct Scene;
+}
+
 namespace crt::core {
 
 /// What a scene uses. What it does not use must cost it nothing: the ray loop asks here first.
 struct Features {
   bool lights = false;
   bool ambient = false;       ///< some light has an ambient share
-  bool shadows = false;       ///< some light could be hidden from something that it lights
+  bool shadows = false;       ///< some material answers light that could be kept from it
   bool reflection = false;    ///< some material mirrors
   bool transparency = false;  ///< some material lets light through
   bool absorption = false;    ///< some transparent material absorbs
@@ -15,5 +23,8 @@ struct Features {
   bool lens = false;  ///< aperture > 0 and more than one sample of it
   bool csg = false;
 };
+
+/// Reads them off a scene and its materials.
+Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& materials, bool csg);
 
 }  // namespace crt::core

@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "core/csg/evaluate.hpp"
 #include "core/csg/program.hpp"
 #include "core/geometry/object_ray.hpp"
 #include "core/scene/features.hpp"
@@ -27,7 +28,7 @@ struct StartPoint {
   std::uint32_t leaf = nothing;
   std::uint32_t face = no_face;
   std::uint32_t surface = nothing;
-  Side side = Side::outside;
+  Side side = Side::outside;  ///< of that surface, by its canonical orientation
   /// Crossings of *other* surfaces up to this t are at the start too (rounding of the start point).
   double t_error = 0;
 };
@@ -71,10 +72,13 @@ struct HitPoint {
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
 
-/// Counters that one thread keeps while it works.
-struct TraversalStats {
-  std::uint64_t intersection_tests = 0;
-  std::uint64_t interval_events = 0;
+/// Memory and counters that one thread reuses from ray to ray.
+struct RayWorkspace {
+  std::uint64_t intersection_tests = 0;  ///< rays against objects
+  CsgWorkspace csg;                      ///< counts its events itself
+  CrossingList crossings;
+
+  std::uint64_t interval_events() const { return csg.events; }
 };
 
 /// Immutable after prepare(); every member function is safe from any number of threads.
@@ -86,20 +90,20 @@ class PreparedData {
   PreparedData& operator=(const PreparedData&) = delete;
 
   /// The nearest crossing; equal t goes to the object that comes first in the scene.
-  RayHit intersect(const WorldRay& ray, TraversalStats& stats) const;
+  RayHit intersect(const WorldRay& ray, RayWorkspace& work) const;
 
   /// Whether there is any crossing at all.
-  bool occluded(const WorldRay& ray, TraversalStats& stats) const;
+  bool occluded(const WorldRay& ray, RayWorkspace& work) const;
 
   /// Every crossing in ascending t. With `stop_at_opaque`, returns false as soon as one of an opaque
   /// material is found (the list is then of no use); otherwise true.
   bool crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
-                 TraversalStats& stats) const;
+                 RayWorkspace& work) const;
 
   /// Of each solid that holds the start of the ray (just after it, for a ray that starts on a
   /// surface), the crossing at which the ray leaves it, the farthest first: outermost to innermost
   /// for nested solids. A solid that the ray never leaves has t = infinity.
-  void surrounding(const WorldRay& ray, std::vector<RayHit>& out, TraversalStats& stats) const;
+  void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
   /// What shading needs of a hit that `ray` found.
   HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const;
@@ -107,7 +111,8 @@ class PreparedData {
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
 
-  /// Where a ray starts that leaves a hit to the given side of the surface.
+  /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
+  /// have unit length.
   StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
 
   /// The primitive in its place that a hit is of: bumps ask for it.
@@ -123,6 +128,7 @@ class PreparedData {
  private:
   Scene scene_;
   std::vector<PreparedMaterial> materials_;
+  std::vector<bool> opaque_;  ///< by material
   std::unique_ptr<const PreparedBackground> background_;
   Features features_;
   std::unique_ptr<const Accelerator> accelerator_;

@@ -1,0 +1,258 @@
+#include "core/scene/accelerator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/scene/embree_tree.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+SurfaceStart surface_start(const StartPoint& start) {
+  return {.surface = start.surface, .side = start.side, .t_error = start.t_error};
+}
+
+}  // namespace
+
+/// One ray on its way through the scene. The kinds differ in what they keep of an object's crossings.
+class Accelerator::Query {
+ public:
+  Query(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
+      : accelerator_(accelerator), ray_(ray), work_(work), limit_(ray.t_max) {}
+  virtual ~Query() = default;
+  Query(const Query&) = delete;
+  Query& operator=(const Query&) = delete;
+
+  /// Nothing at t > limit() matters any more; below t_min, the query is done.
+  double limit() const { return limit_; }
+  const WorldRay& ray() const { return ray_; }
+
+  void test(std::uint32_t object_index) {
+    ++work_.intersection_tests;
+    const SceneObject& object = accelerator_.object(object_index);
+    if (object.is_csg()) {
+      test_csg(object_index, object);
+    } else {
+      test_leaf(object_index, object);
+    }
+  }
+
+ protected:
+  /// Is given the object's crossings with t_min < t <= limit in order until it returns false.
+  virtual bool take(const RayHit& hit) = 0;
+  /// Is told first whether the ray starts inside; false skips the object.
+  virtual bool begin(std::uint32_t /*object*/, bool /*starts_inside*/) { return true; }
+  /// Is told when the object has no (more) crossings.
+  virtual void end(std::uint32_t /*object*/, std::uint32_t /*leaf*/, bool /*inside*/) {}
+
+  void set_limit(double limit) { limit_ = limit; }
+
+ private:
+  void test_leaf(std::uint32_t object_index, const SceneObject& object);
+  void test_csg(std::uint32_t object_index, const SceneObject& object);
+
+  const Accelerator& accelerator_;
+  const WorldRay& ray_;
+  RayWorkspace& work_;
+  double limit_;
+};
+
+void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject& object) {
+  const Leaf& leaf = accelerator_.leaf(object.first_leaf);
+  const ObjectRay object_ray = accelerator_.object_ray(leaf, ray_);
+  CrossingList& crossings = work_.crossings;
+  crossings.clear();
+  bool inside = leaf.shape->crossings(object_ray, crossings);
+  // Another object's surface that coincides with the one the ray starts on is at the start as well.
+  const bool starts_here = object_ray.start.face != no_face;
+  const double start = ray_.t_min + ray_.start.t_error;
+  std::size_t index = 0;
+  for (; index < crossings.size(); ++index) {
+    const Crossing& crossing = crossings[index];
+    if (crossing.t > ray_.t_min && (starts_here || crossing.t - crossing.error > start)) break;
+    inside = crossing.entering;
+  }
+  if (!begin(object_index, inside && object.solid)) return;
+  for (; index < crossings.size() && crossings[index].t <= limit_; ++index) {
+    const Crossing& crossing = crossings[index];
+    inside = crossing.entering;
+    const RayHit hit{.t = crossing.t,
+                     .error = crossing.error,
+                     .object = object_index,
+                     .leaf = object.first_leaf,
+                     .face = crossing.face,
+                     .entering = crossing.entering};
+    if (!take(hit)) return;
+  }
+  end(object_index, object.first_leaf, inside && object.solid);
+}
+
+void Accelerator::Query::test_csg(std::uint32_t object_index, const SceneObject& object) {
+  const CsgProgram& program = accelerator_.compiled_.programs[object.program];
+  const CsgRay csg_ray{.origin = ray_.origin,
+                       .direction = ray_.direction,
+                       .t_min = ray_.t_min,
+                       .t_max = std::nextafter(limit_, infinity),
+                       .start = surface_start(ray_.start)};
+  CsgEvaluation evaluation(program, accelerator_.compiled_.leaves, accelerator_.compiled_.face_surfaces,
+                           csg_ray, work_.csg);
+  bool inside = evaluation.starts_inside();
+  std::uint32_t leaf = program.first_leaf;
+  if (begin(object_index, inside)) {
+    CsgHit found;
+    while (evaluation.next(found)) {
+      inside = found.entering;
+      leaf = program.first_leaf + found.leaf;
+      const RayHit hit{.t = found.t,
+                       .error = found.error,
+                       .object = object_index,
+                       .leaf = leaf,
+                       .face = found.face,
+                       .entering = found.entering};
+      if (!take(hit)) return;
+    }
+    end(object_index, leaf, inside);
+  }
+}
+
+Accelerator::Accelerator(CompiledScene compiled) : compiled_(std::move(compiled)) {
+  Bounds total;
+  for (std::uint32_t i = 0; i < compiled_.objects.size(); ++i) {
+    const Bounds& bounds = compiled_.objects[i].bounds;
+    if (bounds.finite()) {
+      bounded_.push_back(i);
+      total.include(bounds);
+    } else {
+      unbounded_.push_back(i);
+    }
+  }
+  if (bounded_.empty()) return;
+  std::vector<Bounds> boxes;
+  boxes.reserve(bounded_.size());
+  for (const std::uint32_t object : bounded_) boxes.push_back(compiled_.objects[object].bounds);
+  tree_ = std::make_unique<EmbreeTree>(boxes, total);
+}
+
+Accelerator::~Accelerator() = default;
+
+ObjectRay Accelerator::object_ray(const Leaf& leaf, const WorldRay& ray) const {
+  ObjectRay result = leaf.placement->to_object(ray.origin, ray.direction);
+  result.start = start_on_leaf(leaf, compiled_.face_surfaces, surface_start(ray.start));
+  return result;
+}
+
+void Accelerator::traverse(Query& query) const {
+  for (const std::uint32_t object : unbounded_) {
+    if (query.limit() <= query.ray().t_min) return;
+    query.test(object);
+  }
+  if (!tree_ || query.limit() <= query.ray().t_min) return;
+  tree_->traverse(query.ray().origin, query.ray().direction, query.ray().t_min, query.limit(),
+                  [&](std::uint32_t box) {
+                    query.test(bounded_[box]);
+                    return query.limit();
+                  });
+}
+
+RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
+  class Nearest final : public Query {
+   public:
+    using Query::Query;
+    RayHit best;
+
+   private:
+    bool take(const RayHit& hit) override {
+      if (hit.t < ray().t_max && (hit.t < best.t || (hit.t == best.t && hit.object < best.object))) {
+        best = hit;
+        set_limit(hit.t);
+      }
+      return false;
+    }
+  };
+  Nearest query(*this, ray, work);
+  traverse(query);
+  return query.best;
+}
+
+bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
+  class Any final : public Query {
+   public:
+    using Query::Query;
+    bool found = false;
+
+   private:
+    bool take(const RayHit& hit) override {
+      if (hit.t < ray().t_max) {
+        found = true;
+        set_limit(-infinity);
+      }
+      return false;
+    }
+  };
+  Any query(*this, ray, work);
+  traverse(query);
+  return query.found;
+}
+
+bool Accelerator::all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
+                      RayWorkspace& work) const {
+  class All final : public Query {
+   public:
+    All(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace,
+        const std::vector<bool>* opaque, std::vector<RayHit>& hits)
+        : Query(accelerator, world_ray, workspace),
+          accelerator_(accelerator),
+          is_opaque_(opaque),
+          out_(hits) {}
+    bool stopped = false;
+
+   private:
+    bool take(const RayHit& hit) override {
+      if (!(hit.t < ray().t_max)) return false;
+      if (is_opaque_ != nullptr && (*is_opaque_)[accelerator_.leaf(hit.leaf).material]) {
+        stopped = true;
+        set_limit(-infinity);
+        return false;
+      }
+      out_.push_back(hit);
+      return true;
+    }
+
+    const Accelerator& accelerator_;
+    const std::vector<bool>* is_opaque_;
+    std::vector<RayHit>& out_;
+  };
+  All query(*this, ray, work, is_opaque, out);
+  traverse(query);
+  return !query.stopped;
+}
+
+void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+  class Surrounding final : public Query {
+   public:
+    Surrounding(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace,
+                std::vector<RayHit>& hits)
+        : Query(accelerator, world_ray, workspace), out_(hits) {}
+
+   private:
+    bool begin(std::uint32_t /*object*/, bool starts_inside) override { return starts_inside; }
+    bool take(const RayHit& hit) override {
+      out_.push_back(hit);
+      return false;
+    }
+    void end(std::uint32_t object, std::uint32_t leaf, bool inside) override {
+      if (inside)
+        out_.push_back({.t = infinity, .error = 0, .object = object, .leaf = leaf, .face = no_face});
+    }
+
+    std::vector<RayHit>& out_;
+  };
+  Surrounding query(*this, ray, work, out);
+  traverse(query);
+}
+
+}  // namespace crt::core

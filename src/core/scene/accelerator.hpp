@@ -1,0 +1,52 @@
+// The objects of a scene made ready for rays: which of them a ray meets, and where.
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "core/scene/compile.hpp"
+#include "core/scene/prepared_data.hpp"
+
+namespace crt::core {
+
+class EmbreeTree;
+
+/// Finds crossings: a tree of boxes says which objects a ray may meet, the rest happens here, in
+/// double. Objects without end stay outside of the tree and are tested by every ray.
+class Accelerator {
+ public:
+  explicit Accelerator(CompiledScene compiled);
+  ~Accelerator();
+  Accelerator(const Accelerator&) = delete;
+  Accelerator& operator=(const Accelerator&) = delete;
+
+  RayHit nearest(const WorldRay& ray, RayWorkspace& work) const;
+  bool any(const WorldRay& ray, RayWorkspace& work) const;
+  /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
+  /// material `is_opaque` says so (if given).
+  bool all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
+           RayWorkspace& work) const;
+  /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the ray
+  /// never leaves counts as left at infinity.
+  void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+
+  const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
+  const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
+  const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
+    return compiled_.face_surfaces[leaf.first_face + face];
+  }
+  /// The leaf's own ray for a ray in the world.
+  ObjectRay object_ray(const Leaf& leaf, const WorldRay& ray) const;
+
+ private:
+  class Query;
+
+  void traverse(Query& query) const;
+
+  CompiledScene compiled_;
+  std::vector<std::uint32_t> unbounded_;    ///< objects
+  std::vector<std::uint32_t> bounded_;      ///< objects, in the order in which Embree numbers them
+  std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
+};
+
+}  // namespace crt::core

@@ -1,0 +1,39 @@
+// From the tree of entities that a user built to flat lists of leaves and objects.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "core/csg/program.hpp"
+#include "crt/entity.hpp"
+
+namespace crt::core {
+
+/// What the acceleration structure holds: a lone primitive, or a CSG object with several leaves.
+struct SceneObject {
+  std::uint32_t first_leaf = 0;
+  std::uint32_t program = 0xffffffffu;  ///< index of its CSG program, if it has more than one leaf
+  Bounds bounds;                        ///< in the world
+  bool solid = true;
+
+  bool is_csg() const { return program != 0xffffffffu; }
+};
+
+struct CompiledScene {
+  std::deque<Placement> placements;  ///< a deque: leaves point into it
+  std::vector<Leaf> leaves;
+  std::vector<FaceSurface> face_surfaces;
+  std::vector<SceneObject> objects;
+  std::vector<CsgProgram> programs;
+  std::vector<SharedMaterial> materials;
+};
+
+/// Flattens entities: unions at the top become objects of their own as far as their parts keep
+/// apart, transforms are composed once, materials and ids are resolved, faces that coincide get one
+/// surface. Throws Error (limit) if there are more than 2^25 primitives.
+CompiledScene compile(std::span<const Entity> entities);
+
+}  // namespace crt::core

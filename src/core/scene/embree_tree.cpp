@@ -1,0 +1,169 @@
+#include "core/scene/embree_tree.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "core/csg/evaluate.hpp"
+#include "core/scene/embree_compat.hpp"
+#include "crt/error.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr float float_infinity = std::numeric_limits<float>::infinity();
+
+/// How much boxes grow, in units in which the whole scene's half extent is between 1/2 and 1.
+/// A ray's origin and direction are rounded to floats for Embree: 2^-25 an axis for the origin
+/// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
+const double box_margin = std::ldexp(1.0, -22);
+
+float round_down(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -float_infinity);
+}
+
+float round_up(double value) {
+  const auto nearest = static_cast<float>(value);
+  return static_cast<double>(nearest) >= value ? nearest : std::nextafter(nearest, float_infinity);
+}
+
+[[noreturn]] void fail(RTCError error) {
+  if (error == RTC_ERROR_OUT_OF_MEMORY) {
+    throw Error(ErrorCode::out_of_memory, "not enough memory for the acceleration structure");
+  }
+  if (error == RTC_ERROR_UNSUPPORTED_CPU) {
+    throw Error(ErrorCode::unsupported, "this processor is too old for Embree");
+  }
+  throw Error(ErrorCode::internal, "Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+void check(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE) fail(error);
+}
+
+/// A ray on its way, behind the context that Embree hands to the callbacks.
+struct Traversal {
+  EmbreeContext context;  // first, so that the two have one address
+  const EmbreeTree::Visit* visit = nullptr;
+  double t_start = 0;  ///< t where Embree's ray starts
+  double scale = 1;    ///< Embree's t for each unit of t
+
+  /// Embree's end of the ray for the caller's.
+  float far_end(double t) const { return std::max(round_up((t - t_start) * scale), 0.0f); }
+};
+
+/// The common part of both callbacks: visits, and returns Embree's new end of the ray.
+float visit_box(EmbreeContext* context, std::uint32_t box) {
+  auto* traversal = reinterpret_cast<Traversal*>(context);
+  const double t_max = (*traversal->visit)(box);
+  return t_max < traversal->t_start ? -float_infinity : traversal->far_end(t_max);
+}
+
+void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
+  *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
+}
+
+void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
+  if (arguments->valid[0] == 0) return;
+  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
+  const float far_end = visit_box(arguments->context, arguments->primID);
+  ray_hit->ray.tfar = std::min(ray_hit->ray.tfar, far_end);
+}
+
+}  // namespace
+
+struct EmbreeTree::Handles {
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  std::vector<RTCBounds> boxes;
+
+  ~Handles() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+};
+
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
+  double extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
+    extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
+  }
+  if (extent > 0) exponent_ = -(std::ilogb(extent) + 1);
+  total_.lower = total.lower - Vec3(std::ldexp(2 * box_margin, -exponent_));
+  total_.upper = total.upper + Vec3(std::ldexp(2 * box_margin, -exponent_));
+
+  auto handles = std::make_unique<Handles>();
+  handles->device = rtcNewDevice(nullptr);
+  if (handles->device == nullptr) fail(rtcGetDeviceError(nullptr));
+  handles->boxes.reserve(boxes.size());
+  for (const Bounds& box : boxes) {
+    const auto lower = [&](int axis) {
+      return round_down(std::ldexp(box.lower[axis] - center_[axis], exponent_) - box_margin);
+    };
+    const auto upper = [&](int axis) {
+      return round_up(std::ldexp(box.upper[axis] - center_[axis], exponent_) + box_margin);
+    };
+    handles->boxes.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
+  }
+  handles->scene = rtcNewScene(handles->device);
+  rtcSetSceneFlags(handles->scene, RTC_SCENE_FLAG_ROBUST);
+  RTCGeometry geometry = rtcNewGeometry(handles->device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
+  rtcSetGeometryUserData(geometry, handles->boxes.data());
+  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(handles->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  rtcCommitScene(handles->scene);
+  check(handles->device);
+  handles_ = std::move(handles);
+}
+
+EmbreeTree::~EmbreeTree() = default;
+
+void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+                          const Visit& visit) const {
+  // A distant origin is moved up to the scene first, where floats are fine enough.
+  const LineSpan span = span_in_box(total_, origin, direction);
+  const double t_start = std::max(t_min, span.enter);
+  const double t_end = std::min(t_max, span.leave);
+  if (t_start > t_end) return;
+
+  const double longest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
+  const int direction_exponent = -std::ilogb(longest);
+  Traversal traversal;
+  init_context(traversal.context);
+  traversal.visit = &visit;
+  traversal.t_start = t_start;
+  traversal.scale = std::ldexp(1.0, exponent_ - direction_exponent);
+
+  RTCRayHit ray_hit{};
+  ObjectRay ray;
+  ray.origin = origin;
+  ray.direction = direction;
+  const Vec3 start = ray.from_center(center_, t_start);
+  const auto place = [&](int axis) { return static_cast<float>(std::ldexp(start[axis], exponent_)); };
+  const auto way = [&](int axis) {
+    return static_cast<float>(std::ldexp(direction[axis], direction_exponent));
+  };
+  ray_hit.ray.org_x = place(0);
+  ray_hit.ray.org_y = place(1);
+  ray_hit.ray.org_z = place(2);
+  ray_hit.ray.dir_x = way(0);
+  ray_hit.ray.dir_y = way(1);
+  ray_hit.ray.dir_z = way(2);
+  ray_hit.ray.tnear = 0;
+  ray_hit.ray.tfar = traversal.far_end(t_end);
+  ray_hit.ray.mask = ~0u;
+  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+  embree_intersect(handles_->scene, traversal.context, ray_hit);
+}
+
+}  // namespace crt::core

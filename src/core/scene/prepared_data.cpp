@@ -1,0 +1,139 @@
+#include "core/scene/prepared_data.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <tuple>
+
+#include "core/scene/accelerator.hpp"
+#include "core/shading/texture.hpp"
+#include "crt/prepared_scene.hpp"
+#include "crt/validate.hpp"
+
+namespace crt::core {
+
+namespace {
+
+void check_scene(const Scene& scene) {
+  for (const Light& light : scene.lights) validate(light);
+  validate(scene.camera);
+  validate(scene.background);
+  validate(scene.settings);
+}
+
+Side opposite(Side side) {
+  return side == Side::outside ? Side::inside : Side::outside;
+}
+
+}  // namespace
+
+PreparedData::PreparedData(const Scene& scene) {
+  const auto begin = std::chrono::steady_clock::now();
+  check_scene(scene);
+  scene_ = scene;
+  scene_.entities.clear();
+
+  CompiledScene compiled = compile(scene.entities);
+  TexturePool textures(scene.settings.gamma);
+  for (const SharedMaterial& material : compiled.materials) materials_.emplace_back(material, textures);
+  for (const PreparedMaterial& material : materials_) opaque_.push_back(material.opaque);
+  background_ = std::make_unique<PreparedBackground>(scene.background, textures);
+  features_ = find_features(scene_, materials_, !compiled.programs.empty());
+  accelerator_ = std::make_unique<Accelerator>(std::move(compiled));
+
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  prepare_seconds_ = elapsed.count();
+}
+
+PreparedData::~PreparedData() = default;
+
+RayHit PreparedData::intersect(const WorldRay& ray, RayWorkspace& work) const {
+  return accelerator_->nearest(ray, work);
+}
+
+bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
+  return accelerator_->any(ray, work);
+}
+
+bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
+                             RayWorkspace& work) const {
+  out.clear();
+  if (!accelerator_->all(ray, stop_at_opaque ? &opaque_ : nullptr, out, work)) return false;
+  // Where two solids touch, one is left before the other is entered.
+  std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
+    return std::tie(a.t, a.entering, a.object) < std::tie(b.t, b.entering, b.object);
+  });
+  return true;
+}
+
+void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+  out.clear();
+  accelerator_->surrounding(ray, out, work);
+  std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
+    return std::make_tuple(-a.t, a.object) < std::make_tuple(-b.t, b.object);
+  });
+}
+
+HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {
+  const Leaf& leaf = accelerator_->leaf(hit.leaf);
+  const ObjectRay object_ray = accelerator_->object_ray(leaf, ray);
+  const Crossing crossing{.t = hit.t,
+                          .error = hit.error,
+                          .face = hit.face,
+                          .root = 0,
+                          .entering = hit.entering != leaf.complemented};
+  const SurfacePoint surface = leaf.shape->surface_point(object_ray, crossing);
+  HitPoint point;
+  point.t = hit.t;
+  point.position = leaf.placement->point_to_world(surface.position);
+  point.object_position = surface.position;
+  // A cutter's surface bounds what is left of the solid from the other side.
+  point.object_normal = leaf.complemented ? -surface.normal : surface.normal;
+  point.normal = leaf.placement->normal_to_world(point.object_normal);
+  point.u = surface.u;
+  point.v = surface.v;
+  point.material = leaf.material;
+  point.entity_id = leaf.entity_id;
+  point.object = hit.object;
+  point.leaf = hit.leaf;
+  point.face = hit.face;
+  point.entering = hit.entering;
+  point.solid = accelerator_->object(hit.object).solid;
+  return point;
+}
+
+std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
+  return accelerator_->leaf(hit.leaf).material;
+}
+
+StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
+  const Leaf& leaf = accelerator_->leaf(hit.leaf);
+  const FaceSurface& face = accelerator_->face_surface(leaf, hit.face);
+  // `side` is of the object; a cutter and a flipped face each turn it round once.
+  if (leaf.complemented != face.flipped) side = opposite(side);
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
+  }
+  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
+  return {.object = hit.object,
+          .leaf = hit.leaf,
+          .face = hit.face,
+          .surface = face.surface,
+          .side = side,
+          .t_error = rounding * farthest};
+}
+
+const Leaf& PreparedData::leaf(const HitPoint& point) const {
+  return accelerator_->leaf(point.leaf);
+}
+
+}  // namespace crt::core
+
+namespace crt {
+
+PreparedScene prepare(const Scene& scene) {
+  return PreparedScene(std::make_shared<const core::PreparedData>(scene));
+}
+
+}  // namespace crt
