@@ -1,0 +1,99 @@
+#include "core/shading/bump.hpp"
+
+#include <cmath>
+#include <type_traits>
+
+#include "core/math/unit_vector.hpp"
+#include "core/shading/rgb.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Differences are taken over this part of a pattern's smallest feature.
+constexpr double step_of_feature = 1.0 / 64;
+
+double smallest_feature(const Checker& pattern) {
+  return pattern.scale;
+}
+double smallest_feature(const Stripes& pattern) {
+  return pattern.scale;
+}
+double smallest_feature(const Gradient& pattern) {
+  return pattern.scale;
+}
+
+/// Noise, Marble, Wood: the last octave has the finest grain.
+template <class Noisy>
+double smallest_feature(const Noisy& pattern) {
+  return std::scalbn(pattern.scale, 1 - pattern.octaves);
+}
+
+double luminance_at(const PreparedPattern& pattern, const PatternPoint& point) {
+  return luminance(pattern.color(point));
+}
+
+Vec3 gradient_in_space(const PreparedPattern& pattern, const PatternPoint& point, double step) {
+  Vec3 result(0);
+  for (int axis = 0; axis < 3; ++axis) {
+    PatternPoint before = point;
+    PatternPoint after = point;
+    before.position[axis] -= step;
+    after.position[axis] += step;
+    const double width = after.position[axis] - before.position[axis];
+    if (!(width > 0)) continue;  // so far out that doubles no longer tell the two apart
+    result[axis] = (luminance_at(pattern, after) - luminance_at(pattern, before)) / width;
+  }
+  return result;
+}
+
+/// The change of luminance per unit of one of (u, v), over one texel.
+double slope(const PreparedPattern& pattern, PatternPoint point, double PatternPoint::*coordinate,
+             double texels_per_unit) {
+  if (!(std::abs(texels_per_unit) > 0)) return 0;
+  const double half_texel = 0.5 / std::abs(texels_per_unit);
+  const double middle = point.*coordinate;
+  point.*coordinate = middle - half_texel;
+  const double before = luminance_at(pattern, point);
+  point.*coordinate = middle + half_texel;
+  return (luminance_at(pattern, point) - before) * std::abs(texels_per_unit);
+}
+
+}  // namespace
+
+LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const PatternPoint& point,
+                                     const Shape& shape, std::uint32_t face, CrossingList& scratch) {
+  if (const auto* map = std::get_if<ImageMap>(&pattern.description())) {
+    const UvGradient uv = uv_gradient(shape, face, point.position, point.normal, scratch);
+    const double slope_u =
+        slope(pattern, point, &PatternPoint::u, map->repeat_u * pattern.texture()->width());
+    const double slope_v =
+        slope(pattern, point, &PatternPoint::v, map->repeat_v * pattern.texture()->height());
+    return {slope_u * uv.u + slope_v * uv.v, 4};
+  }
+  const double feature = std::visit(
+      [](const auto& kind) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ImageMap>) {
+          return 0.0;
+        } else {
+          return smallest_feature(kind);
+        }
+      },
+      pattern.description());
+  return {gradient_in_space(pattern, point, step_of_feature * feature), 6};
+}
+
+Vec3 tilted_normal(const Vec3& normal, const Vec3& height_gradient) {
+  const Vec3 within_surface = height_gradient - glm::dot(height_gradient, normal) * normal;
+  const DirectionAndLength tilted = direction_and_length(normal - within_surface);
+  return tilted.direction == Vec3(0) ? normal : tilted.direction;
+}
+
+Vec3 visible_normal(const Vec3& normal, const Vec3& view) {
+  const double away = glm::dot(normal, view);
+  if (away <= 0) return normal;
+  const DirectionAndLength bent = direction_and_length(normal - away * view);
+  return bent.direction == Vec3(0) ? -view : bent.direction;
+}
+
+}  // namespace crt::core

@@ -1,0 +1,94 @@
+#include "core/shading/prepared_light.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "core/math/unit_vector.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Keeps what is computed from it finite right at a light, where falloff / D^2 has no bound.
+constexpr double largest_intensity = 0x1p100;
+
+}  // namespace
+
+PreparedLight::PreparedLight(const Light& light, FalloffModel falloff_model)
+    : PreparedLight(std::visit([](const auto& kind) { return PreparedLight(kind); }, light)) {
+  counts_path_ = falloff_model == FalloffModel::path;
+}
+
+PreparedLight::PreparedLight(const PointLight& light)
+    : kind_(Kind::point),
+      color_(rgb(light.color)),
+      ambient_(light.ambient),
+      falloff_(light.falloff),
+      origin_(light.origin) {}
+
+PreparedLight::PreparedLight(const ParallelLight& light)
+    : kind_(Kind::parallel),
+      color_(rgb(light.color)),
+      ambient_(light.ambient),
+      axis_(direction_and_length(light.pointing - light.from).direction) {}
+
+PreparedLight::PreparedLight(const SpotLight& light)
+    : kind_(Kind::spot),
+      color_(rgb(light.color)),
+      ambient_(light.ambient),
+      falloff_(light.falloff),
+      origin_(light.origin),
+      axis_(direction_and_length(light.pointing - light.origin).direction) {
+  // 1 - cos a = 2 sin^2(a / 2), and cos i - cos o = 2 sin((o + i) / 2) sin((o - i) / 2).
+  const double rim = light.angle / 2;
+  const double full = rim - light.penumbra;
+  rim_versine_ = 2 * std::sin(rim / 2) * std::sin(rim / 2);
+  fading_versine_ = 2 * std::sin((rim + full) / 2) * std::sin(light.penumbra / 2);
+}
+
+PreparedLight::PreparedLight(const CylinderLight& light)
+    : kind_(Kind::cylinder),
+      color_(rgb(light.color)),
+      ambient_(light.ambient),
+      falloff_(light.falloff),
+      origin_(light.origin),
+      axis_(direction_and_length(light.pointing - light.origin).direction),
+      radius_(light.radius) {}
+
+std::optional<LightSample> PreparedLight::sample(const Vec3& point, double path_length) const {
+  if (kind_ == Kind::parallel) return LightSample{-axis_, std::numeric_limits<double>::infinity(), 1};
+
+  std::optional<LightSample> result = kind_ == Kind::cylinder ? in_cylinder(point) : from_point(point);
+  if (!result || !(result->distance > 0)) return std::nullopt;
+  if (kind_ == Kind::spot) result->intensity = cone_share(result->direction);
+  if (falloff_ != 0) {
+    const double way = counts_path_ ? path_length + result->distance : result->distance;
+    result->intensity *= std::min(falloff_ / (way * way), largest_intensity);
+  }
+  return result;
+}
+
+LightSample PreparedLight::from_point(const Vec3& point) const {
+  const DirectionAndLength to_light = direction_and_length(origin_ - point);
+  return {to_light.direction, to_light.length, 1};
+}
+
+std::optional<LightSample> PreparedLight::in_cylinder(const Vec3& point) const {
+  const Vec3 from_origin = point - origin_;
+  const double along = glm::dot(from_origin, axis_);
+  const Vec3 from_axis = from_origin - along * axis_;
+  if (!(along > 0) || !(glm::dot(from_axis, from_axis) <= radius_ * radius_)) return std::nullopt;
+  return LightSample{-axis_, along, 1};
+}
+
+double PreparedLight::cone_share(const Vec3& to_light) const {
+  const Vec3 difference = to_light + axis_;
+  const double versine = std::min(2.0, 0.5 * glm::dot(difference, difference));
+  if (versine > rim_versine_) return 0;
+  if (versine <= rim_versine_ - fading_versine_) return 1;
+  const double share = (rim_versine_ - versine) / fading_versine_;
+  return share * share * (3 - 2 * share);
+}
+
+}  // namespace crt::core

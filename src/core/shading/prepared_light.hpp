@@ -1,0 +1,57 @@
+// Lights, as a point that may be lit sees them.
+#pragma once
+
+#include <optional>
+
+#include "core/shading/rgb.hpp"
+#include "crt/light.hpp"
+#include "crt/settings.hpp"
+
+namespace crt::core {
+
+/// A light seen from a point, before anything stands in its way.
+struct LightSample {
+  Vec3 direction{0, 1, 0};  ///< to the light, unit length
+  double distance = 0;      ///< to the light; infinite for a parallel one
+  double intensity = 1;     ///< what distance and the light's own shape leave of it
+};
+
+class PreparedLight {
+ public:
+  PreparedLight(const Light& light, FalloffModel falloff_model);
+
+  const Rgb& color() const { return color_; }
+
+  /// What every point gets of it, lit or not, if it mirrors nothing.
+  Rgb ambient() const { return ambient_ * color_; }
+
+  /// The light at a point; nothing where it does not shine. `path_length` is the way from the camera
+  /// to the point, over all bounces.
+  std::optional<LightSample> sample(const Vec3& point, double path_length) const;
+
+ private:
+  explicit PreparedLight(const PointLight& light);
+  explicit PreparedLight(const ParallelLight& light);
+  explicit PreparedLight(const SpotLight& light);
+  explicit PreparedLight(const CylinderLight& light);
+
+  enum class Kind { point, parallel, spot, cylinder };
+
+  LightSample from_point(const Vec3& point) const;
+  std::optional<LightSample> in_cylinder(const Vec3& point) const;
+  double cone_share(const Vec3& to_light) const;
+
+  Kind kind_;
+  Rgb color_;
+  double ambient_;
+  double falloff_ = 0;
+  bool counts_path_ = false;
+  Vec3 origin_{0, 0, 0};
+  Vec3 axis_{0, 0, 0};  ///< where it shines, unit length
+  double radius_ = 0;
+  /// 1 - cos of a cone's half angle is its versine: unlike the cosine it tells narrow cones apart.
+  double rim_versine_ = 0;
+  double fading_versine_ = 0;  ///< from the rim to where the light is full
+};
+
+}  // namespace crt::core
