@@ -1,0 +1,27 @@
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <crt/prepared_scene.hpp>
+
+#include "cli/commands.hpp"
+#include "cli/reporter.hpp"
+
+namespace crt::cli {
+
+ExitCode run_check(const CheckRequest& request) {
+  Reporter reporter(request);
+  for (const std::filesystem::path& path : request.scenes) {
+    const ScriptResult result = run_script_file(path, request.script);
+    reporter.add(result.diagnostics);
+    if (!result.scene) continue;
+    try {
+      prepare(*result.scene);
+      reporter.note(fmt::format("{}: no errors", path.string()));
+    } catch (const Error& error) {
+      reporter.add(error.code(), fmt::format("{}: {}", path.string(), error.what()), ExitCode::script);
+    }
+  }
+  return reporter.finish();
+}
+
+}  // namespace crt::cli

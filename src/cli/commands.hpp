@@ -1,0 +1,13 @@
+#pragma once
+
+#include "cli/options.hpp"
+
+namespace crt::cli {
+
+/// Renders a script's picture, or those of an animation.
+ExitCode run_render(const RenderRequest& request);
+
+/// Runs scripts for their diagnostics alone.
+ExitCode run_check(const CheckRequest& request);
+
+}  // namespace crt::cli

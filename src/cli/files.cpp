@@ -1,0 +1,116 @@
+#include "cli/files.hpp"
+
+#include <fmt/format.h>
+#include <unistd.h>
+
+#include <crt/error.hpp>
+#include <crt/image.hpp>
+#include <fstream>
+#include <string>
+#include <system_error>
+
+namespace crt::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// Where the number goes in a file's name: a piece to replace, and how many digits it asks for.
+struct NumberPlace {
+  std::size_t position = std::string::npos;
+  std::size_t length = 0;
+  int digits = 0;
+};
+
+/// Finds "%d" or "%0Nd" with N one digit.
+NumberPlace find_percent(const std::string& name) {
+  for (std::size_t at = name.find('%'); at != std::string::npos; at = name.find('%', at + 1)) {
+    const std::string rest = name.substr(at, 4);
+    if (rest.starts_with("%d")) return {at, 2, 1};
+    const bool padded =
+        rest.size() == 4 && rest[1] == '0' && rest[2] >= '1' && rest[2] <= '9' && rest[3] == 'd';
+    if (padded) return {at, 4, rest[2] - '0'};
+  }
+  return {};
+}
+
+NumberPlace find_hashes(const std::string& name) {
+  const std::size_t first = name.find('#');
+  if (first == std::string::npos) return {};
+  const std::size_t end = std::min(name.find_first_not_of('#', first), name.size());
+  return {first, end - first, static_cast<int>(end - first)};
+}
+
+fs::path folder_of(const fs::path& file) {
+  return file.has_parent_path() ? file.parent_path() : fs::path(".");
+}
+
+/// A name in the same folder that nobody else uses.
+fs::path name_beside(const fs::path& path, std::string_view purpose) {
+  return path.parent_path() / fmt::format(".crt-{}-{}{}", purpose, getpid(), path.extension().string());
+}
+
+}  // namespace
+
+fs::path frame_path(const fs::path& output, int frame) {
+  const std::string name = output.filename().string();
+  NumberPlace place = find_hashes(name);
+  if (place.length == 0) place = find_percent(name);
+  if (place.length == 0) {
+    return output.parent_path() /
+           fmt::format("{}_{:04}{}", output.stem().string(), frame, output.extension().string());
+  }
+  const std::string number = fmt::format("{:0{}}", frame, place.digits);
+  return output.parent_path() / std::string(name).replace(place.position, place.length, number);
+}
+
+void check_folder(const fs::path& file) {
+  const fs::path folder = folder_of(file);
+  if (!fs::is_directory(folder)) {
+    throw Error(ErrorCode::io,
+                fmt::format("cannot write '{}': there is no folder '{}'; make it first, or name another",
+                            file.string(), folder.string()));
+  }
+  if (fs::is_directory(file)) {
+    throw Error(ErrorCode::io,
+                fmt::format("cannot write '{}': it is a folder; add a file's name to it", file.string()));
+  }
+}
+
+void check_picture(const fs::path& picture) {
+  check_folder(picture);
+  const fs::path probe = name_beside(picture, "probe");
+  try {
+    Image(1, 1).write(probe);
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::unsupported) {
+      throw Error(
+          ErrorCode::unsupported,
+          fmt::format("cannot write '{}': its ending names no known format; use .png, .tif, .exr or .hdr",
+                      picture.string()));
+    }
+    throw Error(error.code(),
+                fmt::format("cannot write '{}' in the folder '{}'; say another place with -o ({})",
+                            picture.filename().string(), folder_of(picture).string(), error.what()));
+  }
+  std::error_code ignored;
+  fs::remove(probe, ignored);
+}
+
+void write_text_file(const fs::path& path, std::string_view text) {
+  const fs::path unfinished = name_beside(path, "unfinished");
+  std::error_code failure;
+  {
+    std::ofstream file(unfinished, std::ios::binary);
+    file.write(text.data(), static_cast<std::streamsize>(text.size()));
+    file.close();
+    if (!file) failure = std::error_code(errno, std::generic_category());
+  }
+  if (!failure) fs::rename(unfinished, path, failure);
+  if (!failure) return;
+  std::error_code ignored;
+  fs::remove(unfinished, ignored);
+  throw Error(ErrorCode::io, fmt::format("cannot write '{}': {}", path.string(), failure.message()));
+}
+
+}  // namespace crt::cli

@@ -1,0 +1,34 @@
+// The command `crt`: renders CRT scripts and checks them.
+#include <fmt/format.h>
+
+#include <cstdio>
+#include <exception>
+#include <new>
+
+#include "cli/commands.hpp"
+#include "cli/options.hpp"
+
+namespace {
+
+using namespace crt::cli;
+
+struct Run {
+  ExitCode operator()(const RenderRequest& request) const { return run_render(request); }
+  ExitCode operator()(const CheckRequest& request) const { return run_check(request); }
+  ExitCode operator()(ExitCode code) const { return code; }
+};
+
+}  // namespace
+
+int main(int argc, char** argv) try {
+  return static_cast<int>(std::visit(Run{}, parse_command_line(argc, argv)));
+} catch (const std::bad_alloc&) {
+  std::fputs("crt: error: not enough memory; try a smaller picture or a simpler scene\n", stderr);
+  return static_cast<int>(ExitCode::internal);
+} catch (const std::exception& error) {
+  fmt::print(
+      stderr,
+      "crt: error: {}\nThis should not happen: please report it with the script and the command line.\n",
+      error.what());
+  return static_cast<int>(ExitCode::internal);
+}

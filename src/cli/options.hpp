@@ -1,0 +1,59 @@
+// What a command line of `crt` asks for. Parsing it is the only business of options.cpp, and the
+// only source that includes CLI11.
+#pragma once
+
+#include <crt/render.hpp>
+#include <crt/script.hpp>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace crt::cli {
+
+/// How the process ends; the README and `crt --help` list these.
+enum class ExitCode {
+  done = 0,
+  script = 1,         ///< the script is wrong
+  usage = 2,          ///< the command line is wrong
+  files = 3,          ///< a file could not be read or written
+  internal = 70,      ///< a bug, or no memory left (sysexits.h: EX_SOFTWARE)
+  interrupted = 130,  ///< SIGINT or SIGTERM (what shells report for SIGINT)
+};
+
+enum class DiagnosticsFormat { text, json };
+
+/// Frames first..last of an animation, both rendered.
+struct FrameRange {
+  int first = 0;
+  int last = 0;
+};
+
+/// What both commands take.
+struct CommonRequest {
+  ScriptOptions script;
+  DiagnosticsFormat diagnostics = DiagnosticsFormat::text;
+  bool quiet = false;
+};
+
+struct RenderRequest : CommonRequest {
+  std::filesystem::path scene;
+  std::filesystem::path output;
+  std::optional<FrameRange> frames;
+  RenderOptions render;
+  /// Where statistics go: a file, "-" for standard output, or nowhere.
+  std::string stats;
+  bool reproducible = false;
+};
+
+struct CheckRequest : CommonRequest {
+  std::vector<std::filesystem::path> scenes;
+};
+
+/// The request, or the code to end with (after help, a version or a complaint has been printed).
+using Request = std::variant<RenderRequest, CheckRequest, ExitCode>;
+
+Request parse_command_line(int argc, const char* const* argv);
+
+}  // namespace crt::cli

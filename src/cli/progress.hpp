@@ -1,0 +1,42 @@
+// How far a render is, on standard error: a bar with the time left on a terminal, else a line
+// every tenth.
+#pragma once
+
+#include <chrono>
+#include <string>
+
+namespace crt::cli {
+
+enum class ProgressStyle { none, lines, bar };
+
+/// A bar if standard error is a terminal that can redraw a line, else lines.
+ProgressStyle style_of_stderr();
+
+class Progress {
+ public:
+  /// `name` says what is being rendered.
+  Progress(std::string name, ProgressStyle style);
+  /// Takes the bar away.
+  ~Progress();
+  Progress(const Progress&) = delete;
+  Progress& operator=(const Progress&) = delete;
+
+  /// Takes the share done, in [0, 1]; redraws if there is something new to see.
+  void update(double share);
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void draw_bar(double share, Clock::time_point now);
+  void print_line(double share, Clock::time_point now);
+  std::string time_left(double share, Clock::time_point now) const;
+
+  std::string name_;
+  ProgressStyle style_;
+  Clock::time_point start_ = Clock::now();
+  Clock::time_point last_drawn_{};
+  bool drawn_ = false;
+  int last_tenth_ = 0;
+};
+
+}  // namespace crt::cli

@@ -1,0 +1,73 @@
+#include "cli/reporter.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+
+namespace crt::cli {
+
+namespace {
+
+ExitCode exit_code_of(ErrorCode code) {
+  switch (code) {
+    case ErrorCode::invalid_argument:
+    case ErrorCode::script:
+    case ErrorCode::limit:
+      return ExitCode::script;
+    case ErrorCode::io:
+      return ExitCode::files;
+    case ErrorCode::cancelled:
+      return ExitCode::interrupted;
+    case ErrorCode::unsupported:
+    case ErrorCode::out_of_memory:
+    case ErrorCode::internal:
+      break;
+  }
+  return ExitCode::internal;
+}
+
+/// Of two codes the one that says more: a script that is wrong matters more than a file it lacks.
+ExitCode graver(ExitCode a, ExitCode b) {
+  constexpr ExitCode by_gravity[] = {ExitCode::interrupted, ExitCode::internal, ExitCode::usage,
+                                     ExitCode::script,      ExitCode::files,    ExitCode::done};
+  return *std::find_if(std::begin(by_gravity), std::end(by_gravity),
+                       [&](ExitCode code) { return code == a || code == b; });
+}
+
+}  // namespace
+
+void Reporter::add(const std::vector<Diagnostic>& diagnostics) {
+  for (const Diagnostic& diagnostic : diagnostics) {
+    if (diagnostic.severity == Severity::error)
+      exit_code_ = graver(exit_code_, exit_code_of(diagnostic.code));
+    tell(diagnostic, format_diagnostic(diagnostic));
+  }
+}
+
+void Reporter::add(ErrorCode code, const std::string& message, ExitCode exit_code) {
+  exit_code_ = graver(exit_code_, exit_code);
+  tell(Diagnostic{.code = code, .message = message}, fmt::format("crt: error: {}\n", message));
+}
+
+void Reporter::add(const Error& error) {
+  add(error.code(), error.what(), exit_code_of(error.code()));
+}
+
+void Reporter::note(const std::string& message) const {
+  if (!quiet_ && format_ == DiagnosticsFormat::text) fmt::print(stderr, "{}\n", message);
+}
+
+void Reporter::tell(const Diagnostic& diagnostic, const std::string& text) {
+  if (quiet_ && diagnostic.severity == Severity::warning) return;
+  if (!texts_.insert(text).second) return;
+  told_.push_back(diagnostic);
+  if (format_ == DiagnosticsFormat::text) fmt::print(stderr, "{}", text);
+}
+
+ExitCode Reporter::finish() {
+  if (format_ == DiagnosticsFormat::json) fmt::print(stderr, "{}\n", diagnostics_to_json(told_));
+  return exit_code_;
+}
+
+}  // namespace crt::cli
