@@ -98,13 +98,15 @@ HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {
   point.leaf = hit.leaf;
   point.face = hit.face;
   point.entering = hit.entering;
-  point.solid = accelerator_->object(hit.object).solid;
+  point.solid = is_solid(hit);
   return point;
 }
 
 std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
   return accelerator_->leaf(hit.leaf).material;
 }
+
+bool PreparedData::is_solid(const RayHit& hit) const { return accelerator_->object(hit.object).solid; }
 
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);

@@ -111,6 +111,9 @@ class PreparedData {
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
 
+  /// Whether a hit is on the boundary of a volume, not on a mere surface.
+  bool is_solid(const RayHit& hit) const;
+
   /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
   /// have unit length.
   StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
