@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <exception>
 #include <limits>
 #include <string>
 #include <vector>
@@ -52,16 +53,23 @@ struct Traversal {
   const EmbreeTree::Visit* visit = nullptr;
   double t_start = 0;  ///< t where Embree's ray starts
   double scale = 1;    ///< Embree's t for each unit of t
+  std::exception_ptr failure;
 
   /// Embree's end of the ray for the caller's.
   float far_end(double t) const { return std::max(round_up((t - t_start) * scale), 0.0f); }
 };
 
-/// The common part of both callbacks: visits, and returns Embree's new end of the ray.
+/// Visits a box and returns Embree's new end of the ray. No exception may pass through Embree, so
+/// one is kept for later and the ray ended.
 float visit_box(EmbreeContext* context, std::uint32_t box) {
   auto* traversal = reinterpret_cast<Traversal*>(context);
-  const double t_max = (*traversal->visit)(box);
-  return t_max < traversal->t_start ? -float_infinity : traversal->far_end(t_max);
+  try {
+    const double t_max = (*traversal->visit)(box);
+    return t_max < traversal->t_start ? -float_infinity : traversal->far_end(t_max);
+  } catch (...) {
+    traversal->failure = std::current_exception();
+    return -float_infinity;
+  }
 }
 
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
@@ -164,6 +172,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   ray_hit.ray.mask = ~0u;
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   embree_intersect(handles_->scene, traversal.context, ray_hit);
+  if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
 }  // namespace crt::core

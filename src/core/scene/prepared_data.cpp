@@ -106,7 +106,9 @@ std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
   return accelerator_->leaf(hit.leaf).material;
 }
 
-bool PreparedData::is_solid(const RayHit& hit) const { return accelerator_->object(hit.object).solid; }
+bool PreparedData::is_solid(const RayHit& hit) const {
+  return accelerator_->object(hit.object).solid;
+}
 
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
