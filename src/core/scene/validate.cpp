@@ -8,7 +8,6 @@
 #include <numbers>
 #include <string_view>
 
-#include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
 
 namespace crt {
@@ -174,10 +173,6 @@ struct BackgroundCheck {
 };
 
 }  // namespace
-
-void validate(const Primitive& primitive) {
-  core::validate(primitive);
-}
 
 void validate(const Pattern& pattern) {
   std::visit(PatternCheck{}, pattern);
