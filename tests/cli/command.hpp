@@ -1,0 +1,65 @@
+// Running the command `crt` in a folder of its own, as a shell would.
+#pragma once
+
+#include <sys/types.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace crt::test {
+
+/// A folder that lives as long as the test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  const std::filesystem::path& path() const { return path_; }
+  bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
+  void write(const std::string& name, const std::string& text) const;
+  std::string read(const std::string& name) const;
+  /// The names of all that is in it, sorted.
+  std::vector<std::string> names() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+/// What a run left behind.
+struct Outcome {
+  int exit_code = -1;
+  std::string out;
+  std::string err;
+};
+
+/// Runs `crt` with these arguments in the folder. Standard input is empty, the outputs are files.
+Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+
+/// `crt` with its standard error on a terminal.
+class CrtOnTerminal {
+ public:
+  CrtOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+  /// Ends the process if it still runs.
+  ~CrtOnTerminal();
+  CrtOnTerminal(const CrtOnTerminal&) = delete;
+  CrtOnTerminal& operator=(const CrtOnTerminal&) = delete;
+
+  /// Reads what it shows until `text` is among it or it ends; says whether it was.
+  bool shows(const std::string& text);
+  void send(int signal) const;
+  /// Waits for its end; its exit code, or -1 if a signal ended it.
+  int wait();
+  const std::string& shown() const { return shown_; }
+
+ private:
+  bool read_more();
+
+  pid_t process_ = 0;
+  int terminal_ = -1;
+  std::string shown_;
+};
+
+}  // namespace crt::test

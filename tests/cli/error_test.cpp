@@ -1,0 +1,181 @@
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+#include "cli/command.hpp"
+#include "cli/json.hpp"
+#include "cli/scenes.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+using Arguments = std::vector<std::string>;
+
+bool contains(const std::string& text, const std::string& piece) {
+  return text.find(piece) != std::string::npos;
+}
+
+constexpr int script_error = 1;
+constexpr int usage_error = 2;
+constexpr int file_error = 3;
+
+struct Fixture {
+  TemporaryFolder folder;
+  Fixture() {
+    folder.write("ball.crt", ball_script);
+    folder.write("wrong.crt", "Scene {\n  Sphere { center -> vec3(0, 0, 0) raduis -> 1 }\n}\n");
+  }
+};
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Fixture, "a wrong script ends with 1, tells the place and writes nothing") {
+  const Outcome run = run_crt(folder, {"render", "wrong.crt"});
+  CHECK(run.exit_code == script_error);
+  CHECK(contains(run.err, "wrong.crt:2:"));
+  CHECK(contains(run.err, "radius"));
+  CHECK_FALSE(folder.has("wrong.png"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a setting out of range on the command line is an error, too") {
+  CHECK(run_crt(folder, {"render", "ball.crt", "--width", "0"}).exit_code == script_error);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--falloffmodel", "none"}).exit_code == script_error);
+  CHECK_FALSE(folder.has("ball.png"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "--max-steps stops a script that goes on too long") {
+  folder.write("loop.crt", "i = 0\nwhile (i < 1) { i = i - 1 }\nScene { }\n");
+  const Outcome run = run_crt(folder, {"render", "loop.crt", "--max-steps", "1000"});
+  CHECK(run.exit_code == script_error);
+  CHECK(contains(run.err, "loop.crt:2:"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a wrong command line ends with 2, says what is wrong and names the help") {
+  const Arguments wrong_lines[] = {
+      {},
+      {"paint", "ball.crt"},
+      {"ball.crt"},
+      {"render"},
+      {"render", "ball.crt", "--bogus"},
+      {"render", "ball.crt", "--width", "wide"},
+      {"render", "ball.crt", "--gamma", "nan"},
+      {"render", "ball.crt", "--showclip=maybe"},
+      {"render", "ball.crt", "--set", "n"},
+      {"render", "ball.crt", "--time", "noon"},
+      {"render", "ball.crt", "--frames", "5-2"},
+      {"render", "ball.crt", "--frames", "1-2", "--time", "3"},
+      {"render", "ball.crt", "--region", "0,0,8"},
+      {"render", "ball.crt", "--region", "0,0,8,8,8"},
+      {"render", "ball.crt", "--threads", "-1"},
+      {"render", "ball.crt", "--resources", "nowhere"},
+      {"render", "ball.crt", "--diagnostics", "xml"},
+      {"check"},
+  };
+  for (const Arguments& line : wrong_lines) {
+    const Outcome run = run_crt(folder, line);
+    INFO("arguments: ", line.empty() ? "none" : line.back(), "\n", run.err);
+    CHECK(run.exit_code == usage_error);
+    CHECK(contains(run.err, "crt: error: "));
+    CHECK(contains(run.err, "--help"));
+    CHECK(run.out.empty());
+  }
+}
+
+TEST_CASE_FIXTURE(Fixture, "a script without a command gets the command suggested") {
+  CHECK(contains(run_crt(folder, {"ball.crt"}).err, "crt render ball.crt"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a region beyond the picture ends with 2 and tells the picture's size") {
+  for (const char* region : {"0,0,17,12", "16,0,1,1", "15,11,1,2", "2147483647,0,2147483647,1"}) {
+    const Outcome run = run_crt(folder, {"render", "ball.crt", "--region", region});
+    CHECK(run.exit_code == usage_error);
+    CHECK(contains(run.err, "16 x 12"));
+  }
+}
+
+TEST_CASE_FIXTURE(Fixture, "an unknown ending of the picture ends with 2 before anything is rendered") {
+  const Outcome run = run_crt(folder, {"render", "ball.crt", "-o", "ball.docx"});
+  CHECK(run.exit_code == usage_error);
+  CHECK(contains(run.err, ".png"));
+  CHECK(run.out.empty());
+}
+
+TEST_CASE_FIXTURE(Fixture, "a picture never overwrites its own script") {
+  folder.write("scene.png", ball_script);
+  CHECK(run_crt(folder, {"render", "scene.png"}).exit_code == usage_error);
+  CHECK(folder.read("scene.png") == ball_script);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a missing script ends with 3 and names it") {
+  const Outcome run = run_crt(folder, {"render", "missing.crt"});
+  CHECK(run.exit_code == file_error);
+  CHECK(contains(run.err, "missing.crt"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a missing resource ends with 3 and tells the line that wants it") {
+  folder.write("sky.crt", "Settings {\n  background -> Background { image -> \"sky.jpg\" }\n}\nScene { }\n");
+  const Outcome run = run_crt(folder, {"render", "sky.crt"});
+  CHECK(run.exit_code == file_error);
+  CHECK(contains(run.err, "sky.crt:2:"));
+  CHECK(contains(run.err, "sky.jpg"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "an output that cannot be written ends with 3 before anything is rendered") {
+  folder.write("folder.png/file", "");
+  for (const char* output : {"nowhere/ball.png", "folder.png", "ball.crt/ball.png", "/proc/ball.png"}) {
+    const Outcome run = run_crt(folder, {"render", "ball.crt", "-o", output});
+    INFO(output, "\n", run.err);
+    CHECK(run.exit_code == file_error);
+    CHECK(contains(run.err, "cannot write"));
+    CHECK(run.out.empty());
+  }
+}
+
+TEST_CASE_FIXTURE(Fixture, "statistics that cannot be written end with 3 before anything is rendered") {
+  const Outcome run = run_crt(folder, {"render", "ball.crt", "--stats", "nowhere/stats.json"});
+  CHECK(run.exit_code == file_error);
+  CHECK_FALSE(folder.has("ball.png"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "--diagnostics json puts one JSON array on standard error and nothing else") {
+  const Json wrong = parse_json(run_crt(folder, {"render", "wrong.crt", "--diagnostics", "json"}).err);
+  REQUIRE(wrong.items.size() >= 1);
+  CHECK(wrong.items[0]["severity"].string == "error");
+  CHECK(wrong.items[0]["line"].number == 2);
+
+  CHECK(parse_json(run_crt(folder, {"render", "ball.crt", "--diagnostics", "json"}).err).items.empty());
+
+  const Json unwritable =
+      parse_json(run_crt(folder, {"render", "ball.crt", "-o", "no/x.png", "--diagnostics", "json"}).err);
+  REQUIRE(unwritable.items.size() == 1);
+  CHECK(contains(unwritable.items[0]["message"].string, "cannot write"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "--quiet still tells errors, and warnings no more") {
+  folder.write("unused.crt", "1 + 2\nScene { }\n");
+  CHECK(contains(run_crt(folder, {"check", "unused.crt"}).err, "warning"));
+  CHECK(run_crt(folder, {"check", "unused.crt", "--quiet"}).err.empty());
+  CHECK(contains(run_crt(folder, {"check", "wrong.crt", "--quiet"}).err, "error"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a warning is told once, however many frames give it") {
+  folder.write("unused.crt", "1 + 2\nSettings { width -> 4 height -> 4 }\nScene { }\n");
+  const Outcome run = run_crt(folder, {"render", "unused.crt", "--frames", "0-3"});
+  REQUIRE(run.exit_code == 0);
+  const std::size_t first = run.err.find("warning");
+  REQUIRE(first != std::string::npos);
+  CHECK(run.err.find("warning", first + 1) == std::string::npos);
+}
+
+TEST_CASE_FIXTURE(Fixture, "check tells of every script and renders none") {
+  const Outcome both = run_crt(folder, {"check", "ball.crt", "wrong.crt"});
+  CHECK(both.exit_code == script_error);
+  CHECK(contains(both.err, "ball.crt: no errors"));
+  CHECK(contains(both.err, "wrong.crt:2:"));
+  CHECK(both.out.empty());
+  CHECK(run_crt(folder, {"check", "ball.crt"}).exit_code == 0);
+  CHECK(run_crt(folder, {"check", "missing.crt"}).exit_code == file_error);
+  CHECK(folder.names() == std::vector<std::string>{"ball.crt", "wrong.crt"});
+}

@@ -1,0 +1,78 @@
+#include <doctest/doctest.h>
+
+#include <string>
+
+#include "cli/command.hpp"
+#include "cli/json.hpp"
+#include "cli/scenes.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+struct Fixture {
+  TemporaryFolder folder;
+  Fixture() { folder.write("ball.crt", ball_script); }
+
+  Json stats_of(std::vector<std::string> more) {
+    std::vector<std::string> arguments = {"render", "ball.crt", "--stats", "stats.json"};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const Outcome run = run_crt(folder, arguments);
+    REQUIRE_MESSAGE(run.exit_code == 0, run.err);
+    return parse_json(folder.read("stats.json"));
+  }
+};
+
+}  // namespace
+
+TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings") {
+  const Json stats = stats_of({"--supersampling", "3"});
+  CHECK(stats["pixels"].number == 16 * 12);
+  CHECK(stats["rays"]["camera"].number == 16 * 12 * 9);
+  CHECK(stats["settings"]["supersampling"].number == 3);
+  CHECK(stats["settings"]["title"].string == "A ball");
+  CHECK(stats["settings"]["falloffmodel"].string == "path");
+  CHECK(stats["script"].string == "ball.crt");
+  CHECK(stats["output"].string == "ball.png");
+  for (const char* stage : {"parse", "prepare", "trace", "write"}) {
+    CHECK(stats["seconds"][stage].kind == Json::Kind::number);
+    CHECK(stats["seconds"][stage].number >= 0);
+  }
+  CHECK(stats["counters"]["intersection_tests"].number > 0);
+  CHECK(stats["version"].kind == Json::Kind::string);
+  CHECK_FALSE(stats.has("frame"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "texts of any kind come through the options into the statistics") {
+  const std::string text = "quote \" backslash \\ newline \n tab \t \xc3\xa9";
+  CHECK(stats_of({"--notes", text})["settings"]["notes"].string == text);
+}
+
+TEST_CASE_FIXTURE(Fixture, "statistics of a region count its pixels and say where it is") {
+  const Json stats = stats_of({"--region", "1,2,5,4"});
+  CHECK(stats["pixels"].number == 20);
+  REQUIRE(stats["region"].items.size() == 4);
+  CHECK(stats["region"].items[0].number == 1);
+  CHECK(stats["region"].items[3].number == 4);
+}
+
+TEST_CASE_FIXTURE(Fixture, "an animation's statistics are an array, an object a frame") {
+  const Json stats = stats_of({"--frames", "2-4"});
+  REQUIRE(stats.items.size() == 3);
+  CHECK(stats.items[0]["frame"].number == 2);
+  CHECK(stats.items[2]["output"].string == "ball_0004.png");
+}
+
+TEST_CASE_FIXTURE(Fixture, "statistics go to standard output for '-', and what the script prints does not") {
+  const Outcome run = run_crt(folder, {"render", "ball.crt", "--stats", "-"});
+  REQUIRE(run.exit_code == 0);
+  CHECK(parse_json(run.out)["pixels"].number == 16 * 12);
+  CHECK(run.err.find("t is 0") != std::string::npos);
+}
+
+TEST_CASE_FIXTURE(Fixture, "a file's name that is no UTF-8 still gives well-formed statistics") {
+  folder.write("odd\xff.crt", ball_script);
+  const Outcome run = run_crt(folder, {"render", "odd\xff.crt", "--stats", "stats.json", "-o", "odd.png"});
+  REQUIRE_MESSAGE(run.exit_code == 0, run.err);
+  CHECK(parse_json(folder.read("stats.json"))["script"].string == "odd\\ufffd.crt");
+}
