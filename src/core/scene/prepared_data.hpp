@@ -39,7 +39,7 @@ struct WorldRay {
   Vec3 direction{0, 0, 1};
   double t_min = 0;
   double t_max = std::numeric_limits<double>::infinity();
-  StartPoint start;
+  StartPoint start{};
 };
 
 /// A crossing, as found: numbers only, no shading data yet.

@@ -1,0 +1,43 @@
+// What all rays of one render share: the prepared scene, and what is found out before the first ray.
+#pragma once
+
+#include <vector>
+
+#include "core/camera/camera_rays.hpp"
+#include "core/render/workspace.hpp"
+#include "core/shading/prepared_light.hpp"
+
+namespace crt::core {
+
+class Frame {
+ public:
+  /// `data` must outlive the frame. The workspace lends memory and counts what is looked up.
+  Frame(const PreparedData& data, Workspace& work);
+
+  const PreparedData& data() const { return data_; }
+  const Settings& settings() const { return data_.scene().settings; }
+  const Features& features() const { return data_.features(); }
+  const CameraRays& camera() const { return camera_; }
+  const std::vector<PreparedLight>& lights() const { return lights_; }
+
+  /// What all lights together give every point.
+  const Rgb& ambient() const { return ambient_; }
+
+  /// Whether all camera rays start at one point, so that the same solids surround them all; those
+  /// are then camera_media(), the outermost first.
+  bool one_viewpoint() const;
+  const std::vector<Medium>& camera_media() const { return camera_media_; }
+
+ private:
+  const PreparedData& data_;
+  CameraRays camera_;
+  std::vector<PreparedLight> lights_;
+  Rgb ambient_{0, 0, 0};
+  std::vector<Medium> camera_media_;
+};
+
+/// Puts the transparent solids around the start of a ray into `out`, the outermost first.
+void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::vector<Medium>& out,
+                            Workspace& work);
+
+}  // namespace crt::core

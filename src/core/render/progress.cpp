@@ -1,0 +1,65 @@
+#include "core/render/progress.hpp"
+
+#include "crt/error.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// A share risen by this is news.
+constexpr double news = 0.01;
+/// Without news the callback is called this often, for callers who want to cancel.
+constexpr std::chrono::milliseconds longest_silence{100};
+
+[[noreturn]] void throw_cancelled() {
+  throw Error(ErrorCode::cancelled, "the render was cancelled");
+}
+
+}  // namespace
+
+Progress::Progress(const std::function<bool(double)>& callback, std::size_t task_count)
+    : callback_(callback), task_count_(static_cast<double>(task_count)) {}
+
+void Progress::begin() {
+  last_call_ = Clock::now();
+  if (callback_) call(0);
+}
+
+void Progress::finish() {
+  if (callback_) call(1);
+}
+
+void Progress::task_done() {
+  ++tasks_done_;
+  if (stopped_) throw_cancelled();
+  if (callback_) report(false);
+}
+
+void Progress::poll() {
+  if (stopped_) throw_cancelled();
+  if (callback_) report(true);
+}
+
+void Progress::report(bool even_without_news) {
+  if (reporting_.test_and_set(std::memory_order_acquire)) return;
+  struct Release {
+    std::atomic_flag& flag;
+    ~Release() { flag.clear(std::memory_order_release); }
+  } release{reporting_};
+
+  const double share = static_cast<double>(tasks_done_.load()) / task_count_;
+  const bool is_news = share >= last_share_ + news && share < 1;
+  const bool is_silent = even_without_news && Clock::now() - last_call_ >= longest_silence;
+  if (!is_news && !is_silent) return;
+  call(share);
+  last_share_ = share;
+  last_call_ = Clock::now();
+}
+
+void Progress::call(double share) {
+  if (callback_(share)) return;
+  stopped_ = true;
+  throw_cancelled();
+}
+
+}  // namespace crt::core

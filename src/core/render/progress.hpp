@@ -1,0 +1,49 @@
+// Tells the caller how far a render is, and the threads when to stop.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <functional>
+
+namespace crt::core {
+
+/// Shared by all threads of one render. The callback is called from one thread at a time with
+/// shares that never fall, 0 first and 1 last.
+class Progress {
+ public:
+  /// An empty callback is one that never stops anything.
+  Progress(const std::function<bool(double)>& callback, std::size_t task_count);
+
+  /// Before the first and after the last task; both throw Error (cancelled) if the callback says no.
+  void begin();
+  void finish();
+
+  /// After each task. Throws Error (cancelled) if the callback says no, now or before.
+  void task_done();
+
+  /// To be called often during a long task; throws like task_done().
+  void poll();
+
+  /// Makes every other thread's next call throw: something has gone wrong.
+  void stop() { stopped_ = true; }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  /// Calls the callback, unless another thread is at it or there is nothing new to say.
+  void report(bool even_without_news);
+  void call(double share);
+
+  std::function<bool(double)> callback_;
+  double task_count_;
+  std::atomic<std::size_t> tasks_done_ = 0;
+  std::atomic<bool> stopped_ = false;
+  /// Not a mutex: a callback may run other tasks of this very render on its thread.
+  std::atomic_flag reporting_;
+  /// What was said last, and when; guarded by reporting_.
+  double last_share_ = 0;
+  Clock::time_point last_call_;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,27 @@
+// A hit with its material looked up: all that light needs to know of the place.
+#pragma once
+
+#include "core/render/workspace.hpp"
+
+namespace crt::core {
+
+struct SurfaceHit {
+  HitPoint point;
+  const PreparedMaterial* material = nullptr;
+  Rgb color{0, 0, 0};
+  double transparency = 0;
+  Vec3 face_normal{0, 1, 0};  ///< of the geometry, turned to the viewer
+  Vec3 normal{0, 1, 0};       ///< the same, tilted by bumps
+  Side viewer_side = Side::outside;
+};
+
+/// Looks up the material's colour and bumps where `ray` hits.
+SurfaceHit surface_hit(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work);
+
+/// The share of light, by channel, that passes a crossing straight: transparency times colour.
+Rgb crossing_tint(const PreparedData& data, const WorldRay& ray, const RayHit& crossing, RenderStats& stats);
+
+/// The share of light that is left after a way through a medium (Beer-Lambert).
+Rgb transmittance(const PreparedMaterial& medium, double length);
+
+}  // namespace crt::core

@@ -1,0 +1,38 @@
+// A region of the picture cut into squares, the portions in which threads take work.
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+
+#include "crt/render.hpp"
+
+namespace crt::core {
+
+class Tiles {
+ public:
+  explicit Tiles(const Region& region)
+      : region_(region),
+        columns_((region.width + side - 1) / side),
+        rows_((region.height + side - 1) / side) {}
+
+  std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
+
+  /// In picture coordinates; smaller at the right and lower edge where the region is.
+  Region tile(std::size_t index) const {
+    const int column = static_cast<int>(index % static_cast<std::size_t>(columns_));
+    const int row = static_cast<int>(index / static_cast<std::size_t>(columns_));
+    return {region_.x + column * side, region_.y + row * side, std::min(side, region_.width - column * side),
+            std::min(side, region_.height - row * side)};
+  }
+
+ private:
+  /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
+  /// to the end.
+  static constexpr int side = 8;
+
+  Region region_;
+  int columns_;
+  int rows_;
+};
+
+}  // namespace crt::core

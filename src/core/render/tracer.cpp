@@ -1,0 +1,203 @@
+#include "core/render/tracer.hpp"
+
+#include <algorithm>
+#include <optional>
+
+#include "core/render/shadow.hpp"
+#include "core/shading/fresnel.hpp"
+#include "core/shading/phong.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// A sample follows no more rays than this: where every hit sends two full-weight rays on, a deep
+/// recursion would not end in a lifetime. With weights that add up to 1 it is never reached.
+constexpr int most_rays_per_sample = 65536;
+
+/// Rays between two looks at the progress; a power of two.
+constexpr unsigned ticks_per_poll = 256;
+
+MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_first) {
+  MediaLists::List list = MediaLists::empty;
+  for (const Medium& medium : outermost_first) list = lists.entered(list, medium);
+  return list;
+}
+
+/// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
+Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
+  return glm::dot(direction, side) < 0 ? mirrored(direction, side) : direction;
+}
+
+}  // namespace
+
+Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
+    : frame_(frame), data_(frame.data()), work_(work), progress_(progress) {
+  work_.media.release(0);
+  camera_media_ = nested(work_.media, frame.camera_media());
+  camera_media_mark_ = work_.media.mark();
+}
+
+Tracer::Sample Tracer::trace(const CameraRay& camera_ray) {
+  work_.media.release(camera_media_mark_);
+  work_.pending.clear();
+  work_.pending.push_back(first_path(camera_ray));
+  Sample sample;
+  for (int rays = 0; !work_.pending.empty(); ++rays) {
+    if (rays == most_rays_per_sample) {
+      ++work_.stats.samples_over_ray_bound;
+      break;
+    }
+    const PathRay path = work_.pending.back();
+    work_.pending.pop_back();
+    work_.media.release(path.media_mark);
+    follow(path, sample);
+  }
+  return sample;
+}
+
+PathRay Tracer::first_path(const CameraRay& camera_ray) {
+  PathRay path;
+  path.ray.origin = camera_ray.origin;
+  path.ray.direction = camera_ray.direction;
+  path.media = camera_media_;
+  if (frame_.features().transparency && !frame_.one_viewpoint()) {
+    find_surrounding_media(data_, path.ray, work_.surrounding, work_);
+    path.media = nested(work_.media, work_.surrounding);
+  }
+  path.media_mark = work_.media.mark();
+  return path;
+}
+
+void Tracer::follow(const PathRay& path, Sample& sample) {
+  RenderStats& stats = work_.stats;
+  ++(path.kind == RayKind::camera       ? stats.camera_rays
+     : path.kind == RayKind::reflection ? stats.reflection_rays
+                                        : stats.refraction_rays);
+  tick();
+
+  const RayHit hit = data_.intersect(path.ray, work_.rays);
+  Rgb weight = path.weight;
+  if (frame_.features().absorption && path.media != MediaLists::empty) {
+    weight *= transmittance(data_.materials()[work_.media.innermost(path.media).material], hit.t);
+    if (is_black(weight)) return;
+  }
+  if (!hit.found()) {
+    see_background(path, weight, sample);
+    return;
+  }
+  const SurfaceHit surface = surface_hit(data_, path.ray, hit, work_);
+  sample.color += weight * direct_light_at(surface, path, hit);
+  split(surface, path, hit, weight);
+}
+
+void Tracer::see_background(const PathRay& path, const Rgb& weight, Sample& sample) const {
+  const Color background = data_.background().color(path.ray.direction);
+  if (path.kind == RayKind::camera) {
+    sample.alpha = background.a;
+    sample.color += background.a * weight * rgb(background);
+  } else {
+    sample.color += weight * rgb(background);
+  }
+}
+
+Rgb Tracer::direct_light_at(const SurfaceHit& surface, const PathRay& path, const RayHit& hit) {
+  const Material& material = *surface.material->description;
+  Rgb light = ambient_light(frame_.ambient(), material.reflectivity);
+  const PhongSurface phong = {.color = surface.color,
+                              .diffuse = surface.material->diffuse(surface.transparency),
+                              .specular = material.specular,
+                              .shininess = material.shininess,
+                              .normal = surface.normal,
+                              .view = path.ray.direction};
+  if (phong.diffuse <= 0 && phong.specular <= 0) return light;
+
+  std::optional<StartPoint> start;
+  for (const PreparedLight& source : frame_.lights()) {
+    const std::optional<LightSample> sample = source.sample(surface.point.position, path.path_length + hit.t);
+    if (!sample || glm::dot(sample->direction, surface.face_normal) <= 0) continue;
+    const Rgb unhidden = direct_light(phong, *sample, source.color());
+    if (is_black(unhidden)) continue;
+    if (!start) start = data_.start_point(path.ray, hit, surface.viewer_side);
+    const WorldRay shadow_ray = {.origin = surface.point.position,
+                                 .direction = sample->direction,
+                                 .t_max = sample->distance,
+                                 .start = *start};
+    tick();
+    light += unhidden * light_share(data_, shadow_ray, path.media, work_);
+  }
+  return light;
+}
+
+void Tracer::split(const SurfaceHit& surface, const PathRay& path, const RayHit& hit, const Rgb& weight) {
+  double mirror_share = surface.material->description->reflectivity;
+  if (mirror_share <= 0 && surface.transparency <= 0) return;
+
+  PathRay next;
+  next.ray.origin = surface.point.position;
+  next.bounces = path.bounces + 1;
+  next.path_length = path.path_length + hit.t;
+
+  PathRay mirror = next;
+  mirror.media = path.media;
+  mirror.media_mark = work_.media.mark();
+
+  PathRay through = next;
+  through.weight = Rgb(0);
+  if (surface.transparency > 0) {
+    through.media = surface.point.solid ? media_behind(surface, path.media) : path.media;
+    through.media_mark = work_.media.mark();
+    const Refraction refraction = refract(path.ray.direction, surface.normal, refractive_index(path.media),
+                                          refractive_index(through.media));
+    mirror_share += surface.transparency * refraction.reflectance;
+    through.weight = surface.transparency * (1 - refraction.reflectance) * weight * surface.color;
+    through.ray.direction = kept_on_side(refraction.direction, -surface.face_normal);
+  }
+
+  // The last one pushed is followed first; media lists made for it are dropped before the other's turn.
+  if (mirror_share > 0) {
+    mirror.kind = RayKind::reflection;
+    mirror.weight = mirror_share * weight;
+    mirror.ray.direction = kept_on_side(mirrored(path.ray.direction, surface.normal), surface.face_normal);
+    mirror.ray.start = data_.start_point(path.ray, hit, surface.viewer_side);
+    push(mirror);
+  }
+  if (!is_black(through.weight)) {
+    const Side far_side = surface.viewer_side == Side::outside ? Side::inside : Side::outside;
+    through.kind = RayKind::refraction;
+    through.ray.start = data_.start_point(path.ray, hit, far_side);
+    if (push(through) && surface.point.solid) ++work_.stats.media_changes;
+  }
+}
+
+bool Tracer::push(const PathRay& path) {
+  const double least = frame_.settings().min_weight;
+  if (path.weight.x < least && path.weight.y < least && path.weight.z < least) {
+    ++work_.stats.rays_below_min_weight;
+    return false;
+  }
+  if (path.bounces > frame_.settings().recursion_depth) {
+    ++work_.stats.rays_beyond_depth;
+    return false;
+  }
+  work_.pending.push_back(path);
+  return true;
+}
+
+MediaLists::List Tracer::media_behind(const SurfaceHit& surface, MediaLists::List media) {
+  const HitPoint& point = surface.point;
+  return point.entering ? work_.media.entered(media, {point.object, point.material})
+                        : work_.media.left(media, point.object);
+}
+
+double Tracer::refractive_index(MediaLists::List media) const {
+  constexpr double vacuum = 1;
+  if (media == MediaLists::empty) return vacuum;
+  return data_.materials()[work_.media.innermost(media).material].description->refractive_index;
+}
+
+void Tracer::tick() {
+  if (++ticks_ % ticks_per_poll == 0) progress_.poll();
+}
+
+}  // namespace crt::core

@@ -1,0 +1,45 @@
+#include "core/render/workspace.hpp"
+
+namespace crt::core {
+
+namespace {
+
+void add_counts(RenderStats& total, const Workspace& workspace) {
+  const RenderStats& part = workspace.stats;
+  for (std::uint64_t RenderStats::*count :
+       {&RenderStats::camera_rays, &RenderStats::shadow_rays, &RenderStats::reflection_rays,
+        &RenderStats::refraction_rays, &RenderStats::rays_below_min_weight, &RenderStats::rays_beyond_depth,
+        &RenderStats::samples_over_ray_bound, &RenderStats::media_lookups, &RenderStats::media_changes,
+        &RenderStats::pattern_lookups, &RenderStats::lens_samples, &RenderStats::pixels}) {
+    total.*count += part.*count;
+  }
+  total.intersection_tests += workspace.rays.intersection_tests;
+  total.interval_events += workspace.rays.interval_events();
+}
+
+}  // namespace
+
+RenderStats WorkspacePool::total_stats() const {
+  RenderStats total;
+  for (const std::unique_ptr<Workspace>& workspace : all_) add_counts(total, *workspace);
+  return total;
+}
+
+Workspace* WorkspacePool::take() {
+  const std::lock_guard lock(mutex_);
+  if (idle_.empty()) {
+    all_.push_back(std::make_unique<Workspace>());
+    idle_.reserve(all_.size());  // so that giving back never allocates
+    return all_.back().get();
+  }
+  Workspace* workspace = idle_.back();
+  idle_.pop_back();
+  return workspace;
+}
+
+void WorkspacePool::give_back(Workspace* workspace) {
+  const std::lock_guard lock(mutex_);
+  idle_.push_back(workspace);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,68 @@
+// What one thread works with: memory that it reuses from ray to ray, and its counts.
+#pragma once
+
+#include <memory>
+#include <mutex>
+#include <vector>
+
+#include "core/render/media.hpp"
+#include "core/scene/prepared_data.hpp"
+#include "core/shading/rgb.hpp"
+
+namespace crt::core {
+
+enum class RayKind : std::uint8_t { camera, reflection, refraction };
+
+/// A ray on its way, and what it is worth.
+struct PathRay {
+  WorldRay ray;  ///< its direction has unit length
+  RayKind kind = RayKind::camera;
+  int bounces = 0;         ///< before this ray
+  double path_length = 0;  ///< from the camera to the ray's origin
+  Rgb weight{1, 1, 1};     ///< share of the pixel's light that comes along it
+  MediaLists::List media = MediaLists::empty;
+  /// MediaLists::mark() when it was put aside: lists made later are of no use to it.
+  std::uint32_t media_mark = 0;
+};
+
+struct Workspace {
+  RayWorkspace rays;
+  RenderStats stats;
+  MediaLists media;
+  std::vector<PathRay> pending;
+  std::vector<RayHit> crossings;
+  std::vector<Medium> surrounding;
+  CrossingList scratch;
+};
+
+/// The workspaces of a render: as many as there ever are tasks running at once.
+class WorkspacePool {
+ public:
+  /// A workspace for as long as this lives.
+  class Loan {
+   public:
+    explicit Loan(WorkspacePool& pool) : pool_(pool), workspace_(pool.take()) {}
+    ~Loan() { pool_.give_back(workspace_); }
+    Loan(const Loan&) = delete;
+    Loan& operator=(const Loan&) = delete;
+
+    Workspace& operator*() { return *workspace_; }
+
+   private:
+    WorkspacePool& pool_;
+    Workspace* workspace_;
+  };
+
+  /// All counts together; while nothing is on loan.
+  RenderStats total_stats() const;
+
+ private:
+  Workspace* take();
+  void give_back(Workspace* workspace);
+
+  std::mutex mutex_;
+  std::vector<std::unique_ptr<Workspace>> all_;
+  std::vector<Workspace*> idle_;
+};
+
+}  // namespace crt::core
