@@ -1,0 +1,30 @@
+// The formats of image files: what each can hold, and how it is told.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace crt::core {
+
+/// A format that pictures are written in.
+struct WritableFormat {
+  std::string_view ending;  ///< without the dot, in lower case
+  const char* name;         ///< OpenImageIO's
+  bool floats;              ///< linear floats, else 8-bit integers as displays want them
+  bool alpha;               ///< can hold one
+  bool free_texts;          ///< takes texts under any name
+};
+
+/// The format for a file name, by its ending in any case; null if there is none.
+const WritableFormat* writable_format(std::string_view file_name);
+
+/// The endings that can be written: "png, tif, ...".
+std::string writable_endings();
+
+/// OpenImageIO's name of the format that a file's first bytes tell, or null. What the file is called
+/// does not matter, and formats whose readers are little tested are left out.
+const char* format_of_content(std::span<const std::byte> content);
+
+}  // namespace crt::core

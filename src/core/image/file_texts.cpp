@@ -1,0 +1,81 @@
+#include "core/image/file_texts.hpp"
+
+#include <fmt/format.h>
+
+#include <cstdint>
+#include <string_view>
+
+#include "crt/version.hpp"
+
+namespace crt::core {
+
+namespace {
+
+// OpenImageIO's names, which it turns into those of the format: in PNG into Title, Author,
+// Description and Software. "Creation Time" is PNG's own for a date in free form.
+constexpr std::string_view title_name = "DocumentName";
+constexpr std::string_view author_name = "Artist";
+constexpr std::string_view notes_name = "ImageDescription";
+constexpr std::string_view software_name = "Software";
+constexpr std::string_view date_name = "Creation Time";
+
+void add(FileTexts& texts, std::string_view name, std::string value) {
+  if (!value.empty()) texts.emplace_back(name, std::move(value));
+}
+
+void add_settings(FileTexts& texts, const Settings& settings) {
+  add(texts, "crt:gamma", fmt::format("{}", settings.gamma));
+  add(texts, "crt:supersampling", fmt::format("{}", settings.supersampling));
+  add(texts, "crt:dofsamples", fmt::format("{}", settings.dof_samples));
+  add(texts, "crt:recursiondepth", fmt::format("{}", settings.recursion_depth));
+  add(texts, "crt:minweight", fmt::format("{}", settings.min_weight));
+  add(texts, "crt:falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light");
+  add(texts, "crt:showclip", settings.show_clip ? "true" : "false");
+  add(texts, "crt:seed", fmt::format("{}", settings.seed));
+}
+
+/// The counts that do not depend on how the work was done.
+void add_counts(FileTexts& texts, const RenderStats& stats) {
+  const auto add_count = [&](std::string_view name, std::uint64_t count) {
+    if (count > 0) add(texts, name, fmt::format("{}", count));
+  };
+  add_count("crt:camerarays", stats.camera_rays);
+  add_count("crt:shadowrays", stats.shadow_rays);
+  add_count("crt:reflectionrays", stats.reflection_rays);
+  add_count("crt:refractionrays", stats.refraction_rays);
+}
+
+}  // namespace
+
+FileTexts file_texts(const Image& image, bool reproducible) {
+  const Settings& settings = image.settings();
+  FileTexts texts;
+  add(texts, title_name, settings.title);
+  add(texts, author_name, settings.author);
+  add(texts, date_name, settings.date);
+  add(texts, notes_name, settings.notes);
+  add(texts, software_name, std::string("CRT ") + version());
+  add_settings(texts, settings);
+  add_counts(texts, image.stats());
+  const double seconds = image.stats().prepare_seconds + image.stats().trace_seconds;
+  if (!reproducible && seconds > 0) add(texts, "crt:renderseconds", fmt::format("{:.3f}", seconds));
+  return texts;
+}
+
+FileTexts gathered_texts(const FileTexts& texts) {
+  FileTexts gathered;
+  std::string description;
+  for (const auto& [name, value] : texts) {
+    if (name == author_name || name == software_name) {
+      gathered.emplace_back(name, value);
+    } else if (name == title_name || name == notes_name) {
+      description += value + "\n";
+    } else {
+      description += fmt::format("{}: {}\n", name, value);
+    }
+  }
+  add(gathered, notes_name, std::move(description));
+  return gathered;
+}
+
+}  // namespace crt::core

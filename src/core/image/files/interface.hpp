@@ -1,0 +1,81 @@
+// The border between crt_core and the module crt_image_files, which alone links OpenImageIO: a plain
+// table of C functions. The module is loaded when the first image file is read or written, so a
+// program that touches none pays nothing for OpenImageIO and the many libraries behind it.
+//
+// No exception crosses, nothing allocated on one side is freed on the other, and both sides see
+// files as bytes in memory only.
+#pragma once
+
+#include <cstddef>
+
+namespace crt::core {
+
+/// Of what follows; a module of another version is refused.
+inline constexpr int image_files_version = 1;
+
+/// A name and a text that go into a file beside the pixels. Both end in 0.
+struct ImageFileText {
+  const char* name;
+  const char* value;
+};
+
+enum ImageFilesStatus : int {
+  image_files_ok = 0,
+  image_files_failed = 1,       ///< the file is broken, or its format cannot hold the picture
+  image_files_unsupported = 2,  ///< this OpenImageIO cannot do the format
+  image_files_out_of_memory = 3,
+};
+
+/// Called at most once, with why a call failed.
+struct ImageFilesError {
+  void* context;
+  void (*report)(void* context, const char* message);
+};
+
+/// Who takes a decoded picture.
+struct ImageFilesPicture {
+  void* context;
+  /// Called once the size is known and the first rows were read: room for 4 * width * height floats,
+  /// or null. `integer` tells a file of integers from one of floats.
+  float* (*allocate)(void* context, int width, int height, bool integer);
+};
+
+/// Who takes an encoded file; append returns false if it cannot.
+struct ImageFilesBytes {
+  void* context;
+  bool (*append)(void* context, const unsigned char* bytes, std::size_t count);
+};
+
+/// A file to decode.
+struct ImageFilesContent {
+  const char* format;  ///< OpenImageIO's name of the format
+  const unsigned char* bytes;
+  std::size_t count;
+  std::size_t max_pixels;
+};
+
+/// A picture to encode: rows from the top, without gaps, as `bytes` or as `floats`; the other is null.
+struct ImageFilesRequest {
+  const char* format;
+  int width;
+  int height;
+  int channels;  ///< 3, or 4 with an alpha: straight in bytes, premultiplied in floats
+  const unsigned char* bytes;
+  const float* floats;
+  const ImageFileText* texts;
+  std::size_t text_count;
+};
+
+struct ImageFiles {
+  int version;
+  /// Gives RGBA with premultiplied alpha; floats that are not finite become 0.
+  ImageFilesStatus (*decode)(const ImageFilesContent*, const ImageFilesPicture*, const ImageFilesError*);
+  ImageFilesStatus (*encode)(const ImageFilesRequest*, const ImageFilesBytes*, const ImageFilesError*);
+};
+
+/// The one symbol that the module exports: a function of this type.
+using ImageFilesEntry = const ImageFiles* (*)();
+inline constexpr const char* image_files_entry_name = "crt_image_files";
+inline constexpr const char* image_files_module_name = "crt_image_files.so";
+
+}  // namespace crt::core

@@ -1,0 +1,224 @@
+// The module crt_image_files: the only source of CRT that sees OpenImageIO. See interface.hpp.
+#include <OpenImageIO/filesystem.h>
+#include <OpenImageIO/imageio.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <exception>
+#include <memory>
+#include <new>
+#include <stdexcept>
+#include <string>
+#include <vector>
+
+#include "core/image/files/interface.hpp"
+
+namespace crt::core {
+
+namespace {
+
+struct Unsupported : std::runtime_error {
+  using std::runtime_error::runtime_error;
+};
+
+/// OpenImageIO's message without its line ends, or `otherwise` if it has none.
+std::string reason(std::string message, const char* otherwise) {
+  while (!message.empty() && message.back() == '\n') message.pop_back();
+  std::replace(message.begin(), message.end(), '\n', ';');
+  return message.empty() ? otherwise : message;
+}
+
+/// Runs `work` so that no exception leaves: it becomes a status and a message.
+template <class Work>
+ImageFilesStatus guarded(const ImageFilesError& error, const Work& work) noexcept {
+  try {
+    work();
+    return image_files_ok;
+  } catch (const std::bad_alloc&) {
+    return image_files_out_of_memory;
+  } catch (const Unsupported& failure) {
+    error.report(error.context, failure.what());
+    return image_files_unsupported;
+  } catch (const std::exception& failure) {
+    error.report(error.context, failure.what());
+    return image_files_failed;
+  } catch (...) {
+    return image_files_failed;
+  }
+}
+
+// ---- decoding -------------------------------------------------------------------------------
+
+/// Which channels of the file make up a picture.
+struct ChannelUse {
+  int count = 0;  ///< read of the file, from the first on
+  int red = 0;
+  int green = 0;
+  int blue = 0;
+  int alpha = -1;  ///< -1 if there is none
+  bool straight = false;
+};
+
+ChannelUse channel_use(const OIIO::ImageSpec& spec) {
+  constexpr int most_channels = 4;
+  ChannelUse use;
+  use.count = std::min(spec.nchannels, most_channels);
+  if (spec.alpha_channel >= 0 && spec.alpha_channel < use.count) use.alpha = spec.alpha_channel;
+  std::vector<int> colors;
+  for (int channel = 0; channel < use.count; ++channel) {
+    if (channel != use.alpha) colors.push_back(channel);
+  }
+  if (colors.empty()) colors.push_back(0);
+  use.red = colors[0];
+  use.green = colors.size() >= 3 ? colors[1] : colors[0];
+  use.blue = colors.size() >= 3 ? colors[2] : colors[0];
+  use.straight = spec.get_int_attribute("oiio:UnassociatedAlpha") != 0;
+  return use;
+}
+
+float finite_or_zero(float value) {
+  return std::isfinite(value) ? value : 0.0f;
+}
+
+/// One pixel as the file has it to linear RGBA with premultiplied alpha.
+void convert_pixel(const float* from, const ChannelUse& use, float* to) {
+  const float alpha = use.alpha < 0 ? 1.0f : std::clamp(finite_or_zero(from[use.alpha]), 0.0f, 1.0f);
+  const float factor = use.straight ? alpha : 1.0f;
+  to[0] = finite_or_zero(from[use.red] * factor);
+  to[1] = finite_or_zero(from[use.green] * factor);
+  to[2] = finite_or_zero(from[use.blue] * factor);
+  to[3] = alpha;
+}
+
+/// What a header says must be possible before anything is allocated for it.
+void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
+  if (spec.deep) throw std::runtime_error("deep images have no single picture");
+  if (spec.depth > 1) throw std::runtime_error("it is a volume, not a picture");
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it has no pixels");
+  const auto too_large = [&](int width, int height) {
+    return static_cast<std::size_t>(width) > max_pixels / static_cast<std::size_t>(height);
+  };
+  if (too_large(spec.width, spec.height)) {
+    throw std::runtime_error("its header says " + std::to_string(spec.width) + " x " +
+                             std::to_string(spec.height) + " pixels; the limit is " +
+                             std::to_string(max_pixels) + " altogether");
+  }
+  if (spec.tile_width == 0) return;
+  if (spec.tile_width < 1 || spec.tile_height < 1 || spec.tile_depth > 1 ||
+      too_large(spec.tile_width, spec.tile_height)) {
+    throw std::runtime_error("its header gives its tiles an impossible size");
+  }
+}
+
+/// Reads the picture in strips of whole rows. Room for all of it is made when the first strip is
+/// there, so that a short file with a tall claim costs nothing.
+void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const ImageFilesPicture& picture) {
+  constexpr int rows_a_strip = 64;
+  const int strip = spec.tile_width > 0 ? spec.tile_height : rows_a_strip;
+  const ChannelUse use = channel_use(spec);
+  const auto width = static_cast<std::size_t>(spec.width);
+  const auto channels = static_cast<std::size_t>(use.count);
+  std::vector<float> rows(width * channels * static_cast<std::size_t>(std::min(strip, spec.height)));
+  float* to = nullptr;
+  for (int y = 0; y < spec.height; y += strip) {
+    const int begin = spec.y + y;
+    const int end = spec.y + std::min(y + strip, spec.height);
+    const bool read =
+        spec.tile_width > 0
+            ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
+                               use.count, OIIO::TypeFloat, rows.data())
+            : input.read_scanlines(0, 0, begin, end, spec.z, 0, use.count, OIIO::TypeFloat, rows.data());
+    if (!read) throw std::runtime_error(reason(input.geterror(), "its pixels are broken or missing"));
+    if (y == 0)
+      to = picture.allocate(picture.context, spec.width, spec.height, !spec.format.is_floating_point());
+    if (to == nullptr) throw std::bad_alloc();
+    const float* from = rows.data();
+    for (std::size_t left = width * static_cast<std::size_t>(end - begin); left > 0; --left) {
+      convert_pixel(from, use, to);
+      from += channels;
+      to += 4;
+    }
+  }
+}
+
+ImageFilesStatus decode(const ImageFilesContent* content, const ImageFilesPicture* picture,
+                        const ImageFilesError* error) noexcept {
+  return guarded(*error, [&] {
+    const std::unique_ptr<OIIO::ImageInput> input = OIIO::ImageInput::create(content->format);
+    if (!input || !input->supports("ioproxy"))
+      throw Unsupported(reason(OIIO::geterror(), "no reader for it"));
+    OIIO::Filesystem::IOMemReader bytes(content->bytes, content->count);
+    input->threads(1);
+    input->set_ioproxy(&bytes);
+    // Otherwise integers would be multiplied by their alpha and rounded before we see them.
+    OIIO::ImageSpec wishes;
+    wishes.attribute("oiio:UnassociatedAlpha", 1);
+    OIIO::ImageSpec spec;
+    if (!input->open(content->format, spec, wishes)) {
+      throw std::runtime_error(reason(input->geterror(), "its header is broken"));
+    }
+    check_size(spec, content->max_pixels);
+    read_pixels(*input, spec, *picture);
+    // The JPEG library fills up with grey what is missing and only warns.
+    const std::string warnings = input->geterror();
+    if (warnings.find("remature end") != std::string::npos) throw std::runtime_error("the file is cut short");
+  });
+}
+
+// ---- encoding -------------------------------------------------------------------------------
+
+OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
+  const OIIO::TypeDesc type = request.bytes != nullptr ? OIIO::TypeUInt8 : OIIO::TypeFloat;
+  OIIO::ImageSpec spec(request.width, request.height, request.channels, type);
+  if (request.channels == 4 && request.bytes != nullptr) spec.attribute("oiio:UnassociatedAlpha", 1);
+  for (std::size_t i = 0; i < request.text_count; ++i) {
+    spec.attribute(request.texts[i].name, request.texts[i].value);
+  }
+  // Some writers put in the current time if they find none; an empty one stays out of the file.
+  spec.attribute("DateTime", "");
+  if (std::string(request.format) == "jpeg") {
+    spec.attribute("Compression", "jpeg:95");
+    spec.attribute("jpeg:subsampling", "4:4:4");
+  }
+  return spec;
+}
+
+ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes* sink,
+                        const ImageFilesError* error) noexcept {
+  return guarded(*error, [&] {
+    const std::unique_ptr<OIIO::ImageOutput> output = OIIO::ImageOutput::create(request->format);
+    if (!output || !output->supports("ioproxy"))
+      throw Unsupported(reason(OIIO::geterror(), "no writer for it"));
+    std::vector<unsigned char> bytes;
+    OIIO::Filesystem::IOVecOutput target(bytes);
+    output->threads(1);
+    output->set_ioproxy(&target);
+    const OIIO::ImageSpec spec = output_spec(*request);
+    const void* pixels =
+        request->bytes != nullptr ? static_cast<const void*>(request->bytes) : request->floats;
+    if (!output->open(request->format, spec) || !output->write_image(spec.format, pixels) ||
+        !output->close()) {
+      throw std::runtime_error(reason(output->geterror(), "the picture cannot be written in this format"));
+    }
+    if (!sink->append(sink->context, bytes.data(), bytes.size())) throw std::bad_alloc();
+  });
+}
+
+/// Keeps OpenImageIO and OpenEXR from starting threads of their own.
+void forbid_threads() {
+  OIIO::attribute("threads", 1);
+  constexpr int no_pool = -1;
+  OIIO::attribute("exr_threads", no_pool);
+}
+
+}  // namespace
+
+}  // namespace crt::core
+
+extern "C" __attribute__((visibility("default"))) const crt::core::ImageFiles* crt_image_files() {
+  crt::core::forbid_threads();
+  static constexpr crt::core::ImageFiles functions = {crt::core::image_files_version, crt::core::decode,
+                                                      crt::core::encode};
+  return &functions;
+}

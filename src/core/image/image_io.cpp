@@ -1,0 +1,160 @@
+// Image::read, decode and write: this side of the border to OpenImageIO.
+#include <fmt/format.h>
+
+#include <exception>
+#include <new>
+#include <optional>
+#include <string>
+
+#include "core/image/file_format.hpp"
+#include "core/image/file_texts.hpp"
+#include "core/image/image_limits.hpp"
+#include "core/image/module_loader.hpp"
+#include "core/image/pixel_conversion.hpp"
+#include "core/image/whole_file.hpp"
+#include "crt/error.hpp"
+#include "crt/image.hpp"
+
+namespace crt {
+
+namespace {
+
+using namespace core;
+
+[[noreturn]] void fail(ErrorCode code, const char* action, const std::string& name,
+                       const std::string& reason) {
+  throw Error(code, fmt::format("cannot {} '{}': {}", action, name, reason));
+}
+
+/// Collects what the module says when it fails.
+struct Failure {
+  std::string reason;
+
+  ImageFilesError sink() {
+    return {this, [](void* context, const char* message) {
+              try {
+                static_cast<Failure*>(context)->reason = message;
+              } catch (const std::exception&) {
+                // Then the status alone has to tell.
+                static_cast<Failure*>(context)->reason.clear();
+              }
+            }};
+  }
+
+  void throw_if(ImageFilesStatus status, const char* action, const std::string& name) const {
+    switch (status) {
+      case image_files_ok:
+        return;
+      case image_files_unsupported:
+        fail(ErrorCode::unsupported, action, name, reason);
+      case image_files_out_of_memory:
+        fail(ErrorCode::out_of_memory, action, name, "out of memory");
+      case image_files_failed:
+        break;
+    }
+    fail(ErrorCode::io, action, name, reason);
+  }
+};
+
+Image decode_content(std::span<const std::byte> content, const std::string& name) {
+  const char* const format = format_of_content(content);
+  if (format == nullptr) {
+    fail(ErrorCode::io, "read", name,
+         content.empty() ? "it is empty" : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
+  }
+  std::optional<Image> image;
+  const ImageFilesPicture picture = {
+      &image, [](void* context, int width, int height, bool integer) -> float* {
+        try {
+          auto& result = static_cast<std::optional<Image>*>(context)->emplace(width, height);
+          result.set_display_encoded(integer);
+          return result.pixels().data();
+        } catch (const std::exception&) {
+          return nullptr;
+        }
+      }};
+  const ImageFilesContent file = {format, reinterpret_cast<const unsigned char*>(content.data()),
+                                  content.size(), max_image_pixels};
+  Failure failure;
+  const ImageFilesError error = failure.sink();
+  failure.throw_if(image_files().decode(&file, &picture, &error), "read", name);
+  return std::move(image).value();
+}
+
+/// The bytes of a file that holds the picture.
+std::vector<std::byte> encode(const Image& image, const WritableFormat& format, const FileTexts& texts,
+                              const std::string& name) {
+  std::vector<std::uint8_t> bytes;
+  std::vector<float> floats;
+  bool with_alpha = false;
+  if (format.floats) {
+    floats = linear_floats(image);
+    with_alpha = format.alpha && has_partial_alpha(floats, 1.0f);
+    if (!with_alpha) floats = without_alpha(floats);
+  } else {
+    bytes = display_bytes(image, format.alpha ? AlphaMode::straight : AlphaMode::over_black);
+    with_alpha = format.alpha && has_partial_alpha(bytes, std::uint8_t{255});
+    if (!with_alpha) bytes = without_alpha(bytes);
+  }
+  std::vector<ImageFileText> file_texts;
+  for (const auto& [text_name, value] : texts) file_texts.push_back({text_name.c_str(), value.c_str()});
+
+  const ImageFilesRequest request = {.format = format.name,
+                                     .width = image.width(),
+                                     .height = image.height(),
+                                     .channels = with_alpha ? 4 : 3,
+                                     .bytes = format.floats ? nullptr : bytes.data(),
+                                     .floats = format.floats ? floats.data() : nullptr,
+                                     .texts = file_texts.data(),
+                                     .text_count = file_texts.size()};
+  std::vector<std::byte> content;
+  const ImageFilesBytes sink = {&content, [](void* context, const unsigned char* added, std::size_t count) {
+                                  try {
+                                    auto& all = *static_cast<std::vector<std::byte>*>(context);
+                                    const auto* const first = reinterpret_cast<const std::byte*>(added);
+                                    all.insert(all.end(), first, first + count);
+                                    return true;
+                                  } catch (const std::exception&) {
+                                    return false;
+                                  }
+                                }};
+  Failure failure;
+  const ImageFilesError error = failure.sink();
+  failure.throw_if(image_files().encode(&request, &sink, &error), "write", name);
+  return content;
+}
+
+}  // namespace
+
+Image Image::decode(std::span<const std::byte> content, const std::string& name) {
+  try {
+    return decode_content(content, name);
+  } catch (const std::bad_alloc&) {
+    fail(ErrorCode::out_of_memory, "read", name, "out of memory");
+  }
+}
+
+Image Image::read(const std::filesystem::path& path) {
+  try {
+    return decode_content(read_whole_file(path, max_image_file_bytes), path.string());
+  } catch (const std::bad_alloc&) {
+    fail(ErrorCode::out_of_memory, "read", path.string(), "out of memory");
+  }
+}
+
+void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
+  const std::string name = path.string();
+  if (empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
+  const WritableFormat* const format = writable_format(path.filename().string());
+  if (format == nullptr) {
+    fail(ErrorCode::unsupported, "write", name, "the name must end in one of " + writable_endings());
+  }
+  try {
+    const FileTexts texts = file_texts(*this, options.reproducible);
+    write_whole_file(path, encode(*this, *format, format->free_texts ? texts : gathered_texts(texts), name));
+  } catch (const std::bad_alloc&) {
+    fail(ErrorCode::out_of_memory, "write", name, "out of memory");
+  }
+}
+
+}  // namespace crt
