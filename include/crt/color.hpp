@@ -16,6 +16,8 @@ struct Color {
 };
 
 /// The grey of the given level: 0 black, 1 white.
-constexpr Color grey(double level) { return {level, level, level}; }
+constexpr Color grey(double level) {
+  return {level, level, level};
+}
 
 }  // namespace crt

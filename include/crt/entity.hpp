@@ -10,7 +10,13 @@
 
 namespace crt {
 
+class Entity;
 struct EntityNode;
+
+/// One of the primitives' structs: Sphere, Box, ...
+template <class Shape>
+concept PrimitiveShape = !std::same_as<Shape, Primitive> && !std::same_as<Shape, Entity> &&
+                         std::constructible_from<Primitive, Shape>;
 
 /// Something in a scene: a primitive, or several combined by constructive solid geometry, placed by
 /// transforms. An immutable value: copies share, and any thread may use it. Combining and placing
@@ -20,10 +26,9 @@ class Entity {
   /// Takes any primitive; throws Error (invalid_argument) naming the field that is out of range.
   Entity(Primitive primitive);  // NOLINT(google-explicit-constructor): a primitive is an entity
 
-  template <class Shape>
-    requires(!std::same_as<Shape, Primitive> && !std::same_as<Shape, Entity> &&
-             std::constructible_from<Primitive, Shape>)
-  Entity(Shape shape)  // NOLINT(google-explicit-constructor): so that Sphere{...} + Box{...} reads as it should
+  /// The same for a primitive as it stands in the code: Sphere{...}.
+  template <PrimitiveShape Shape>
+  Entity(Shape shape)  // NOLINT(google-explicit-constructor): Sphere{...} + Box{...} is to read as it does
       : Entity(Primitive(std::move(shape))) {}
 
   /// Internal: takes a node of the tree.
@@ -46,7 +51,9 @@ class Entity {
   /// How many primitives it is made of, a part that occurs twice counted twice (saturating).
   std::uint64_t primitive_count() const;
 
+  /// Internal: the tree of what was combined and placed.
   const EntityNode& node() const { return *node_; }
+  /// Internal: the same, to hold on to.
   const std::shared_ptr<const EntityNode>& shared_node() const { return node_; }
 
  private:

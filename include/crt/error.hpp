@@ -28,6 +28,7 @@ class Error : public std::runtime_error {
   Error(ErrorCode code, const std::string& message, std::string argument = {})
       : std::runtime_error(message), code_(code), argument_(std::move(argument)) {}
 
+  /// What kind of failure it is.
   ErrorCode code() const noexcept { return code_; }
 
   /// The field that is wrong, by its C++ name; empty where the error is not about one.

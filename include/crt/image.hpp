@@ -1,10 +1,10 @@
 #pragma once
 
-#include <cstddef>
-#include <cstdint>
 #include <crt/color.hpp>
 #include <crt/settings.hpp>
 #include <crt/stats.hpp>
+#include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -41,16 +41,21 @@ class Image {
   /// file is ever seen. Throws Error (io, or unsupported for an unknown ending).
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
 
+  /// Pixels across.
   int width() const { return width_; }
+  /// Pixels down.
   int height() const { return height_; }
+  /// Whether there are no pixels: an Image made without a size.
   bool empty() const { return pixels_.empty(); }
 
   /// 4 * width * height floats.
   std::span<const float> pixels() const { return pixels_; }
+  /// The same, to change them.
   std::span<float> pixels() { return pixels_; }
 
   /// The pixel in column x from the left, row y from the top; no check.
   Color at(int x, int y) const;
+  /// Changes a pixel; no check.
   void set(int x, int y, const Color& color);
 
   /// The 8-bit RGBA bytes a file gets: clamp(c)^(1/gamma), rounded to nearest, alpha straight; with
@@ -61,14 +66,18 @@ class Image {
   /// Where such an image serves in a scene it is raised to Settings::gamma, so that at any gamma it
   /// shows as it is.
   bool display_encoded() const { return display_encoded_; }
+  /// Says so of pixels that were filled in by hand.
   void set_display_encoded(bool encoded) { display_encoded_ = encoded; }
 
   /// The settings it was rendered with: gamma and show_clip act when it is written, the texts and
   /// the rest go into the file.
   const Settings& settings() const { return settings_; }
+  /// Replaces them, to write the same picture with another gamma or title.
   void set_settings(Settings settings) { settings_ = std::move(settings); }
 
+  /// What rendering it took; all 0 for an image that was not rendered.
   const RenderStats& stats() const { return stats_; }
+  /// The same, to fill in the stages that the program did itself.
   RenderStats& stats() { return stats_; }
 
  private:

@@ -38,9 +38,12 @@ struct Material {
 /// one also takes a plain `Material`. The values are checked (crt::Error) on the way in.
 class SharedMaterial {
  public:
+  /// Throws Error (invalid_argument) naming the field that is out of range.
   SharedMaterial(Material material);  // NOLINT(google-explicit-constructor): meant to be implicit
 
+  /// The values.
   const Material& operator*() const { return *material_; }
+  /// One of the values.
   const Material* operator->() const { return material_.get(); }
 
  private:

@@ -16,6 +16,7 @@ class PreparedScene {
   /// Internal: see prepare().
   explicit PreparedScene(std::shared_ptr<const core::PreparedData> data) : data_(std::move(data)) {}
 
+  /// Internal: what rays see.
   const core::PreparedData& data() const { return *data_; }
 
  private:

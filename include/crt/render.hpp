@@ -15,6 +15,7 @@ struct Region {
   int height = 0;
 };
 
+/// What a render may be asked beyond the scene; the defaults render all of it on all cores.
 struct RenderOptions {
   /// Renders only this part of the picture: the image has its size. The pixels are those of the whole.
   std::optional<Region> region{};

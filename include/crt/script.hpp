@@ -57,6 +57,7 @@ struct ScriptLimits {
   std::size_t errors = 20;                          ///< reported before giving up
 };
 
+/// What a script may see and use; the defaults let it read files in its own directory alone.
 struct ScriptOptions {
   /// Where images and imports are looked for after the script's own directory; a path with a
   /// leading '/' is looked for in these alone.
@@ -77,6 +78,7 @@ struct ScriptOptions {
   std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file{};
 };
 
+/// What running a script gave.
 struct ScriptResult {
   /// Present if there was no error.
   std::optional<Scene> scene{};
