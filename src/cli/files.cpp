@@ -50,6 +50,12 @@ fs::path name_beside(const fs::path& path, std::string_view purpose) {
   return path.parent_path() / fmt::format(".crt-{}-{}{}", purpose, getpid(), path.extension().string());
 }
 
+/// A message about the file `name` as one about the file `better_name`.
+std::string with_name(std::string message, const std::string& name, const std::string& better_name) {
+  const std::size_t position = message.find(name);
+  return position == std::string::npos ? message : message.replace(position, name.size(), better_name);
+}
+
 }  // namespace
 
 fs::path frame_path(const fs::path& output, int frame) {
@@ -83,15 +89,7 @@ void check_picture(const fs::path& picture) {
   try {
     Image(1, 1).write(probe);
   } catch (const Error& error) {
-    if (error.code() == ErrorCode::unsupported) {
-      throw Error(
-          ErrorCode::unsupported,
-          fmt::format("cannot write '{}': its ending names no known format; use .png, .tif, .exr or .hdr",
-                      picture.string()));
-    }
-    throw Error(error.code(),
-                fmt::format("cannot write '{}' in the folder '{}'; say another place with -o ({})",
-                            picture.filename().string(), folder_of(picture).string(), error.what()));
+    throw Error(error.code(), with_name(error.what(), probe.string(), picture.string()));
   }
   std::error_code ignored;
   fs::remove(probe, ignored);

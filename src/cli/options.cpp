@@ -31,8 +31,8 @@ Ends with 0: all done; 1: the script is wrong; 2: the command line is wrong; 3: 
 read or written; 70: a bug in crt, or no memory left; 130: interrupted.)";
 
 constexpr std::string_view render_footer =
-    R"(The ending of the picture's name says its format: .png and .tif (8 bits, gamma applied), .exr and
-.hdr (linear light). Nothing is left behind under its name unless it is whole.
+    R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma applied),
+.exr and .hdr (linear light). Nothing is left behind under its name unless it is whole.
 
 Examples:
   crt render scene.crt -o draft.png --width 320 --height 240
