@@ -1,6 +1,7 @@
 #pragma once
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "crt/vec.hpp"
@@ -20,7 +21,8 @@ struct Bounds {
 
   bool finite() const {
     constexpr double inf = std::numeric_limits<double>::infinity();
-    return lower.x > -inf && lower.y > -inf && lower.z > -inf && upper.x < inf && upper.y < inf && upper.z < inf;
+    return lower.x > -inf && lower.y > -inf && lower.z > -inf && upper.x < inf && upper.y < inf &&
+           upper.z < inf;
   }
 
   void include(const Vec3& point) {
@@ -34,6 +36,16 @@ struct Bounds {
     for (int axis = 0; axis < 3; ++axis) {
       lower[axis] = std::min(lower[axis], other.lower[axis]);
       upper[axis] = std::max(upper[axis], other.upper[axis]);
+    }
+  }
+
+  /// Takes in center +- extents, rounded outwards by a few ulps of both.
+  void include_around(const Vec3& center, const Vec3& extents) {
+    constexpr double roundings = 0x1p-50;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double extent = extents[axis] + roundings * (extents[axis] + std::abs(center[axis]));
+      lower[axis] = std::min(lower[axis], center[axis] - extent);
+      upper[axis] = std::max(upper[axis], center[axis] + extent);
     }
   }
 

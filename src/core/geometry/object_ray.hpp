@@ -29,14 +29,14 @@ struct ObjectRay {
   Vec3 direction_low{0, 0, 0};
   RayStart start;
 
-  /// The point at t relative to `center`: the shift that keeps distant rays exact. Its error is
-  /// about one rounding of the result, not of the way there, if the point is near the center.
-  Vec3 from_center(const Vec3& center, double t) const {
+  /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
+  /// is about one rounding of the result, not of the way there, if the point is near the center.
+  Vec3 from_center(const Vec3& center, double t, double t_low = 0) const {
     Vec3 result;
     for (int axis = 0; axis < 3; ++axis) {
       const DoubleDouble offset = two_sum(origin[axis], -center[axis]);
       result[axis] = std::fma(t, direction[axis], offset.hi) +
-                     (offset.lo + origin_low[axis] + t * direction_low[axis]);
+                     (offset.lo + origin_low[axis] + t * direction_low[axis] + t_low * direction[axis]);
     }
     return result;
   }

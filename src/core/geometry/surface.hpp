@@ -14,8 +14,9 @@ enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus };
 /// scene/ for how placements enter).
 struct Surface {
   SurfaceKind kind = SurfaceKind::plane;
-  Vec3 position{0, 0, 0};   ///< a point of the plane; the centre; a point of the axis (cone: the apex if there is one)
-  Vec3 direction{0, 0, 0};  ///< the normal or axis, any length; 0 where there is none
+  Vec3 position{
+      0, 0, 0};  ///< a point of the plane; the centre; a point of the axis (cone: the apex if there is one)
+  Vec3 direction{0, 0, 0};            ///< the normal or axis, any length; 0 where there is none
   std::array<double, 2> sizes{0, 0};  ///< radii, thickness, or slope
 };
 

@@ -1,0 +1,25 @@
+#include "core/geometry/angles.hpp"
+
+#include <cmath>
+#include <numbers>
+
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+
+double turn(double x, double y) {
+  const double angle = std::atan2(y, x) / (2 * std::numbers::pi);
+  const double positive = angle < 0 ? angle + 1 : angle + 0.0;
+  return positive < 1 ? positive : 0.0;
+}
+
+AxisFrame frame_about(const Vec3& axis) {
+  const Vec3 along = unit_vector(axis);
+  const Vec3 size = glm::abs(along);
+  Vec3 start(0, 0, 1);
+  if (size.z > size.x && size.z > size.y) start = {1, 0, 0};
+  const Vec3 zero = unit_vector(start - along * glm::dot(along, start));
+  return {zero + Vec3(0.0), accurate_cross(along, zero) + Vec3(0.0), along};
+}
+
+}  // namespace crt::core

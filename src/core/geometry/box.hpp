@@ -1,0 +1,41 @@
+// Box: all points between two corners, coordinate by coordinate; six flat faces that cut the line.
+// A line within a face's plane is outside: a face has no thickness.
+//
+// Faces: 0 and 1 are across x at the lower and the upper end, 2 and 3 across y, 4 and 5 across z.
+// (u, v) go from 0 to 1 across a face along the growing coordinates: (z, y) on the faces across x,
+// (x, z) across y, (x, y) across z.
+// Source: Kay, Kajiya, Ray tracing complex scenes, 1986 (slabs).
+// Tests: tests/geometry/box_test.cpp
+#pragma once
+
+#include <array>
+
+#include "core/geometry/plane_face.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+class BoxShape final : public Shape {
+ public:
+  explicit BoxShape(const Box& box);
+
+  bool is_solid() const override { return true; }
+  Bounds bounds() const override { return {lower_, upper_}; }
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  std::uint32_t face_count() const override { return 6; }
+  Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
+
+ private:
+  Vec3 lower_;
+  Vec3 upper_;
+  std::array<PlaneFace, 6> faces_;
+};
+
+void validate(const Box& box);
+inline bool is_solid(const Box&) {
+  return true;
+}
+std::unique_ptr<const Shape> make_shape(const Box& box);
+
+}  // namespace crt::core

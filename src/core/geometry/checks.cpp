@@ -1,0 +1,51 @@
+#include "core/geometry/checks.hpp"
+
+#include <fmt/core.h>
+
+#include <cmath>
+
+#include "core/math/vector.hpp"
+#include "crt/error.hpp"
+
+namespace crt::core {
+namespace {
+
+constexpr double largest_length = 1e100;
+constexpr double smallest_radius = 1e-100;
+
+[[noreturn]] void reject_value(const char* argument, const char* rule, const Vec3& value) {
+  reject(argument, fmt::format("{} (it is ({}, {}, {}))", rule, value.x, value.y, value.z).c_str());
+}
+
+[[noreturn]] void reject_value(const char* argument, const char* rule, double value) {
+  reject(argument, fmt::format("{} (it is {})", rule, value).c_str());
+}
+
+}  // namespace
+
+void reject(const char* argument, const char* rule) {
+  throw Error(ErrorCode::invalid_argument, fmt::format("{} {}", argument, rule), argument);
+}
+
+void check_coordinates(const char* argument, const Vec3& value) {
+  for (int axis = 0; axis < 3; ++axis) {
+    if (!std::isfinite(value[axis])) reject_value(argument, "must be finite", value);
+    if (std::abs(value[axis]) > largest_length) {
+      reject_value(argument, "must be at most 1e100 in magnitude", value);
+    }
+  }
+}
+
+void check_direction(const char* argument, const Vec3& value) {
+  check_coordinates(argument, value);
+  if (largest_component(value) == 0) reject_value(argument, "must have a length", value);
+}
+
+void check_radius(const char* argument, double value) {
+  if (!std::isfinite(value)) reject_value(argument, "must be finite", value);
+  if (!(value > 0)) reject_value(argument, "must be greater than 0", value);
+  if (value < smallest_radius) reject_value(argument, "must be at least 1e-100", value);
+  if (value > largest_length) reject_value(argument, "must be at most 1e100", value);
+}
+
+}  // namespace crt::core

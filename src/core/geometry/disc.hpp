@@ -1,0 +1,40 @@
+// Disc: the surface of all points p with normal . (p - center) = 0 and |p - center| <= radius.
+//
+// Face 0 is all of it. u is the angle about the normal from +z (as frame_about() has it), v the
+// distance from the centre; both in [0, 1].
+// Tests: tests/geometry/disc_test.cpp
+#pragma once
+
+#include "core/geometry/angles.hpp"
+#include "core/geometry/plane_face.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+class DiscShape final : public Shape {
+ public:
+  explicit DiscShape(const Disc& disc);
+
+  bool is_solid() const override { return false; }
+  Bounds bounds() const override;
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  std::uint32_t face_count() const override { return 1; }
+  Surface surface(std::uint32_t) const override { return face_.surface(); }
+
+ private:
+  PlaneFace face_;
+  AxisFrame frame_;
+  double radius_;
+};
+
+/// How far a disc across `axis` reaches along each coordinate.
+Vec3 disc_extents(const Vec3& axis, double radius);
+
+void validate(const Disc& disc);
+inline bool is_solid(const Disc&) {
+  return false;
+}
+std::unique_ptr<const Shape> make_shape(const Disc& disc);
+
+}  // namespace crt::core

@@ -1,0 +1,215 @@
+#include "core/geometry/frustum.hpp"
+
+#include <limits>
+
+#include "core/geometry/disc.hpp"
+
+namespace crt::core {
+
+FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius)
+    : from_(from), to_(to), radii_{from_radius, to_radius}, frame_(frame_about(to - from)) {
+  caps_[0].emplace(from - to, from);
+  if (to_radius > 0) caps_[1].emplace(to - from, to);
+  const bool widening = to_radius > from_radius;
+  narrow_ = widening ? from : to;
+  axis_ = widening ? frame_.along : -frame_.along;
+  const double wide = std::max(from_radius, to_radius);
+  const double narrow = std::min(from_radius, to_radius);
+  unit_ = power_of_two_below(wide);
+  const Vec3 way = to - from;
+  const double way_scale = power_of_two_below(largest_component(way));
+  height_ = glm::length(way * (1 / way_scale)) * way_scale / unit_;
+  wide_radius_ = wide / unit_;
+  narrow_radius_ = narrow / unit_;
+  if (wide > narrow) {
+    const double growth = (wide - narrow) / unit_;
+    const double slant = std::hypot(growth, height_);
+    cosine_ = height_ / slant;
+    sine_ = growth / slant;
+  }
+}
+
+Bounds FrustumShape::bounds() const {
+  Bounds result;
+  result.include_around(from_, disc_extents(to_ - from_, radii_[0]));
+  result.include_around(to_, disc_extents(to_ - from_, radii_[1]));
+  if (caps_[0]->axis() >= 0) {
+    const int axis = caps_[0]->axis();
+    result.lower[axis] = std::min(from_[axis], to_[axis]);
+    result.upper[axis] = std::max(from_[axis], to_[axis]);
+  }
+  return result;
+}
+
+bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  NearLine line = NearLine::at_closest(ray, narrow_, unit_);
+  Stretch stretch(ray.start, line.to_t_length(unit_roundoff * std::min(height_, wide_radius_)));
+  for (std::uint32_t cap = 0; cap < 2; ++cap) {
+    if (caps_[cap]) caps_[cap]->clip(ray, cap + 1, stretch);
+  }
+  if (ray.start.face == side_face) {
+    clip_side_from_surface(ray, stretch);
+    return stretch.finish(out);
+  }
+  if (ray.start.face == no_face && stretch.empty()) return false;
+
+  // The side is solved next to where the line, between the caps, comes closest to the axis.
+  const Vec3 across = accurate_cross(line.direction, axis_);
+  const double speed = glm::dot(across, across);
+  double t = line.to_t(0);
+  if (speed > std::numeric_limits<double>::min()) {
+    t = line.to_t(-glm::dot(accurate_cross(line.point, axis_), across) / speed);
+  }
+  if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
+  if (!std::isfinite(t)) return false;
+  line.move_to(ray, narrow_, t);
+  clip_side(line, stretch);
+  return stretch.finish(out);
+}
+
+FrustumShape::SideEquation FrustumShape::side_equation(const NearLine& line) const {
+  const Vec3 across = accurate_cross(line.direction, axis_);
+  const Vec3 m = cosine_ * across;
+  const Vec3 p = cosine_ * accurate_cross(line.point, axis_);
+  const double m_length = glm::length(m);
+  const double p_length = glm::length(p);
+  SideEquation side{};
+  side.radius = cosine_ * narrow_radius_ + sine_ * glm::dot(line.point, axis_);
+  side.radius_rate = sine_ * glm::dot(line.direction, axis_);
+  const double s0 = side.radius;
+  const double s1 = side.radius_rate;
+  side.a = (m_length - std::abs(s1)) * (m_length + std::abs(s1));
+  side.b = glm::dot(p, m) - s0 * s1;
+  side.c = (p_length - std::abs(s0)) * (p_length + std::abs(s0));
+  const double passing = cosine_ * cosine_ * std::abs(glm::dot(line.point, across));
+  const double difference = glm::length(s0 * m - s1 * p);
+  side.discriminant = (difference - passing) * (difference + passing);
+  return side;
+}
+
+/// n . d at a root is sqrt(discriminant) / (s0 + s1 x).
+Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, double x,
+                                     std::uint8_t root) const {
+  const double t = line.to_t(x);
+  const double reach = wide_radius_ + glm::length(line.at(x));
+  const double radius = std::abs(side.radius + side.radius_rate * x);
+  const double size = std::sqrt(std::abs(side.a));
+  // Through the apex: the cone is met as squarely as the angle to its side allows.
+  const double approach = side.discriminant > 0 ? std::sqrt(side.discriminant) / radius : size;
+  const double longest = side.a > 0
+                             ? std::sqrt(line.squared_speed) / size * grazing_error(line, reach, wide_radius_)
+                             : std::numeric_limits<double>::max();
+  return {
+      .t = t, .error = standard_error(line, t, reach, approach, longest), .face = side_face, .root = root};
+}
+
+void FrustumShape::clip_side(const NearLine& line, Stretch& stretch) const {
+  const SideEquation side = side_equation(line);
+  const double s1 = side.radius_rate;
+  if (side.a == 0) {
+    // Parallel to a ruling (for a cylinder: to the axis): at most one root.
+    if (side.b == 0) {
+      if (!(side.c < 0)) stretch.clear();
+      return;
+    }
+    if ((s1 > 0) != (side.b < 0)) return stretch.clear();
+    const Crossing crossing = side_crossing(line, side, -side.c / (2 * side.b), 0);
+    return s1 > 0 ? stretch.enter(crossing) : stretch.leave(crossing);
+  }
+
+  // Both roots by the formulas that add what has one sign, Ray Tracing Gems ch. 7.
+  const double half = std::sqrt(std::max(side.discriminant, 0.0));
+  const double sum = side.b >= 0 ? -(side.b + half) : half - side.b;
+  const double first = sum / side.a;
+  const double second = sum != 0 ? side.c / sum : 0;
+  const double low = std::min(first, second);
+  const double high = std::max(first, second);
+  if (side.a > 0) {
+    // Both roots are on one nappe: the one on which the middle between them is.
+    const bool other_nappe = side.a * side.radius < side.b * s1;
+    if (!(side.discriminant > 0) || other_nappe) return stretch.clear();
+    stretch.enter(side_crossing(line, side, low, 0));
+    stretch.leave(side_crossing(line, side, high, 1));
+  } else if (s1 > 0) {
+    stretch.enter(side_crossing(line, side, high, 1));
+  } else {
+    stretch.leave(side_crossing(line, side, low, 0));
+  }
+}
+
+/// The root at the origin is known, so c is 0 whatever rounding made of the origin and the other root
+/// is -2 b / a, on this nappe if a > 0.
+void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const {
+  const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
+  SideEquation side = side_equation(line);
+  side.discriminant = side.b * side.b;
+  Crossing other = side_crossing(line, side, 0, 0);
+  if (side.a > 0) {
+    const double x = -2 * side.b / side.a;
+    other = side_crossing(line, side, x, 0);
+    other.error += line.to_t_length(start_error(side.c, side.a, side.b));
+  }
+  const bool leaving = side.b > 0 || (side.b == 0 && side.a > 0);
+  const std::uint8_t leaving_root = side.a > 0 ? 1 : 0;
+  if (leaving) {
+    stretch.leave({.face = side_face, .root = leaving_root});
+    if (side.a > 0) stretch.enter(other);
+    return;
+  }
+  if (ray.start.side == Side::outside) return stretch.clear();
+  if (side.b == 0) return;
+  stretch.enter({.face = side_face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
+  if (side.a > 0) {
+    other.root = 1;
+    stretch.leave(other);
+  }
+}
+
+SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+  if (crossing.face != side_face) return cap_point(ray, crossing);
+  const Vec3 offset = ray.from_center(narrow_, crossing.t) * (1 / unit_);
+  const double z = std::clamp(glm::dot(offset, axis_), 0.0, height_);
+  // Across the axis, twice: the second time removes what the first one's rounding left along it.
+  Vec3 across = offset - glm::dot(offset, axis_) * axis_;
+  across -= glm::dot(across, axis_) * axis_;
+  const bool at_apex = largest_component(across) == 0;
+  const Vec3 radial = at_apex ? frame_.zero : unit_vector(across);
+  const double share = z / height_;
+  const double radius = narrow_radius_ + (wide_radius_ - narrow_radius_) * share;
+  SurfacePoint result;
+  result.position = narrow_ + unit_ * (z * axis_ + radius * radial);
+  result.normal = at_apex && sine_ > 0 ? -axis_ : unit_vector(cosine_ * radial - sine_ * axis_);
+  result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
+  result.v = narrow_ == from_ ? share : 1 - share;
+  return result;
+}
+
+SurfacePoint FrustumShape::cap_point(const ObjectRay& ray, const Crossing& crossing) const {
+  const std::size_t end = crossing.face - 1;
+  const PlaneFace& cap = *caps_[end];
+  const Vec3 relative = cap.onto_plane(ray.from_center(cap.position(), crossing.t));
+  return {.position = cap.absolute(relative),
+          .normal = cap.unit_normal(),
+          .u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter)),
+          .v = std::min(1.0, glm::length(relative / radii_[end]))};
+}
+
+Surface FrustumShape::surface(std::uint32_t face) const {
+  if (face != side_face) return caps_[face - 1]->surface();
+  // The axis has no preferred way along it: its direction is canonical as a plane's normal is.
+  Surface result{.kind = SurfaceKind::cylinder,
+                 .position = from_ + Vec3(0.0),
+                 .direction = caps_[0]->surface().direction,
+                 .sizes = {radii_[0], 0}};
+  if (sine_ > 0) {
+    const double to_apex = narrow_radius_ * cosine_ / sine_;
+    result.kind = SurfaceKind::cone;
+    result.position = narrow_ - (unit_ * to_apex) * axis_ + Vec3(0.0);
+    result.sizes = {sine_ / cosine_, 0};
+  } else if (caps_[0]->axis() >= 0) {
+    result.position[caps_[0]->axis()] = 0;
+  }
+  return result;
+}
+
+}  // namespace crt::core

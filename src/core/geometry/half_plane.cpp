@@ -1,0 +1,59 @@
+#include "core/geometry/half_plane.hpp"
+
+#include "core/geometry/checks.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+namespace {
+
+/// The edge's direction, normal x direction up to a positive factor. Each component is 0 or has
+/// nearly all of its digits, so it is 0 only if the two are parallel.
+Vec3 edge(const HalfPlane& half_plane) {
+  return accurate_cross(scaled_to_one(half_plane.normal), scaled_to_one(half_plane.direction));
+}
+
+}  // namespace
+
+HalfPlaneShape::HalfPlaneShape(const HalfPlane& half_plane)
+    : face_(half_plane.normal, half_plane.position),
+      inward_(unit_vector(accurate_cross(unit_vector(edge(half_plane)), face_.normal())) + Vec3(0.0)) {}
+
+Bounds HalfPlaneShape::bounds() const {
+  Bounds result = Bounds::everything();
+  if (face_.axis() >= 0) {
+    result.lower[face_.axis()] = face_.position()[face_.axis()];
+    result.upper[face_.axis()] = face_.position()[face_.axis()];
+  }
+  const int axis = coordinate_axis(inward_);
+  if (axis >= 0) (inward_[axis] > 0 ? result.lower : result.upper)[axis] = face_.position()[axis];
+  return result;
+}
+
+bool HalfPlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  const PlaneFace::Meeting meeting = face_.meet_surface(ray);
+  if (!meeting.found) return false;
+  if (ray.start.face == 0 || glm::dot(face_.point(ray, meeting), inward_) >= 0) PlaneFace::emit(meeting, out);
+  return false;
+}
+
+SurfacePoint HalfPlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+  const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
+  const Vec3 along_edge = glm::cross(face_.unit_normal(), inward_);
+  return {.position = face_.absolute(relative),
+          .normal = face_.unit_normal(),
+          .u = std::max(0.0, glm::dot(relative, inward_)),
+          .v = glm::dot(relative, along_edge)};
+}
+
+void validate(const HalfPlane& half_plane) {
+  check_direction("normal", half_plane.normal);
+  check_coordinates("position", half_plane.position);
+  check_direction("direction", half_plane.direction);
+  if (largest_component(edge(half_plane)) == 0) reject("direction", "must not be parallel to normal");
+}
+
+std::unique_ptr<const Shape> make_shape(const HalfPlane& half_plane) {
+  return std::make_unique<HalfPlaneShape>(half_plane);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,36 @@
+// Half plane: the surface of all points p with normal . (p - position) = 0 and direction' . (p -
+// position) >= 0, where direction' is what of the direction is across the normal.
+//
+// Face 0 is all of it. u is the distance from the edge along direction', v the distance from the
+// position along normal x direction'; both in scene units.
+// Tests: tests/geometry/half_plane_test.cpp
+#pragma once
+
+#include "core/geometry/plane_face.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+class HalfPlaneShape final : public Shape {
+ public:
+  explicit HalfPlaneShape(const HalfPlane& half_plane);
+
+  bool is_solid() const override { return false; }
+  Bounds bounds() const override;
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  std::uint32_t face_count() const override { return 1; }
+  Surface surface(std::uint32_t) const override { return face_.surface(); }
+
+ private:
+  PlaneFace face_;
+  Vec3 inward_;  ///< unit vector in the plane, across the edge
+};
+
+void validate(const HalfPlane& half_plane);
+inline bool is_solid(const HalfPlane&) {
+  return false;
+}
+std::unique_ptr<const Shape> make_shape(const HalfPlane& half_plane);
+
+}  // namespace crt::core

@@ -1,0 +1,36 @@
+// Plane: the half-space of all points p with normal . (p - position) <= 0.
+//
+// Face 0 is all of it. u is the distance from the position along x projected onto the plane (z if
+// the normal is mostly along x), v the distance across u, on the side of growing y (z if the normal
+// is mostly along y); both in scene units.
+// Tests: tests/geometry/plane_test.cpp
+#pragma once
+
+#include "core/geometry/plane_face.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+class PlaneShape final : public Shape {
+ public:
+  explicit PlaneShape(const Plane& plane);
+
+  bool is_solid() const override { return true; }
+  Bounds bounds() const override;
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  std::uint32_t face_count() const override { return 1; }
+  Surface surface(std::uint32_t) const override { return face_.surface(); }
+
+ private:
+  PlaneFace face_;
+  PlaneAxes axes_;
+};
+
+void validate(const Plane& plane);
+inline bool is_solid(const Plane&) {
+  return true;
+}
+std::unique_ptr<const Shape> make_shape(const Plane& plane);
+
+}  // namespace crt::core

@@ -1,0 +1,159 @@
+#include "core/geometry/plane_face.hpp"
+
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+
+PlaneFace::PlaneFace(const Vec3& normal, const Vec3& position)
+    : normal_(scaled_to_one(normal)),
+      unit_normal_(unit_vector(normal)),
+      position_(position),
+      axis_(coordinate_axis(normal)) {}
+
+PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
+  if (axis_ >= 0) return meet_axis_plane(ray);
+  Meeting result;
+  result.rate = accurate_dot(normal_, ray.direction).value() + glm::dot(normal_, ray.direction_low);
+  if (result.rate == 0) return result;
+
+  // Twice the shift of docs/numerics.md: the first t is off by the rounding of the whole way, the second by
+  // that of what was left, and what remains to be solved is near the position.
+  double shift = 0;
+  Vec3 near = ray.from_center(position_, 0);
+  constexpr int shifts = 2;
+  for (int i = 0; i < shifts; ++i) {
+    shift -= accurate_dot(normal_, near).value() / result.rate;
+    if (!std::isfinite(shift)) return result;
+    near = ray.from_center(position_, shift);
+  }
+  const double rest = -accurate_dot(normal_, near).value() / result.rate;
+  const DoubleDouble t = two_sum(shift, rest);
+  if (!std::isfinite(t.hi)) return result;
+  result.found = true;
+  result.t = t.hi;
+  result.t_low = t.lo;
+  constexpr double roundings = 8;
+  const double reach = glm::length(near + rest * ray.direction);
+  result.error =
+      rounding_of(t.hi) + roundings * unit_roundoff * reach * glm::length(normal_) / std::abs(result.rate);
+  return result;
+}
+
+PlaneFace::Meeting PlaneFace::meet_axis_plane(const ObjectRay& ray) const {
+  Meeting result;
+  const double speed = ray.direction[axis_];
+  result.rate = normal_[axis_] > 0 ? speed : -speed;
+  if (speed == 0) return result;
+  const DoubleDouble way = two_sum(position_[axis_], -ray.origin[axis_]);
+  const double quotient = way.hi / speed;
+  if (!std::isfinite(quotient)) return result;
+  const double remainder = std::fma(-quotient, speed, way.hi) +
+                           (way.lo - ray.origin_low[axis_] - quotient * ray.direction_low[axis_]);
+  const DoubleDouble t = two_sum(quotient, remainder / speed);
+  if (!std::isfinite(t.hi)) return result;
+  result.found = true;
+  result.t = t.hi;
+  result.t_low = t.lo;
+  // The computed value is within a few u^2 of the true one before its last rounding.
+  constexpr double last_rounding = 1 + 0x1p-40;
+  result.error = rounding_of(t.hi) * last_rounding;
+  return result;
+}
+
+Vec3 PlaneFace::point(const ObjectRay& ray, const Meeting& meeting) const {
+  return onto_plane(ray.from_center(position_, meeting.t, meeting.t_low));
+}
+
+bool PlaneFace::behind(const ObjectRay& ray) const {
+  DoubleDouble height;
+  for (int axis = 0; axis < 3; ++axis) {
+    const DoubleDouble offset = two_sum(ray.origin[axis], -position_[axis]);
+    height = height + two_product(normal_[axis], offset.hi) +
+             DoubleDouble(normal_[axis] * (offset.lo + ray.origin_low[axis]));
+  }
+  return height.hi < 0;
+}
+
+void PlaneFace::clip(const ObjectRay& ray, std::uint32_t face, Stretch& stretch) const {
+  if (ray.start.face == face) {
+    const double rate = meet(ray).rate;
+    const Crossing start{.face = face};
+    if (rate > 0) {
+      stretch.leave(start);
+    } else if (ray.start.side == Side::outside) {
+      stretch.clear();
+    } else if (rate < 0) {
+      stretch.enter(start);
+    }
+    return;
+  }
+  const Meeting meeting = meet(ray);
+  if (!meeting.found) {
+    if (!behind(ray)) stretch.clear();
+    return;
+  }
+  const Crossing crossing{.t = meeting.t, .error = meeting.error, .face = face};
+  if (meeting.rate > 0) {
+    stretch.leave(crossing);
+  } else {
+    stretch.enter(crossing);
+  }
+}
+
+PlaneFace::Meeting PlaneFace::meet_surface(const ObjectRay& ray) const {
+  Meeting meeting = meet(ray);
+  if (ray.start.face != 0 || meeting.rate == 0) return meeting;
+  const double rate = std::abs(meeting.rate);
+  return {.found = true, .rate = ray.start.side == Side::inside ? -rate : rate};
+}
+
+void PlaneFace::emit(const Meeting& meeting, CrossingList& out) {
+  out.push_back({.t = meeting.t, .error = meeting.error, .face = 0, .root = 0, .entering = meeting.rate < 0});
+}
+
+Vec3 PlaneFace::onto_plane(const Vec3& relative) const {
+  Vec3 result = relative;
+  if (axis_ >= 0) {
+    result[axis_] = 0;
+  } else {
+    result -= accurate_dot(unit_normal_, relative).value() * unit_normal_;
+  }
+  return result;
+}
+
+Vec3 PlaneFace::absolute(const Vec3& relative) const {
+  return position_ + relative;
+}
+
+Surface PlaneFace::surface() const {
+  int largest = 0;
+  for (int axis = 1; axis < 3; ++axis) {
+    if (std::abs(normal_[axis]) > std::abs(normal_[largest])) largest = axis;
+  }
+  const double length = normal_[largest];
+  // Adding 0 turns -0 into 0: equal surfaces are equal bits.
+  Surface surface{.kind = SurfaceKind::plane,
+                  .position = position_ + Vec3(0.0),
+                  .direction = Vec3(normal_.x / length, normal_.y / length, normal_.z / length) + Vec3(0.0)};
+  if (axis_ >= 0) {
+    surface.position = Vec3(0.0);
+    surface.position[axis_] = position_[axis_] + 0.0;
+  }
+  return surface;
+}
+
+PlaneAxes plane_axes(const Vec3& normal) {
+  const Vec3 n = unit_vector(normal);
+  const Vec3 size = glm::abs(n);
+  const int along = size.x > size.y && size.x > size.z ? 0 : (size.y >= size.z ? 1 : 2);
+  const int u_axis = along == 0 ? 2 : 0;
+  const int v_axis = along == 1 ? 2 : 1;
+  Vec3 u(0.0);
+  u[u_axis] = 1;
+  u = unit_vector(u - n * n[u_axis]);
+  Vec3 v = glm::cross(n, u);
+  if (v[v_axis] < 0) v = -v;
+  return {u + Vec3(0.0), v + Vec3(0.0)};
+}
+
+}  // namespace crt::core

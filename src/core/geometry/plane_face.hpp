@@ -1,0 +1,77 @@
+// A flat face: the plane that boxes, caps, discs and triangles have in common. Every one of them
+// computes t here, so faces that coincide across a coordinate axis get the same bits.
+#pragma once
+
+#include "core/geometry/object_ray.hpp"
+#include "core/geometry/shape.hpp"
+#include "core/geometry/stretch.hpp"
+
+namespace crt::core {
+
+class PlaneFace {
+ public:
+  /// `normal` points out of the solid and may have any length but 0.
+  PlaneFace(const Vec3& normal, const Vec3& position);
+
+  /// Where a line meets the plane.
+  struct Meeting {
+    bool found = false;  ///< false if the line is parallel, or so nearly that t has no finite value
+    double t = 0;
+    double t_low = 0;  ///< t + t_low is the computed value before its last rounding
+    double error = 0;  ///< as in Crossing
+    double rate = 0;   ///< n . d up to a positive factor
+  };
+  Meeting meet(const ObjectRay& ray) const;
+
+  /// The meeting point relative to the position.
+  Vec3 point(const ObjectRay& ray, const Meeting& meeting) const;
+
+  /// Whether the point at t = 0 is behind the plane (for parallel lines), neither on it nor before.
+  bool behind(const ObjectRay& ray) const;
+
+  /// Cuts away what of the line is before the plane; obeys ray.start if it is this face's number.
+  void clip(const ObjectRay& ray, std::uint32_t face, Stretch& stretch) const;
+
+  /// For mere surfaces: appends the one crossing with face number 0.
+  static void emit(const Meeting& meeting, CrossingList& out);
+
+  /// For mere surfaces: as meet(), but exactly 0 and to the side it is said to leave if the ray
+  /// starts on face 0.
+  Meeting meet_surface(const ObjectRay& ray) const;
+
+  /// The point at t, relative to the position and moved onto the plane.
+  Vec3 onto_plane(const Vec3& relative) const;
+
+  /// position + relative, exactly on the plane where the plane is across a coordinate axis.
+  Vec3 absolute(const Vec3& relative) const;
+
+  const Vec3& position() const { return position_; }
+  const Vec3& unit_normal() const { return unit_normal_; }
+  /// The normal up to a power of two.
+  const Vec3& normal() const { return normal_; }
+  /// The coordinate axis of the normal, or -1.
+  int axis() const { return axis_; }
+
+  /// Canonical: the largest component of the normal is +1; the position of a plane across a
+  /// coordinate axis has only that coordinate.
+  Surface surface() const;
+
+ private:
+  Meeting meet_axis_plane(const ObjectRay& ray) const;
+
+  Vec3 normal_;
+  Vec3 unit_normal_;
+  Vec3 position_;
+  int axis_;
+};
+
+/// Two unit vectors in the plane across `normal`, along growing u and v: u is x projected (z where
+/// the normal is mostly along x), and v is across u on the side of growing y (z where the normal is
+/// mostly along y).
+struct PlaneAxes {
+  Vec3 u;
+  Vec3 v;
+};
+PlaneAxes plane_axes(const Vec3& normal);
+
+}  // namespace crt::core

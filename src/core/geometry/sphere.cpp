@@ -1,0 +1,101 @@
+#include "core/geometry/sphere.hpp"
+
+#include <numbers>
+
+#include "core/geometry/angles.hpp"
+#include "core/geometry/checks.hpp"
+#include "core/geometry/near_line.hpp"
+#include "core/geometry/stretch.hpp"
+
+namespace crt::core {
+
+SphereShape::SphereShape(const Sphere& sphere)
+    : center_(sphere.center),
+      radius_(sphere.radius),
+      unit_(power_of_two_below(sphere.radius)),
+      scaled_radius_(sphere.radius / unit_) {}
+
+Bounds SphereShape::bounds() const {
+  Bounds result;
+  result.include_around(center_, Vec3(radius_));
+  return result;
+}
+
+bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  if (ray.start.face == 0) return crossings_from_surface(ray, out);
+  const NearLine line = NearLine::at_closest(ray, center_, unit_);
+  const double r = scaled_radius_;
+  const double a = line.squared_speed;
+  const double closest = line.closest();
+  const double distance = glm::length(line.at(closest));
+  if (!(distance < r)) return false;
+
+  const double root = std::sqrt(a * (r + distance) * (r - distance));
+  const double half_chord = root / a;
+  const double t_enter = line.to_t(closest - half_chord);
+  const double t_leave = line.to_t(closest + half_chord);
+  if (!(t_enter < t_leave)) return false;
+  const double reach = 2 * r;
+  const double longest = grazing_error(line, reach, r);
+  out.push_back({.t = t_enter,
+                 .error = standard_error(line, t_enter, reach, root / r, longest),
+                 .root = 0,
+                 .entering = true});
+  out.push_back({.t = t_leave,
+                 .error = standard_error(line, t_leave, reach, root / r, longest),
+                 .root = 1,
+                 .entering = false});
+  return false;
+}
+
+/// One root of a x^2 + 2 b x + c is 0 by identity, so c is 0 whatever rounding made of the origin, and
+/// the other root is -2 b / a.
+bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out) const {
+  const NearLine line = NearLine::at_origin(ray, center_, unit_);
+  const double r = scaled_radius_;
+  const double reach = 2 * r;
+  const double a = line.squared_speed;
+  const double b = glm::dot(line.point, line.direction);
+  const double x = -2 * b / a;
+  const double distance = glm::length(line.point);
+  const double off_surface = std::abs((distance + r) * (distance - r));
+  const double t = line.to_t(x);
+  const double error = standard_error(line, t, reach, std::abs(b) / r, grazing_error(line, reach, r)) +
+                       line.to_t_length(start_error(off_surface, a, b));
+
+  Stretch stretch(ray.start, line.to_t_length(unit_roundoff * r));
+  if (ray.start.side == Side::outside) {
+    stretch.enter({.t = t, .error = error, .root = 0});
+    stretch.leave({.root = 1});
+  } else {
+    stretch.enter({.root = 0});
+    stretch.leave({.t = t, .error = error, .root = 1});
+  }
+  return stretch.finish(out);
+}
+
+SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+  SurfacePoint result;
+  const Vec3 offset = ray.from_center(center_, crossing.t);
+  const Vec3 n = unit_vector(largest_component(offset) > 0 ? offset : -ray.direction);
+  result.normal = n;
+  result.position = center_ + radius_ * n;
+  result.u = turn(n.z, n.x);
+  result.v = std::atan2(n.y, std::hypot(n.x, n.z)) / std::numbers::pi + 0.5;
+  return result;
+}
+
+Surface SphereShape::surface(std::uint32_t) const {
+  return {.kind = SurfaceKind::sphere, .position = center_ + Vec3(0.0), .sizes = {radius_, 0}};
+}
+
+void validate(const Sphere& sphere) {
+  check_coordinates("center", sphere.center);
+  check_radius("radius", sphere.radius);
+}
+
+std::unique_ptr<const Shape> make_shape(const Sphere& sphere) {
+  return std::make_unique<SphereShape>(sphere);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,133 @@
+#include "core/geometry/torus.hpp"
+
+#include <numbers>
+
+#include "core/geometry/checks.hpp"
+#include "core/geometry/disc.hpp"
+#include "core/geometry/near_line.hpp"
+#include "core/geometry/torus_line.hpp"
+
+namespace crt::core {
+namespace {
+
+/// Makes the stretches agree with a start to `side`, where the direction is at odds with it or grazes
+/// so closely that rounding decides. `bulging` tells that the surface turns away from the line.
+void obey_side(Side side, bool bulging, double shortest, TorusLine::Dips& dips) {
+  std::size_t here = 0;  // the first stretch that goes on after the start
+  while (here < dips.count && !(dips.dip[here].leave > 0)) ++here;
+  TorusLine::Dip& next = dips.dip[std::min(here, dips.dip.size() - 1)];
+  const bool inside = here < dips.count && next.enter <= 0;
+  if (inside == (side == Side::inside)) return;
+
+  if (side == Side::inside) {
+    const bool leaves_at_start = here > 0 && dips.dip[here - 1].leave == 0;
+    if (!bulging && here < dips.count) {
+      next.enter = 0;
+      return;
+    }
+    if (leaves_at_start) {
+      dips.dip[here - 1] = {0, shortest};
+    } else if (dips.count < dips.dip.size()) {
+      if (here < dips.count) dips.dip[here + 1] = next;
+      dips.dip[here] = {0, shortest};
+      ++dips.count;
+    }
+    return;
+  }
+  if (bulging && next.enter == 0) {
+    if (here + 1 < dips.count) next = dips.dip[here + 1];
+    --dips.count;
+  } else {
+    next.enter = std::min(shortest, next.leave / 2);
+  }
+}
+
+}  // namespace
+
+TorusShape::TorusShape(const Torus& torus)
+    : center_(torus.center),
+      frame_(frame_about(torus.axis)),
+      radius_(torus.radius),
+      thickness_(torus.thickness),
+      unit_(power_of_two_below(torus.radius + torus.thickness)),
+      ring_(torus.radius / unit_),
+      tube_(torus.thickness / unit_) {}
+
+Bounds TorusShape::bounds() const {
+  Bounds result;
+  result.include_around(center_, disc_extents(frame_.along, radius_) + Vec3(thickness_));
+  return result;
+}
+
+bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  const bool on_surface = ray.start.face == 0;
+  const NearLine line =
+      on_surface ? NearLine::at_origin(ray, center_, unit_) : NearLine::at_closest(ray, center_, unit_);
+  const auto in_frame = [&](const Vec3& v) {
+    return Vec3(glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along));
+  };
+  const TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
+  TorusLine::Dips dips = torus.dips();
+  if (on_surface) {
+    obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
+  }
+
+  const double size = ring_ + tube_;
+  std::uint8_t root = 0;
+  for (std::size_t i = 0; i < dips.count; ++i) {
+    const TorusLine::Dip& dip = dips.dip[i];
+    const auto crossing = [&](double x, bool entering) {
+      const double t = line.to_t(x);
+      const double reach = size + glm::length(line.at(x));
+      // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
+      const double approach = std::abs(torus.half_slope(x)) / tube_;
+      const double longest = (dip.leave - dip.enter) + grazing_error(line, reach, size);
+      const bool start = on_surface && x == 0;
+      const double error = start ? 0 : standard_error(line, t, reach, approach, longest);
+      return Crossing{.t = t, .error = error, .root = root++, .entering = entering};
+    };
+    const Crossing enter = crossing(dip.enter, true);
+    const Crossing leave = crossing(dip.leave, false);
+    if (!(enter.t < leave.t)) continue;
+    out.push_back(enter);
+    out.push_back(leave);
+  }
+  return false;
+}
+
+SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+  const Vec3 offset = ray.from_center(center_, crossing.t) * (1 / unit_);
+  const double height = glm::dot(offset, frame_.along);
+  const Vec3 across = offset - height * frame_.along;
+  const Vec3 radial = largest_component(across) > 0 ? unit_vector(across) : frame_.zero;
+  const double outward = glm::dot(across, radial) - ring_;
+  const Vec3 from_ring = outward * radial + height * frame_.along;
+  SurfacePoint result;
+  result.normal = largest_component(from_ring) > 0 ? unit_vector(from_ring) : radial;
+  result.position = center_ + unit_ * (ring_ * radial + tube_ * result.normal);
+  result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
+  result.v = turn(outward, height);
+  return result;
+}
+
+Surface TorusShape::surface(std::uint32_t) const {
+  // A torus is the same about its axis turned round, so the axis is canonical as a plane's normal is.
+  const Surface across = PlaneFace(frame_.along, center_).surface();
+  return {.kind = SurfaceKind::torus,
+          .position = center_ + Vec3(0.0),
+          .direction = across.direction,
+          .sizes = {radius_, thickness_}};
+}
+
+void validate(const Torus& torus) {
+  check_coordinates("center", torus.center);
+  check_direction("axis", torus.axis);
+  check_radius("radius", torus.radius);
+  check_radius("thickness", torus.thickness);
+}
+
+std::unique_ptr<const Shape> make_shape(const Torus& torus) {
+  return std::make_unique<TorusShape>(torus);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,51 @@
+// Torus: all points within `thickness` of the circle of the given `radius` about `center` across `axis`.
+//
+// With rho the distance from the axis and z the height along it, R the radius and r the thickness, a
+// point is inside if G = (rho - R)^2 + z^2 - r^2 < 0. The usual quartic is G times (rho + R)^2 + z^2 - r^2,
+// whose roots are the inner lemon of a spindle torus, which is no boundary. So roots are isolated on G
+// itself, evaluated at points near the torus, never by coefficients: along a line its second
+// derivative is 2 a - 2 R rho'', and rho'' = D / rho^3 (D constant) has a single bump where the line passes
+// the axis. G is therefore convex, concave, convex, between two points known in closed form; it has at most
+// one dip in each convex part and one rise between them, and a root between each two of those.
+//
+// A ray that starts on the surface has G(x) = (x - x0) H(x), with H in closed form (a difference of
+// squares and of distances), so its own root is gone by algebra.
+//
+// Face 0 is all of it. u is the angle about the axis from +z (as frame_about() has it), v the angle
+// about the ring from its outermost circle towards the axis; both in [0, 1].
+// Tests: tests/geometry/torus_test.cpp
+#pragma once
+
+#include "core/geometry/angles.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+class TorusShape final : public Shape {
+ public:
+  explicit TorusShape(const Torus& torus);
+
+  bool is_solid() const override { return true; }
+  Bounds bounds() const override;
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  std::uint32_t face_count() const override { return 1; }
+  Surface surface(std::uint32_t face) const override;
+
+ private:
+  Vec3 center_;
+  AxisFrame frame_;
+  double radius_;
+  double thickness_;
+  double unit_;  ///< a power of two near radius + thickness
+  double ring_;  ///< R in units
+  double tube_;  ///< r in units
+};
+
+void validate(const Torus& torus);
+inline bool is_solid(const Torus&) {
+  return true;
+}
+std::unique_ptr<const Shape> make_shape(const Torus& torus);
+
+}  // namespace crt::core

@@ -1,0 +1,166 @@
+#include "core/geometry/torus_line.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+
+TorusLine::TorusLine(const Vec3& point, const Vec3& direction, double ring, double tube, bool on_surface)
+    : point_(point),
+      direction_(direction),
+      ring_(ring),
+      tube_(tube),
+      squared_speed_(glm::dot(direction, direction)),
+      passing_(std::abs(difference_of_products(point.x, direction.y, point.y, direction.x))),
+      on_surface_(on_surface) {}
+
+double TorusLine::value(double x) const {
+  const Vec3 p = point_ + x * direction_;
+  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+  if (on_surface_) {
+    const Vec3 sum = p + point_;
+    const double rho_sum = rho + std::sqrt(point_.x * point_.x + point_.y * point_.y);
+    const double lateral = sum.x * direction_.x + sum.y * direction_.y;
+    const double pull = rho_sum > 0 ? lateral - 2 * ring_ * (lateral / rho_sum) : 0;
+    return x * (pull + sum.z * direction_.z);
+  }
+  return (rho - ring_) * (rho - ring_) - (tube_ - p.z) * (tube_ + p.z);
+}
+
+double TorusLine::half_slope(double x) const {
+  const Vec3 p = point_ + x * direction_;
+  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+  const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
+  return (rho - ring_) * rho_rate + p.z * direction_.z;
+}
+
+double TorusLine::half_curvature(double x) const {
+  const Vec3 p = point_ + x * direction_;
+  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+  if (!(rho > 0)) return squared_speed_;
+  const double turning = passing_ / rho;
+  return squared_speed_ - ring_ * (turning * turning / rho);
+}
+
+/// Where the line can be inside: within the ball and the slab that hold the torus, and a little more,
+/// so that both ends are outside whatever the rounding.
+std::optional<TorusLine::Range> TorusLine::range() const {
+  constexpr double margin = 1 + 0x1p-40;
+  const double ball = (ring_ + tube_) * margin;
+  const double closest = -glm::dot(point_, direction_) / squared_speed_;
+  const double distance = glm::length(point_ + closest * direction_);
+  if (!(distance < ball)) return std::nullopt;
+  const double half = std::sqrt((ball - distance) * (ball + distance) / squared_speed_);
+  Range result{closest - half, closest + half};
+
+  const double slab = tube_ * margin;
+  if (direction_.z != 0) {
+    const double a = (-slab - point_.z) / direction_.z;
+    const double b = (slab - point_.z) / direction_.z;
+    result.low = std::max(result.low, std::min(a, b));
+    result.high = std::min(result.high, std::max(a, b));
+  } else if (!(std::abs(point_.z) < slab)) {
+    return std::nullopt;
+  }
+  if (on_surface_) {
+    result.low = std::min(result.low, 0.0);
+    result.high = std::max(result.high, 0.0);
+  }
+  if (!(result.low < result.high)) return std::nullopt;
+  return result;
+}
+
+/// Where rho'' > a / R, that is rho^3 < R D / a; an empty range at its middle if nowhere.
+TorusLine::Range TorusLine::concave_part(const Range& range) const {
+  const double lateral_speed = direction_.x * direction_.x + direction_.y * direction_.y;
+  if (!(lateral_speed > 0)) return {range.high, range.high};
+  const double middle = -(point_.x * direction_.x + point_.y * direction_.y) / lateral_speed;
+  const double inflection = std::cbrt(ring_ * passing_ * passing_ / squared_speed_);
+  const double passing_distance = passing_ / std::sqrt(lateral_speed);
+  double half = 0;
+  if (inflection > passing_distance) {
+    half = std::sqrt((inflection - passing_distance) * (inflection + passing_distance) / lateral_speed);
+  } else if (passing_ > 0) {
+    return {range.high, range.high};
+  }
+  return {std::clamp(middle - half, range.low, range.high), std::clamp(middle + half, range.low, range.high)};
+}
+
+/// In a part where sign * G is convex: a point where it is negative, if there is one. Newton's
+/// iteration for the minimum, kept between bounds; it stops when the tangents show that all is positive.
+std::optional<double> TorusLine::find_sign(double low, double high, double sign) const {
+  if (sign * value(low) < 0) return low;
+  if (sign * value(high) < 0) return high;
+  constexpr int most_steps = 200;
+  double x = low + (high - low) / 2;
+  for (int step = 0; step < most_steps && low < x && x < high; ++step) {
+    const double height = sign * value(x);
+    if (height < 0) return x;
+    const double slope = 2 * sign * half_slope(x);
+    if (slope == 0) return std::nullopt;
+    if (height - std::abs(slope) * (slope > 0 ? x - low : high - x) > 0) return std::nullopt;
+    (slope > 0 ? high : low) = x;
+    const double curvature = 2 * sign * half_curvature(x);
+    const double next = x - slope / curvature;
+    const bool shrinks = step % 4 != 3;  // now and then halve, so that the bounds close in from both sides
+    x = shrinks && curvature > 0 && low < next && next < high ? next : low + (high - low) / 2;
+  }
+  return std::nullopt;
+}
+
+/// The one root between two points of different sign: Newton, and bisection where it would leave
+/// the bounds or does not halve them fast enough.
+double TorusLine::root_between(double negative, double positive) const {
+  if (on_surface_ && std::min(negative, positive) <= 0 && std::max(negative, positive) >= 0) return 0;
+  constexpr int most_steps = 200;
+  double x = negative + (positive - negative) / 2;
+  double step_before = std::abs(positive - negative);
+  for (int step = 0; step < most_steps; ++step) {
+    const double height = value(x);
+    if (height == 0) return x;
+    (height < 0 ? negative : positive) = x;
+    // With the known root divided out, so is its slope: G = x H, H' = (G' - H) / x.
+    const double slope = 2 * half_slope(x);
+    const double newton = on_surface_ ? height / (slope - height / x) : height / slope;
+    double next = x - newton;
+    const double low = std::min(negative, positive);
+    const double high = std::max(negative, positive);
+    if (!(low < next && next < high) || std::abs(newton) > step_before / 2) next = low + (high - low) / 2;
+    step_before = std::abs(next - x);
+    if (next == x || next == low || next == high) return next;
+    if (step_before <= unit_roundoff * std::abs(x)) return next;
+    x = next;
+  }
+  return x;
+}
+
+TorusLine::Dips TorusLine::dips() const {
+  Dips result;
+  const std::optional<Range> whole = range();
+  if (!whole) return result;
+  const Range concave = concave_part(*whole);
+  const std::optional<double> first = find_sign(whole->low, concave.low, 1);
+  const std::optional<double> second = find_sign(concave.high, whole->high, 1);
+  const auto add = [&](double outside_before, double first_inside, double last_inside, double outside_after) {
+    result.dip[result.count++] = {root_between(first_inside, outside_before),
+                                  root_between(last_inside, outside_after)};
+  };
+  if (first && second) {
+    const std::optional<double> rise = find_sign(concave.low, concave.high, -1);
+    if (rise) {
+      add(whole->low, *first, *first, *rise);
+      add(*rise, *second, *second, whole->high);
+    } else {
+      add(whole->low, *first, *second, whole->high);
+    }
+  } else if (first) {
+    add(whole->low, *first, *first, concave.high);
+  } else if (second) {
+    add(concave.low, *second, *second, whole->high);
+  }
+  return result;
+}
+
+}  // namespace crt::core

@@ -1,0 +1,137 @@
+#include "core/geometry/triangle.hpp"
+
+#include "core/geometry/checks.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+namespace {
+
+using PreciseVector = std::array<DoubleDouble, 3>;
+
+/// to - from exactly, times `scale` (a power of two).
+PreciseVector difference(const Vec3& to, const Vec3& from, double scale) {
+  PreciseVector result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const DoubleDouble exact = two_sum(to[axis], -from[axis]);
+    result[static_cast<std::size_t>(axis)] = {exact.hi * scale, exact.lo * scale};
+  }
+  return result;
+}
+
+PreciseVector cross(const PreciseVector& a, const PreciseVector& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+Vec3 rounded(const PreciseVector& v) {
+  return {v[0].value(), v[1].value(), v[2].value()};
+}
+
+double inverse_length_scale(const Vec3& v) {
+  return 1 / power_of_two_below(largest_component(v));
+}
+
+/// (b - a) x (c - a) up to a power of two, good to a rounding even for slivers; 0 if it is within
+/// the rounding of double-double, so that the corners are on a line for all we can tell.
+Vec3 normal_of(const Triangle& triangle) {
+  const Vec3 ab = triangle.b - triangle.a;
+  const Vec3 ac = triangle.c - triangle.a;
+  if (largest_component(ab) == 0 || largest_component(ac) == 0) return Vec3(0.0);
+  const PreciseVector product = cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
+                                      difference(triangle.c, triangle.a, inverse_length_scale(ac)));
+  constexpr double rounding = 0x1p-98;
+  const Vec3 normal = rounded(product);
+  return largest_component(normal) > rounding ? normal : Vec3(0.0);
+}
+
+/// Along which side of the edge from `from` to `to` the line passes: the sign of from . (edge x d),
+/// seen from a point of the line; 0 if it is closer to the edge than can be told.
+int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double t) {
+  const Vec3 d = scaled_to_one(ray.direction);
+  const Vec3 edge = to - from;
+  const Vec3 start = -ray.from_center(from, t);
+  const double volume = glm::dot(start, accurate_cross(edge, d));
+  constexpr double filter = 16 * unit_roundoff;
+  if (std::abs(volume) > filter * largest_component(start) * largest_component(edge) * largest_component(d)) {
+    return volume > 0 ? 1 : -1;
+  }
+
+  const double scale = 1 / power_of_two_below(std::max(largest_component(edge), largest_component(start)));
+  const double direction_scale = 1 / power_of_two_below(largest_component(ray.direction));
+  PreciseVector direction;
+  PreciseVector offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    direction[i] = two_sum(ray.direction[axis] * direction_scale, ray.direction_low[axis] * direction_scale);
+    const DoubleDouble exact = two_sum(ray.origin[axis], -from[axis]);
+    const DoubleDouble origin =
+        DoubleDouble(exact.hi * scale, exact.lo * scale) + DoubleDouble(ray.origin_low[axis] * scale);
+    offset[i] = -(origin + direction[i] * DoubleDouble(t / direction_scale * scale));
+  }
+  const PreciseVector moment = cross(difference(to, from, scale), direction);
+  const DoubleDouble precise = offset[0] * moment[0] + offset[1] * moment[1] + offset[2] * moment[2];
+  constexpr double rounding = 0x1p-96;
+  if (std::abs(precise.hi) <= rounding) return 0;
+  return precise.hi > 0 ? 1 : -1;
+}
+
+}  // namespace
+
+TriangleShape::TriangleShape(const Triangle& triangle)
+    : corners_{triangle.a, triangle.b, triangle.c}, face_(normal_of(triangle), triangle.a) {}
+
+Bounds TriangleShape::bounds() const {
+  Bounds result;
+  for (const Vec3& corner : corners_) result.include(corner);
+  return result;
+}
+
+bool TriangleShape::passes_edges(const ObjectRay& ray, double t) const {
+  bool left = false;
+  bool right = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int side = side_of_edge(ray, corners_[i], corners_[(i + 1) % 3], t);
+    left = left || side > 0;
+    right = right || side < 0;
+  }
+  return !(left && right);
+}
+
+bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  const PlaneFace::Meeting meeting = face_.meet_surface(ray);
+  if (!meeting.found) return false;
+  if (ray.start.face == 0 || passes_edges(ray, meeting.t)) PlaneFace::emit(meeting, out);
+  return false;
+}
+
+SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+  const Vec3 ab = corners_[1] - corners_[0];
+  const Vec3 ac = corners_[2] - corners_[0];
+  const double scale = inverse_length_scale(ab);
+  const double scale_c = inverse_length_scale(ac);
+  const Vec3 relative = face_.onto_plane(ray.from_center(corners_[0], crossing.t));
+  const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
+  const double squared_area = glm::dot(area, area);
+  const double u = glm::dot(accurate_cross(relative * scale, ac * scale_c), area) / squared_area;
+  const double v = glm::dot(accurate_cross(ab * scale, relative * scale_c), area) / squared_area;
+  SurfacePoint result{.position = face_.absolute(relative), .normal = face_.unit_normal()};
+  result.u = squared_area > 0 ? std::clamp(u, 0.0, 1.0) : 0.0;
+  result.v = squared_area > 0 ? std::clamp(v, 0.0, 1.0 - result.u) : 0.0;
+  const Bounds box = bounds();
+  result.position = glm::clamp(result.position, box.lower, box.upper);
+  return result;
+}
+
+void validate(const Triangle& triangle) {
+  check_coordinates("a", triangle.a);
+  check_coordinates("b", triangle.b);
+  check_coordinates("c", triangle.c);
+  if (largest_component(normal_of(triangle)) == 0) {
+    reject("c", "must not be on a line with a and b (the triangle has no area)");
+  }
+}
+
+std::unique_ptr<const Shape> make_shape(const Triangle& triangle) {
+  return std::make_unique<TriangleShape>(triangle);
+}
+
+}  // namespace crt::core

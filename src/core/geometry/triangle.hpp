@@ -1,0 +1,45 @@
+// Triangle: the surface between three corners. Its normal is (b - a) x (c - a), component by
+// component as usual: seen from where it points to, a, b, c run clockwise (the space is left-handed).
+//
+// A line hits it if it passes the three edges on the same side. The side is the sign of a triple
+// product, found again in double-double where doubles leave it open; a line through an edge hits,
+// so triangles that share an edge leave no gap.
+// Source: Pluecker, as in Shevtsov, Soupikov, Kapustin, Ray-triangle intersection algorithm for
+// modern CPU architectures, 2007.
+//
+// Face 0 is all of it. (u, v) are the weights of b and c.
+// Tests: tests/geometry/triangle_test.cpp
+#pragma once
+
+#include <array>
+
+#include "core/geometry/plane_face.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+class TriangleShape final : public Shape {
+ public:
+  explicit TriangleShape(const Triangle& triangle);
+
+  bool is_solid() const override { return false; }
+  Bounds bounds() const override;
+  bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  std::uint32_t face_count() const override { return 1; }
+  Surface surface(std::uint32_t) const override { return face_.surface(); }
+
+ private:
+  bool passes_edges(const ObjectRay& ray, double t) const;
+
+  std::array<Vec3, 3> corners_;
+  PlaneFace face_;
+};
+
+void validate(const Triangle& triangle);
+inline bool is_solid(const Triangle&) {
+  return false;
+}
+std::unique_ptr<const Shape> make_shape(const Triangle& triangle);
+
+}  // namespace crt::core

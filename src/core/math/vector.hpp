@@ -1,0 +1,81 @@
+// Vector arithmetic where cancellation matters, and exact scaling by powers of two.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <glm/geometric.hpp>
+
+#include "core/math/double_double.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+/// The largest relative error of one rounding, u in the comments.
+inline constexpr double unit_roundoff = 0x1p-53;
+
+/// At least half an ulp of x.
+inline double rounding_of(double x) {
+  return unit_roundoff * std::abs(x);
+}
+
+inline double largest_component(const Vec3& v) {
+  return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
+}
+
+/// The power of two with 1 <= x / power < 2, for finite x > 0; 2^-1022 where x is smaller still, so
+/// that the inverse is always a number.
+inline double power_of_two_below(double x) {
+  constexpr std::uint64_t exponent_bits = 0x7ff0000000000000u;
+  constexpr std::uint64_t smallest = 0x0010000000000000u;
+  return std::bit_cast<double>(std::max(std::bit_cast<std::uint64_t>(x) & exponent_bits, smallest));
+}
+
+/// a b - c d to about one rounding of the result, however much cancels.
+/// Source: Jeannerod, Louvet, Muller, Further analysis of Kahan's algorithm, 2013.
+inline double difference_of_products(double a, double b, double c, double d) {
+  const double product = c * d;
+  const double rest = std::fma(-c, d, product);
+  return std::fma(a, b, -product) + rest;
+}
+
+/// The cross product, each component to about one rounding: small angles keep all their digits.
+inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
+  return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+          difference_of_products(a.x, b.y, a.y, b.x)};
+}
+
+/// The dot product as if in twice the precision.
+/// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2).
+inline DoubleDouble accurate_dot(const Vec3& a, const Vec3& b) {
+  const DoubleDouble x = two_product(a.x, b.x);
+  const DoubleDouble y = two_product(a.y, b.y);
+  const DoubleDouble z = two_product(a.z, b.z);
+  const DoubleDouble xy = two_sum(x.hi, y.hi);
+  const DoubleDouble xyz = two_sum(xy.hi, z.hi);
+  return two_sum(xyz.hi, xyz.lo + xy.lo + (x.lo + y.lo + z.lo));
+}
+
+/// The axis that v runs along, 0 to 2; -1 if it has more than one component that is not 0.
+inline int coordinate_axis(const Vec3& v) {
+  if (v.y == 0 && v.z == 0) return 0;
+  if (v.x == 0 && v.z == 0) return 1;
+  if (v.x == 0 && v.y == 0) return 2;
+  return -1;
+}
+
+/// v times the power of two that brings its largest component into [1, 2). Exact, but for components
+/// that are 2^-1000 of the largest.
+inline Vec3 scaled_to_one(const Vec3& v) {
+  return v * (1 / power_of_two_below(largest_component(v)));
+}
+
+/// v (not 0, of any length) with length 1; exact for a coordinate axis.
+inline Vec3 unit_vector(const Vec3& v) {
+  const Vec3 scaled = scaled_to_one(v);
+  const double length = std::sqrt(accurate_dot(scaled, scaled).value());
+  return {scaled.x / length, scaled.y / length, scaled.z / length};
+}
+
+}  // namespace crt::core

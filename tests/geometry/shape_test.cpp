@@ -1,0 +1,112 @@
+// What all primitives have in common: the list of them, and the checks of their parameters.
+#include "core/geometry/shape.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <string>
+
+#include "crt/error.hpp"
+#include "crt/validate.hpp"
+
+using namespace crt;
+
+namespace {
+
+constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
+constexpr double inf = std::numeric_limits<double>::infinity();
+
+/// "argument: message", or "" if the primitive is accepted.
+std::string fault(const Primitive& primitive) {
+  try {
+    validate(primitive);
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::invalid_argument);
+    return error.argument() + ": " + error.what();
+  }
+  return "";
+}
+
+std::string argument(const Primitive& primitive) {
+  return fault(primitive).substr(0, fault(primitive).find(':'));
+}
+
+}  // namespace
+
+TEST_CASE("every primitive is valid by default and makes a shape that agrees on being a solid") {
+  const Primitive all[] = {Sphere{}, Box{},   Plane{}, HalfPlane{}, Cylinder{},
+                           Cone{},   Torus{}, Disc{},  Triangle{}};
+  CHECK(std::size(all) == std::variant_size_v<Primitive>);
+  for (const Primitive& primitive : all) {
+    CHECK(fault(primitive) == "");
+    const auto shape = core::make_shape(primitive);
+    CHECK(shape->is_solid() == core::is_solid(primitive));
+    CHECK(shape->face_count() > 0);
+    CHECK_FALSE(shape->bounds().empty());
+  }
+}
+
+TEST_CASE("discs, triangles and half planes are surfaces; all else is solid") {
+  CHECK_FALSE(core::is_solid(Disc{}));
+  CHECK_FALSE(core::is_solid(Triangle{}));
+  CHECK_FALSE(core::is_solid(HalfPlane{}));
+  CHECK(core::is_solid(Sphere{}));
+  CHECK(core::is_solid(Plane{}));
+  CHECK(core::is_solid(Torus{}));
+}
+
+TEST_CASE("an error says what is wrong with which field") {
+  CHECK(fault(Sphere{.radius = -1}) == "radius: radius must be greater than 0 (it is -1)");
+  CHECK(fault(Sphere{.radius = 1e-101}) == "radius: radius must be at least 1e-100 (it is 1e-101)");
+  CHECK(fault(Sphere{.radius = 1e101}) == "radius: radius must be at most 1e100 (it is 1e+101)");
+  CHECK(fault(Sphere{.radius = not_a_number}) == "radius: radius must be finite (it is nan)");
+  CHECK(fault(Sphere{.center = {0, inf, 0}}) == "center: center must be finite (it is (0, inf, 0))");
+  CHECK(fault(Sphere{.center = {0, 0, -1.5e100}}) ==
+        "center: center must be at most 1e100 in magnitude (it is (0, 0, -1.5e+100))");
+  CHECK(fault(Plane{.normal = {0, 0, 0}}) == "normal: normal must have a length (it is (0, 0, 0))");
+}
+
+TEST_CASE("every field of every primitive is checked") {
+  const Vec3 bad(not_a_number, 0, 0);
+  CHECK(argument(Box{.corner_a = bad}) == "corner_a");
+  CHECK(argument(Box{.corner_b = bad}) == "corner_b");
+  CHECK(argument(Box{.corner_a = {0, 0, 0}, .corner_b = {1, 0, 1}}) == "corner_b");
+  CHECK(argument(Plane{.normal = bad}) == "normal");
+  CHECK(argument(Plane{.position = bad}) == "position");
+  CHECK(argument(HalfPlane{.normal = Vec3(0.0)}) == "normal");
+  CHECK(argument(HalfPlane{.position = bad}) == "position");
+  CHECK(argument(HalfPlane{.direction = Vec3(0.0)}) == "direction");
+  CHECK(argument(HalfPlane{.normal = {1, 2, 3}, .direction = {-3, -6, -9}}) == "direction");
+  CHECK(argument(Cylinder{.from = bad}) == "from");
+  CHECK(argument(Cylinder{.to = bad}) == "to");
+  CHECK(argument(Cylinder{.from = {1, 1, 1}, .to = {1, 1, 1}}) == "to");
+  CHECK(argument(Cylinder{.radius = 0}) == "radius");
+  CHECK(argument(Cone{.from = bad}) == "from");
+  CHECK(argument(Cone{.to = bad}) == "to");
+  CHECK(argument(Cone{.from = {1, 1, 1}, .to = {1, 1, 1}}) == "to");
+  CHECK(argument(Cone{.radius = 0}) == "radius");
+  CHECK(argument(Cone{.radius2 = -0.5}) == "radius2");
+  CHECK(argument(Cone{.radius2 = 1e-101}) == "radius2");
+  CHECK(argument(Torus{.center = bad}) == "center");
+  CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
+  CHECK(argument(Torus{.radius = 0}) == "radius");
+  CHECK(argument(Torus{.thickness = inf}) == "thickness");
+  CHECK(argument(Disc{.center = bad}) == "center");
+  CHECK(argument(Disc{.normal = Vec3(0.0)}) == "normal");
+  CHECK(argument(Disc{.radius = -2}) == "radius");
+  CHECK(argument(Triangle{.a = bad}) == "a");
+  CHECK(argument(Triangle{.b = bad}) == "b");
+  CHECK(argument(Triangle{.c = bad}) == "c");
+  CHECK(argument(Triangle{.a = {1, 1, 1}, .b = {2, 2, 2}, .c = {4, 4, 4}}) == "c");
+  CHECK(argument(Triangle{.a = {0.1, 0.1, 0.1}, .b = {0.3, 0.3, 0.3}, .c = {0.7, 0.7, 0.7}}) == "c");
+}
+
+TEST_CASE("values at the limits, slivers and spindles are accepted") {
+  CHECK(fault(Sphere{.center = {1e100, -1e100, 0}, .radius = 1e-100}) == "");
+  CHECK(fault(Cylinder{.from = {0, 0, 0}, .to = {0, 1e-100, 0}, .radius = 1e100}) == "");
+  CHECK(fault(Cone{.radius = 1, .radius2 = 1}) == "");
+  CHECK(fault(Torus{.radius = 1, .thickness = 3}) == "");
+  CHECK(fault(Plane{.normal = {0, 1e-300, 0}}) == "");
+  CHECK(fault(Triangle{.a = {0, 0, 0}, .b = {1, 0, 0}, .c = {0.5, 1e-20, 0}}) == "");
+  CHECK(fault(HalfPlane{.normal = {1, 2, 3}, .direction = {-3, -6, -9.000000000000002}}) == "");
+}
