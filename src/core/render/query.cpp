@@ -20,10 +20,10 @@ bool is_finite(const Vec3& v) {
 
 void check(const Ray& ray) {
   if (!is_finite(ray.origin)) {
-    throw Error(ErrorCode::invalid_argument, "a ray's origin must be finite", "origin");
+    throw Error(ErrorCode::invalid_argument, "origin of a ray must be finite", "origin");
   }
   if (!is_finite(ray.direction) || ray.direction == Vec3(0)) {
-    throw Error(ErrorCode::invalid_argument, "a ray's direction must be finite and not 0", "direction");
+    throw Error(ErrorCode::invalid_argument, "direction of a ray must be finite and not 0", "direction");
   }
   if (std::isnan(ray.t_min)) throw Error(ErrorCode::invalid_argument, "t_min is not a number", "t_min");
   if (std::isnan(ray.t_max)) throw Error(ErrorCode::invalid_argument, "t_max is not a number", "t_max");

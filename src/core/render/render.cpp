@@ -30,7 +30,7 @@ Region chosen_region(const RenderOptions& options, const Settings& settings) {
                       region.height <= settings.height - region.y;
   if (!inside) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("the region of {} x {} pixels at ({}, {}) is not inside the picture of {} x {}",
+                fmt::format("region of {} x {} pixels at ({}, {}) is not inside the picture of {} x {}",
                             region.width, region.height, region.x, region.y, settings.width, settings.height),
                 "region");
   }

@@ -110,8 +110,7 @@ void run_in_parallel(std::size_t count, int threads, const std::function<void(st
 
 int allowed_threads(int threads) {
   if (threads < 0) {
-    throw Error(ErrorCode::invalid_argument, "the number of threads must not be negative (0 means all)",
-                "threads");
+    throw Error(ErrorCode::invalid_argument, "threads must not be negative; 0 means all", "threads");
   }
   return threads == 0 ? available_threads() : std::min(threads, most_threads);
 }

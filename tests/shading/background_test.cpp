@@ -1,0 +1,120 @@
+#include "core/shading/prepared_background.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+
+using namespace crt::core;
+using crt::Color;
+using crt::Image;
+using crt::Vec3;
+
+namespace {
+
+constexpr double pi = std::numbers::pi;
+
+PreparedBackground prepared(const crt::Background& background, double gamma = 1) {
+  TexturePool textures(gamma);
+  return {background, textures};
+}
+
+/// Every texel another colour.
+std::shared_ptr<Image> test_picture(int width, int height) {
+  auto image = std::make_shared<Image>(width, height);
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) image->set(x, y, {x / 16.0, y / 16.0, 0.5, 1});
+  }
+  return image;
+}
+
+Vec3 direction(double yaw, double pitch) {
+  return {std::sin(yaw) * std::cos(pitch), std::sin(pitch), std::cos(yaw) * std::cos(pitch)};
+}
+
+void check_same(const Color& a, const Color& b) {
+  CHECK(a.r == doctest::Approx(b.r).epsilon(1e-9));
+  CHECK(a.g == doctest::Approx(b.g).epsilon(1e-9));
+  CHECK(a.b == doctest::Approx(b.b).epsilon(1e-9));
+  CHECK(a.a == doctest::Approx(b.a).epsilon(1e-9));
+}
+
+}  // namespace
+
+TEST_CASE("a solid background is the same in every direction") {
+  const PreparedBackground background = prepared(crt::SolidBackground{{0.1, 0.2, 0.3, 0.4}});
+  CHECK(background.color({0, 1, 0}) == Color{0.1, 0.2, 0.3, 0.4});
+  CHECK(background.color({0.6, 0, -0.8}) == Color{0.1, 0.2, 0.3, 0.4});
+}
+
+TEST_CASE("a gradient is linear in |d.y|, from the horizon to the sky above and below") {
+  const PreparedBackground background =
+      prepared(crt::GradientBackground{.horizon = {1, 0, 0, 1}, .sky = {0, 1, 0, 0}});
+  CHECK(background.color({1, 0, 0}) == Color{1, 0, 0, 1});
+  CHECK(background.color({0, 1, 0}) == Color{0, 1, 0, 0});
+  CHECK(background.color({0, -1, 0}) == Color{0, 1, 0, 0});
+  check_same(background.color({0.8, -0.6, 0}), {0.4, 0.6, 0, 0.4});
+}
+
+TEST_CASE("a spherical panorama shows each texel in the middle of its share of yaw and pitch") {
+  const auto picture = test_picture(8, 4);
+  const PreparedBackground background = prepared(crt::PanoramaBackground{picture});
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const double yaw = ((x + 0.5) / 8 - 0.5) * 2 * pi;
+      const double pitch = (0.5 - (y + 0.5) / 4) * pi;
+      check_same(background.color(direction(yaw, pitch)), picture->at(x, y));
+    }
+  }
+}
+
+TEST_CASE("a panorama's middle is straight ahead, its right half to the right, its edges meet behind") {
+  const auto picture = test_picture(8, 1);
+  const PreparedBackground background = prepared(crt::PanoramaBackground{picture});
+  CHECK(background.color({0, 0, 1}).r == doctest::Approx(3.5 / 16));
+  CHECK(background.color({1, 0, 0}).r == doctest::Approx(5.5 / 16));
+  CHECK(background.color({-1, 0, 0}).r == doctest::Approx(1.5 / 16));
+  CHECK(background.color({1e-12, 0, -1}).r == doctest::Approx(3.5 / 16));  // half way from 7 to 0
+  CHECK(background.color({-1e-12, 0, -1}).r == doctest::Approx(3.5 / 16));
+}
+
+TEST_CASE("the angle turns a panorama about y") {
+  const auto picture = test_picture(8, 4);
+  const PreparedBackground straight = prepared(crt::PanoramaBackground{picture});
+  const PreparedBackground turned = prepared(crt::PanoramaBackground{.image = picture, .angle = 0.7});
+  for (const double yaw : {-3.0, -1.0, 0.0, 2.0, 3.0}) {
+    check_same(turned.color(direction(yaw, 0.3)), straight.color(direction(yaw + 0.7, 0.3)));
+  }
+}
+
+TEST_CASE("straight up and down are the first and the last row") {
+  const auto picture = test_picture(8, 4);
+  for (const auto projection : {crt::PanoramaProjection::spherical, crt::PanoramaProjection::cylindrical}) {
+    const PreparedBackground background = prepared(crt::PanoramaBackground{picture, projection});
+    CHECK(background.color({0, 1, 0}).g == doctest::Approx(0.0));
+    CHECK(background.color({0, -1, 0}).g == doctest::Approx(3 / 16.0));
+  }
+}
+
+TEST_CASE("a cylindrical panorama's rows are as high as its columns are wide, seen level") {
+  const auto picture = test_picture(8, 4);
+  const PreparedBackground background =
+      prepared(crt::PanoramaBackground{picture, crt::PanoramaProjection::cylindrical});
+  for (int y = 0; y < 4; ++y) {
+    // On the cylinder of radius 1 a texel is 2 pi / 8 high; the horizon is the middle of the picture.
+    const double height = (2 - (y + 0.5)) * 2 * pi / 8;
+    for (int x = 0; x < 8; ++x) {
+      const double yaw = ((x + 0.5) / 8 - 0.5) * 2 * pi;
+      check_same(background.color(glm::normalize(Vec3(std::sin(yaw), height, std::cos(yaw)))),
+                 picture->at(x, y));
+    }
+  }
+}
+
+TEST_CASE("a panorama from an 8-bit file is raised to gamma") {
+  const auto picture = std::make_shared<Image>(1, 1);
+  picture->set(0, 0, {0.5, 0.5, 0.5, 1});
+  picture->set_display_encoded(true);
+  CHECK(prepared(crt::PanoramaBackground{picture}, 2).color({0, 0, 1}).r == 0.25);
+}

@@ -1,0 +1,172 @@
+#include "core/shading/prepared_pattern.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <numbers>
+#include <vector>
+
+using namespace crt::core;
+using crt::Color;
+using crt::Vec3;
+
+namespace {
+
+const Color white = {1, 1, 1};
+const Color black = {0, 0, 0};
+
+PreparedPattern prepared(const crt::Pattern& pattern, double gamma = 1) {
+  TexturePool textures(gamma);
+  return {pattern, textures};
+}
+
+Color color_at(const crt::Pattern& pattern, const Vec3& position, const Vec3& normal = {0, 1, 0}) {
+  return prepared(pattern).color({.position = position, .normal = normal});
+}
+
+double level_at(const crt::Pattern& pattern, const Vec3& position) {
+  return color_at(pattern, position).r;
+}
+
+}  // namespace
+
+TEST_CASE("a checkerboard changes colour from cube to cube, in all directions and below 0") {
+  const crt::Checker checker{.scale = 2};
+  for (int x = -3; x < 3; ++x) {
+    for (int y = -3; y < 3; ++y) {
+      for (int z = -3; z < 3; ++z) {
+        const Vec3 middle(2 * x + 1, 2 * y + 1, 2 * z + 1);
+        CHECK(color_at(checker, middle) == ((x + y + z) % 2 == 0 ? white : black));
+      }
+    }
+  }
+}
+
+TEST_CASE("a surface that lies on the border of cubes wears those inside, however its points are rounded") {
+  const crt::Checker checker;
+  for (const double rounding : {-1e-15, -1e-300, 0.0, 1e-300, 1e-15}) {
+    // The top of a floor: the cubes below it, from y = -1 to 0.
+    CHECK(color_at(checker, {0.5, rounding, 0.5}, {0, 1, 0}) == black);
+    // The underside of a ceiling: those above it.
+    CHECK(color_at(checker, {0.5, rounding, 0.5}, {0, -1, 0}) == white);
+  }
+  CHECK(color_at(checker, {1e6 + 0.5, 1e6, 0.5}, {0, 1, 0}) ==
+        color_at(checker, {1e6 + 0.5, 1e6 - 0.5, 0.5}));
+}
+
+TEST_CASE("an offset moves a pattern") {
+  const crt::Checker still{.scale = 3};
+  const crt::Checker moved{.scale = 3, .offset = {0.7, -0.2, 5}};
+  for (double x = -4; x < 4; x += 0.37) {
+    const Vec3 place(x, 0.4 * x + 1.1, 0.9);
+    CHECK(color_at(moved, place + Vec3(0.7, -0.2, 5)) == color_at(still, place));
+  }
+}
+
+TEST_CASE("stripes are two bands a period, across their direction only") {
+  const crt::Stripes stripes{.direction = {0, 0, 7}, .scale = 4};
+  CHECK(color_at(stripes, {0, 0, 1}) == white);
+  CHECK(color_at(stripes, {9, -5, 1.9}) == white);
+  CHECK(color_at(stripes, {0, 0, 2.1}) == black);
+  CHECK(color_at(stripes, {0, 0, 3.9}) == black);
+  CHECK(color_at(stripes, {0, 0, 4.1}) == white);
+  CHECK(color_at(stripes, {0, 0, -0.1}) == black);
+}
+
+TEST_CASE("a gradient goes from one colour to the other and back within a period") {
+  const crt::Gradient gradient{.color_a = {1, 0, 0, 1}, .color_b = {0, 1, 0.5, 0}, .scale = 10};
+  CHECK(color_at(gradient, {3, 0, 4}) == Color{1, 0, 0, 1});
+  CHECK(color_at(gradient, {3, 5, 4}) == Color{0, 1, 0.5, 0});
+  const Color middle = color_at(gradient, {0, 2.5, 0});
+  CHECK(middle.r == doctest::Approx(0.5));
+  CHECK(middle.b == doctest::Approx(0.25));
+  CHECK(middle.a == doctest::Approx(0.5));
+  for (double y = 0; y < 5; y += 0.1) {
+    CHECK(color_at(gradient, {0, y, 0}).r == doctest::Approx(color_at(gradient, {0, 10 - y, 0}).r));
+    CHECK(color_at(gradient, {0, y, 0}).r >= color_at(gradient, {0, y + 0.1, 0}).r);
+  }
+}
+
+TEST_CASE("noise lies between its two colours and scales with its scale") {
+  const crt::Noise small{.octaves = 3, .scale = 1};
+  const crt::Noise large{.octaves = 3, .scale = 8};
+  for (double x = 0; x < 10; x += 0.31) {
+    const Vec3 place(x, 1.3, -x);
+    CHECK(level_at(small, place) >= 0);
+    CHECK(level_at(small, place) <= 1);
+    CHECK(level_at(small, place) == level_at(large, 8.0 * place));
+  }
+}
+
+TEST_CASE("marble without turbulence is a wave, with it a shifted one") {
+  const crt::Marble calm{.direction = {1, 0, 0}, .turbulence = 0, .scale = 2};
+  CHECK(level_at(calm, {0, 5, 5}) == 1);
+  CHECK(level_at(calm, {1, -5, 5}) == 0);
+  CHECK(level_at(calm, {2, 0, 0}) == 1);
+  const crt::Marble veined{.direction = {1, 0, 0}, .turbulence = 1, .scale = 2};
+  CHECK(level_at(veined, {0.3, 5, 5}) != level_at(veined, {0.3, 4, 5}));
+}
+
+TEST_CASE("wood without turbulence has rings about its line") {
+  const crt::Wood wood{
+      .color_a = white, .color_b = black, .direction = {0, 2, 0}, .turbulence = 0, .offset = {1, 0, 0}};
+  CHECK(level_at(wood, {1, 0, 0}) == 1);
+  CHECK(level_at(wood, {1, 9, 0}) == 1);
+  CHECK(level_at(wood, {1.5, -3, 0}) == doctest::Approx(0));
+  CHECK(level_at(wood, {1, 0, 2.5}) == doctest::Approx(0));
+  CHECK(level_at(wood, {1.6, 0, 0.8}) == doctest::Approx(1));
+}
+
+TEST_CASE("an image map lies upright, from u = 0 at its left and v = 0 at its lower edge, and repeats") {
+  const auto image = std::make_shared<crt::Image>(4, 2);
+  for (int y = 0; y < 2; ++y) {
+    for (int x = 0; x < 4; ++x) image->set(x, y, {x / 4.0, y / 2.0, 0, 1});
+  }
+  const PreparedPattern map = prepared(crt::ImageMap{.image = image, .repeat_u = 2, .repeat_v = 3});
+  for (const double turns : {-5.0, 0.0, 1.0, 1e6}) {
+    for (int y = 0; y < 2; ++y) {
+      for (int x = 0; x < 4; ++x) {
+        const double u = ((x + 0.5) / 4 + turns) / 2;
+        const double v = ((2 - y - 0.5) / 2 + turns) / 3;
+        const Color color = map.color({.u = u, .v = v});
+        CHECK(color.r == doctest::Approx(x / 4.0).epsilon(1e-6));
+        CHECK(color.g == doctest::Approx(y / 2.0).epsilon(1e-6));
+      }
+    }
+  }
+}
+
+TEST_CASE("a pattern is opaque if all its colours are") {
+  const Color glass = {1, 1, 1, 0.5};
+  CHECK(prepared(crt::Checker{}).opaque());
+  CHECK_FALSE(prepared(crt::Checker{.color_b = glass}).opaque());
+  CHECK_FALSE(prepared(crt::Wood{.color_a = glass}).opaque());
+  const auto image = std::make_shared<crt::Image>(2, 1);
+  CHECK(prepared(crt::ImageMap{.image = image}).opaque());
+  image->set(1, 0, glass);
+  CHECK_FALSE(prepared(crt::ImageMap{.image = image}).opaque());
+}
+
+TEST_CASE("every pattern takes any point that a ray can reach") {
+  const auto image = std::make_shared<crt::Image>(3, 3);
+  const std::vector<crt::Pattern> patterns = {
+      crt::Checker{.scale = 1e-100},
+      crt::Stripes{.scale = 1e-100},
+      crt::Gradient{.scale = 1e-100},
+      crt::Noise{.octaves = 16, .scale = 1e-100},
+      crt::Marble{.turbulence = 1e100, .scale = 1e-100},
+      crt::Wood{.turbulence = 1e100, .scale = 1e-100},
+      crt::ImageMap{.image = image, .repeat_u = 1e100, .repeat_v = 1e100}};
+  for (const crt::Pattern& pattern : patterns) {
+    const PreparedPattern ready = prepared(pattern);
+    for (const double far : {0.0, 1.0, 1e20, 1e200, 1.7e308}) {
+      for (const double sign : {-1.0, 1.0}) {
+        const double c = sign * far;
+        const Color color = ready.color({.position = {c, -c, c}, .normal = {0.6, 0, 0.8}, .u = c, .v = -c});
+        REQUIRE(color.r >= 0);
+        REQUIRE(color.r <= 1);
+      }
+    }
+  }
+}
