@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cstddef>
 #include <cstdint>
 #include <string_view>
 
@@ -32,6 +33,19 @@ void add_settings(FileTexts& texts, const Settings& settings) {
   add(texts, "crt:falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light");
   add(texts, "crt:showclip", settings.show_clip ? "true" : "false");
   add(texts, "crt:seed", fmt::format("{}", settings.seed));
+}
+
+/// JPEG holds texts in segments of 64 KiB, several texts in one, and some with up to six bytes for
+/// one. A longer one would make the JPEG library end the program.
+constexpr std::size_t longest_short_text = 4000;
+
+/// The beginning of a text, not ending within a character of UTF-8.
+std::string shortened(std::string text) {
+  if (text.size() <= longest_short_text) return text;
+  std::size_t end = longest_short_text;
+  while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
+  text.resize(end);
+  return text;
 }
 
 /// The counts that do not depend on how the work was done.
@@ -67,14 +81,14 @@ FileTexts gathered_texts(const FileTexts& texts) {
   std::string description;
   for (const auto& [name, value] : texts) {
     if (name == author_name || name == software_name) {
-      gathered.emplace_back(name, value);
+      gathered.emplace_back(name, shortened(value));
     } else if (name == title_name || name == notes_name) {
       description += value + "\n";
     } else {
       description += fmt::format("{}: {}\n", name, value);
     }
   }
-  add(gathered, notes_name, std::move(description));
+  add(gathered, notes_name, shortened(std::move(description)));
   return gathered;
 }
 

@@ -5,12 +5,14 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <string_view>
 
 #include "core/image/file_format.hpp"
 #include "core/image/file_texts.hpp"
 #include "core/image/image_limits.hpp"
 #include "core/image/module_loader.hpp"
 #include "core/image/pixel_conversion.hpp"
+#include "core/image/png_check.hpp"
 #include "core/image/whole_file.hpp"
 #include "crt/error.hpp"
 #include "crt/image.hpp"
@@ -61,6 +63,10 @@ Image decode_content(std::span<const std::byte> content, const std::string& name
   if (format == nullptr) {
     fail(ErrorCode::io, "read", name,
          content.empty() ? "it is empty" : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
+  }
+  if (std::string_view(format) == "png") {
+    const std::string damage = png_damage(content);
+    if (!damage.empty()) fail(ErrorCode::io, "read", name, damage);
   }
   std::optional<Image> image;
   const ImageFilesPicture picture = {

@@ -205,9 +205,9 @@ ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes*
   });
 }
 
-/// Keeps OpenImageIO and OpenEXR from starting threads of their own.
+/// Keeps OpenEXR from starting threads of its own. (OpenImageIO's own are forbidden file by file: its
+/// global attribute "threads" starts some in order to end them.)
 void forbid_threads() {
-  OIIO::attribute("threads", 1);
   constexpr int no_pool = -1;
   OIIO::attribute("exr_threads", no_pool);
 }

@@ -1,0 +1,128 @@
+// Files that are missing, broken, cut short or made to harm.
+#include <doctest/doctest.h>
+#include <sys/stat.h>
+
+#include <random>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crt/error.hpp"
+#include "crt/image.hpp"
+#include "picture_files.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+/// The message of the Error (io) that decoding throws; empty if it throws none.
+std::string decode_error(const Bytes& content, const std::string& name = "some.name") {
+  try {
+    Image::decode(content, name);
+    return {};
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::io);
+    CHECK(std::string(error.what()).find(name) != std::string::npos);
+    return error.what();
+  }
+}
+
+std::string read_error(const std::filesystem::path& path) {
+  try {
+    Image::read(path);
+    return {};
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::io);
+    CHECK(std::string(error.what()).find(path.string()) != std::string::npos);
+    return error.what();
+  }
+}
+
+bool contains(const std::string& text, const char* part) {
+  return text.find(part) != std::string::npos;
+}
+
+/// A sound file of every format that can be read.
+std::vector<std::pair<std::string, Bytes>> sound_files() {
+  const TemporaryDirectory directory;
+  std::vector<std::pair<std::string, Bytes>> files;
+  for (const char* name : {"a.png", "a.tif", "a.jpg", "a.bmp", "a.ppm", "a.exr", "a.hdr"}) {
+    smooth_picture(40, 70, std::string(name) == "a.png" || std::string(name) == "a.exr")
+        .write(directory / name);
+    files.emplace_back(name, file_bytes(directory / name));
+  }
+  files.emplace_back("a.webp", webp_pixel());
+  return files;
+}
+
+}  // namespace
+
+TEST_CASE("a missing file, a directory and a pipe are errors that say so") {
+  const TemporaryDirectory directory;
+  CHECK(contains(read_error(directory / "nothing.png"), "No such file"));
+  CHECK(contains(read_error(directory.path()), "directory"));
+  REQUIRE(mkfifo((directory / "pipe.png").c_str(), 0600) == 0);
+  CHECK(contains(read_error(directory / "pipe.png"), "not a regular file"));
+}
+
+TEST_CASE("what is no image is an error that lists what can be read") {
+  CHECK(contains(decode_error({}), "empty"));
+  CHECK(contains(decode_error(to_bytes("hello")), "PNG, JPEG, EXR"));
+  CHECK(contains(decode_error(to_bytes("P")), "PNG, JPEG, EXR"));
+  CHECK(contains(decode_error(to_bytes("GIF89a")), "PNG, JPEG, EXR"));
+  CHECK(contains(decode_error(Bytes(1000)), "PNG, JPEG, EXR"));
+}
+
+TEST_CASE("a file of any format that is cut to half, or to its first bytes, is an error") {
+  for (const auto& [name, content] : sound_files()) {
+    CAPTURE(name);
+    CHECK(decode_error(content).empty());
+    for (const std::size_t length :
+         {content.size() / 2, content.size() * 3 / 4, std::size_t{16}, std::size_t{9}}) {
+      CAPTURE(length);
+      CHECK_FALSE(
+          decode_error({content.begin(), content.begin() + static_cast<std::ptrdiff_t>(length)}).empty());
+    }
+  }
+}
+
+TEST_CASE("a header that claims a huge picture is refused before anything is allocated for it") {
+  const std::string rows(100, '\0');
+  CHECK(decode_error(png_by_hand(2, 2, 8, 2, std::string(14, '\0'))).empty());
+  CHECK(contains(decode_error(png_by_hand(65536, 65536, 8, 2, rows)), "65536 x 65536"));
+  CHECK_FALSE(decode_error(png_by_hand(0x7fffffff, 0x7fffffff, 8, 2, rows)).empty());
+  CHECK_FALSE(decode_error(png_by_hand(0x80000000, 1, 8, 2, rows)).empty());
+  CHECK_FALSE(decode_error(png_by_hand(0, 1, 8, 2, rows)).empty());
+  CHECK_FALSE(decode_error(to_bytes("P6 2000000000 2000000000 255\nxyz")).empty());
+  CHECK_FALSE(decode_error(to_bytes("P6 99999999999999999999 1 255\nxyz")).empty());
+  CHECK_FALSE(decode_error(to_bytes("PF\n1000000 1000000\n-1.0\n0000")).empty());
+  CHECK_FALSE(
+      decode_error(to_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n")).empty());
+}
+
+TEST_CASE("a tall claim with few bytes behind it is an error soon") {
+  // 2^27 pixels are legal; the data for them is not there.
+  CHECK_FALSE(decode_error(png_by_hand(16384, 8192, 8, 2, std::string(100, '\0'))).empty());
+  CHECK_FALSE(decode_error(to_bytes("P6 1024 131072 255\nxyz")).empty());
+}
+
+TEST_CASE("damaged files of every format are read or refused, and nothing worse") {
+  std::mt19937 random(1);
+  for (const auto& [name, content] : sound_files()) {
+    for (int round = 0; round < 300; ++round) {
+      Bytes damaged = content;
+      const int changes = 1 + static_cast<int>(random() % 8);
+      // Headers hold what is most dangerous.
+      const std::size_t reach = round % 2 == 0 ? std::min<std::size_t>(damaged.size(), 300) : damaged.size();
+      for (int i = 0; i < changes; ++i) damaged[random() % reach] = static_cast<std::byte>(random());
+      try {
+        const Image image = Image::decode(damaged, name);
+        REQUIRE_FALSE(image.empty());
+      } catch (const Error& error) {
+        const bool expected = error.code() == ErrorCode::io || error.code() == ErrorCode::out_of_memory;
+        REQUIRE(expected);
+      }
+    }
+  }
+}
