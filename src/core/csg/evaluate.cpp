@@ -6,14 +6,18 @@
 
 namespace crt::core {
 
-RayStart start_on_leaf(const Leaf& leaf, std::span<const FaceSurface> face_surfaces,
-                       const SurfaceStart& start) {
-  if (start.surface == no_face) return {};
+RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const FaceSurface> face_surfaces,
+                       const StartPoint& start) {
+  if (start.surface == nothing) return {};
+  const auto on_face = [&](std::uint32_t face) {
+    const bool outside = (start.side == Side::outside) != face_surfaces[leaf.first_face + face].flipped;
+    return RayStart{.face = face,
+                    .side = outside ? Side::outside : Side::inside,
+                    .on_face = start.leaf == index && start.face == face};
+  };
+  if (start.leaf == index) return on_face(start.face);
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
-    const FaceSurface& candidate = face_surfaces[leaf.first_face + face];
-    if (candidate.surface != start.surface) continue;
-    const bool outside = (start.side == Side::outside) != candidate.flipped;
-    return {.face = face, .side = outside ? Side::outside : Side::inside};
+    if (face_surfaces[leaf.first_face + face].surface == start.surface) return on_face(face);
   }
   return {};
 }
@@ -41,7 +45,7 @@ LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direc
 }
 
 CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
-                             std::span<const FaceSurface> face_surfaces, const CsgRay& ray,
+                             std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
                              CsgWorkspace& workspace)
     : program_(program),
       leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
@@ -70,7 +74,7 @@ void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
     if (span.enter > span.leave || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max)
       continue;
     ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
-    object_ray.start = start_on_leaf(leaf, face_surfaces, ray_.start);
+    object_ray.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces, ray_.start);
     work_.leaf_crossings_.clear();
     if (leaf.shape->crossings(object_ray, work_.leaf_crossings_)) flip_leaf(index);
     for (const Crossing& crossing : work_.leaf_crossings_) {

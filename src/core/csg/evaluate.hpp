@@ -2,12 +2,15 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
 #include "core/csg/program.hpp"
 
 namespace crt::core {
+
+inline constexpr std::uint32_t nothing = 0xffffffffu;
 
 /// A leaf's crossing among those of its whole object.
 struct CsgCrossing {
@@ -29,20 +32,24 @@ struct CsgHit {
   bool entering = false;  ///< the object
 };
 
-/// Where a ray starts: on a whole surface, on its side as that surface's canonical orientation has
-/// it; in free space if `surface` is no_face.
-struct SurfaceStart {
-  std::uint32_t surface = no_face;
-  Side side = Side::outside;
+/// Where a ray starts, by identity: (leaf, face) is the piece of surface, `surface` the whole surface
+/// it lies on (shared by all faces of the scene that coincide). In free space all are nothing.
+struct StartPoint {
+  std::uint32_t leaf = nothing;
+  std::uint32_t face = no_face;
+  std::uint32_t surface = nothing;
+  Side side = Side::outside;  ///< of that surface, by its canonical orientation
+  /// Crossings of *other* surfaces up to this t are at the start too (rounding of the start point).
   double t_error = 0;
 };
 
-struct CsgRay {
+/// A ray in the world: origin + t * direction, t_min < t < t_max.
+struct WorldRay {
   Vec3 origin{0, 0, 0};
   Vec3 direction{0, 0, 1};
   double t_min = 0;
-  double t_max = 0;
-  SurfaceStart start;
+  double t_max = std::numeric_limits<double>::infinity();
+  StartPoint start{};
 };
 
 /// Memory that one thread reuses from ray to ray.
@@ -64,13 +71,12 @@ class CsgWorkspace {
   std::vector<CsgCrossing> crossings_;
   std::vector<NodeState> nodes_;
   std::vector<std::uint8_t> leaf_values_;
-  std::vector<std::uint32_t> flipped_;
 };
 
-/// A face of `leaf` that lies on the ray's starting surface, as the leaf's own ray needs to know it;
-/// none if the ray does not start on the leaf.
-RayStart start_on_leaf(const Leaf& leaf, std::span<const FaceSurface> face_surfaces,
-                       const SurfaceStart& start);
+/// A face of `leaf` (which has the number `index` in the scene) that lies on the surface a ray starts
+/// on, as the leaf's own ray needs to know it; none if there is no such face.
+RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const FaceSurface> face_surfaces,
+                       const StartPoint& start);
 
 /// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
 struct LineSpan {
@@ -94,7 +100,7 @@ LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direc
 class CsgEvaluation {
  public:
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
-                std::span<const FaceSurface> face_surfaces, const CsgRay& ray, CsgWorkspace& workspace);
+                std::span<const FaceSurface> face_surfaces, const WorldRay& ray, CsgWorkspace& workspace);
 
   /// Whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
@@ -115,7 +121,7 @@ class CsgEvaluation {
 
   const CsgProgram& program_;
   std::span<const Leaf> leaves_;
-  CsgRay ray_;
+  WorldRay ray_;
   CsgWorkspace& work_;
   std::size_t position_ = 0;
   std::uint32_t stamp_ = 0;

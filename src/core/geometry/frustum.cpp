@@ -196,10 +196,10 @@ SurfacePoint FrustumShape::cap_point(const ObjectRay& ray, const Crossing& cross
 
 Surface FrustumShape::surface(std::uint32_t face) const {
   if (face != side_face) return caps_[face - 1]->surface();
-  // The axis has no preferred way along it: its direction is canonical as a plane's normal is.
+  // Neither sense of the axis is preferred.
   Surface result{.kind = SurfaceKind::cylinder,
                  .position = from_ + Vec3(0.0),
-                 .direction = caps_[0]->surface().direction,
+                 .direction = canonical_axis(caps_[0]->normal()),
                  .sizes = {radii_[0], 0}};
   if (sine_ > 0) {
     const double to_apex = narrow_radius_ * cosine_ / sine_;

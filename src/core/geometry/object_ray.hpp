@@ -13,10 +13,12 @@ inline constexpr std::uint32_t no_face = 0xffffffffu;
 /// Which side of a face a ray leaves to: where the outward normal points, or into the solid.
 enum class Side : std::uint8_t { outside, inside };
 
-/// Where a ray starts, if it starts on a surface and not in free space.
+/// Where a ray starts, if it starts on a surface and not in free space: on the face itself, or merely
+/// on the surface that the face is a piece of (on another primitive's face that lies on it too).
 struct RayStart {
   std::uint32_t face = no_face;
-  Side side = Side::outside;
+  Side side = Side::outside;  ///< of the face's surface
+  bool on_face = true;
 };
 
 /// A ray in the object space of one primitive. Origin and direction are unevaluated sums of two
@@ -27,7 +29,7 @@ struct ObjectRay {
   Vec3 origin_low{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 direction_low{0, 0, 0};
-  RayStart start;
+  RayStart start = {};
 
   /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
   /// is about one rounding of the result, not of the way there, if the point is near the center.

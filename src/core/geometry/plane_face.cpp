@@ -126,20 +126,20 @@ Vec3 PlaneFace::absolute(const Vec3& relative) const {
 }
 
 Surface PlaneFace::surface() const {
-  int largest = 0;
-  for (int axis = 1; axis < 3; ++axis) {
-    if (std::abs(normal_[axis]) > std::abs(normal_[largest])) largest = axis;
-  }
-  const double length = normal_[largest];
-  // Adding 0 turns -0 into 0: equal surfaces are equal bits.
-  Surface surface{.kind = SurfaceKind::plane,
-                  .position = position_ + Vec3(0.0),
-                  .direction = Vec3(normal_.x / length, normal_.y / length, normal_.z / length) + Vec3(0.0)};
+  Surface surface{.kind = SurfaceKind::plane, .position = position_, .direction = normal_};
   if (axis_ >= 0) {
     surface.position = Vec3(0.0);
-    surface.position[axis_] = position_[axis_] + 0.0;
+    surface.position[axis_] = position_[axis_];
   }
   return surface;
+}
+
+Vec3 canonical_axis(const Vec3& axis) {
+  int largest = 0;
+  for (int i = 1; i < 3; ++i) {
+    if (std::abs(axis[i]) > std::abs(axis[largest])) largest = i;
+  }
+  return axis / axis[largest];
 }
 
 PlaneAxes plane_axes(const Vec3& normal) {

@@ -52,8 +52,8 @@ class PlaneFace {
   /// The coordinate axis of the normal, or -1.
   int axis() const { return axis_; }
 
-  /// Canonical: the largest component of the normal is +1; the position of a plane across a
-  /// coordinate axis has only that coordinate.
+  /// The plane with the face's own normal; the position of a plane across a coordinate axis has only
+  /// that coordinate.
   Surface surface() const;
 
  private:
@@ -73,5 +73,8 @@ struct PlaneAxes {
   Vec3 v;
 };
 PlaneAxes plane_axes(const Vec3& normal);
+
+/// An axis whose sense does not matter, in the length and sense that make its largest component 1.
+Vec3 canonical_axis(const Vec3& axis);
 
 }  // namespace crt::core

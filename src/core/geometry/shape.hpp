@@ -60,10 +60,12 @@ class Shape {
   /// entering and leaving, and what is returned is whether the line is inside at t = -inf; a
   /// tangent (double) root is left out, so is a stretch of length zero. For a surface: false.
   ///
-  /// If ray.start.face is not no_face the ray starts on that face: the root there is *exactly* t = 0,
-  /// by removing it from the equation and not by comparing; ray.start.side says to which side of
-  /// the face (as its outward normal has it) the ray leaves, and the crossings agree with that:
-  /// leaving a convex solid outwards it has no crossing at t > 0.
+  /// If ray.start.face is not no_face the ray starts on the surface of that face: the root there is
+  /// *exactly* t = 0, by removing it from the equation and not by comparing; ray.start.side says to
+  /// which side of the surface (as the face's outward normal has it) the ray leaves, and the
+  /// crossings agree with that. If it starts on the face itself (on_face), it also starts within
+  /// what the other faces bound, whatever rounding says next to an edge: leaving a convex solid
+  /// outwards it has no crossing at t > 0, inwards exactly one.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
 
   /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray.

@@ -14,7 +14,7 @@ Stretch::Stretch(const RayStart& start, double shortest) : start_(start), shorte
 
 void Stretch::enter(const Crossing& crossing) {
   const bool is_start = crossing.face == start_.face;
-  const double t = started() ? std::min(crossing.t, 0.0) : crossing.t;
+  const double t = starts_on_face() ? std::min(crossing.t, 0.0) : crossing.t;
   if (t > enter_.t || (is_start && t == enter_.t)) {
     enter_ = crossing;
     enter_.t = t;
@@ -23,7 +23,7 @@ void Stretch::enter(const Crossing& crossing) {
 
 void Stretch::leave(const Crossing& crossing) {
   const bool is_start = crossing.face == start_.face;
-  const double t = started() ? std::max(crossing.t, 0.0) : crossing.t;
+  const double t = starts_on_face() ? std::max(crossing.t, 0.0) : crossing.t;
   if (t < leave_.t || (is_start && t == leave_.t)) {
     leave_ = crossing;
     leave_.t = t;
@@ -35,7 +35,7 @@ bool Stretch::finish(CrossingList& out) const {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Crossing enter = enter_;
   Crossing leave = leave_;
-  if (started() && start_.side == Side::inside && !(leave.t > 0)) leave.t = shortest_;
+  if (starts_on_face() && start_.side == Side::inside && !(leave.t > 0)) leave.t = shortest_;
   if (!(enter.t < leave.t)) return false;
   enter.entering = true;
   leave.entering = false;

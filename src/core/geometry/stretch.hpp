@@ -27,7 +27,7 @@ class Stretch {
   bool finish(CrossingList& out) const;
 
  private:
-  bool started() const { return start_.face != no_face; }
+  bool starts_on_face() const { return start_.face != no_face && start_.on_face; }
 
   RayStart start_;
   double shortest_;

@@ -9,14 +9,15 @@ namespace crt::core {
 
 enum class SurfaceKind : std::uint8_t { plane, sphere, cylinder, cone, torus };
 
-/// The whole surface that a face is a piece of, in object space, by parameters that are bit-equal
-/// when the surfaces are the same (canonical as far as doubles allow; see make_surface_key in
-/// scene/ for how placements enter).
+/// The whole surface that a face is a piece of, in object space. Equal surfaces of one kind have
+/// equal parameters, but for planes: those are compared by their equations (scene/surface_table.cpp),
+/// as one plane has many positions and normals.
 struct Surface {
   SurfaceKind kind = SurfaceKind::plane;
-  Vec3 position{
-      0, 0, 0};  ///< a point of the plane; the centre; a point of the axis (cone: the apex if there is one)
-  Vec3 direction{0, 0, 0};            ///< the normal or axis, any length; 0 where there is none
+  /// A point of the plane; the centre; a point of the axis (of a cone the apex).
+  Vec3 position{0, 0, 0};
+  /// A plane's normal out of the face, any length; an axis (see canonical_axis); 0 where there is none.
+  Vec3 direction{0, 0, 0};
   std::array<double, 2> sizes{0, 0};  ///< radii, thickness, or slope
 };
 

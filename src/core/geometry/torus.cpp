@@ -111,11 +111,10 @@ SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& cro
 }
 
 Surface TorusShape::surface(std::uint32_t) const {
-  // A torus is the same about its axis turned round, so the axis is canonical as a plane's normal is.
-  const Surface across = PlaneFace(frame_.along, center_).surface();
+  // A torus is the same about its axis turned round.
   return {.kind = SurfaceKind::torus,
-          .position = center_ + Vec3(0.0),
-          .direction = across.direction,
+          .position = center_,
+          .direction = canonical_axis(frame_.along),
           .sizes = {radius_, thickness_}};
 }
 

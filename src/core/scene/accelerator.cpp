@@ -12,10 +12,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-SurfaceStart surface_start(const StartPoint& start) {
-  return {.surface = start.surface, .side = start.side, .t_error = start.t_error};
-}
-
 }  // namespace
 
 /// One ray on its way through the scene. The kinds differ in what they keep of an object's crossings.
@@ -63,7 +59,7 @@ class Accelerator::Query {
 
 void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject& object) {
   const Leaf& leaf = accelerator_.leaf(object.first_leaf);
-  const ObjectRay object_ray = accelerator_.object_ray(leaf, ray_);
+  const ObjectRay object_ray = accelerator_.object_ray(object.first_leaf, ray_);
   CrossingList& crossings = work_.crossings;
   crossings.clear();
   bool inside = leaf.shape->crossings(object_ray, crossings);
@@ -93,11 +89,8 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
 
 void Accelerator::Query::test_csg(std::uint32_t object_index, const SceneObject& object) {
   const CsgProgram& program = accelerator_.compiled_.programs[object.program];
-  const CsgRay csg_ray{.origin = ray_.origin,
-                       .direction = ray_.direction,
-                       .t_min = ray_.t_min,
-                       .t_max = std::nextafter(limit_, infinity),
-                       .start = surface_start(ray_.start)};
+  WorldRay csg_ray = ray_;
+  csg_ray.t_max = std::nextafter(limit_, infinity);
   CsgEvaluation evaluation(program, accelerator_.compiled_.leaves, accelerator_.compiled_.face_surfaces,
                            csg_ray, work_.csg);
   bool inside = evaluation.starts_inside();
@@ -139,9 +132,10 @@ Accelerator::Accelerator(CompiledScene compiled) : compiled_(std::move(compiled)
 
 Accelerator::~Accelerator() = default;
 
-ObjectRay Accelerator::object_ray(const Leaf& leaf, const WorldRay& ray) const {
+ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) const {
+  const Leaf& leaf = compiled_.leaves[index];
   ObjectRay result = leaf.placement->to_object(ray.origin, ray.direction);
-  result.start = start_on_leaf(leaf, compiled_.face_surfaces, surface_start(ray.start));
+  result.start = start_on_leaf(leaf, index, compiled_.face_surfaces, ray.start);
   return result;
 }
 

@@ -35,8 +35,8 @@ class Accelerator {
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
     return compiled_.face_surfaces[leaf.first_face + face];
   }
-  /// The leaf's own ray for a ray in the world.
-  ObjectRay object_ray(const Leaf& leaf, const WorldRay& ray) const;
+  /// A leaf's own ray for a ray in the world.
+  ObjectRay object_ray(std::uint32_t leaf, const WorldRay& ray) const;
 
  private:
   class Query;

@@ -46,8 +46,9 @@ class Compiler {
 CompiledScene Compiler::compile(std::span<const Entity> entities) {
   std::uint64_t count = 0;
   for (const Entity& entity : entities) {
-    count += std::min(entity.primitive_count(), most_primitives);
-    if (count > most_primitives) {
+    const std::uint64_t primitives = entity.primitive_count();
+    count += std::min(primitives, most_primitives);
+    if (primitives > most_primitives || count > most_primitives) {
       throw Error(ErrorCode::limit, "the scene has more than 33554432 primitives", "entities");
     }
   }

@@ -76,7 +76,7 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, Ra
 
 HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const ObjectRay object_ray = accelerator_->object_ray(leaf, ray);
+  const ObjectRay object_ray = accelerator_->object_ray(hit.leaf, ray);
   const Crossing crossing{.t = hit.t,
                           .error = hit.error,
                           .face = hit.face,
@@ -120,8 +120,7 @@ StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Sid
     farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
   }
   constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
-  return {.object = hit.object,
-          .leaf = hit.leaf,
+  return {.leaf = hit.leaf,
           .face = hit.face,
           .surface = face.surface,
           .side = side,

@@ -19,29 +19,6 @@ namespace crt::core {
 
 class Accelerator;
 
-inline constexpr std::uint32_t nothing = 0xffffffffu;
-
-/// The place a ray leaves from, by identity: (leaf, face) is the piece of surface, `surface` the
-/// whole surface it belongs to (shared by all faces of the scene that coincide).
-struct StartPoint {
-  std::uint32_t object = nothing;
-  std::uint32_t leaf = nothing;
-  std::uint32_t face = no_face;
-  std::uint32_t surface = nothing;
-  Side side = Side::outside;  ///< of that surface, by its canonical orientation
-  /// Crossings of *other* surfaces up to this t are at the start too (rounding of the start point).
-  double t_error = 0;
-};
-
-/// A ray in the world: origin + t * direction, t_min < t < t_max.
-struct WorldRay {
-  Vec3 origin{0, 0, 0};
-  Vec3 direction{0, 0, 1};
-  double t_min = 0;
-  double t_max = std::numeric_limits<double>::infinity();
-  StartPoint start{};
-};
-
 /// A crossing, as found: numbers only, no shading data yet.
 struct RayHit {
   double t = std::numeric_limits<double>::infinity();
