@@ -1,0 +1,113 @@
+// Checks that every primitive must pass, against an oracle in quadruple precision that shares
+// nothing with the library: candidate roots of the textbook equations, and of the stretches between
+// them those whose middle is inside by the textbook inequality.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "core/geometry/shape.hpp"
+
+namespace crt::test {
+
+using Real = __float128;
+
+Real square_root(Real x);
+inline Real magnitude(Real x) {
+  return x < 0 ? -x : x;
+}
+
+struct RealVec {
+  Real x = 0, y = 0, z = 0;
+  RealVec() = default;
+  RealVec(Real x_, Real y_, Real z_) : x(x_), y(y_), z(z_) {}
+  explicit RealVec(const Vec3& v) : x(v.x), y(v.y), z(v.z) {}
+  Real& operator[](int axis) { return axis == 0 ? x : (axis == 1 ? y : z); }
+  Real operator[](int axis) const { return axis == 0 ? x : (axis == 1 ? y : z); }
+};
+inline RealVec operator+(const RealVec& a, const RealVec& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline RealVec operator-(const RealVec& a, const RealVec& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline RealVec operator*(Real s, const RealVec& v) {
+  return {s * v.x, s * v.y, s * v.z};
+}
+inline Real dot(const RealVec& a, const RealVec& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+inline RealVec cross(const RealVec& a, const RealVec& b) {
+  return {a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x};
+}
+inline Real length(const RealVec& v) {
+  return square_root(dot(v, v));
+}
+inline RealVec normalized(const RealVec& v) {
+  return (1 / length(v)) * v;
+}
+
+/// A ray without rounding.
+struct RealRay {
+  RealVec origin;
+  RealVec direction;
+  explicit RealRay(const core::ObjectRay& ray)
+      : origin(RealVec(ray.origin) + RealVec(ray.origin_low)),
+        direction(RealVec(ray.direction) + RealVec(ray.direction_low)) {}
+  RealVec at(Real t) const { return origin + t * direction; }
+};
+
+/// The real roots of a x^2 + 2 b x + c.
+std::vector<Real> quadratic_roots(Real a, Real b, Real c);
+/// Where the ray meets the plane, if it does.
+std::vector<Real> plane_roots(const RealRay& ray, const RealVec& normal, const RealVec& position);
+
+/// Reproducible random numbers.
+class Random {
+ public:
+  explicit Random(std::uint64_t seed) : state_(seed) {}
+  std::uint64_t bits();
+  double uniform(double low, double high);
+  double power_of_ten(double low, double high);  ///< 10^low to 10^high
+  bool one_in(int count) { return bits() % static_cast<std::uint64_t>(count) == 0; }
+  Vec3 in_cube();    ///< [-1, 1]^3
+  Vec3 direction();  ///< about unit length; one in four is a signed coordinate axis
+
+ private:
+  std::uint64_t state_;
+};
+
+/// A primitive with its oracle.
+struct Subject {
+  Primitive primitive;
+  Vec3 center;  ///< rays are aimed near here
+  double size;  ///< at about this distance from the center
+  /// All parameters at which the ray might go through the boundary.
+  std::function<std::vector<Real>(const RealRay&)> candidates;
+  /// Solids: the distance from the boundary as far as the gradient tells, negative inside. Surfaces: the
+  /// height over the plane, out of which `on_surface` cuts the surface.
+  std::function<Real(const RealVec&)> field;
+  std::function<bool(const RealVec&)> on_surface = nullptr;
+};
+using MakeSubject = std::function<Subject(Random&)>;
+
+/// Each of these makes `count` random subjects and rays and checks (with REQUIRE) that ...
+/// ... crossings are those of the oracle within their error bounds, which are as tight as promised;
+void check_against_oracle(const MakeSubject& make, int count);
+/// ... scaling all lengths by a power of two gives the same bits;
+void check_scaling(const MakeSubject& make, int count);
+/// ... a ray turned round has the same crossings in reverse, within the bounds;
+void check_reversal(const MakeSubject& make, int count);
+/// ... points are on the surface and within the bounds, normals follow the gradient, (u, v) are finite
+/// (and, if `unit_square`, in [0, 1]);
+void check_surface_points(const MakeSubject& make, int count, bool unit_square);
+/// ... rays that start on the surface have a root at exactly 0 or graze, and agree with their side:
+/// convex solids and surfaces are never met again from outside, solids always left from inside.
+void check_starts(const MakeSubject& make, int count, bool convex);
+
+/// The primitive with all lengths times `factor`.
+Primitive scaled(const Primitive& primitive, double factor);
+
+}  // namespace crt::test
