@@ -29,16 +29,20 @@ class Image {
   /// A black, fully covered picture. Throws Error if a side is below 1 or there are over 2^27 pixels.
   Image(int width, int height);
 
-  /// Reads a file of any format that OpenImageIO knows (PNG, JPEG, EXR, HDR, TIFF, ...). Throws
-  /// Error (io) if it is missing or broken.
+  /// Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file; its content tells which. Grey
+  /// becomes RGB, of several pictures in a file the first is taken, and values that are not finite
+  /// become 0. Throws Error: io if it is missing, broken or larger than a picture may be, unsupported
+  /// if OpenImageIO cannot be loaded, out_of_memory.
   static Image read(const std::filesystem::path& path);
 
-  /// The same from a file's content in memory; `name` (its ending tells the format) is for messages.
+  /// The same from a file's content in memory; `name` is for messages.
   static Image decode(std::span<const std::byte> content, const std::string& name);
 
-  /// Writes a file whose format its ending says: .png and .tif 8-bit with Settings::gamma applied,
-  /// .exr and .hdr linear floats. It is written under another name and then renamed, so that no half
-  /// file is ever seen. Throws Error (io, or unsupported for an unknown ending).
+  /// Writes a file whose format its ending says: png, tif, jpg, bmp and ppm get 8-bit integers with
+  /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some pixel is
+  /// not fully covered; the others then show the picture in front of black. The file is written under
+  /// another name and then renamed, so that no half file is ever seen. Throws Error: io, unsupported
+  /// (an unknown ending, or OpenImageIO cannot be loaded), invalid_argument (no pixels), out_of_memory.
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
 
   /// Pixels across.
@@ -53,13 +57,14 @@ class Image {
   /// The same, to change them.
   std::span<float> pixels() { return pixels_; }
 
-  /// The pixel in column x from the left, row y from the top; no check.
+  /// The pixel in column x from the left, row y from the top, as it is stored: with premultiplied
+  /// alpha. There is no check.
   Color at(int x, int y) const;
   /// Changes a pixel; no check.
   void set(int x, int y, const Color& color);
 
   /// The 8-bit RGBA bytes a file gets: clamp(c)^(1/gamma), rounded to nearest, alpha straight; with
-  /// show_clip, red where a channel passes 1.
+  /// show_clip, red where a channel passes 1. A display-encoded image gets no gamma again.
   std::vector<std::uint8_t> to_rgba8() const;
 
   /// Whether the values are as a display wants them (read from an 8- or 16-bit file), not linear.

@@ -5,14 +5,13 @@
 #include <new>
 #include <optional>
 #include <string>
-#include <string_view>
 
+#include "core/image/file_check.hpp"
 #include "core/image/file_format.hpp"
 #include "core/image/file_texts.hpp"
 #include "core/image/image_limits.hpp"
 #include "core/image/module_loader.hpp"
 #include "core/image/pixel_conversion.hpp"
-#include "core/image/png_check.hpp"
 #include "core/image/whole_file.hpp"
 #include "crt/error.hpp"
 #include "crt/image.hpp"
@@ -64,10 +63,8 @@ Image decode_content(std::span<const std::byte> content, const std::string& name
     fail(ErrorCode::io, "read", name,
          content.empty() ? "it is empty" : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
   }
-  if (std::string_view(format) == "png") {
-    const std::string damage = png_damage(content);
-    if (!damage.empty()) fail(ErrorCode::io, "read", name, damage);
-  }
+  const std::string refusal = reason_to_refuse(format, content);
+  if (!refusal.empty()) fail(ErrorCode::io, "read", name, refusal);
   std::optional<Image> image;
   const ImageFilesPicture picture = {
       &image, [](void* context, int width, int height, bool integer) -> float* {

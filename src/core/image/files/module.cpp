@@ -114,12 +114,16 @@ void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
 /// Reads the picture in strips of whole rows. Room for all of it is made when the first strip is
 /// there, so that a short file with a tall claim costs nothing.
 void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const ImageFilesPicture& picture) {
-  constexpr int rows_a_strip = 64;
-  const int strip = spec.tile_width > 0 ? spec.tile_height : rows_a_strip;
+  constexpr int most_rows = 64;
+  constexpr int strip_pixels = 1 << 20;
+  const int strip =
+      spec.tile_width > 0 ? spec.tile_height : std::clamp(strip_pixels / spec.width, 1, most_rows);
   const ChannelUse use = channel_use(spec);
   const auto width = static_cast<std::size_t>(spec.width);
   const auto channels = static_cast<std::size_t>(use.count);
-  std::vector<float> rows(width * channels * static_cast<std::size_t>(std::min(strip, spec.height)));
+  // Not a vector: memory that a header claims is not even touched before there are pixels for it.
+  const auto rows = std::make_unique_for_overwrite<float[]>(
+      width * channels * static_cast<std::size_t>(std::min(strip, spec.height)));
   float* to = nullptr;
   for (int y = 0; y < spec.height; y += strip) {
     const int begin = spec.y + y;
@@ -127,13 +131,13 @@ void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Ima
     const bool read =
         spec.tile_width > 0
             ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
-                               use.count, OIIO::TypeFloat, rows.data())
-            : input.read_scanlines(0, 0, begin, end, spec.z, 0, use.count, OIIO::TypeFloat, rows.data());
+                               use.count, OIIO::TypeFloat, rows.get())
+            : input.read_scanlines(0, 0, begin, end, spec.z, 0, use.count, OIIO::TypeFloat, rows.get());
     if (!read) throw std::runtime_error(reason(input.geterror(), "its pixels are broken or missing"));
     if (y == 0)
       to = picture.allocate(picture.context, spec.width, spec.height, !spec.format.is_floating_point());
     if (to == nullptr) throw std::bad_alloc();
-    const float* from = rows.data();
+    const float* from = rows.get();
     for (std::size_t left = width * static_cast<std::size_t>(end - begin); left > 0; --left) {
       convert_pixel(from, use, to);
       from += channels;

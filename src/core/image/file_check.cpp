@@ -1,5 +1,5 @@
 // Source: W3C, Portable Network Graphics, 2nd edition, chapter 5 (chunks) and annex D (their sums).
-#include "core/image/png_check.hpp"
+#include "core/image/file_check.hpp"
 
 #include <fmt/format.h>
 
@@ -36,13 +36,19 @@ std::uint32_t big_endian(std::span<const std::byte> bytes) {
   return value;
 }
 
+std::uint32_t little_endian(std::span<const std::byte> bytes) {
+  std::uint32_t value = 0;
+  for (int i = 3; i >= 0; --i)
+    value = value << 8 | std::to_integer<std::uint32_t>(bytes[static_cast<std::size_t>(i)]);
+  return value;
+}
+
 bool is_letter(std::byte byte) {
   const auto lower = std::to_integer<unsigned>(byte) | 0x20u;
   return lower >= 'a' && lower <= 'z';
 }
 
-}  // namespace
-
+/// What is wrong with the chunks of a PNG file.
 std::string png_damage(std::span<const std::byte> content) {
   constexpr std::size_t signature_size = 8;
   constexpr std::size_t type_size = 4;
@@ -62,6 +68,25 @@ std::string png_damage(std::span<const std::byte> content) {
     rest = rest.subspan(frame_size + length);
   }
   return "it is cut short";
+}
+
+/// BMP files are read only where each pixel has its place.
+std::string bmp_damage(std::span<const std::byte> content) {
+  constexpr std::size_t header_size_at = 14;
+  constexpr std::size_t compression_at = 30;
+  constexpr std::uint32_t oldest_header_size = 12;  // it knows no compression
+  if (content.size() < compression_at + 4) return "it is cut short";
+  if (little_endian(content.subspan(header_size_at)) == oldest_header_size) return {};
+  const bool compressed = little_endian(content.subspan(compression_at)) != 0;
+  return compressed ? "BMP files with compression or bit masks are not supported" : "";
+}
+
+}  // namespace
+
+std::string reason_to_refuse(std::string_view format, std::span<const std::byte> content) {
+  if (format == "png") return png_damage(content);
+  if (format == "bmp") return bmp_damage(content);
+  return {};
 }
 
 }  // namespace crt::core
