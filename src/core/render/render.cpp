@@ -86,7 +86,6 @@ Image render(const PreparedData& data, const RenderOptions& options) {
   image.set_settings(settings);
   WorkspacePool pool;
   const Frame frame = [&] {
-    const FloatEnvironment ieee;
     WorkspacePool::Loan work(pool);
     return Frame(data, *work);
   }();
@@ -108,6 +107,7 @@ Image render(const PreparedData& data, const RenderOptions& options) {
 }  // namespace core
 
 Image render(const PreparedScene& scene, const RenderOptions& options) {
+  const core::FloatEnvironment ieee;  // of this thread; others have their own for each tile
   try {
     return core::render(scene.data(), options);
   } catch (const std::bad_alloc&) {

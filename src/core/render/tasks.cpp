@@ -13,6 +13,7 @@
 #include <vector>
 #else
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
@@ -22,16 +23,25 @@ namespace crt::core {
 
 namespace {
 
-/// More than any machine has, few enough to ask for.
-constexpr int most_threads = 1024;
-
-int available_threads() {
 #ifdef CRT_TASKS_THREADS
+int available_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
-#else
-  return tbb::this_task_arena::max_concurrency();
-#endif
 }
+
+/// More than any machine has, few enough to ask for.
+int most_threads() {
+  return 1024;
+}
+#else
+int available_threads() {
+  return tbb::this_task_arena::max_concurrency();
+}
+
+/// TBB starts no more in this process, and says so on the terminal if it is asked to.
+int most_threads() {
+  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+}
+#endif
 
 void run_in_order(std::size_t count, const std::function<void(std::size_t)>& task) {
   for (std::size_t i = 0; i < count; ++i) task(i);
@@ -112,7 +122,7 @@ int allowed_threads(int threads) {
   if (threads < 0) {
     throw Error(ErrorCode::invalid_argument, "threads must not be negative; 0 means all", "threads");
   }
-  return threads == 0 ? available_threads() : std::min(threads, most_threads);
+  return threads == 0 ? available_threads() : std::min(threads, most_threads());
 }
 
 void run_tasks(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {

@@ -8,7 +8,8 @@
 namespace crt::core {
 
 /// How many threads may work where `threads` are asked for: 0 asks for all that the caller's arena
-/// (or the machine) has. Throws Error (invalid_argument) for a negative number.
+/// (or the machine) has, and there are never more than this process may start. Throws Error
+/// (invalid_argument) for a negative number.
 int allowed_threads(int threads);
 
 /// Calls task(0) ... task(count - 1), in any order and on up to `threads` threads (as above) at once,

@@ -1,0 +1,101 @@
+#include <doctest/doctest.h>
+#include <crt/error.hpp>
+#include <crt/query.hpp>
+#include <crt/scene.hpp>
+
+#include <cmath>
+#include <limits>
+
+using namespace crt;
+
+namespace {
+
+PreparedScene two_balls() {
+  Scene scene;
+  scene.entities = {Sphere{.center = {0, 0, 5}, .radius = 1},
+                    Entity(Sphere{.center = {0, 0, 10}}).with_id(77)};
+  return prepare(scene);
+}
+
+std::string rejected(const Ray& ray) {
+  const PreparedScene scene = two_balls();
+  std::string argument;
+  const auto ask = [&](const auto& question) {
+    try {
+      question();
+      argument = "nothing";
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::invalid_argument);
+      argument = error.argument();
+    }
+  };
+  ask([&] { occluded(scene, ray); });
+  ask([&] { crossings(scene, ray); });
+  ask([&] { intersect(scene, ray); });
+  return argument;
+}
+
+}  // namespace
+
+TEST_CASE("the nearest hit has its place, normal and entity") {
+  const PreparedScene scene = two_balls();
+  const auto hit = intersect(scene, {.origin = {0, 0, 0}, .direction = {0, 0, 1}});
+  REQUIRE(hit.has_value());
+  CHECK(hit->t == 4);
+  CHECK(hit->position == Vec3(0, 0, 4));
+  CHECK(hit->normal == Vec3(0, 0, -1));
+  CHECK(hit->entering);
+  CHECK(hit->entity_id == 0);
+  CHECK_FALSE(intersect(scene, {.origin = {0, 3, 0}, .direction = {0, 0, 1}}).has_value());
+}
+
+TEST_CASE("crossings go in and out of every solid in order") {
+  const auto hits = crossings(two_balls(), {.origin = {0, 0, 0}, .direction = {0, 0, 2}});
+  REQUIRE(hits.size() == 4);
+  CHECK(hits[0].t == 2);
+  CHECK(hits[1].t == 3);
+  CHECK(hits[2].t == 4.5);
+  CHECK(hits[3].t == 5.5);
+  CHECK(hits[0].entering);
+  CHECK_FALSE(hits[1].entering);
+  CHECK(hits[1].normal == Vec3(0, 0, 1));
+  CHECK(hits[2].entity_id == 77);
+}
+
+TEST_CASE("t is in units of the direction's length, whatever that is") {
+  const PreparedScene scene = two_balls();
+  for (const double length : {1e-300, 1e-160, 1e-5, 0.3, 1.0, 7e20, 1e160, 1e307}) {
+    const auto hit = intersect(scene, {.origin = {0, 0, 0}, .direction = {0, 0, length}});
+    REQUIRE(hit.has_value());
+    CHECK(hit->t * length == doctest::Approx(4).epsilon(1e-14));
+    CHECK(hit->position == Vec3(0, 0, 4));
+    CHECK(occluded(scene, {.direction = {0, 0, length}, .t_max = 4.001 / length}));
+    CHECK_FALSE(occluded(scene, {.direction = {0, 0, length}, .t_max = 3.999 / length}));
+  }
+}
+
+TEST_CASE("only crossings between t_min and t_max count") {
+  const PreparedScene scene = two_balls();
+  const auto count = [&](double t_min, double t_max) {
+    return crossings(scene, {.origin = {0, 0, 0}, .direction = {0, 0, 1}, .t_min = t_min, .t_max = t_max})
+        .size();
+  };
+  const double inf = std::numeric_limits<double>::infinity();
+  CHECK(count(0, 5) == 1);
+  CHECK(count(4.5, 10) == 2);
+  CHECK(count(-inf, inf) == 4);
+  CHECK(count(20, 30) == 0);
+  CHECK(intersect(scene, {.origin = {0, 0, 0}, .direction = {0, 0, 1}, .t_min = 4.5})->t == 6);
+  CHECK(intersect(scene, {.origin = {0, 0, 20}, .direction = {0, 0, 1}, .t_min = -15})->t == -14);
+}
+
+TEST_CASE("a ray without a direction or with a number that is none is refused, and said why") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  CHECK(rejected({.origin = {nan, 0, 0}}) == "origin");
+  CHECK(rejected({.origin = {0, inf, 0}}) == "origin");
+  CHECK(rejected({.direction = {0, 0, 0}}) == "direction");
+  CHECK(rejected({.direction = {0, inf, 0}}) == "direction");
+  CHECK(rejected({.t_min = nan}) == "t_min");
+  CHECK(rejected({.t_max = nan}) == "t_max");
+}
