@@ -27,7 +27,7 @@ Bounds DiscShape::bounds() const {
 bool DiscShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
   if (!meeting.found) return false;
-  if (ray.start.face == 0 || glm::length(face_.point(ray, meeting) / radius_) <= 1)
+  if (PlaneFace::starts_here(ray) || glm::length(face_.point(ray, meeting) / radius_) <= 1)
     PlaneFace::emit(meeting, out);
   return false;
 }

@@ -144,11 +144,12 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
   SideEquation side = side_equation(line);
   side.discriminant = side.b * side.b;
   Crossing other = side_crossing(line, side, 0, 0);
-  if (side.a > 0) {
+  if (side.a != 0) {
     const double x = -2 * side.b / side.a;
     other = side_crossing(line, side, x, 0);
     other.error += line.to_t_length(start_error(side.c, side.a, side.b));
   }
+  if (side.radius < 0) return clip_side_from_other_nappe(side, other, stretch);
   const bool leaving = side.b > 0 || (side.b == 0 && side.a > 0);
   const std::uint8_t leaving_root = side.a > 0 ? 1 : 0;
   if (leaving) {
@@ -161,6 +162,18 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
   stretch.enter({.face = side_face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
   if (side.a > 0) {
     other.root = 1;
+    stretch.leave(other);
+  }
+}
+
+/// A ray that starts on the cone's other nappe, on some other primitive. It meets this one, from within
+/// the other, once or never.
+void FrustumShape::clip_side_from_other_nappe(const SideEquation& side, Crossing other, Stretch& stretch) {
+  if (!(side.a < 0)) return stretch.clear();
+  if (side.radius_rate > 0) {
+    other.root = 1;
+    stretch.enter(other);
+  } else {
     stretch.leave(other);
   }
 }

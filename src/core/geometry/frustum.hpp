@@ -51,6 +51,7 @@ class FrustumShape : public Shape {
   Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
   void clip_side(const NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
+  static void clip_side_from_other_nappe(const SideEquation& side, Crossing other, Stretch& stretch);
   SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing) const;
 
   Vec3 from_;

@@ -32,7 +32,8 @@ Bounds HalfPlaneShape::bounds() const {
 bool HalfPlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
   if (!meeting.found) return false;
-  if (ray.start.face == 0 || glm::dot(face_.point(ray, meeting), inward_) >= 0) PlaneFace::emit(meeting, out);
+  if (PlaneFace::starts_here(ray) || glm::dot(face_.point(ray, meeting), inward_) >= 0)
+    PlaneFace::emit(meeting, out);
   return false;
 }
 

@@ -36,8 +36,11 @@ class PlaneFace {
   static void emit(const Meeting& meeting, CrossingList& out);
 
   /// For mere surfaces: as meet(), but exactly 0 and to the side it is said to leave if the ray
-  /// starts on face 0.
+  /// starts on that plane.
   Meeting meet_surface(const ObjectRay& ray) const;
+
+  /// For mere surfaces: whether the ray starts on face 0 itself, whatever rounding says near its rim.
+  static bool starts_here(const ObjectRay& ray) { return ray.start.face == 0 && ray.start.on_face; }
 
   /// The point at t, relative to the position and moved onto the plane.
   Vec3 onto_plane(const Vec3& relative) const;

@@ -99,7 +99,7 @@ bool TriangleShape::passes_edges(const ObjectRay& ray, double t) const {
 bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
   if (!meeting.found) return false;
-  if (ray.start.face == 0 || passes_edges(ray, meeting.t)) PlaneFace::emit(meeting, out);
+  if (PlaneFace::starts_here(ray) || passes_edges(ray, meeting.t)) PlaneFace::emit(meeting, out);
   return false;
 }
 

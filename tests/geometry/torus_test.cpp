@@ -1,0 +1,219 @@
+#include "core/geometry/torus.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+
+#include "geometry/oracle.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+Real value(const std::vector<Real>& polynomial, Real x) {
+  Real result = 0;
+  for (std::size_t i = polynomial.size(); i-- > 0;) result = result * x + polynomial[i];
+  return result;
+}
+
+/// All real roots within [low, high], isolated by the roots of the derivative.
+std::vector<Real> polynomial_roots(const std::vector<Real>& polynomial, Real low, Real high) {
+  if (polynomial.size() < 2) return {};
+  std::vector<Real> derivative;
+  for (std::size_t i = 1; i < polynomial.size(); ++i)
+    derivative.push_back(static_cast<int>(i) * polynomial[i]);
+  std::vector<Real> ends = polynomial_roots(derivative, low, high);
+  ends.insert(ends.begin(), low);
+  ends.push_back(high);
+  std::vector<Real> roots;
+  for (std::size_t i = 0; i + 1 < ends.size(); ++i) {
+    Real a = ends[i];
+    Real b = ends[i + 1];
+    if ((value(polynomial, a) < 0) == (value(polynomial, b) < 0)) continue;
+    const bool negative_first = value(polynomial, a) < 0;
+    for (int step = 0; step < 116; ++step) {
+      const Real middle = (a + b) / 2;
+      ((value(polynomial, middle) < 0) == negative_first ? a : b) = middle;
+    }
+    roots.push_back((a + b) / 2);
+  }
+  return roots;
+}
+
+/// The textbook quartic (|p|^2 + R^2 - r^2)^2 = 4 R^2 rho^2, about the closest approach.
+std::vector<Real> torus_candidates(const RealRay& ray, const RealVec& center, const RealVec& axis, Real ring,
+                                   Real tube) {
+  const RealVec d = normalized(ray.direction);
+  const RealVec from_center = ray.origin - center;
+  const Real closest = -dot(from_center, d);
+  const RealVec q = from_center + closest * d;
+  const Real reach = 2 * (ring + tube);
+  if (length(q) > reach) return {};
+  const Real b = dot(q, d);
+  const Real c = dot(q, q) + ring * ring - tube * tube;
+  const RealVec p = cross(q, axis);
+  const RealVec m = cross(d, axis);
+  const Real k = 4 * ring * ring;
+  const std::vector<Real> quartic = {c * c - k * dot(p, p), 4 * b * c - 2 * k * dot(p, m),
+                                     2 * c + 4 * b * b - k * dot(m, m), 4 * b, 1};
+  std::vector<Real> roots = polynomial_roots(quartic, -reach, reach);
+  for (Real& root : roots) root = (root + closest) / length(ray.direction);
+  return roots;
+}
+
+Subject torus_subject(const Torus& torus) {
+  const RealVec center(torus.center);
+  const RealVec axis = normalized(RealVec(torus.axis));
+  const Real ring = torus.radius;
+  const Real tube = torus.thickness;
+  return {.primitive = torus,
+          .center = torus.center,
+          .size = torus.radius + torus.thickness,
+          .candidates = [=](const RealRay& ray) { return torus_candidates(ray, center, axis, ring, tube); },
+          .field =
+              [=](const RealVec& p) {
+                const RealVec q = p - center;
+                const Real z = dot(q, axis);
+                const Real out = length(cross(q, axis)) - ring;
+                return square_root(out * out + z * z) - tube;
+              }};
+}
+
+/// Rings, now and then a horn or a spindle.
+Subject random_torus(Random& random) {
+  const double radius = random.power_of_ten(-6, 6);
+  const double share =
+      random.one_in(4) ? random.uniform(1, 4) : (random.one_in(8) ? 1 : random.power_of_ten(-1.5, 0));
+  return torus_subject({.center = random.in_cube() * (radius * random.power_of_ten(-2, 2)),
+                        .axis = random.direction() * random.power_of_ten(-9, 9),
+                        .radius = radius,
+                        .thickness = radius * share});
+}
+
+core::CrossingList crossings(const Torus& torus, const core::ObjectRay& ray) {
+  core::CrossingList result;
+  core::make_shape(torus)->crossings(ray, result);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("torus: crossings are the true ones within their error") {
+  check_against_oracle(random_torus, 20000);
+}
+TEST_CASE("torus: powers of two scale it to the bit") {
+  check_scaling(random_torus, 2000);
+}
+TEST_CASE("torus: a ray turned round meets the same points") {
+  check_reversal(random_torus, 20000);
+}
+TEST_CASE("torus: points, normals and (u, v)") {
+  check_surface_points(random_torus, 10000, true);
+}
+TEST_CASE("torus: a ray that starts on it obeys its side") {
+  check_starts(random_torus, 100000, false);
+}
+
+TEST_CASE("torus: thin rings are met as often as they are crossed") {
+  Random random(31);
+  int hits = 0;
+  for (int i = 0; i < 4000; ++i) {
+    const double thickness = random.power_of_ten(-7, -2);
+    const Subject subject = torus_subject({.axis = random.direction(), .thickness = thickness});
+    const auto shape = core::make_shape(subject.primitive);
+    // Through a point of the ring, so that thin as it is it is hit.
+    const core::AxisFrame frame = core::frame_about(std::get<Torus>(subject.primitive).axis);
+    const double angle = random.uniform(0, 6.3);
+    const Vec3 target = std::cos(angle) * frame.zero + std::sin(angle) * frame.quarter +
+                        random.uniform(-0.5, 0.5) * thickness * random.direction();
+    const Vec3 direction = random.direction();
+    const core::ObjectRay ray{.origin = target - direction * random.power_of_ten(-1, 3),
+                              .direction = direction};
+    core::CrossingList found;
+    shape->crossings(ray, found);
+    REQUIRE(found.size() % 2 == 0);
+    REQUIRE(found.size() >= 2);
+    for (const core::Crossing& crossing : found) {
+      const RealRay real(ray);
+      const Real off = magnitude(subject.field(real.at(crossing.t)));
+      REQUIRE(off <= 1.01 * crossing.error);
+      ++hits;
+    }
+  }
+  CHECK(hits > 8000);
+}
+
+TEST_CASE("torus: rays through the middle and along the axis") {
+  // A ring: four crossings across, none through the hole.
+  const Torus ring{};
+  const auto across = crossings(ring, {.origin = {-5, 0, 0}, .direction = {1, 0, 0}});
+  REQUIRE(across.size() == 4);
+  CHECK(across[0].t == doctest::Approx(3.75).epsilon(1e-15));
+  CHECK(across[1].t == doctest::Approx(4.25).epsilon(1e-15));
+  CHECK(across[2].t == doctest::Approx(5.75).epsilon(1e-15));
+  CHECK(across[3].root == 3);
+  CHECK(crossings(ring, {.origin = {0, -5, 0}, .direction = {0, 1, 0}}).empty());
+  CHECK(crossings(ring, {.origin = {1, -5, 0}, .direction = {0, 1, 0}}).size() == 2);
+  CHECK(crossings(ring, {.origin = {0.75, -5, 0}, .direction = {0, 1, 0}}).empty());
+  // A plane that lies on top of it touches a whole circle.
+  CHECK(crossings(ring, {.origin = {-5, 0.25, 0.3}, .direction = {1, 0, 0}}).empty());
+  // A horn is touched at its middle, a spindle has no hollow.
+  const Torus horn{.radius = 1, .thickness = 1};
+  CHECK(crossings(horn, {.origin = {0, -5, 0}, .direction = {0, 1, 0}}).empty());
+  const Torus spindle{.radius = 1, .thickness = 2};
+  const auto through = crossings(spindle, {.origin = {0, -5, 0}, .direction = {0, 1, 0}});
+  REQUIRE(through.size() == 2);
+  CHECK(through[0].t == doctest::Approx(5 - std::sqrt(3.0)).epsilon(1e-15));
+  CHECK(through[1].t == doctest::Approx(5 + std::sqrt(3.0)).epsilon(1e-15));
+  const auto level = crossings(spindle, {.origin = {-5, 0, 0}, .direction = {1, 0, 0}});
+  REQUIRE(level.size() == 2);
+  CHECK(level[0].t == doctest::Approx(2).epsilon(1e-15));
+}
+
+TEST_CASE("torus: points on its axis and seams have finite coordinates") {
+  const Torus spindle{.radius = 1, .thickness = 2};
+  const auto shape = core::make_shape(spindle);
+  const core::ObjectRay ray{.origin = {0, -5, 0}, .direction = {0, 1, 0}};
+  for (const core::Crossing& crossing : crossings(spindle, ray)) {
+    const core::SurfacePoint point = shape->surface_point(ray, crossing);
+    CHECK(std::isfinite(point.u + point.v));
+    CHECK(glm::length(point.normal) == doctest::Approx(1).epsilon(1e-15));
+    CHECK((point.normal.y > 0) == !crossing.entering);
+  }
+  const core::SurfacePoint outermost =
+      core::make_shape(Torus{})->surface_point({.origin = {1.25, 0, 0}, .direction = {1, 0, 0}}, {});
+  CHECK(outermost.u == 0.25);
+  CHECK(outermost.v == 0);
+  CHECK(outermost.normal == Vec3(1, 0, 0));
+}
+
+TEST_CASE("torus: its box is tight") {
+  const core::Bounds bounds = core::make_shape(Torus{.axis = {0, 7, 0}})->bounds();
+  CHECK(bounds.upper.x == doctest::Approx(1.25).epsilon(1e-14));
+  CHECK(bounds.upper.y == doctest::Approx(0.25).epsilon(1e-14));
+}
+
+TEST_CASE("torus: extreme shapes give finite answers") {
+  Random random(37);
+  for (int i = 0; i < 5000; ++i) {
+    const Torus torus{.axis = random.direction(),
+                      .radius = random.power_of_ten(-100, 100),
+                      .thickness = random.power_of_ten(-100, 100)};
+    const auto shape = core::make_shape(torus);
+    const core::ObjectRay ray{.origin = random.power_of_ten(-100, 100) * random.in_cube(),
+                              .direction = random.direction() * random.power_of_ten(-150, 150)};
+    core::CrossingList found;
+    shape->crossings(ray, found);
+    REQUIRE(found.size() % 2 == 0);
+    for (const core::Crossing& crossing : found) {
+      REQUIRE(std::isfinite(crossing.t));
+      REQUIRE(std::isfinite(crossing.error));
+      const core::SurfacePoint point = shape->surface_point(ray, crossing);
+      REQUIRE(std::isfinite(glm::dot(point.normal, point.normal)));
+      REQUIRE(std::isfinite(point.position.x + point.u + point.v));
+    }
+  }
+}
