@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <cmath>
-#include <limits>
 #include <numbers>
 #include <string_view>
 
@@ -14,7 +13,6 @@ namespace crt {
 
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double largest_coordinate = 1e100;
 constexpr double largest_factor = 1e30;
 constexpr double pi = std::numbers::pi;
