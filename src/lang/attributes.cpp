@@ -1,0 +1,209 @@
+#include "lang/attributes.hpp"
+
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include "lang/suggestion.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+[[noreturn]] void fail(const Given& given, const std::string& message) {
+  throw Failure{.span = given.value_span, .message = fmt::format("'{}' {}", given.type->name, message)};
+}
+
+[[noreturn]] void wrong_type(const Given& given) {
+  const std::string_view wanted = given.type->type;
+  fail(given, fmt::format("must be {} {}, not {}", article(wanted), wanted, type_with_article(given.value)));
+}
+
+void require_finite(const Given& given, double number) {
+  if (!std::isfinite(number)) fail(given, fmt::format("must be a finite number, not {}", float_text(number)));
+}
+
+template <class Wanted>
+const Wanted& get(const Given& given) {
+  const auto* value = std::get_if<Wanted>(&given.value);
+  if (!value) wrong_type(given);
+  return *value;
+}
+
+template <class Enum, std::size_t count>
+void choose(const Given& given, const std::array<std::pair<std::string_view, Enum>, count>& choices,
+            Enum& field) {
+  const std::string& text = get<String>(given)->text;
+  std::vector<std::string_view> names;
+  std::vector<std::string> quoted;
+  for (const auto& [name, value] : choices) {
+    if (name == text) {
+      field = value;
+      return;
+    }
+    names.push_back(name);
+    quoted.push_back(fmt::format("\"{}\"", name));
+  }
+  const std::string_view meant = nearest(text, names);
+  const std::string suggestion = meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
+  fail(given, fmt::format("must be {}{}", enumerate(quoted), suggestion));
+}
+
+/// An optional field takes what the field itself takes.
+template <class Field>
+void convert_optional(const Given& given, Context& context, std::optional<Field>& field) {
+  Field value{};
+  convert(given, context, value);
+  field = std::move(value);
+}
+
+}  // namespace
+
+void convert(const Given& given, Context&, double& field) {
+  double room = 0;
+  const double* number = as_float(given.value, room);
+  if (!number) wrong_type(given);
+  require_finite(given, *number);
+  field = *number;
+}
+
+void convert(const Given& given, Context&, int& field) {
+  const std::int64_t number = get<std::int64_t>(given);
+  constexpr std::int64_t most = std::numeric_limits<int>::max();
+  if (number > most || number < -most) fail(given, fmt::format("must be between {} and {}", -most, most));
+  field = static_cast<int>(number);
+}
+
+void convert(const Given& given, Context&, std::uint64_t& field) {
+  const std::int64_t number = get<std::int64_t>(given);
+  if (number < 0) fail(given, fmt::format("must be at least 0 (it is {})", number));
+  field = static_cast<std::uint64_t>(number);
+}
+
+void convert(const Given& given, Context&, bool& field) {
+  field = get<bool>(given);
+}
+
+void convert(const Given& given, Context&, std::string& field) {
+  field = get<String>(given)->text;
+}
+
+void convert(const Given& given, Context&, Vec3& field) {
+  const Vec3& vector = get<Vec3>(given);
+  for (int axis = 0; axis < 3; ++axis) require_finite(given, vector[axis]);
+  field = vector;
+}
+
+void convert(const Given& given, Context&, Color& field) {
+  const Color& color = get<Color>(given);
+  for (const double channel : {color.r, color.g, color.b, color.a}) require_finite(given, channel);
+  field = color;
+}
+
+void convert(const Given& given, Context&, Pattern& field) {
+  field = *get<std::shared_ptr<const Pattern>>(given);
+}
+
+void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field) {
+  if (const auto* pattern = std::get_if<std::shared_ptr<const Pattern>>(&given.value)) {
+    field = **pattern;
+  } else {
+    convert(given, context, field.emplace<Color>());
+  }
+}
+
+void convert(const Given& given, Context&, SharedMaterial& field) {
+  field = get<SharedMaterial>(given);
+}
+
+void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field) {
+  const std::string& name = get<String>(given)->text;
+  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
+  field = context.files.image(name, directory, given.value_span);
+}
+
+void convert(const Given& given, Context&, Projection& field) {
+  using enum Projection;
+  using Choice = std::pair<std::string_view, Projection>;
+  choose(given,
+         std::array{Choice{"pinhole", pinhole}, Choice{"spherical", spherical},
+                    Choice{"cylindrical", cylindrical}, Choice{"orthographic", orthographic}},
+         field);
+}
+
+void convert(const Given& given, Context&, PanoramaProjection& field) {
+  using enum PanoramaProjection;
+  using Choice = std::pair<std::string_view, PanoramaProjection>;
+  choose(given, std::array{Choice{"spherical", spherical}, Choice{"cylindrical", cylindrical}}, field);
+}
+
+void convert(const Given& given, Context&, ApertureShape& field) {
+  using enum ApertureShape;
+  using Choice = std::pair<std::string_view, ApertureShape>;
+  choose(given,
+         std::array{Choice{"circle", circle}, Choice{"uniform", uniform}, Choice{"gaussian", gaussian},
+                    Choice{"triangle", triangle}, Choice{"square", square}, Choice{"pentagon", pentagon},
+                    Choice{"hexagon", hexagon}, Choice{"octagon", octagon}, Choice{"line", line}},
+         field);
+}
+
+void convert(const Given& given, Context&, FalloffModel& field) {
+  using enum FalloffModel;
+  using Choice = std::pair<std::string_view, FalloffModel>;
+  choose(given, std::array{Choice{"path", path}, Choice{"light", light}}, field);
+}
+
+void convert(const Given& given, Context&, Camera& field) {
+  field = *get<std::shared_ptr<const Camera>>(given);
+}
+
+void convert(const Given& given, Context&, std::vector<Light>& field) {
+  field.clear();
+  for (const Value& item : get<List>(given)->items) {
+    const auto* light = std::get_if<std::shared_ptr<const Light>>(&item);
+    if (!light)
+      fail(given, fmt::format("must be a List of lights; it has {} in it", type_with_article(item)));
+    field.push_back(**light);
+  }
+}
+
+void convert(const Given& given, Context&, Background& field) {
+  field = *get<std::shared_ptr<const Background>>(given);
+}
+
+void convert(const Given& given, Context& context, std::optional<double>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context& context, std::optional<Color>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context& context, std::optional<Pattern>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context&, std::optional<SharedMaterial>& field) {
+  field = get<SharedMaterial>(given);
+}
+
+void convert(const Given& given, Context& context, std::optional<Projection>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context& context, std::optional<PanoramaProjection>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context& context, std::optional<Camera>& field) {
+  convert_optional(given, context, field);
+}
+
+void convert(const Given& given, Context& context, std::optional<Background>& field) {
+  convert_optional(given, context, field);
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,111 @@
+// How the values of attributes become fields of the core's structs: one overload of convert() for
+// each type of field, which also says what the attribute takes.
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <variant>
+#include <vector>
+
+#include "crt/background.hpp"
+#include "crt/camera.hpp"
+#include "crt/light.hpp"
+#include "crt/material.hpp"
+#include "crt/settings.hpp"
+#include "lang/context.hpp"
+#include "lang/objects.hpp"
+
+namespace crt::lang {
+
+// Each throws a Failure at the value if it has another type, or numbers that are not finite.
+void convert(const Given& given, Context& context, double& field);
+void convert(const Given& given, Context& context, int& field);
+void convert(const Given& given, Context& context, std::uint64_t& field);
+void convert(const Given& given, Context& context, bool& field);
+void convert(const Given& given, Context& context, std::string& field);
+void convert(const Given& given, Context& context, Vec3& field);
+void convert(const Given& given, Context& context, Color& field);
+void convert(const Given& given, Context& context, Pattern& field);
+void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
+void convert(const Given& given, Context& context, SharedMaterial& field);
+void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
+void convert(const Given& given, Context& context, Projection& field);
+void convert(const Given& given, Context& context, PanoramaProjection& field);
+void convert(const Given& given, Context& context, ApertureShape& field);
+void convert(const Given& given, Context& context, FalloffModel& field);
+void convert(const Given& given, Context& context, Camera& field);
+void convert(const Given& given, Context& context, std::vector<Light>& field);
+void convert(const Given& given, Context& context, Background& field);
+
+void convert(const Given& given, Context& context, std::optional<double>& field);
+void convert(const Given& given, Context& context, std::optional<Color>& field);
+void convert(const Given& given, Context& context, std::optional<Pattern>& field);
+void convert(const Given& given, Context& context, std::optional<SharedMaterial>& field);
+void convert(const Given& given, Context& context, std::optional<Projection>& field);
+void convert(const Given& given, Context& context, std::optional<PanoramaProjection>& field);
+void convert(const Given& given, Context& context, std::optional<Camera>& field);
+void convert(const Given& given, Context& context, std::optional<Background>& field);
+
+/// What convert() takes for a field of this type.
+constexpr std::string_view type_text(const double*) {
+  return "Float";
+}
+constexpr std::string_view type_text(const int*) {
+  return "Integer";
+}
+constexpr std::string_view type_text(const std::uint64_t*) {
+  return "Integer";
+}
+constexpr std::string_view type_text(const bool*) {
+  return "Boolean";
+}
+constexpr std::string_view type_text(const std::string*) {
+  return "String";
+}
+constexpr std::string_view type_text(const Vec3*) {
+  return "Vec3";
+}
+constexpr std::string_view type_text(const Color*) {
+  return "Color";
+}
+constexpr std::string_view type_text(const Pattern*) {
+  return "Pattern";
+}
+constexpr std::string_view type_text(const std::variant<Color, Pattern>*) {
+  return "Color or Pattern";
+}
+constexpr std::string_view type_text(const SharedMaterial*) {
+  return "Material";
+}
+constexpr std::string_view type_text(const std::shared_ptr<const Image>*) {
+  return "String";
+}
+constexpr std::string_view type_text(const Projection*) {
+  return "String";
+}
+constexpr std::string_view type_text(const PanoramaProjection*) {
+  return "String";
+}
+constexpr std::string_view type_text(const ApertureShape*) {
+  return "String";
+}
+constexpr std::string_view type_text(const FalloffModel*) {
+  return "String";
+}
+constexpr std::string_view type_text(const Camera*) {
+  return "Camera";
+}
+constexpr std::string_view type_text(const std::vector<Light>*) {
+  return "List of lights";
+}
+constexpr std::string_view type_text(const Background*) {
+  return "Background";
+}
+template <class Field>
+constexpr std::string_view type_text(const std::optional<Field>*) {
+  return type_text(static_cast<const Field*>(nullptr));
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,44 @@
+#include "lang/builtins.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace crt::lang {
+
+void Arguments::wrong_type(std::size_t i, std::string_view wanted) const {
+  throw Failure{.span = span(i),
+                .message = fmt::format("{} takes {} here, not {}", builtin_.signature, wanted,
+                                       type_with_article(values_[i]))};
+}
+
+double Arguments::number(std::size_t i) const {
+  double room = 0;
+  const double* number = as_float(values_[i], room);
+  if (!number) wrong_type(i, "a number");
+  return *number;
+}
+
+Vec3 Arguments::vector(std::size_t i) const {
+  const auto* vector = std::get_if<Vec3>(&values_[i]);
+  if (!vector) wrong_type(i, "a Vec3");
+  return *vector;
+}
+
+bool Arguments::all_integers() const {
+  return std::all_of(values_.begin(), values_.end(),
+                     [](const Value& value) { return std::holds_alternative<std::int64_t>(value); });
+}
+
+std::span<const Builtin> builtins() {
+  static const std::vector<Builtin> all = [] {
+    std::vector<Builtin> result;
+    for (const std::span<const Builtin> part : {number_builtins(), vector_builtins(), list_builtins()})
+      result.insert(result.end(), part.begin(), part.end());
+    return result;
+  }();
+  return all;
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,59 @@
+// The functions and constants that every script has.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string_view>
+#include <vector>
+
+#include "lang/context.hpp"
+#include "lang/syntax.hpp"
+#include "lang/value.hpp"
+
+namespace crt::lang {
+
+/// What a built-in was called with. The readers throw a Failure at the argument that is wrong.
+class Arguments {
+ public:
+  Arguments(Context& new_context, const Builtin& builtin, Span new_call, std::span<const Value> values,
+            std::span<const Expression* const> expressions)
+      : context(new_context), call(new_call), builtin_(builtin), values_(values), expressions_(expressions) {}
+
+  Context& context;
+  Span call;
+
+  std::size_t size() const { return values_.size(); }
+  const Value& operator[](std::size_t i) const { return values_[i]; }
+  Span span(std::size_t i) const { return expressions_[i]->span; }
+  std::span<const Value> values() const { return values_; }
+
+  double number(std::size_t i) const;
+  Vec3 vector(std::size_t i) const;
+  bool all_integers() const;
+
+  [[noreturn]] void wrong_type(std::size_t i, std::string_view wanted) const;
+
+ private:
+  const Builtin& builtin_;
+  std::span<const Value> values_;
+  std::span<const Expression* const> expressions_;
+};
+
+struct Builtin {
+  std::string_view name;
+  /// As the reference writes it: "clamp(x, low, high)".
+  std::string_view signature;
+  std::size_t least_arguments = 0;
+  std::size_t most_arguments = 0;
+  Value (*function)(const Arguments&) = nullptr;
+};
+
+/// All of them.
+std::span<const Builtin> builtins();
+
+// What the table is made of, by subject.
+std::span<const Builtin> number_builtins();
+std::span<const Builtin> vector_builtins();
+std::span<const Builtin> list_builtins();
+
+}  // namespace crt::lang

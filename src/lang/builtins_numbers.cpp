@@ -1,0 +1,169 @@
+// Built-ins that compute numbers: trigonometry, powers, rounding, chance.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "lang/builtins.hpp"
+#include "lang/random.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+constexpr std::size_t any_number = std::numeric_limits<std::size_t>::max();
+
+template <double (*function)(double)>
+Value of_number(const Arguments& arguments) {
+  return function(arguments.number(0));
+}
+
+// The standard's functions are overloaded, and a template argument must be one of them.
+double sine(double x) {
+  return std::sin(x);
+}
+double cosine(double x) {
+  return std::cos(x);
+}
+double tangent(double x) {
+  return std::tan(x);
+}
+double arc_sine(double x) {
+  return std::asin(x);
+}
+double arc_cosine(double x) {
+  return std::acos(x);
+}
+double arc_tangent(double x) {
+  return std::atan(x);
+}
+double square_root(double x) {
+  return std::sqrt(x);
+}
+double exponential(double x) {
+  return std::exp(x);
+}
+double logarithm(double x) {
+  return std::log(x);
+}
+double floor_of(double x) {
+  return std::floor(x);
+}
+double ceiling_of(double x) {
+  return std::ceil(x);
+}
+double rounded(double x) {
+  return std::round(x);
+}
+
+/// floor, ceil and round give Integers, so that they can count and index.
+template <double (*function)(double)>
+Value to_integer(const Arguments& arguments) {
+  if (std::holds_alternative<std::int64_t>(arguments[0])) return arguments[0];
+  const double whole = function(arguments.number(0));
+  constexpr double beyond = 0x1p63;
+  if (!(whole >= -beyond && whole < beyond))
+    throw Failure{.span = arguments.span(0),
+                  .message = fmt::format("{} does not fit into a 64-bit Integer", float_text(whole))};
+  return static_cast<std::int64_t>(whole);
+}
+
+Value absolute(const Arguments& arguments) {
+  if (const auto* integer = std::get_if<std::int64_t>(&arguments[0])) {
+    if (*integer == std::numeric_limits<std::int64_t>::min())
+      throw Failure{.span = arguments.span(0), .message = "the result does not fit into a 64-bit Integer"};
+    return *integer < 0 ? -*integer : *integer;
+  }
+  return std::abs(arguments.number(0));
+}
+
+Value arc_tangent_of_two(const Arguments& arguments) {
+  return std::atan2(arguments.number(0), arguments.number(1));
+}
+
+Value power(const Arguments& arguments) {
+  return std::pow(arguments.number(0), arguments.number(1));
+}
+
+/// The least or greatest: an Integer if all are Integers, else a Float.
+template <bool want_greatest>
+Value extreme(const Arguments& arguments) {
+  const bool integers = arguments.all_integers();
+  Value best = integers ? arguments[0] : arguments.number(0);
+  for (std::size_t i = 1; i < arguments.size(); ++i) {
+    if (integers) {
+      const auto a = std::get<std::int64_t>(best);
+      const auto b = std::get<std::int64_t>(arguments[i]);
+      best = want_greatest ? std::max(a, b) : std::min(a, b);
+    } else {
+      const double a = std::get<double>(best);
+      const double b = arguments.number(i);
+      best = want_greatest ? std::max(a, b) : std::min(a, b);
+    }
+  }
+  return best;
+}
+
+Value clamp(const Arguments& arguments) {
+  const double low = arguments.number(1);
+  const double high = arguments.number(2);
+  const double x = arguments.number(0);
+  if (!(low <= high)) throw Failure{.span = arguments.call, .message = "clamp needs low <= high"};
+  if (!arguments.all_integers()) return std::clamp(x, low, high);
+  return std::clamp(std::get<std::int64_t>(arguments[0]), std::get<std::int64_t>(arguments[1]),
+                    std::get<std::int64_t>(arguments[2]));
+}
+
+Value random_number(const Arguments& arguments) {
+  const double low = arguments.size() > 0 ? arguments.number(0) : 0;
+  const double high = arguments.size() > 1 ? arguments.number(1) : 1;
+  if (arguments.size() == 1)
+    throw Failure{.span = arguments.call, .message = "rand takes no arguments or two: rand(low, high)"};
+  if (!(low <= high)) throw Failure{.span = arguments.call, .message = "rand needs low <= high"};
+  // Rounding may reach `high`, which is not among the results unless it is `low` too.
+  const double number = low + (high - low) * arguments.context.random.next_float();
+  return number < high ? number : low;
+}
+
+Value noise(const Arguments& arguments) {
+  Vec3 point(0);
+  if (arguments.size() == 1 && std::holds_alternative<Vec3>(arguments[0])) {
+    point = arguments.vector(0);
+  } else {
+    for (std::size_t i = 0; i < arguments.size(); ++i) point[static_cast<int>(i)] = arguments.number(i);
+  }
+  return gradient_noise(point);
+}
+
+constexpr std::array table = {
+    Builtin{"sin", "sin(x)", 1, 1, of_number<sine>},
+    Builtin{"cos", "cos(x)", 1, 1, of_number<cosine>},
+    Builtin{"tan", "tan(x)", 1, 1, of_number<tangent>},
+    Builtin{"asin", "asin(x)", 1, 1, of_number<arc_sine>},
+    Builtin{"acos", "acos(x)", 1, 1, of_number<arc_cosine>},
+    Builtin{"atan", "atan(x)", 1, 1, of_number<arc_tangent>},
+    Builtin{"atan2", "atan2(y, x)", 2, 2, arc_tangent_of_two},
+    Builtin{"sqrt", "sqrt(x)", 1, 1, of_number<square_root>},
+    Builtin{"pow", "pow(base, exponent)", 2, 2, power},
+    Builtin{"exp", "exp(x)", 1, 1, of_number<exponential>},
+    Builtin{"log", "log(x)", 1, 1, of_number<logarithm>},
+    Builtin{"abs", "abs(x)", 1, 1, absolute},
+    Builtin{"min", "min(a, b, ...)", 1, any_number, extreme<false>},
+    Builtin{"max", "max(a, b, ...)", 1, any_number, extreme<true>},
+    Builtin{"floor", "floor(x)", 1, 1, to_integer<floor_of>},
+    Builtin{"ceil", "ceil(x)", 1, 1, to_integer<ceiling_of>},
+    Builtin{"round", "round(x)", 1, 1, to_integer<rounded>},
+    Builtin{"clamp", "clamp(x, low, high)", 3, 3, clamp},
+    Builtin{"rand", "rand(low, high)", 0, 2, random_number},
+    Builtin{"noise", "noise(x, y, z)", 1, 3, noise},
+};
+
+}  // namespace
+
+std::span<const Builtin> number_builtins() {
+  return table;
+}
+
+}  // namespace crt::lang

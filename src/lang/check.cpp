@@ -1,0 +1,171 @@
+#include "lang/check.hpp"
+
+#include <fmt/format.h>
+
+#include <string>
+#include <vector>
+
+#include "lang/objects.hpp"
+#include "lang/settings.hpp"
+#include "lang/suggestion.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+class Checker {
+ public:
+  Checker(const SymbolTable& symbols, Reporter& reporter) : symbols_(symbols), reporter_(reporter) {}
+
+  void check_object(ObjectLiteral& object) {
+    const std::string_view name = symbols_.name(object.name.symbol);
+    object.type = find_object_type(name);
+    if (object.type) return check_attributes(*object.type, object.name.span, object.attributes);
+    std::vector<std::string_view> names;
+    for (const ObjectType& type : object_types()) names.push_back(type.name);
+    reporter_.error(object.name.span, fmt::format("unknown object '{}'{}", name, did_you_mean(name, names)));
+  }
+
+  void check_attributes(const ObjectType& type, Span name_span, std::vector<AttributeSyntax>& attributes) {
+    std::vector<bool> given(type.attributes.size(), false);
+    for (AttributeSyntax& attribute : attributes) {
+      const std::string_view name = symbols_.name(attribute.name.symbol);
+      attribute.index = find_attribute(type, name);
+      if (attribute.index == type.attributes.size()) {
+        unknown_attribute(type, attribute.name.span, name);
+      } else if (given[attribute.index]) {
+        reporter_.error(attribute.name.span, fmt::format("the attribute '{}' is given twice", name));
+      } else {
+        given[attribute.index] = true;
+      }
+    }
+    std::vector<std::string> missing;
+    for (std::size_t i = 0; i < given.size(); ++i) {
+      if (type.attributes[i].required && !given[i])
+        missing.push_back(fmt::format("'{}'", type.attributes[i].name));
+    }
+    if (missing.empty()) return;
+    reporter_.error(name_span, fmt::format("{} needs the attribute{} {}", type.name,
+                                           missing.size() > 1 ? "s" : "", enumerate(missing, "and")));
+  }
+
+ private:
+  void unknown_attribute(const ObjectType& type, Span span, std::string_view name) {
+    std::vector<std::string_view> names;
+    std::vector<std::string> listed;
+    for (const AttributeType& attribute : type.attributes) {
+      names.push_back(attribute.name);
+      listed.emplace_back(attribute.name);
+    }
+    std::string hint = did_you_mean(name, names);
+    if (hint.empty()) hint = fmt::format("; {} has {}", type.name, enumerate(listed, "and"));
+    reporter_.error(span, fmt::format("unknown attribute '{}'{}", name, hint));
+  }
+
+  const SymbolTable& symbols_;
+  Reporter& reporter_;
+};
+
+/// Goes through the expressions that a statement evaluates itself, to any depth but that of macros.
+class AssignedNames {
+ public:
+  explicit AssignedNames(std::set<Symbol>& names) : names_(names) {}
+
+  void operator()(const Literal&) {}
+  void operator()(const Name&) {}
+  void operator()(const MacroLiteral&) {}
+  void operator()(const ObjectLiteral& object) { visit(object.attributes); }
+  void operator()(const ListLiteral& list) { visit(list.items); }
+  void operator()(const Index& index) {
+    visit(index.base);
+    visit(index.index);
+  }
+  void operator()(const Call& call) {
+    visit(call.callee);
+    visit(call.arguments);
+  }
+  void operator()(const Modified& modified) {
+    visit(modified.base);
+    for (const Modifier& modifier : modified.modifiers) visit(modifier.operand);
+  }
+  void operator()(const Unary& unary) { visit(unary.operand); }
+  void operator()(const Chain& chain) {
+    visit(chain.first);
+    for (const ChainLink& link : chain.links) visit(link.operand);
+  }
+  void operator()(const Logical& logical) { visit(logical.operands); }
+  void operator()(const Conditional& conditional) {
+    visit(conditional.condition);
+    visit(conditional.yes);
+    visit(conditional.no);
+  }
+  void operator()(const Assignment& assignment) {
+    names_.insert(assignment.name.symbol);
+    visit(assignment.value);
+  }
+
+  void operator()(const ExpressionStatement& statement) { visit(statement.expression); }
+  void operator()(const While& loop) {
+    visit(loop.condition);
+    collect_assigned(loop.body, names_);
+  }
+  void operator()(const If& choice) {
+    for (const If::Branch& branch : choice.branches) {
+      visit(branch.condition);
+      collect_assigned(branch.body, names_);
+    }
+  }
+  void operator()(const For& loop) {
+    visit(loop.list);
+    collect_assigned(loop.body, names_);
+  }
+  void operator()(const SettingsBlock& settings) { visit(settings.attributes); }
+  void operator()(const SceneBlock& scene) { collect_assigned(scene.body, names_); }
+  void operator()(const Import&) {}
+
+ private:
+  void visit(const Expression* expression) {
+    if (expression) std::visit(*this, expression->node);
+  }
+  void visit(const std::vector<const Expression*>& expressions) {
+    for (const Expression* expression : expressions) visit(expression);
+  }
+  void visit(const std::vector<AttributeSyntax>& attributes) {
+    for (const AttributeSyntax& attribute : attributes) visit(attribute.value);
+  }
+
+  std::set<Symbol>& names_;
+};
+
+}  // namespace
+
+void check(Script& script, const SymbolTable& symbols, Reporter& reporter) {
+  Checker checker(symbols, reporter);
+  const Span* settings_span = nullptr;
+  const Span* scene_span = nullptr;
+  const auto only_one = [&](const Span*& first, const Span& span, const char* name) {
+    if (first) reporter.error(span, fmt::format("a script has one {} block, and this is another", name));
+    first = &span;
+  };
+  for (Expression& expression : script.expressions) {
+    if (auto* object = std::get_if<ObjectLiteral>(&expression.node)) checker.check_object(*object);
+  }
+  for (Statement& statement : script.statements.statements) {
+    if (auto* settings = std::get_if<SettingsBlock>(&statement.node)) {
+      only_one(settings_span, settings->keyword, "Settings");
+      checker.check_attributes(settings_type(), settings->keyword, settings->attributes);
+    }
+    if (const auto* scene = std::get_if<SceneBlock>(&statement.node))
+      only_one(scene_span, scene->keyword, "Scene");
+  }
+}
+
+void collect_assigned(const Statement& statement, std::set<Symbol>& names) {
+  std::visit(AssignedNames(names), statement.node);
+}
+
+void collect_assigned(const Block& block, std::set<Symbol>& names) {
+  for (const Statement& statement : block.statements) collect_assigned(statement, names);
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,22 @@
+// What can be known to be wrong with a tree before it runs: objects and attributes that do not
+// exist, blocks that are there twice.
+#pragma once
+
+#include <set>
+
+#include "lang/reporter.hpp"
+#include "lang/symbol.hpp"
+#include "lang/syntax.hpp"
+
+namespace crt::lang {
+
+/// Finds the rows of all objects in the table, and reports each error. Throws GiveUp when the
+/// reporter has enough.
+void check(Script& script, const SymbolTable& symbols, Reporter& reporter);
+
+/// The names that a statement can assign in the scope that it stands in or one around it: those in
+/// the bodies of macros are left out.
+void collect_assigned(const Statement& statement, std::set<Symbol>& names);
+void collect_assigned(const Block& block, std::set<Symbol>& names);
+
+}  // namespace crt::lang

@@ -1,0 +1,119 @@
+#include "lang/context.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <limits>
+#include <memory>
+
+namespace crt::lang {
+
+namespace {
+
+/// More calls than this do not fit on an ordinary thread's stack.
+constexpr std::size_t deepest_calls = 1000;
+
+ScriptLimits bearable(ScriptLimits limits) {
+  limits.call_depth = std::min(limits.call_depth, deepest_calls);
+  limits.source_bytes = std::min(limits.source_bytes, SourceMap::most_bytes / 2);
+  limits.errors = std::max<std::size_t>(limits.errors, 1);
+  return limits;
+}
+
+}  // namespace
+
+Context::Context(const ScriptOptions& new_options, SymbolTable& new_symbols, SourceMap& new_sources,
+                 Reporter& new_reporter)
+    : options(new_options),
+      limits(bearable(new_options.limits)),
+      symbols(new_symbols),
+      sources(new_sources),
+      reporter(new_reporter),
+      files(new_options) {}
+
+std::string Context::where() const {
+  // An endless loop is the one that went round most often; among equals the outermost.
+  const Activity* culprit = nullptr;
+  for (const Activity& activity : activities_) {
+    if (activity.is_loop && (!culprit || activity.rounds > culprit->rounds)) culprit = &activity;
+  }
+  if (!culprit && !activities_.empty()) culprit = &activities_.back();
+  if (!culprit) return {};
+  const SourcePlace place = sources.place(culprit->span);
+  const char* kind = culprit->is_loop ? "loop" : "call";
+  return fmt::format(", in the {} '{}' at {}:{}:{}", kind, culprit->name, place.file, place.line,
+                     place.column);
+}
+
+void Context::pass_limit(Span span, const std::string& message) const {
+  throw Failure{.span = span, .message = message + where(), .code = ErrorCode::limit};
+}
+
+void Context::pass_step_limit(Span span) const {
+  pass_limit(span, fmt::format("the script takes more than {} steps", limits.steps));
+}
+
+void Context::spend(Span span, std::size_t steps) {
+  steps_ = steps > std::numeric_limits<std::uint64_t>::max() - steps_
+               ? std::numeric_limits<std::uint64_t>::max()
+               : steps_ + steps;
+  if (steps_ > limits.steps) pass_step_limit(span);
+}
+
+void Context::count_made(Span span) {
+  if (++made_ > limits.entities)
+    pass_limit(span, fmt::format("the script makes more than {} entities", limits.entities));
+}
+
+void Context::count_emitted(Span span, std::uint64_t primitives) {
+  if (primitives > limits.entities - emitted_)
+    pass_limit(span, fmt::format("the scene gets more than {} entities", limits.entities));
+  emitted_ += primitives;
+}
+
+void Context::check_size(Span span, const Entity& entity) {
+  if (entity.primitive_count() > limits.entities)
+    pass_limit(span, fmt::format("an entity of more than {} primitives", limits.entities));
+}
+
+Charge Context::charge_memory(Span span, std::size_t bytes) {
+  if (bytes > limits.memory_bytes - memory_)
+    pass_limit(span, fmt::format("the script's values need more than {} bytes", limits.memory_bytes));
+  return Charge(memory_, bytes);
+}
+
+void Context::check_string_size(Span span, std::size_t bytes) {
+  if (bytes > limits.string_bytes)
+    pass_limit(span, fmt::format("a string of more than {} bytes", limits.string_bytes));
+}
+
+void Context::check_list_size(Span span, std::size_t items) {
+  if (items > limits.list_length)
+    pass_limit(span, fmt::format("a list of more than {} items", limits.list_length));
+}
+
+Value Context::make_string(Span span, std::string text) {
+  spend(span, text.size() / bytes_per_step);
+  Charge charge = charge_memory(span, sizeof(StringValue) + text.size());
+  return std::make_shared<const StringValue>(StringValue{std::move(text), std::move(charge)});
+}
+
+Value Context::make_list(Span span, std::vector<Value> items) {
+  spend(span, items.size() / items_per_step);
+  int depth = 1;
+  for (const Value& item : items) {
+    if (const List* list = std::get_if<List>(&item)) depth = std::max(depth, (*list)->depth + 1);
+  }
+  if (depth > deepest_list) pass_limit(span, fmt::format("lists nested more than {} deep", deepest_list));
+  Charge charge = charge_memory(span, sizeof(ListValue) + items.capacity() * sizeof(Value));
+  return std::make_shared<const ListValue>(ListValue{std::move(items), depth, std::move(charge)});
+}
+
+void Context::print(Span span, const std::string& line) {
+  printed_bytes_ += line.size() + 1;
+  if (printed_bytes_ > limits.string_bytes)
+    pass_limit(span, fmt::format("the script prints more than {} bytes", limits.string_bytes));
+  if (options.print) options.print(line);
+}
+
+}  // namespace crt::lang

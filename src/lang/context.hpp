@@ -1,0 +1,106 @@
+// What a running script uses up and reaches: its limits, memory, files, random numbers and log.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "crt/script.hpp"
+#include "lang/files.hpp"
+#include "lang/random.hpp"
+#include "lang/reporter.hpp"
+#include "lang/symbol.hpp"
+#include "lang/value.hpp"
+
+namespace crt::lang {
+
+/// Work that copies or compares is paid for in steps, so that no step takes long.
+constexpr std::size_t items_per_step = 16;
+constexpr std::size_t bytes_per_step = 64;
+
+/// Lists within lists; freeing them takes stack.
+constexpr int deepest_list = 100;
+
+class Context {
+ public:
+  Context(const ScriptOptions& options, SymbolTable& symbols, SourceMap& sources, Reporter& reporter);
+  Context(const Context&) = delete;
+  Context& operator=(const Context&) = delete;
+
+  const ScriptOptions& options;
+  /// The caller's, cut to what this implementation can bear.
+  const ScriptLimits limits;
+  SymbolTable& symbols;
+  SourceMap& sources;
+  Reporter& reporter;
+  Files files;
+  Random random;
+
+  /// Counts an expression evaluated at `span`. This is the hot path.
+  void step(Span span) {
+    if (++steps_ > limits.steps) [[unlikely]]
+      pass_step_limit(span);
+  }
+  void spend(Span span, std::size_t steps);
+
+  /// Counts an entity made.
+  void count_made(Span span);
+  /// Counts primitives put into the scene.
+  void count_emitted(Span span, std::uint64_t primitives);
+  /// Refuses an entity of more primitives than a scene may have.
+  void check_size(Span span, const Entity& entity);
+
+  // Strings and lists are made here, where they are paid for.
+  Value make_string(Span span, std::string text);
+  Value make_list(Span span, std::vector<Value> items);
+  /// Throws unless a string or list of such a size is allowed.
+  void check_string_size(Span span, std::size_t bytes);
+  void check_list_size(Span span, std::size_t items);
+  Charge charge_memory(Span span, std::size_t bytes);
+
+  void print(Span span, const std::string& line);
+
+  /// Throws a Failure for a limit, naming the loop or call that it was passed in.
+  [[noreturn]] void pass_limit(Span span, const std::string& message) const;
+
+  /// A loop or macro call that runs now.
+  struct Activity {
+    std::string_view name;  ///< of the macro, or "while" or "for"
+    Span span;
+    bool is_loop = false;
+    std::uint64_t rounds = 0;
+  };
+
+  /// Holds an activity as long as it runs.
+  class Running {
+   public:
+    Running(Context& context, Activity activity) : activities_(context.activities_) {
+      activities_.push_back(activity);
+    }
+    Running(const Running&) = delete;
+    Running& operator=(const Running&) = delete;
+    ~Running() { activities_.pop_back(); }
+
+   private:
+    std::vector<Activity>& activities_;
+  };
+
+  /// Counts a round of the innermost loop.
+  void count_round() { ++activities_.back().rounds; }
+
+ private:
+  [[noreturn]] void pass_step_limit(Span span) const;
+  std::string where() const;
+
+  std::uint64_t steps_ = 0;
+  std::uint64_t made_ = 0;
+  std::uint64_t emitted_ = 0;
+  std::size_t memory_ = 0;
+  std::size_t printed_bytes_ = 0;
+  std::vector<Activity> activities_;
+};
+
+}  // namespace crt::lang

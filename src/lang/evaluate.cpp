@@ -1,0 +1,175 @@
+// The interpreter's expressions. Each kind has a function of its own that is not inlined: that keeps
+// the frame of evaluate(), of which there can be many on the stack, small.
+#include <fmt/format.h>
+
+#include <variant>
+
+#include "crt/transform.hpp"
+#include "lang/builtins.hpp"
+#include "lang/interpreter.hpp"
+#include "lang/operators.hpp"
+
+namespace crt::lang {
+
+Value Interpreter::evaluate(const Expression& expression) {
+  context_.step(expression.span);
+  check_stack(expression.span);
+  return std::visit([&](const auto& node) { return evaluate_node(node, expression); }, expression.node);
+}
+
+Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
+  return literal.value;
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Name& name, const Expression& expression) {
+  const Value* value = scope_->find(name.symbol);
+  if (!value) unknown_name(name.symbol, expression.span);
+  if (std::holds_alternative<Unknown>(*value)) throw Abandoned{};
+  return *value;
+}
+
+[[gnu::noinline]] std::vector<Given> Interpreter::evaluate_attributes(
+    const ObjectType& type, const std::vector<AttributeSyntax>& attributes) {
+  std::vector<Given> given;
+  given.reserve(attributes.size());
+  for (const AttributeSyntax& attribute : attributes) {
+    given.push_back({.type = &type.attributes[attribute.index],
+                     .name_span = attribute.name.span,
+                     .value_span = attribute.value->span,
+                     .value = evaluate(*attribute.value)});
+  }
+  return given;
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const ObjectLiteral& object, const Expression&) {
+  const std::vector<Given> given = evaluate_attributes(*object.type, object.attributes);
+  return object.type->build({context_, object.name.span, given});
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const MacroLiteral& macro, const Expression& expression) {
+  capture_scopes(expression.span);
+  return std::make_shared<const MacroValue>(MacroValue{&macro, scope_});
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const ListLiteral& list, const Expression& expression) {
+  context_.check_list_size(expression.span, list.items.size());
+  std::vector<Value> items;
+  items.reserve(list.items.size());
+  for (const Expression* item : list.items) {
+    items.push_back(evaluate(*item));
+    if (std::holds_alternative<Nothing>(items.back()))
+      throw Failure{.span = item->span, .message = "this call has no value"};
+  }
+  return context_.make_list(expression.span, std::move(items));
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Index& index, const Expression&) {
+  const Value base = evaluate(*index.base);
+  return item(context_, index.index->span, base, evaluate(*index.index));
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Unary& unary_node, const Expression& expression) {
+  return unary(unary_node.op, expression.span, evaluate(*unary_node.operand));
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Chain& chain, const Expression&) {
+  Value result = evaluate(*chain.first);
+  for (const ChainLink& link : chain.links) {
+    const Value right = evaluate(*link.operand);
+    result = binary(context_, link.op, link.op_span, result, right);
+  }
+  return result;
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Logical& logical, const Expression&) {
+  const bool decisive = logical.op == LogicalOperator::disjunction;
+  const char* what = decisive ? "'||'" : "'&&'";
+  for (const Expression* operand : logical.operands) {
+    const Value value = evaluate(*operand);
+    const auto* boolean = std::get_if<bool>(&value);
+    if (!boolean)
+      throw Failure{.span = operand->span,
+                    .message = fmt::format("{} takes Booleans, not {}", what, type_with_article(value))};
+    if (*boolean == decisive) return decisive;
+  }
+  return !decisive;
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Conditional& conditional, const Expression&) {
+  return evaluate(condition(*conditional.condition, "'?'") ? *conditional.yes : *conditional.no);
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Assignment& assignment, const Expression&) {
+  const Symbol name = assignment.name.symbol;
+  if (overridden_.contains(name) && &scope_->target_of(name) == globals_.get()) return *globals_->find(name);
+  Value value = evaluate(*assignment.value);
+  if (std::holds_alternative<Nothing>(value))
+    throw Failure{.span = assignment.value->span, .message = "this call has no value"};
+  scope_->target_of(name).set(name, value);
+  return value;
+}
+
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Modified& modified, const Expression&) {
+  const Value base = evaluate(*modified.base);
+  const auto* entity = std::get_if<Entity>(&base);
+  if (!entity) {
+    throw Failure{.span = modified.base->span,
+                  .message = fmt::format("only an Entity can be scaled, translated or rotated, not {}",
+                                         type_with_article(base))};
+  }
+  Entity result = *entity;
+  for (const Modifier& modifier : modified.modifiers) result = modify(result, modifier);
+  return result;
+}
+
+namespace {
+
+const char* modifier_name(ModifierKind kind) {
+  switch (kind) {
+    case ModifierKind::scale:
+      return "scale";
+    case ModifierKind::translate:
+      return "translate";
+    case ModifierKind::rotate:
+      return "rotate";
+  }
+  return "";
+}
+
+Transform transform_of(const Modifier& modifier, const Value& operand) {
+  if (const auto* vector = std::get_if<Vec3>(&operand)) {
+    switch (modifier.kind) {
+      case ModifierKind::scale:
+        return scale(*vector);
+      case ModifierKind::translate:
+        return translate(*vector);
+      case ModifierKind::rotate:
+        return rotate(*vector);
+    }
+  }
+  double room = 0;
+  const double* number = modifier.kind == ModifierKind::scale ? as_float(operand, room) : nullptr;
+  if (number) return scale(*number);
+  const char* wanted = modifier.kind == ModifierKind::scale ? "a number or a Vec3" : "a Vec3";
+  throw Failure{.span = modifier.operand->span,
+                .message = fmt::format("'{}' takes {}, not {}", modifier_name(modifier.kind), wanted,
+                                       type_with_article(operand))};
+}
+
+}  // namespace
+
+[[gnu::noinline]] Entity Interpreter::modify(const Entity& entity, const Modifier& modifier) {
+  const Value operand = evaluate(*modifier.operand);
+  context_.count_made(modifier.operand->span);
+  try {
+    return entity.transformed(transform_of(modifier, operand));
+  } catch (const Error& error) {
+    std::string message = error.what();
+    // The core names the parameter of its function; in a script that is the modifier itself.
+    if (message.starts_with(error.argument()))
+      message.replace(0, error.argument().size(), fmt::format("'{}'", modifier_name(modifier.kind)));
+    throw Failure{.span = modifier.operand->span, .message = message, .code = error.code()};
+  }
+}
+
+}  // namespace crt::lang

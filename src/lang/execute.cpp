@@ -1,0 +1,186 @@
+// The interpreter's statements.
+#include <fmt/format.h>
+
+#include "lang/check.hpp"
+#include "lang/interpreter.hpp"
+#include "lang/settings.hpp"
+
+namespace crt::lang {
+
+void Interpreter::run(const Script& script, bool is_import) {
+  const Temporarily imports(is_import_, is_import);
+  for (const Statement& statement : script.statements.statements) attempt(statement);
+}
+
+/// Runs a statement whose failure leaves the next ones worth running, so that a run reports several errors.
+void Interpreter::attempt(const Statement& statement) {
+  try {
+    execute(statement);
+    return;
+  } catch (const Failure& failure) {
+    context_.reporter.error(failure);
+    if (failure.code == ErrorCode::limit) throw GiveUp{};
+  } catch (const Abandoned&) {
+    // Told already.
+  }
+  mark_unknown(statement);
+}
+
+/// Names that the failed statement should have set are not to be called unknown later.
+void Interpreter::mark_unknown(const Statement& statement) {
+  std::set<Symbol> names;
+  collect_assigned(statement, names);
+  for (const Symbol name : names) {
+    Scope& target = scope_->target_of(name);
+    if (!target.has(name)) target.set(name, Unknown{});
+  }
+}
+
+void Interpreter::execute(const Block& block) {
+  for (const Statement& statement : block.statements) execute(statement);
+}
+
+void Interpreter::execute(const Statement& statement) {
+  check_stack(statement.span);
+  std::visit([this](const auto& node) { execute_node(node); }, statement.node);
+}
+
+void Interpreter::execute_in(const Block& block, std::shared_ptr<Scope> scope) {
+  const Temporarily inside(scope_, std::move(scope));
+  execute(block);
+}
+
+/// A scope for a body: the one of the round before, if no macro has taken hold of it.
+std::shared_ptr<Scope> Interpreter::fresh_scope(std::shared_ptr<Scope> used) {
+  if (!used || used->is_captured()) return std::make_shared<Scope>(Scope::Kind::block, scope_);
+  used->clear();
+  return used;
+}
+
+bool Interpreter::condition(const Expression& expression, const char* what) {
+  const Value value = evaluate(expression);
+  if (const auto* boolean = std::get_if<bool>(&value)) return *boolean;
+  const bool assigns = std::holds_alternative<Assignment>(expression.node);
+  throw Failure{.span = expression.span,
+                .message = fmt::format("the condition of {} must be a Boolean, not {}{}", what,
+                                       type_with_article(value), assigns ? "; to compare, write '=='" : "")};
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const While& loop) {
+  const Context::Running running(context_, {.name = "while", .span = loop.keyword, .is_loop = true});
+  std::shared_ptr<Scope> scope;
+  while (condition(*loop.condition, "'while'")) {
+    context_.count_round();
+    scope = fresh_scope(std::move(scope));
+    execute_in(loop.body, scope);
+  }
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const For& loop) {
+  const Value value = evaluate(*loop.list);
+  const List* list = std::get_if<List>(&value);
+  if (!list)
+    throw Failure{.span = loop.list->span,
+                  .message = fmt::format("'for' goes through a List, not {}", type_with_article(value))};
+  const Context::Running running(context_, {.name = "for", .span = loop.keyword, .is_loop = true});
+  std::shared_ptr<Scope> scope;
+  for (const Value& item : (*list)->items) {
+    context_.step(loop.keyword);
+    context_.count_round();
+    scope = fresh_scope(std::move(scope));
+    scope->set(loop.variable.symbol, item);
+    execute_in(loop.body, scope);
+  }
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const If& choice) {
+  for (const If::Branch& branch : choice.branches) {
+    if (!branch.condition || condition(*branch.condition, "'if'"))
+      return execute_in(branch.body, fresh_scope(nullptr));
+  }
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const SettingsBlock& settings) {
+  if (is_import_) return;
+  settings_span_ = settings.keyword;
+  settings_ = evaluate_attributes(settings_type(), settings.attributes);
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const SceneBlock& scene) {
+  if (is_import_) return;
+  const Temporarily emission(emission_, Emission{.entities = &entities_, .into_scene = true});
+  const Temporarily inside(scope_, fresh_scope(nullptr));
+  for (const Statement& statement : scene.body.statements) attempt(statement);
+}
+
+void Interpreter::execute_node(const Import& import) {
+  importer_(import);
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const ExpressionStatement& statement) {
+  const Expression& expression = *statement.expression;
+  if (const auto* call = std::get_if<Call>(&expression.node)) {
+    if (emission_.entities) return execute_call(expression, *call);
+    return execute_top_level_call(expression, *call);
+  }
+  const Value value = evaluate(expression);
+  if (!std::holds_alternative<Assignment>(expression.node)) emit(value, expression.span);
+}
+
+/// What a macro emits when it is called as a statement goes where the caller's own entities go.
+[[gnu::noinline]] void Interpreter::execute_call(const Expression& expression, const Call& call) {
+  context_.step(expression.span);
+  const Value callee = evaluate(*call.callee);
+  if (const auto* macro = std::get_if<Macro>(&callee)) return call_macro(expression, call, **macro);
+  const auto* builtin = std::get_if<const Builtin*>(&callee);
+  if (!builtin) not_callable(call, callee);
+  call_builtin(expression, call, **builtin);
+}
+
+[[gnu::noinline]] void Interpreter::execute_top_level_call(const Expression& expression, const Call& call) {
+  std::vector<Entity> unused;
+  const Temporarily emission(emission_, Emission{.entities = &unused});
+  execute_call(expression, call);
+  if (!unused.empty())
+    context_.reporter.warning(expression.span,
+                              "the entities that this emits are not used: it is not in the Scene block");
+}
+
+[[gnu::noinline]] void Interpreter::emit(const Value& value, Span span) {
+  bool used = false;
+  if (emission_.entities) {
+    if (const auto* entity = std::get_if<Entity>(&value)) {
+      emit_entity(*entity, span);
+      used = true;
+    } else if (const List* list = std::get_if<List>(&value)) {
+      used = emit_items(**list, span);
+    }
+  }
+  if (!used) context_.reporter.warning(span, "value is not used");
+}
+
+void Interpreter::emit_entity(const Entity& entity, Span span) {
+  if (emission_.into_scene) {
+    context_.count_emitted(span, entity.primitive_count());
+  } else {
+    context_.count_made(span);
+  }
+  emission_.entities->push_back(entity);
+}
+
+/// Whether there was an entity among the items, or in the lists among them.
+bool Interpreter::emit_items(const ListValue& list, Span span) {
+  bool used = list.items.empty();
+  for (const Value& item : list.items) {
+    context_.step(span);
+    if (const auto* entity = std::get_if<Entity>(&item)) {
+      emit_entity(*entity, span);
+      used = true;
+    } else if (const List* inner = std::get_if<List>(&item)) {
+      used = emit_items(**inner, span) || used;
+    }
+  }
+  return used;
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,160 @@
+#include "lang/files.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <fstream>
+#include <set>
+#include <span>
+#include <system_error>
+#include <utility>
+
+#include "lang/reporter.hpp"
+#include "lang/utf8.hpp"
+
+namespace crt::lang {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+[[noreturn]] void fail(Span span, std::string message) {
+  throw Failure{.span = span, .message = std::move(message), .code = ErrorCode::io};
+}
+
+/// Whether `path` is `directory` or lies below it, going by the names alone. Both are normal.
+bool lies_in(const fs::path& path, fs::path directory) {
+  if (!directory.has_filename()) directory = directory.parent_path();  // "a/" is "a"
+  if (directory.empty() || directory == ".")
+    return path.is_relative() && (path.empty() || *path.begin() != "..");
+  const auto ends = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
+  return ends.first == directory.end() && std::find(ends.second, path.end(), fs::path("..")) == path.end();
+}
+
+fs::path in_directory(const fs::path& directory, const fs::path& name) {
+  return (directory / name).lexically_normal();
+}
+
+}  // namespace
+
+Files::Files(const ScriptOptions& options) : options_(options) {}
+
+std::vector<fs::path> Files::candidates(const std::string& name, const fs::path& directory) const {
+  const fs::path path(name);
+  std::vector<fs::path> result;
+  // A leading '/' is the root of a resource directory, not that of the file system.
+  const bool from_root = path.has_root_directory();
+  if (!from_root) {
+    result.push_back(in_directory(directory, path));
+    result.push_back(in_directory(script_directory_, path));
+  }
+  for (const fs::path& resources : options_.resource_directories)
+    result.push_back(in_directory(resources, path.relative_path()));
+  std::set<fs::path> seen;
+  std::erase_if(result, [&seen](const fs::path& p) { return !seen.insert(p).second; });
+  return result;
+}
+
+bool Files::is_open(const fs::path& candidate) const {
+  if (options_.allow_outside_files) return true;
+  const auto holds = [&](const fs::path& directory) {
+    return lies_in(candidate, directory.lexically_normal());
+  };
+  return holds(script_directory_) ||
+         std::any_of(options_.resource_directories.begin(), options_.resource_directories.end(), holds);
+}
+
+bool Files::is_really_open(const fs::path& canonical) const {
+  if (options_.allow_outside_files) return true;
+  const auto holds = [&](const fs::path& directory) {
+    std::error_code failed;
+    const fs::path real = fs::canonical(directory.empty() ? fs::path(".") : directory, failed);
+    return !failed && lies_in(canonical, real);
+  };
+  return holds(script_directory_) ||
+         std::any_of(options_.resource_directories.begin(), options_.resource_directories.end(), holds);
+}
+
+Files::Found Files::find(const std::string& name, const fs::path& directory, Span span) const {
+  const std::string shown = printable(name);
+  if (name.empty()) fail(span, "a file's name must not be empty");
+  if (name.find('\0') != std::string::npos) fail(span, "a file's name must not hold the character U+0000");
+  bool outside = false;
+  for (const fs::path& candidate : candidates(name, directory)) {
+    if (!is_open(candidate)) {
+      outside = true;
+      continue;
+    }
+    if (options_.open_file) {
+      if (auto content = options_.open_file(candidate)) return {candidate, candidate, std::move(content)};
+    }
+    std::error_code failed;
+    const fs::path canonical = fs::canonical(candidate, failed);
+    if (failed) continue;
+    if (!is_really_open(canonical)) {
+      outside = true;
+      continue;
+    }
+    if (!fs::is_regular_file(canonical, failed)) fail(span, fmt::format("'{}' is not a regular file", shown));
+    return {candidate, canonical, std::nullopt};
+  }
+  if (outside)
+    fail(span,
+         fmt::format("'{}' lies outside the directories that a script may read: its own and the resource "
+                     "directories",
+                     shown));
+  if (fs::path(name).has_root_directory() && options_.resource_directories.empty())
+    fail(span, fmt::format("there is no file '{}': a leading '/' means a resource directory, and none is set",
+                           shown));
+  fail(span, fmt::format("there is no file '{}'", shown));
+}
+
+std::string Files::read_text(Found found, std::size_t most_bytes, Span span) const {
+  const std::string shown = printable(found.shown.string());
+  if (found.content) {
+    const std::vector<std::byte>& bytes = *found.content;
+    if (bytes.size() > most_bytes)
+      throw Failure{
+          .span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
+    return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
+  }
+  std::error_code failed;
+  if (fs::file_size(found.path, failed) > most_bytes && !failed)
+    throw Failure{.span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
+  std::optional<std::string> text = read_regular_file(found.path, most_bytes);
+  if (!text) fail(span, fmt::format("'{}' cannot be read", shown));
+  return std::move(*text);
+}
+
+std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory, Span span) {
+  const Found found = find(name, directory, span);
+  std::shared_ptr<const Image>& image = images_[found.path];
+  if (!image) {
+    try {
+      image = std::make_shared<const Image>(
+          found.content ? Image::decode(*found.content, found.path.filename().string())
+                        : Image::read(found.path));
+    } catch (const Error& error) {
+      throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
+    }
+  }
+  return image;
+}
+
+std::optional<std::string> read_regular_file(const fs::path& path, std::size_t most_bytes) {
+  std::error_code failed;
+  if (!fs::is_regular_file(path, failed)) return std::nullopt;
+  std::ifstream file(path, std::ios::binary);
+  std::string text;
+  constexpr std::size_t piece = 1 << 16;
+  while (file && text.size() <= most_bytes) {
+    const std::size_t before = text.size();
+    text.resize(before + piece);
+    file.read(text.data() + before, static_cast<std::streamsize>(piece));
+    text.resize(before + static_cast<std::size_t>(file.gcount()));
+  }
+  if (!file.eof() || text.size() > most_bytes) return std::nullopt;
+  return text;
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,57 @@
+// The files that a script may reach: imports and images, in its own directory and those that the
+// caller lists, and nowhere else.
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "crt/image.hpp"
+#include "crt/script.hpp"
+#include "lang/source_map.hpp"
+
+namespace crt::lang {
+
+class Files {
+ public:
+  explicit Files(const ScriptOptions& options);
+
+  /// Says where the main script lies: its directory is open to the script.
+  void set_script_directory(const std::filesystem::path& directory) { script_directory_ = directory; }
+
+  /// A file that was found, and its content where the caller's callback gave it.
+  struct Found {
+    std::filesystem::path shown;  ///< its path as messages have it
+    std::filesystem::path path;   ///< free of symbolic links, so that a file has one
+    std::optional<std::vector<std::byte>> content;
+  };
+
+  /// Looks for `name` as a script in `directory` writes it. Throws Failure (io) at `span`.
+  Found find(const std::string& name, const std::filesystem::path& directory, Span span) const;
+
+  /// The text of a found file, of at most `most_bytes`.
+  std::string read_text(Found found, std::size_t most_bytes, Span span) const;
+
+  /// An image, decoded once a run.
+  std::shared_ptr<const Image> image(const std::string& name, const std::filesystem::path& directory,
+                                     Span span);
+
+ private:
+  std::vector<std::filesystem::path> candidates(const std::string& name,
+                                                const std::filesystem::path& directory) const;
+  bool is_open(const std::filesystem::path& candidate) const;
+  bool is_really_open(const std::filesystem::path& canonical) const;
+
+  const ScriptOptions& options_;
+  std::filesystem::path script_directory_;
+  std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+};
+
+/// The whole of a regular file; nothing if it cannot be read or has more than `most_bytes`.
+std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t most_bytes);
+
+}  // namespace crt::lang

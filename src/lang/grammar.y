@@ -1,0 +1,281 @@
+/* The grammar of CRT scripts: rules 1 to 32 of its definition, in levels of precedence, with the
+   control statements and imports. Line ends mean nothing here; where they matter the lexer says so
+   by giving '(' and '[' another token. The tree is built by TreeBuilder; what can be wrong with a
+   tree that this grammar takes is found later, by check.cpp and the interpreter. */
+%require "3.8"
+%skeleton "lalr1.cc"
+%define api.namespace {crt::lang}
+%define api.parser.class {Grammar}
+%define api.location.type {crt::lang::Span}
+%define api.value.type variant
+%define api.value.automove
+%define api.token.constructor
+%define parse.error custom
+%define parse.lac full
+%locations
+%expect 0
+
+%code requires {
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "lang/nesting.hpp"
+#include "lang/syntax.hpp"
+
+namespace crt::lang {
+class Lexer;
+class TreeBuilder;
+}
+}
+
+%parse-param { Lexer& lexer } { TreeBuilder& tree }
+%lex-param { Lexer& lexer }
+
+%code {
+#include "lang/lexer.hpp"
+#include "lang/tree_builder.hpp"
+
+static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
+  return lexer.next();
+}
+}
+
+/* The first token says what the text is: it is not in the text. */
+%token START_SCRIPT START_EXPRESSION
+%token END 0 "the end of the script"
+
+%token <std::int64_t> INTEGER "a whole number"
+%token <double> FLOAT "a number"
+%token <std::string> STRING "a string"
+%token <Symbol> IDENTIFIER "a name"
+%token <Symbol> OBJECT_NAME "an object's name"
+
+%token SETTINGS "Settings" SCENE "Scene" MACRO "Macro" SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
+%token TRUE "true" FALSE "false" WHILE "while" IF "if" ELSE "else" FOR "for" IN "in" IMPORT "import"
+
+%token LEFT_BRACE "{" RIGHT_BRACE "}" RIGHT_PARENTHESIS ")" RIGHT_BRACKET "]"
+/* First on its line each of these two begins an expression and never continues one. */
+%token LEFT_PARENTHESIS "(" FIRST_PARENTHESIS "( first on its line"
+%token LEFT_BRACKET "[" FIRST_BRACKET "[ first on its line"
+/* A '<' before scale, translate or rotate. */
+%token MODIFIER_START "< before a modifier"
+
+%token PLUS "+" MINUS "-" STAR "*" SLASH "/" PERCENT "%" CARET "^" NOT "!"
+%token LESS "<" GREATER ">" LESS_EQUAL "<=" GREATER_EQUAL ">=" EQUAL "==" NOT_EQUAL "!="
+%token AND "&&" OR "||" QUESTION "?" COLON ":" ASSIGN "=" COMMA "," ARROW "->"
+
+/* There is no sign that ends a statement, so an expression goes on as long as it can: before a token
+   that could either continue it or begin the next one, going on has the higher precedence. */
+%precedence END_OF_EXPRESSION
+%precedence "+" "-" "(" "["
+
+%nterm <Block> statements script_statements block
+%nterm <Statement> statement script_statement while if for settings scene import
+%nterm <If> if_branches
+%nterm <Expression*> expression conditional disjunction conjunction comparison additive multiplicative
+%nterm <Expression*> unary postfix primary object macro list literal condition
+%nterm <std::vector<const Expression*>> expressions expressions_or_none items
+%nterm <std::vector<AttributeSyntax>> attributes
+%nterm <AttributeSyntax> attribute
+%nterm <std::vector<NamePlace>> parameters parameters_or_none
+%nterm <std::vector<Modifier>> modifiers
+%nterm <Modifier> modifier
+%nterm <BinaryOperator> comparison_operator additive_operator multiplicative_operator
+/* Stands after each opening of something that can hold itself, and lives as long as that is open. */
+%nterm <Nesting> nest
+
+%%
+
+/* A script (rule 1), or one expression from elsewhere. */
+text:
+    START_SCRIPT script_statements           { tree.finish($2); }
+  | START_EXPRESSION expression              { tree.finish($2); }
+
+nest: %empty                                 { $$ = tree.enter(@0); }
+
+/* ---- statements ---- */
+
+script_statements:
+    %empty                                   { $$ = Block(); }
+  | script_statements script_statement       { $$ = tree.append($1, $2); }
+  | script_statements error                  { $$ = $1; }
+
+script_statement: statement { $$ = $1; } | settings { $$ = $1; } | scene { $$ = $1; } | import { $$ = $1; }
+
+statements:
+    %empty                                   { $$ = Block(); }
+  | statements statement                     { $$ = tree.append($1, $2); }
+  | statements error                         { $$ = $1; }
+
+statement:
+    expression                               { $$ = tree.statement(@$, ExpressionStatement{$1}); }
+  | while                                    { $$ = $1; }
+  | if                                       { $$ = $1; }
+  | for                                      { $$ = $1; }
+
+block: "{" nest statements "}"               { $$ = $3; }
+
+settings: "Settings" "{" nest attributes "}" { $$ = tree.statement(@$, SettingsBlock{@1, $4}); }
+
+scene: "Scene" block                         { $$ = tree.statement(@$, SceneBlock{@1, $2}); }
+
+import: "import" STRING                      { $$ = tree.statement(@$, Import{@2, $2}); }
+
+open: "(" | "( first on its line"
+
+condition: open nest expression ")"          { $$ = $3; }
+
+while: "while" condition block               { $$ = tree.statement(@$, While{@1, $2, $3}); }
+
+for: "for" open IDENTIFIER "in" expression ")" block
+                                             { $$ = tree.statement(@$, For{@1, {$3, @3}, $5, $7}); }
+
+if:
+    if_branches                              { $$ = tree.statement(@$, $1); }
+  | if_branches "else" block                 { $$ = tree.statement(@$, tree.branch($1, nullptr, $3)); }
+
+if_branches:
+    "if" condition block                     { $$ = tree.branch(If(), $2, $3); }
+  | if_branches "else" "if" condition block  { $$ = tree.branch($1, $4, $5); }
+
+/* ---- expressions, from the loosest level to the tightest ---- */
+
+expression:
+    conditional                              { $$ = $1; }
+  | conditional "=" nest expression          { $$ = tree.assignment(@$, $1, $4); }
+
+conditional:
+    disjunction                              { $$ = $1; }
+  | disjunction "?" nest expression ":" conditional
+                                             { $$ = tree.expression(@$, Conditional{$1, $4, $6}); }
+
+disjunction:
+    conjunction                              { $$ = $1; }
+  | disjunction "||" conjunction             { $$ = tree.logical(LogicalOperator::disjunction, $1, $3); }
+
+conjunction:
+    comparison                               { $$ = $1; }
+  | conjunction "&&" comparison              { $$ = tree.logical(LogicalOperator::conjunction, $1, $3); }
+
+comparison:
+    additive %prec END_OF_EXPRESSION         { $$ = $1; }
+  | comparison comparison_operator additive %prec END_OF_EXPRESSION
+                                             { $$ = tree.chain($1, $2, @2, $3); }
+
+additive:
+    multiplicative                           { $$ = $1; }
+  | additive additive_operator multiplicative
+                                             { $$ = tree.chain($1, $2, @2, $3); }
+
+multiplicative:
+    unary                                    { $$ = $1; }
+  | multiplicative multiplicative_operator unary
+                                             { $$ = tree.chain($1, $2, @2, $3); }
+
+comparison_operator:
+    "<"  { $$ = BinaryOperator::less; }      | "<=" { $$ = BinaryOperator::less_or_equal; }
+  | ">"  { $$ = BinaryOperator::greater; }   | ">=" { $$ = BinaryOperator::greater_or_equal; }
+  | "==" { $$ = BinaryOperator::equal; }     | "!=" { $$ = BinaryOperator::not_equal; }
+
+additive_operator:
+    "+"  { $$ = BinaryOperator::add; }       | "-"  { $$ = BinaryOperator::subtract; }
+  | "^"  { $$ = BinaryOperator::intersect; }
+
+multiplicative_operator:
+    "*"  { $$ = BinaryOperator::multiply; }  | "/"  { $$ = BinaryOperator::divide; }
+  | "%"  { $$ = BinaryOperator::remainder; }
+
+unary:
+    postfix %prec END_OF_EXPRESSION          { $$ = $1; }
+  | "+" nest unary                           { $$ = tree.expression(@$, Unary{UnaryOperator::plus, $3}); }
+  | "-" nest unary                           { $$ = tree.expression(@$, Unary{UnaryOperator::minus, $3}); }
+  | "!" nest unary                           { $$ = tree.expression(@$, Unary{UnaryOperator::negation, $3}); }
+
+postfix:
+    primary                                  { $$ = $1; }
+  | postfix "[" nest expression "]"          { $$ = tree.expression(@$, Index{$1, $4}); }
+  | postfix "(" nest expressions_or_none ")" { $$ = tree.expression(@$, Call{$1, $4}); }
+  | postfix "< before a modifier" nest modifiers ">"
+                                             { $$ = tree.expression(@$, Modified{$1, $4}); }
+
+modifiers:
+    modifier                                 { $$.push_back($1); }
+  | modifiers "," modifier                   { $$ = $1; $$.push_back($3); }
+
+/* The operand is an additive expression, so that '>' always closes the list. */
+modifier:
+    "scale" additive                         { $$ = {ModifierKind::scale, $2}; }
+  | "translate" additive                     { $$ = {ModifierKind::translate, $2}; }
+  | "rotate" additive                        { $$ = {ModifierKind::rotate, $2}; }
+
+expressions_or_none:
+    %empty                                   { }
+  | expressions                              { $$ = $1; }
+
+expressions:
+    expression                               { $$.push_back($1); }
+  | expressions "," expression               { $$ = $1; $$.push_back($3); }
+
+primary:
+    open nest expression ")"                 { $$ = $3; }
+  | literal                                  { $$ = $1; }
+  | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1}); }
+  | object                                   { $$ = $1; }
+  | macro                                    { $$ = $1; }
+  | list                                     { $$ = $1; }
+
+literal:
+    INTEGER                                  { $$ = tree.literal(@$, $1); }
+  | FLOAT                                    { $$ = tree.literal(@$, $1); }
+  | STRING                                   { $$ = tree.literal(@$, tree.string($1)); }
+  | "true"                                   { $$ = tree.literal(@$, true); }
+  | "false"                                  { $$ = tree.literal(@$, false); }
+
+list:
+    "[" nest items "]"                       { $$ = tree.expression(@$, ListLiteral{$3}); }
+  | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
+
+/* A comma after the last item is welcome: it keeps lists of a line an item tidy. */
+items:
+    expressions_or_none                      { $$ = $1; }
+  | expressions ","                          { $$ = $1; }
+
+object: OBJECT_NAME "{" nest attributes "}"  { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
+
+attributes:
+    %empty                                   { }
+  | attributes attribute                     { $$ = $1; $$.push_back($2); }
+  | attributes error                         { $$ = $1; }
+
+attribute: IDENTIFIER "->" expression        { $$ = {{$1, @1}, $3}; }
+
+macro: "Macro" open parameters_or_none ")" block
+                                             { $$ = tree.macro(@$, $3, $5); }
+
+parameters_or_none:
+    %empty                                   { }
+  | parameters                               { $$ = $1; }
+
+parameters:
+    IDENTIFIER                               { $$.push_back({$1, @1}); }
+  | parameters "," IDENTIFIER                { $$ = $1; $$.push_back({$3, @3}); }
+
+%%
+
+namespace crt::lang {
+
+void Grammar::report_syntax_error(const context& context) const {
+  // A place in the grammar expects fewer kinds of token than there are.
+  symbol_kind_type expected[YYNTOKENS];
+  const int count = context.expected_tokens(expected, YYNTOKENS);
+  std::vector<std::string> names;
+  for (int i = 0; i < count; ++i) names.emplace_back(symbol_name(expected[i]));
+  tree.syntax_error(context.location(), symbol_name(context.token()), names);
+}
+
+void Grammar::error(const Span& place, const std::string& message) {
+  tree.syntax_error(place, message, {});
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,144 @@
+// Runs a syntax tree: expressions to values, statements to variables and emitted entities.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <set>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "crt/scene.hpp"
+#include "lang/context.hpp"
+#include "lang/objects.hpp"
+#include "lang/scope.hpp"
+#include "lang/syntax.hpp"
+#include "lang/value.hpp"
+
+namespace crt::lang {
+
+class Interpreter {
+ public:
+  explicit Interpreter(Context& context);
+  Interpreter(const Interpreter&) = delete;
+  Interpreter& operator=(const Interpreter&) = delete;
+  ~Interpreter();
+
+  /// Sets a top-level variable that the script's own assignments are not to change.
+  void override_variable(Symbol name, Value value);
+
+  /// Runs a script's statements. Errors go to the reporter; throws GiveUp when it makes no sense to
+  /// go on. `script` must outlive the interpreter.
+  void run(const Script& script, bool is_import);
+
+  /// The value of an expression in the top-level scope. Throws a Failure.
+  Value evaluate(const Expression& expression);
+
+  /// What `import` does is up to whoever knows about files.
+  void set_importer(std::function<void(const Import&)> importer) { importer_ = std::move(importer); }
+
+  bool has_scene() const { return has_scene_; }
+  std::vector<Entity>& entities() { return entities_; }
+  const std::optional<Span>& settings_span() const { return settings_span_; }
+  std::vector<Given>& settings() { return settings_; }
+
+ private:
+  /// Where the entities of expression statements go.
+  struct Emission {
+    std::vector<Entity>* entities = nullptr;
+    bool into_scene = false;
+  };
+
+  /// Changes one of this object's variables until the end of a C++ scope.
+  template <class Type>
+  class Temporarily {
+   public:
+    Temporarily(Type& variable, Type value)
+        : variable_(variable), before_(std::exchange(variable, std::move(value))) {}
+    Temporarily(const Temporarily&) = delete;
+    Temporarily& operator=(const Temporarily&) = delete;
+    ~Temporarily() { variable_ = std::move(before_); }
+
+   private:
+    Type& variable_;
+    Type before_;
+  };
+
+  // Statements: execute.cpp.
+  void execute(const Block& block);
+  void execute(const Statement& statement);
+  void execute_in(const Block& block, std::shared_ptr<Scope> scope);
+  void execute_node(const ExpressionStatement& statement);
+  void execute_node(const While& loop);
+  void execute_node(const If& choice);
+  void execute_node(const For& loop);
+  void execute_node(const SettingsBlock& settings);
+  void execute_node(const SceneBlock& scene);
+  void execute_node(const Import& import);
+  void execute_call(const Expression& expression, const Call& call);
+  void execute_top_level_call(const Expression& expression, const Call& call);
+  void attempt(const Statement& statement);
+  void mark_unknown(const Statement& statement);
+  std::shared_ptr<Scope> fresh_scope(std::shared_ptr<Scope> used);
+  void emit(const Value& value, Span span);
+  void emit_entity(const Entity& entity, Span span);
+  bool emit_items(const ListValue& list, Span span);
+  bool condition(const Expression& expression, const char* what);
+
+  // Expressions: evaluate.cpp.
+  Value evaluate_node(const Literal& literal, const Expression& expression);
+  Value evaluate_node(const Name& name, const Expression& expression);
+  Value evaluate_node(const ObjectLiteral& object, const Expression& expression);
+  Value evaluate_node(const MacroLiteral& macro, const Expression& expression);
+  Value evaluate_node(const ListLiteral& list, const Expression& expression);
+  Value evaluate_node(const Index& index, const Expression& expression);
+  Value evaluate_node(const Call& call, const Expression& expression);
+  Value evaluate_node(const Modified& modified, const Expression& expression);
+  Value evaluate_node(const Unary& unary, const Expression& expression);
+  Value evaluate_node(const Chain& chain, const Expression& expression);
+  Value evaluate_node(const Logical& logical, const Expression& expression);
+  Value evaluate_node(const Conditional& conditional, const Expression& expression);
+  Value evaluate_node(const Assignment& assignment, const Expression& expression);
+  std::vector<Given> evaluate_attributes(const ObjectType& type,
+                                         const std::vector<AttributeSyntax>& attributes);
+  Entity modify(const Entity& entity, const Modifier& modifier);
+  [[noreturn]] void unknown_name(Symbol name, Span span) const;
+  void check_stack(Span span) const;
+
+  // Calls: call.cpp.
+  Value call_builtin(const Expression& expression, const Call& call, const Builtin& builtin);
+  void call_macro(const Expression& expression, const Call& call, const MacroValue& macro);
+  void run_macro(Span span, std::string_view name, const MacroValue& macro, std::shared_ptr<Scope> scope);
+  Value group(const Expression& expression, const Call& call, const MacroValue& macro);
+  [[noreturn]] void not_callable(const Call& call, const Value& callee) const;
+  std::string_view callee_name(const Call& call) const;
+  void capture_scopes(Span span);
+
+  Context& context_;
+  std::uintptr_t stack_start_;
+  std::shared_ptr<Scope> universe_;  ///< built-ins and constants
+  std::shared_ptr<Scope> globals_;
+  std::shared_ptr<Scope> scope_;  ///< the one that runs now
+  /// Scopes that macros were made in. They stay until the end, when they are emptied one by one:
+  /// so macros and scopes that hold one another are freed, and long chains of them without recursion.
+  std::vector<std::pair<std::shared_ptr<Scope>, Charge>> captured_;
+  Emission emission_;
+  std::vector<Value> arguments_;  ///< of the built-ins that are being called
+  std::size_t call_depth_ = 0;
+  std::set<Symbol> overridden_;
+
+  bool is_import_ = false;
+  bool has_scene_ = false;
+  std::vector<Entity> entities_;
+  std::optional<Span> settings_span_;
+  std::vector<Given> settings_;
+  std::function<void(const Import&)> importer_;
+};
+
+/// Thrown by an expression that uses a variable whose setting failed: that was already told.
+struct Abandoned {};
+
+}  // namespace crt::lang

@@ -1,0 +1,71 @@
+// Text to tokens.
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/grammar.hpp"
+#include "lang/reporter.hpp"
+#include "lang/source_map.hpp"
+#include "lang/symbol.hpp"
+
+namespace crt::lang {
+
+/// Hands out the tokens of a source, one a call. Bytes that begin no token are reported and passed
+/// over, so the parser never sees them.
+class Lexer {
+ public:
+  Lexer(const Source& source, TextKind kind, SymbolTable& symbols, Reporter& reporter);
+
+  Grammar::symbol_type next();
+
+  /// The text of a piece of this source.
+  std::string_view text(Span span) const;
+
+  /// The brackets that are open now, outermost first.
+  const std::vector<Span>& open_brackets() const { return open_brackets_; }
+
+ private:
+  using Byte = unsigned char;
+
+  Span token_span() const { return {offset(token_), offset(cursor_)}; }
+  std::uint32_t offset(const Byte* position) const;
+  std::string_view token_text() const;
+
+  Grammar::symbol_type sign(Grammar::token::token_kind_type kind);
+  Grammar::symbol_type opening(Grammar::token::token_kind_type kind);
+  Grammar::symbol_type closing(Grammar::token::token_kind_type kind, char opening_bracket);
+  Grammar::symbol_type word();
+  Grammar::symbol_type whole_number();
+  Grammar::symbol_type decimal_number();
+  Grammar::symbol_type string();
+  void escape(std::string& value);
+  std::optional<std::uint32_t> hexadecimal_unit();
+  void unicode_escape(std::string& value, const Byte* start);
+  void refuse_letters_after_number();
+
+  void unexpected_character();
+  void not_utf8();
+
+  void skip_comment();
+  /// Where the next token begins, past blanks, line ends and comments.
+  const Byte* next_token_start() const;
+  bool modifier_follows() const;
+  bool arrow_follows() const;
+
+  const Source& source_;
+  SymbolTable& symbols_;
+  Reporter& reporter_;
+  const Byte* cursor_;
+  const Byte* limit_;
+  const Byte* token_;
+  Grammar::token::token_kind_type start_;
+  bool started_ = false;
+  bool first_on_line_ = true;
+  std::vector<Span> open_brackets_;
+};
+
+}  // namespace crt::lang

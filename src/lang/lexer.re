@@ -1,0 +1,211 @@
+// The lexer: re2c makes the automata of the blocks in special comments. The text ends in a NUL that
+// is not part of it (re2c's end-of-input rule `$` tells the two apart). Patterns match UTF-8; bytes
+// that are none fall to the rule `*`.
+#include "lang/lexer.hpp"
+
+#include <algorithm>
+#include <array>
+#include <optional>
+#include <utility>
+
+#include "lang/utf8.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+using Token = Grammar::token;
+
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
+struct Keyword {
+  std::string_view text;
+  Token::token_kind_type kind;
+};
+
+constexpr std::array keywords = {
+    Keyword{"Settings", Token::SETTINGS}, Keyword{"Scene", Token::SCENE},
+    Keyword{"Macro", Token::MACRO},       Keyword{"scale", Token::SCALE},
+    Keyword{"translate", Token::TRANSLATE}, Keyword{"rotate", Token::ROTATE},
+    Keyword{"true", Token::TRUE},         Keyword{"false", Token::FALSE},
+    Keyword{"while", Token::WHILE},       Keyword{"if", Token::IF},
+    Keyword{"else", Token::ELSE},         Keyword{"for", Token::FOR},
+    Keyword{"in", Token::IN},             Keyword{"import", Token::IMPORT},
+};
+
+bool is_word_byte(unsigned char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+const unsigned char* bytes(const std::string& text) {
+  return reinterpret_cast<const unsigned char*>(text.data());
+}
+
+}  // namespace
+
+Lexer::Lexer(const Source& source, TextKind kind, SymbolTable& symbols, Reporter& reporter)
+    : source_(source),
+      symbols_(symbols),
+      reporter_(reporter),
+      cursor_(bytes(source.text)),
+      limit_(bytes(source.text) + source.text.size()),
+      token_(cursor_),
+      start_(kind == TextKind::script ? Token::START_SCRIPT : Token::START_EXPRESSION) {
+  if (source.text.starts_with(byte_order_mark)) cursor_ += byte_order_mark.size();
+}
+
+std::uint32_t Lexer::offset(const Byte* position) const {
+  return source_.base + static_cast<std::uint32_t>(position - bytes(source_.text));
+}
+
+std::string_view Lexer::text(Span span) const {
+  return std::string_view(source_.text).substr(span.begin - source_.base, span.end - span.begin);
+}
+
+std::string_view Lexer::token_text() const { return text(token_span()); }
+
+Grammar::symbol_type Lexer::next() {
+  if (!std::exchange(started_, true)) {
+    token_ = cursor_;
+    return sign(start_);
+  }
+  for (;;) {
+    token_ = cursor_;
+    const Byte* marker = cursor_;
+    /*!re2c
+      re2c:define:YYCTYPE = Byte;
+      re2c:define:YYCURSOR = cursor_;
+      re2c:define:YYLIMIT = limit_;
+      re2c:define:YYMARKER = marker;
+      re2c:yyfill:enable = 0;
+      re2c:eof = 0;
+      re2c:encoding:utf8 = 1;
+
+      digits = [0-9]+;
+      exponent = [eE] [+-]? digits;
+
+      $        { return sign(Token::END); }
+      *        { not_utf8(); continue; }
+      "--"     { skip_comment(); continue; }
+      [ \t\v\f]+               { continue; }
+      "\r\n" | "\n" | "\r"     { first_on_line_ = true; continue; }
+
+      [a-zA-Z] [A-Za-z0-9_]*   { return word(); }
+      digits                   { return whole_number(); }
+      digits "." digits? exponent? | "." digits exponent? | digits exponent
+                               { return decimal_number(); }
+      "\""                     { return string(); }
+
+      "{"      { return opening(Token::LEFT_BRACE); }
+      "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS : Token::LEFT_PARENTHESIS); }
+      "["      { return opening(first_on_line_ ? Token::FIRST_BRACKET : Token::LEFT_BRACKET); }
+      "}"      { return closing(Token::RIGHT_BRACE, '{'); }
+      ")"      { return closing(Token::RIGHT_PARENTHESIS, '('); }
+      "]"      { return closing(Token::RIGHT_BRACKET, '['); }
+      "<"      { return sign(modifier_follows() ? Token::MODIFIER_START : Token::LESS); }
+      ">"      { return sign(Token::GREATER); }
+      "<="     { return sign(Token::LESS_EQUAL); }
+      ">="     { return sign(Token::GREATER_EQUAL); }
+      "=="     { return sign(Token::EQUAL); }
+      "!="     { return sign(Token::NOT_EQUAL); }
+      "&&"     { return sign(Token::AND); }
+      "||"     { return sign(Token::OR); }
+      "->"     { return sign(Token::ARROW); }
+      "+"      { return sign(Token::PLUS); }
+      "-"      { return sign(Token::MINUS); }
+      "*"      { return sign(Token::STAR); }
+      "/"      { return sign(Token::SLASH); }
+      "%"      { return sign(Token::PERCENT); }
+      "^"      { return sign(Token::CARET); }
+      "!"      { return sign(Token::NOT); }
+      "?"      { return sign(Token::QUESTION); }
+      ":"      { return sign(Token::COLON); }
+      "="      { return sign(Token::ASSIGN); }
+      ","      { return sign(Token::COMMA); }
+
+      // Last: of patterns that match the same text, the first wins.
+      [^]      { unexpected_character(); continue; }
+    */
+  }
+}
+
+Grammar::symbol_type Lexer::sign(Token::token_kind_type kind) {
+  first_on_line_ = false;
+  return Grammar::symbol_type(kind, token_span());
+}
+
+Grammar::symbol_type Lexer::opening(Token::token_kind_type kind) {
+  open_brackets_.push_back(token_span());
+  return sign(kind);
+}
+
+Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_bracket) {
+  // Brackets that were opened within this pair and never closed are forgotten with it.
+  for (std::size_t i = open_brackets_.size(); i-- > 0;) {
+    if (text(open_brackets_[i])[0] != opening_bracket) continue;
+    open_brackets_.resize(i);
+    break;
+  }
+  return sign(kind);
+}
+
+Grammar::symbol_type Lexer::word() {
+  const std::string_view name = token_text();
+  const auto* keyword =
+      std::find_if(keywords.begin(), keywords.end(), [name](const Keyword& k) { return k.text == name; });
+  // Before an arrow every word is the name of an attribute.
+  const bool is_attribute = keyword != keywords.end() && arrow_follows();
+  if (keyword != keywords.end() && !is_attribute) return sign(keyword->kind);
+  first_on_line_ = false;
+  const bool lower_case = name[0] >= 'a' && name[0] <= 'z';
+  if (lower_case || is_attribute) return Grammar::make_IDENTIFIER(symbols_.intern(name), token_span());
+  return Grammar::make_OBJECT_NAME(symbols_.intern(name), token_span());
+}
+
+void Lexer::skip_comment() {
+  // What a comment holds is nobody's business, not even whether it is UTF-8.
+  while (cursor_ < limit_ && *cursor_ != '\n' && *cursor_ != '\r') ++cursor_;
+}
+
+const Lexer::Byte* Lexer::next_token_start() const {
+  const Byte* position = cursor_;
+  for (;;) {
+    const std::string_view blanks = " \t\v\f\r\n";
+    while (position < limit_ && blanks.find(static_cast<char>(*position)) != std::string_view::npos) ++position;
+    // The NUL behind the end lets one look a byte ahead.
+    if (position == limit_ || position[0] != '-' || position[1] != '-') return position;
+    while (position < limit_ && *position != '\n' && *position != '\r') ++position;
+  }
+}
+
+bool Lexer::modifier_follows() const {
+  const Byte* begin = next_token_start();
+  const Byte* end = begin;
+  while (is_word_byte(*end)) ++end;
+  const std::string_view next = text({offset(begin), offset(end)});
+  return next == "scale" || next == "translate" || next == "rotate";
+}
+
+bool Lexer::arrow_follows() const {
+  const Byte* position = next_token_start();
+  return position[0] == '-' && position[1] == '>';
+}
+
+void Lexer::not_utf8() {
+  reporter_.error(token_span(), "this byte is not UTF-8, the encoding of scripts");
+}
+
+void Lexer::unexpected_character() {
+  std::size_t position = 0;
+  const std::optional<char32_t> character = decode_utf8(token_text(), position);
+  std::string message = "unexpected character " + describe_code_point(character.value_or(0));
+  if (character == U';') message += "; nothing ends a statement here";
+  if (character == U'_') message += "; names begin with a letter";
+  if (character == U'\'') message += "; strings stand in double quotes";
+  if (character == U'#') message += "; comments begin with '--'";
+  if (character == U'&') message += "; 'and' is '&&'";
+  if (character == U'|') message += "; 'or' is '||'";
+  reporter_.error(token_span(), message);
+}
+
+}  // namespace crt::lang

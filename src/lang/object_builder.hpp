@@ -1,0 +1,67 @@
+// The words that the rows of the object table are written in.
+#pragma once
+
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "lang/attributes.hpp"
+#include "lang/objects.hpp"
+
+namespace crt::lang {
+
+template <class Object, class Field>
+AttributeType attribute(std::string_view name, Field Object::*field, std::string_view default_text) {
+  return {.name = name,
+          .required = default_text.empty(),
+          .type = type_text(static_cast<const Field*>(nullptr)),
+          .default_text = default_text,
+          .rule = {},
+          .assign = [field](void* object, const Given& given, Context& context) {
+            convert(given, context, static_cast<Object*>(object)->*field);
+          }};
+}
+
+template <class Object, class Field>
+AttributeType required(std::string_view name, Field Object::*field) {
+  return attribute(name, field, "");
+}
+
+/// An angle that a script gives in degrees and the core takes in radians.
+template <class Object>
+AttributeType degrees(std::string_view name, double Object::*field, std::string_view default_text,
+                      std::string_view rule) {
+  constexpr double radians_per_degree = std::numbers::pi / 180;
+  AttributeType type = attribute(name, field, default_text);
+  type.rule = rule;
+  type.assign = [field](void* object, const Given& given, Context& context) {
+    double angle = 0;
+    convert(given, context, angle);
+    static_cast<Object*>(object)->*field = angle * radians_per_degree;
+  };
+  return type;
+}
+
+/// The struct with the attributes of a script; all others have the defaults of the struct.
+template <class Object>
+Object assemble(const ObjectSite& site) {
+  Object object{};
+  for (const Given& given : site.attributes) given.type->assign(&object, given, site.context);
+  return object;
+}
+
+/// A row whose `finish` makes a value of the filled struct; what the core refuses is blamed on the
+/// attribute.
+template <class Object>
+ObjectType object(std::string_view name, std::vector<AttributeType> attributes,
+                  Value (*finish)(Object, const ObjectSite&)) {
+  return {.name = name, .attributes = std::move(attributes), .build = [finish](const ObjectSite& site) {
+            try {
+              return finish(assemble<Object>(site), site);
+            } catch (const Error& error) {
+              blame(error, site.name_span, site.attributes);
+            }
+          }};
+}
+
+}  // namespace crt::lang

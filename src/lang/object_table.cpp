@@ -1,0 +1,241 @@
+// The table of objects: attributes with their defaults, and what they become. The numbers behind
+// the defaults are those of the core's structs; the texts are for the reference, and a test keeps
+// both and docs/language.md together.
+#include <memory>
+#include <numbers>
+
+#include "crt/validate.hpp"
+#include "lang/object_builder.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+// ---- entities -------------------------------------------------------------------------------
+
+template <class Shape>
+ObjectType entity(std::string_view name, std::vector<AttributeType> attributes) {
+  attributes.push_back(attribute("material", &Shape::material, "a grey of 0.5"));
+  return object<Shape>(
+      name, std::move(attributes), +[](Shape shape, const ObjectSite& site) -> Value {
+        site.context.count_made(site.name_span);
+        return Entity(std::move(shape));
+      });
+}
+
+std::vector<ObjectType> entities() {
+  return {
+      entity<Sphere>("Sphere", {required("center", &Sphere::center), required("radius", &Sphere::radius)}),
+      entity<Box>("Box", {required("cornerA", &Box::corner_a), required("cornerB", &Box::corner_b)}),
+      entity<Plane>("Plane", {required("normal", &Plane::normal), required("position", &Plane::position)}),
+      entity<HalfPlane>("HalfPlane",
+                        {required("normal", &HalfPlane::normal), required("position", &HalfPlane::position),
+                         required("direction", &HalfPlane::direction)}),
+      entity<Cylinder>("Cylinder", {required("from", &Cylinder::from), required("to", &Cylinder::to),
+                                    required("radius", &Cylinder::radius)}),
+      entity<Cone>("Cone", {required("from", &Cone::from), required("to", &Cone::to),
+                            required("radius", &Cone::radius), attribute("radius2", &Cone::radius2, "0")}),
+      entity<Torus>("Torus", {required("center", &Torus::center), required("axis", &Torus::axis),
+                              required("radius", &Torus::radius), required("thickness", &Torus::thickness)}),
+      entity<Disc>("Disc", {required("center", &Disc::center), required("normal", &Disc::normal),
+                            required("radius", &Disc::radius)}),
+      entity<Triangle>("Triangle", {required("a", &Triangle::a), required("b", &Triangle::b),
+                                    required("c", &Triangle::c)}),
+  };
+}
+
+// ---- materials and patterns -----------------------------------------------------------------
+
+Value finish_material(Material material, const ObjectSite& site) {
+  const bool too_bright = material.reflectivity + material.transparency > 1;
+  const SharedMaterial shared(std::move(material));
+  if (too_bright) {
+    site.context.reporter.warning(
+        site.name_span,
+        "'reflectivity' and 'transparency' together are more than 1: more light leaves than comes");
+  }
+  return shared;
+}
+
+ObjectType material() {
+  return object<Material>(
+      "Material",
+      {attribute("color", &Material::color, "rgb(0.5, 0.5, 0.5)"),
+       attribute("reflectivity", &Material::reflectivity, "0"),
+       attribute("transparency", &Material::transparency, "0"),
+       attribute("refractiveindex", &Material::refractive_index, "1"),
+       attribute("diffuse", &Material::diffuse, "1 - reflectivity - transparency, at least 0"),
+       attribute("specular", &Material::specular, "0"), attribute("shininess", &Material::shininess, "3"),
+       attribute("absorption", &Material::absorption, "rgb(0, 0, 0)"),
+       attribute("bump", &Material::bump, "none"), attribute("bumpheight", &Material::bump_height, "0.1")},
+      finish_material);
+}
+
+template <class Kind>
+Value finish_pattern(Kind kind, const ObjectSite&) {
+  auto pattern = std::make_shared<const Pattern>(std::move(kind));
+  validate(*pattern);
+  return pattern;
+}
+
+/// A pattern of two colours: these, what is its own, then its size and place.
+template <class Kind>
+ObjectType two_colors(std::string_view name, std::string_view color_a, std::string_view color_b,
+                      std::vector<AttributeType> own) {
+  std::vector<AttributeType> attributes = {attribute("colorA", &Kind::color_a, color_a),
+                                           attribute("colorB", &Kind::color_b, color_b)};
+  attributes.insert(attributes.end(), own.begin(), own.end());
+  attributes.push_back(attribute("scale", &Kind::scale, "1"));
+  attributes.push_back(attribute("offset", &Kind::offset, "vec3(0, 0, 0)"));
+  return object<Kind>(name, std::move(attributes), finish_pattern<Kind>);
+}
+
+std::vector<ObjectType> patterns() {
+  constexpr const char* white = "rgb(1, 1, 1)";
+  constexpr const char* black = "rgb(0, 0, 0)";
+  return {
+      two_colors<Checker>("Checker", white, black, {}),
+      two_colors<Stripes>("Stripes", white, black,
+                          {attribute("direction", &Stripes::direction, "vec3(1, 0, 0)")}),
+      two_colors<Gradient>("Gradient", white, black,
+                           {attribute("direction", &Gradient::direction, "vec3(0, 1, 0)")}),
+      two_colors<Noise>("Noise", white, black, {attribute("octaves", &Noise::octaves, "4")}),
+      two_colors<Marble>(
+          "Marble", white, black,
+          {attribute("direction", &Marble::direction, "vec3(1, 0, 0)"),
+           attribute("turbulence", &Marble::turbulence, "1"), attribute("octaves", &Marble::octaves, "4")}),
+      two_colors<Wood>(
+          "Wood", "rgb(0.6, 0.4, 0.2)", "rgb(0.3, 0.15, 0.05)",
+          {attribute("direction", &Wood::direction, "vec3(0, 1, 0)"),
+           attribute("turbulence", &Wood::turbulence, "0.1"), attribute("octaves", &Wood::octaves, "3")}),
+      object<ImageMap>("ImageMap",
+                       {required("image", &ImageMap::image), attribute("repeatU", &ImageMap::repeat_u, "1"),
+                        attribute("repeatV", &ImageMap::repeat_v, "1")},
+                       finish_pattern<ImageMap>),
+  };
+}
+
+// ---- camera, lights, background -----------------------------------------------------------------
+
+Value finish_camera(Camera camera, const ObjectSite&) {
+  // The projection comes from Settings, which checks the camera again; spherical allows the most.
+  Camera widest = camera;
+  widest.projection = Projection::spherical;
+  validate(widest);
+  return std::make_shared<const Camera>(camera);
+}
+
+ObjectType camera() {
+  return object<Camera>(
+      "Camera",
+      {required("position", &Camera::position), required("pointing", &Camera::pointing),
+       degrees("fov", &Camera::fov, "60", "must be greater than 0 and less than 180 degrees"),
+       degrees("roll", &Camera::roll, "0", "must be a number of degrees of at most 1e30"),
+       attribute("aperture", &Camera::aperture, "0"),
+       attribute("focaldistance", &Camera::focal_distance, "1"),
+       attribute("apertureshape", &Camera::aperture_shape, "\"circle\"")},
+      finish_camera);
+}
+
+template <class Kind>
+Value finish_light(Kind kind, const ObjectSite&) {
+  auto light = std::make_shared<const Light>(kind);
+  validate(*light);
+  return light;
+}
+
+std::vector<ObjectType> lights() {
+  return {
+      object<PointLight>(
+          "PointLight",
+          {required("origin", &PointLight::origin), required("color", &PointLight::color),
+           attribute("falloff", &PointLight::falloff, "0"), attribute("ambient", &PointLight::ambient, "0")},
+          finish_light<PointLight>),
+      object<ParallelLight>(
+          "ParallelLight",
+          {required("from", &ParallelLight::from), required("pointing", &ParallelLight::pointing),
+           required("color", &ParallelLight::color), attribute("ambient", &ParallelLight::ambient, "0")},
+          finish_light<ParallelLight>),
+      object<SpotLight>(
+          "SpotLight",
+          {required("origin", &SpotLight::origin), required("pointing", &SpotLight::pointing),
+           required("color", &SpotLight::color),
+           degrees("angle", &SpotLight::angle, "60", "must be greater than 0 and at most 360 degrees"),
+           degrees("penumbra", &SpotLight::penumbra, "5",
+                   "must be between 0 and half of 'angle' (in degrees)"),
+           attribute("falloff", &SpotLight::falloff, "0"), attribute("ambient", &SpotLight::ambient, "0")},
+          finish_light<SpotLight>),
+      object<CylinderLight>(
+          "CylinderLight",
+          {required("origin", &CylinderLight::origin), required("pointing", &CylinderLight::pointing),
+           required("color", &CylinderLight::color), required("radius", &CylinderLight::radius),
+           attribute("falloff", &CylinderLight::falloff, "0"),
+           attribute("ambient", &CylinderLight::ambient, "0")},
+          finish_light<CylinderLight>),
+  };
+}
+
+/// The three kinds of background in one: which it is shows in what is given.
+struct BackgroundFields {
+  std::optional<Color> color;
+  std::optional<Color> horizon;
+  std::optional<Color> sky;
+  std::shared_ptr<const Image> image;
+  std::optional<double> angle;
+  std::optional<PanoramaProjection> projection;
+};
+
+Background choose_background(const BackgroundFields& fields, Span span) {
+  const bool solid = fields.color.has_value();
+  const bool gradient = fields.horizon || fields.sky;
+  const bool panorama = fields.image || fields.angle || fields.projection;
+  const auto fail = [span](const char* message) { throw Failure{.span = span, .message = message}; };
+  if (solid + gradient + panorama > 1)
+    fail(
+        "Background takes either color, or horizon and sky, or image with angle and projection; not two of "
+        "these");
+  if (gradient && !(fields.horizon && fields.sky)) fail("Background needs both of horizon and sky");
+  if (panorama && !fields.image) fail("Background needs the attribute 'image' for its angle and projection");
+  if (gradient) return GradientBackground{*fields.horizon, *fields.sky};
+  if (panorama) {
+    return PanoramaBackground{fields.image, fields.projection.value_or(PanoramaProjection::spherical),
+                              fields.angle.value_or(0)};
+  }
+  SolidBackground background;
+  if (solid) background.color = *fields.color;
+  return background;
+}
+
+Value finish_background(BackgroundFields fields, const ObjectSite& site) {
+  auto background = std::make_shared<const Background>(choose_background(fields, site.name_span));
+  validate(*background);
+  return background;
+}
+
+ObjectType background() {
+  using Fields = BackgroundFields;
+  return object<Fields>(
+      "Background",
+      {attribute("color", &Fields::color, "rgb(1, 1, 1)"), attribute("horizon", &Fields::horizon, "none"),
+       attribute("sky", &Fields::sky, "none"), attribute("image", &Fields::image, "none"),
+       attribute("angle", &Fields::angle, "0"),
+       attribute("projection", &Fields::projection, "\"spherical\"")},
+      finish_background);
+}
+
+}  // namespace
+
+std::span<const ObjectType> object_types() {
+  static const std::vector<ObjectType> table = [] {
+    std::vector<ObjectType> types = entities();
+    types.push_back(material());
+    for (ObjectType& type : patterns()) types.push_back(std::move(type));
+    types.push_back(camera());
+    for (ObjectType& type : lights()) types.push_back(std::move(type));
+    types.push_back(background());
+    return types;
+  }();
+  return table;
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,48 @@
+#include "lang/objects.hpp"
+
+#include <algorithm>
+#include <string>
+
+namespace crt::lang {
+
+namespace {
+
+/// "cornerA" and "corner_a" are the same field: the script's name and the core's.
+std::string without_style(std::string_view name) {
+  std::string result;
+  for (const char c : name) {
+    if (c != '_') result += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  }
+  return result;
+}
+
+}  // namespace
+
+const ObjectType* find_object_type(std::string_view name) {
+  const std::span<const ObjectType> types = object_types();
+  const auto found =
+      std::find_if(types.begin(), types.end(), [name](const ObjectType& type) { return type.name == name; });
+  return found == types.end() ? nullptr : &*found;
+}
+
+std::size_t find_attribute(const ObjectType& type, std::string_view name) {
+  const auto found = std::find_if(type.attributes.begin(), type.attributes.end(),
+                                  [name](const AttributeType& attribute) { return attribute.name == name; });
+  return static_cast<std::size_t>(found - type.attributes.begin());
+}
+
+void blame(const Error& error, Span otherwise, std::span<const Given> attributes) {
+  const std::string field = without_style(error.argument());
+  std::string message = error.what();
+  for (const Given& given : attributes) {
+    if (field.empty() || without_style(given.type->name) != field) continue;
+    // The core's messages begin with the field's name in C++.
+    if (message.starts_with(error.argument())) message.erase(0, error.argument().size());
+    message = "'" + std::string(given.type->name) + "'" +
+              (given.type->rule.empty() ? message : " " + std::string(given.type->rule));
+    throw Failure{.span = given.value_span, .message = std::move(message), .code = error.code()};
+  }
+  throw Failure{.span = otherwise, .message = std::move(message), .code = error.code()};
+}
+
+}  // namespace crt::lang

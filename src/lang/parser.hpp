@@ -1,0 +1,18 @@
+// Text to tree.
+#pragma once
+
+#include <cstddef>
+
+#include "lang/reporter.hpp"
+#include "lang/source_map.hpp"
+#include "lang/symbol.hpp"
+#include "lang/syntax.hpp"
+
+namespace crt::lang {
+
+/// Parses a source. Errors go to the reporter, and with one the tree is not to be used. Throws GiveUp
+/// when the reporter has enough or a limit is passed. `memory_left` is what the tree may hold.
+Script parse(const Source& source, TextKind kind, SymbolTable& symbols, Reporter& reporter,
+             std::size_t& memory_left);
+
+}  // namespace crt::lang

@@ -1,0 +1,54 @@
+// Collects what there is to tell about a script, and how an error travels up to it.
+#pragma once
+
+#include <cstddef>
+#include <exception>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crt/script.hpp"
+#include "lang/source_map.hpp"
+
+namespace crt::lang {
+
+/// An error in a running script, on its way from where it happened to the statement that gives up.
+struct Failure {
+  Span span;
+  std::string message;
+  ErrorCode code = ErrorCode::script;
+  /// The macros it passed through: name and where each was called, innermost first.
+  std::vector<std::pair<std::string, Span>> calls = {};
+};
+
+/// Thrown where going on makes no sense and everything that there is to say was said.
+struct GiveUp {};
+
+/// The first error's place and the rest of a diagnostic, in the order they came.
+class Reporter {
+ public:
+  Reporter(const SourceMap& sources, std::size_t most_errors)
+      : sources_(sources), most_errors_(most_errors) {}
+
+  /// Throws GiveUp when there are as many errors as the caller wants to see.
+  void error(const Failure& failure);
+  void error(Span span, std::string message, ErrorCode code = ErrorCode::script);
+
+  /// Says it once a place, and not more often than errors would be.
+  void warning(Span span, std::string message);
+
+  bool has_errors() const { return error_count_ > 0; }
+  std::vector<Diagnostic>& diagnostics() { return diagnostics_; }
+
+ private:
+  Diagnostic make(Severity severity, Span span, std::string message, ErrorCode code) const;
+
+  const SourceMap& sources_;
+  std::size_t most_errors_;
+  std::size_t error_count_ = 0;
+  std::set<std::pair<std::uint32_t, std::string>> warned_;
+  std::vector<Diagnostic> diagnostics_;
+};
+
+}  // namespace crt::lang

@@ -1,0 +1,288 @@
+// The run of a script from its text to a Scene.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <deque>
+#include <new>
+#include <set>
+#include <system_error>
+#include <utility>
+
+#include "crt/script.hpp"
+#include "lang/check.hpp"
+#include "lang/context.hpp"
+#include "lang/interpreter.hpp"
+#include "lang/parser.hpp"
+#include "lang/settings.hpp"
+#include "lang/suggestion.hpp"
+#include "lang/utf8.hpp"
+
+namespace crt {
+
+namespace lang {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+fs::path without_links(const fs::path& path) {
+  std::error_code failed;
+  const fs::path canonical = fs::canonical(path, failed);
+  return failed ? path.lexically_normal() : canonical;
+}
+
+class Session {
+ public:
+  explicit Session(const ScriptOptions& options)
+      : options_(options),
+        reporter_(sources_, std::max<std::size_t>(options.limits.errors, 1)),
+        context_(options, symbols_, sources_, reporter_),
+        memory_left_(options.limits.memory_bytes),
+        interpreter_(context_) {
+    interpreter_.set_importer([this](const Import& import) { run_import(import); });
+  }
+
+  /// What run_script() does but for the last resort's catch clauses.
+  void run(std::string_view text, const std::string& name, ScriptResult& result);
+
+  std::vector<Diagnostic>& diagnostics() { return reporter_.diagnostics(); }
+
+ private:
+  const Script* load(const Source& source, TextKind kind);
+  void run_main(const Source& source, const Script& script, ScriptResult& result);
+  void run_import(const Import& import);
+  void take_variables();
+  void take_settings();
+  bool evaluate_override(std::string_view option, const std::pair<std::string, std::string>& setting,
+                         Given& given);
+  void refuse_unknown_variables();
+  std::vector<Given> all_settings();
+
+  const ScriptOptions& options_;
+  SourceMap sources_;
+  SymbolTable symbols_;
+  Reporter reporter_;
+  Context context_;
+  std::size_t memory_left_;
+  std::deque<Script> scripts_;
+  Interpreter interpreter_;
+  fs::path main_directory_;
+  std::vector<std::pair<fs::path, std::string>> running_;  ///< the script and the imports within one another
+  std::set<fs::path> imported_;
+  std::set<Symbol> assigned_;  ///< at the top level of any script
+  std::vector<std::pair<Symbol, Span>> variables_;
+  std::vector<Given> overrides_;
+};
+
+/// Parses and checks a text; null after an error.
+const Script* Session::load(const Source& source, TextKind kind) {
+  Script& script = scripts_.emplace_back(parse(source, kind, symbols_, reporter_, memory_left_));
+  if (reporter_.has_errors()) return nullptr;
+  check(script, symbols_, reporter_);
+  return reporter_.has_errors() ? nullptr : &script;
+}
+
+void Session::run(std::string_view text, const std::string& name, ScriptResult& result) {
+  if (text.size() > context_.limits.source_bytes) {
+    sources_.add(name, {});
+    reporter_.error({}, fmt::format("the script is longer than {} bytes", context_.limits.source_bytes),
+                    ErrorCode::limit);
+    return;
+  }
+  main_directory_ = fs::path(name).parent_path();
+  context_.files.set_script_directory(main_directory_);
+  const Source& source = sources_.add(name, std::string(text), main_directory_);
+  running_.emplace_back(without_links(name), name);
+  if (const Script* script = load(source, TextKind::script)) run_main(source, *script, result);
+}
+
+void Session::run_main(const Source& source, const Script& script, ScriptResult& result) {
+  take_variables();
+  take_settings();
+  collect_assigned(script.statements, assigned_);
+  interpreter_.run(script, false);
+  refuse_unknown_variables();
+  const auto& statements = script.statements.statements;
+  const bool has_scene = std::any_of(statements.begin(), statements.end(), [](const Statement& statement) {
+    return std::holds_alternative<SceneBlock>(statement.node);
+  });
+  const Span start{source.base, source.base};
+  const auto end = static_cast<std::uint32_t>(source.base + source.text.size());
+  if (!has_scene) reporter_.error({end, end}, "the script has no Scene block");
+  Scene scene;
+  try {
+    apply_settings(context_, interpreter_.settings_span().value_or(start), all_settings(), scene);
+  } catch (const Failure& failure) {
+    reporter_.error(failure);
+  }
+  if (reporter_.has_errors()) return;
+  scene.entities = std::move(interpreter_.entities());
+  result.scene = std::move(scene);
+}
+
+// ---- imports ------------------------------------------------------------------------------------
+
+void Session::run_import(const Import& import) {
+  const Span span = import.path_span;
+  const Files::Found found = context_.files.find(import.path, sources_.source_of(span).directory, span);
+  const std::string name = found.shown.string();
+  const auto cycle = std::find_if(running_.begin(), running_.end(),
+                                  [&](const auto& running) { return running.first == found.path; });
+  if (cycle != running_.end()) {
+    std::string way;
+    for (auto script = cycle; script != running_.end(); ++script)
+      way += printable(script->second) + " imports ";
+    throw Failure{.span = span,
+                  .message = fmt::format("scripts import one another: {}{}", way, printable(name))};
+  }
+  if (!imported_.insert(found.path).second) return;
+  const std::size_t left =
+      context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size());
+  const Source& source =
+      sources_.add(name, context_.files.read_text(found, left, span), found.shown.parent_path());
+  const Script* script = load(source, TextKind::script);
+  // Without these definitions the rest would only give errors that are none.
+  if (!script) throw GiveUp{};
+  collect_assigned(script->statements, assigned_);
+  running_.emplace_back(found.path, name);
+  interpreter_.run(*script, true);
+  running_.pop_back();
+}
+
+// ---- what is set from outside ---------------------------------------------------------------------
+
+/// Evaluates the expression of an option such as <set n>. False after an error.
+bool Session::evaluate_override(std::string_view option, const std::pair<std::string, std::string>& setting,
+                                Given& given) {
+  const auto& [name, text] = setting;
+  if (text.size() > context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size())) {
+    reporter_.error({}, fmt::format("<{} {}> is too long", option, printable(name)), ErrorCode::limit);
+    return false;
+  }
+  const Source& source = sources_.add(fmt::format("<{} {}>", option, name), text, main_directory_);
+  given.name_span = given.value_span = {source.base, source.base + static_cast<std::uint32_t>(text.size())};
+  const Script* script = load(source, TextKind::expression);
+  if (!script) return false;
+  given.value_span = script->expression->span;
+  try {
+    given.value = interpreter_.evaluate(*script->expression);
+    if (!std::holds_alternative<Nothing>(given.value)) return true;
+    reporter_.error(given.value_span, "this call has no value");
+  } catch (const Failure& failure) {
+    reporter_.error(failure);
+    if (failure.code == ErrorCode::limit) throw GiveUp{};
+  }
+  return false;
+}
+
+void Session::take_variables() {
+  std::vector<std::pair<Symbol, Value>> values;
+  for (const auto& variable : options_.variables) {
+    Given given;
+    if (!evaluate_override("set", variable, given)) continue;
+    const Symbol symbol = symbols_.intern(variable.first);
+    values.emplace_back(symbol, std::move(given.value));
+    variables_.emplace_back(symbol, given.name_span);
+  }
+  for (auto& [symbol, value] : values) interpreter_.override_variable(symbol, std::move(value));
+}
+
+void Session::take_settings() {
+  const ObjectType& type = settings_type();
+  for (const auto& setting : options_.settings) {
+    Given given;
+    if (!evaluate_override("setting", setting, given)) continue;
+    const std::size_t index = find_attribute(type, setting.first);
+    if (index < type.attributes.size()) {
+      given.type = &type.attributes[index];
+      std::erase_if(overrides_, [&](const Given& earlier) { return earlier.type == given.type; });
+      overrides_.push_back(std::move(given));
+      continue;
+    }
+    std::vector<std::string_view> names;
+    for (const AttributeType& attribute : type.attributes) names.push_back(attribute.name);
+    reporter_.error(given.name_span, fmt::format("Settings has no attribute '{}'{}", printable(setting.first),
+                                                 did_you_mean(setting.first, names)));
+  }
+}
+
+/// A variable that no script ever sets is a slip of whoever set it from outside.
+void Session::refuse_unknown_variables() {
+  std::vector<std::string_view> names;
+  for (const Symbol symbol : assigned_) names.push_back(symbols_.name(symbol));
+  for (const auto& [symbol, span] : variables_) {
+    if (assigned_.contains(symbol)) continue;
+    const std::string_view name = symbols_.name(symbol);
+    reporter_.error(span, fmt::format("the script sets no variable '{}' at its top level{}", printable(name),
+                                      did_you_mean(name, names)));
+  }
+}
+
+std::vector<Given> Session::all_settings() {
+  std::vector<Given> settings = std::move(interpreter_.settings());
+  std::erase_if(settings, [this](const Given& given) {
+    return std::any_of(overrides_.begin(), overrides_.end(),
+                       [&](const Given& override_given) { return override_given.type == given.type; });
+  });
+  settings.insert(settings.end(), overrides_.begin(), overrides_.end());
+  return settings;
+}
+
+Diagnostic unplaced(const std::string& file, std::string message, ErrorCode code) {
+  Diagnostic diagnostic;
+  diagnostic.code = code;
+  diagnostic.message = std::move(message);
+  diagnostic.place.file = file;
+  return diagnostic;
+}
+
+}  // namespace
+
+}  // namespace lang
+
+ScriptResult run_script(std::string_view text, const std::string& name, const ScriptOptions& options) {
+  ScriptResult result;
+  try {
+    lang::Session session(options);
+    try {
+      session.run(text, name, result);
+    } catch (const lang::GiveUp&) {
+      // All there is to say was said.
+    }
+    result.diagnostics = std::move(session.diagnostics());
+  } catch (const std::bad_alloc&) {
+    result.scene.reset();
+    result.diagnostics.push_back(lang::unplaced(name, "out of memory", ErrorCode::out_of_memory));
+  }
+  return result;
+}
+
+ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOptions& options) {
+  const std::string name = path.string();
+  ScriptResult result;
+  std::optional<std::string> text;
+  if (options.open_file) {
+    if (const auto content = options.open_file(path))
+      text.emplace(reinterpret_cast<const char*>(content->data()), content->size());
+  }
+  const std::size_t most_bytes = std::min(options.limits.source_bytes, lang::SourceMap::most_bytes);
+  if (!text) text = lang::read_regular_file(path, most_bytes);
+  if (text) return run_script(*text, name, options);
+  std::error_code failed;
+  const bool exists = std::filesystem::exists(path, failed);
+  const bool regular = std::filesystem::is_regular_file(path, failed);
+  const bool too_long = regular && std::filesystem::file_size(path, failed) > most_bytes && !failed;
+  if (too_long) {
+    result.diagnostics.push_back(lang::unplaced(
+        name, fmt::format("the script is longer than {} bytes", most_bytes), ErrorCode::limit));
+    return result;
+  }
+  const char* reason = !exists   ? "there is no such file"
+                       : regular ? "it cannot be read"
+                                 : "it is not a regular file";
+  result.diagnostics.push_back(
+      lang::unplaced(name, fmt::format("cannot read the script: {}", reason), ErrorCode::io));
+  return result;
+}
+
+}  // namespace crt

@@ -1,0 +1,56 @@
+// Variables: names bound to values, in scopes that lie in one another.
+#pragma once
+
+#include <memory>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+#include "lang/symbol.hpp"
+#include "lang/value.hpp"
+
+namespace crt::lang {
+
+class Scope {
+ public:
+  enum class Kind {
+    block,   ///< a body in braces: assignments look further out
+    border,  ///< a macro's call or the top level: assignments stay within
+  };
+
+  Scope(Kind kind, std::shared_ptr<Scope> parent) : kind_(kind), parent_(std::move(parent)) {}
+
+  /// The value of a name, from here outwards; null if there is none.
+  const Value* find(Symbol name) const;
+
+  /// The scope that an assignment to `name` changes: the nearest up to the border that has it, else this.
+  Scope& target_of(Symbol name);
+
+  /// Binds the name in this very scope.
+  void set(Symbol name, Value value);
+
+  bool has(Symbol name) const { return find_here(name) != nullptr; }
+
+  /// Forgets all names, for another round of a loop.
+  void clear();
+
+  /// Whether a macro made here may still need it, so that it may not be used again.
+  bool is_captured() const { return captured_; }
+  void set_captured() { captured_ = true; }
+
+  const Scope* parent() const { return parent_.get(); }
+  const std::shared_ptr<Scope>& shared_parent() const { return parent_; }
+  const std::vector<std::pair<Symbol, Value>>& variables() const { return variables_; }
+
+ private:
+  const Value* find_here(Symbol name) const;
+
+  Kind kind_;
+  bool captured_ = false;
+  std::shared_ptr<Scope> parent_;
+  std::vector<std::pair<Symbol, Value>> variables_;
+  /// Places in variables_, once there are too many of them to look at each.
+  std::unique_ptr<std::unordered_map<Symbol, std::size_t>> index_;
+};
+
+}  // namespace crt::lang

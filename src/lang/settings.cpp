@@ -1,0 +1,78 @@
+#include "lang/settings.hpp"
+
+#include "crt/validate.hpp"
+#include "lang/object_builder.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+/// What a Settings block can set: the settings themselves, and what else of the scene is not geometry.
+struct SettingsFields : Settings {
+  std::optional<Projection> projection;
+  std::optional<Camera> camera;
+  std::optional<Background> background;
+  std::vector<Light> lights;
+};
+
+template <class Field>
+AttributeType setting(std::string_view name, Field Settings::*field, std::string_view default_text) {
+  return attribute<SettingsFields, Field>(name, field, default_text);
+}
+
+ObjectType make_settings_type() {
+  using Fields = SettingsFields;
+  return {
+      .name = "Settings",
+      .attributes = {setting("title", &Settings::title, "\"\""), setting("author", &Settings::author, "\"\""),
+                     setting("date", &Settings::date, "\"\""), setting("notes", &Settings::notes, "\"\""),
+                     setting("width", &Settings::width, "640"), setting("height", &Settings::height, "480"),
+                     setting("gamma", &Settings::gamma, "1"),
+                     setting("supersampling", &Settings::supersampling, "1"),
+                     setting("dofsamples", &Settings::dof_samples, "1"),
+                     setting("recursiondepth", &Settings::recursion_depth, "3"),
+                     setting("minweight", &Settings::min_weight, "1.0 / 1024"),
+                     setting("falloffmodel", &Settings::falloff_model, "\"path\""),
+                     setting("showclip", &Settings::show_clip, "false"),
+                     setting("seed", &Settings::seed, "0"),
+                     attribute("projection", &Fields::projection, "\"pinhole\""),
+                     attribute("camera", &Fields::camera, "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"),
+                     attribute("lights", &Fields::lights, "[]"),
+                     attribute("background", &Fields::background, "Background { }")},
+      .build = {}};
+}
+
+}  // namespace
+
+const ObjectType& settings_type() {
+  static const ObjectType type = make_settings_type();
+  return type;
+}
+
+void apply_settings(Context& context, Span block, const std::vector<Given>& attributes, Scene& scene) {
+  auto fields = assemble<SettingsFields>({context, block, attributes});
+  try {
+    validate(static_cast<const Settings&>(fields));
+  } catch (const Error& error) {
+    blame(error, block, attributes);
+  }
+  if (fields.camera) scene.camera = *fields.camera;
+  if (fields.projection) scene.camera.projection = *fields.projection;
+  if (fields.background) scene.background = std::move(*fields.background);
+  scene.lights = std::move(fields.lights);
+  scene.settings = std::move(static_cast<Settings&>(fields));
+  try {
+    validate(scene.camera);
+  } catch (const Error& error) {
+    // Alone the camera was right: what it lacks is agreement with the projection.
+    Span span = block;
+    for (const Given& given : attributes) {
+      if (given.type->name == "camera") span = given.value_span;
+    }
+    throw Failure{.span = span,
+                  .message = "only the projection \"spherical\" can have a 'fov' of 180 degrees",
+                  .code = error.code()};
+  }
+}
+
+}  // namespace crt::lang

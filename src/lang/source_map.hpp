@@ -1,0 +1,60 @@
+// The texts of a run: the script, its imports and the overrides. All of them share one row of
+// offsets, so that a place in any of them is a pair of numbers.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <deque>
+#include <filesystem>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "crt/script.hpp"
+
+namespace crt::lang {
+
+/// A piece of source text, [begin, end), in offsets of the SourceMap.
+struct Span {
+  std::uint32_t begin = 0;
+  std::uint32_t end = 0;
+
+  friend bool operator==(const Span&, const Span&) = default;
+};
+
+/// What a text is meant to be.
+enum class TextKind { script, expression };
+
+struct Source {
+  std::string name;                 ///< as messages call it
+  std::string text;                 ///< std::string keeps a NUL behind its end, which the lexer relies on
+  std::filesystem::path directory;  ///< where its files are looked for
+  std::uint32_t base = 0;
+  std::vector<std::uint32_t> line_starts;  ///< relative to base
+};
+
+class SourceMap {
+ public:
+  /// Offsets are 32 bits wide; what the limits allow is cut down to this.
+  static constexpr std::size_t most_bytes = std::size_t{1} << 30;
+
+  /// Takes a text in. The reference stays good.
+  const Source& add(std::string name, std::string text, std::filesystem::path directory = {});
+
+  /// Bytes of all texts together.
+  std::size_t size() const { return next_base_; }
+
+  SourcePlace place(Span span) const;
+
+  /// The line on which `span` begins, without its end; cut off where it is longer than anybody reads.
+  std::string line_text(Span span) const;
+
+  /// The source that a place is in. There is at least one.
+  const Source& source_of(Span span) const;
+
+ private:
+  std::deque<Source> sources_;
+  std::uint32_t next_base_ = 0;
+};
+
+}  // namespace crt::lang

@@ -1,0 +1,30 @@
+// Names as numbers: two names are equal if their symbols are.
+#pragma once
+
+#include <cstdint>
+#include <deque>
+#include <string>
+#include <string_view>
+#include <unordered_map>
+
+namespace crt::lang {
+
+enum class Symbol : std::uint32_t {};
+
+class SymbolTable {
+ public:
+  Symbol intern(std::string_view name) {
+    if (const auto known = symbols_.find(name); known != symbols_.end()) return known->second;
+    const auto symbol = static_cast<Symbol>(names_.size());
+    symbols_.emplace(names_.emplace_back(name), symbol);
+    return symbol;
+  }
+
+  std::string_view name(Symbol symbol) const { return names_[static_cast<std::size_t>(symbol)]; }
+
+ private:
+  std::deque<std::string> names_;  // a deque, so that the views in the map stay good
+  std::unordered_map<std::string_view, Symbol> symbols_;
+};
+
+}  // namespace crt::lang

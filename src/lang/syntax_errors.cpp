@@ -1,0 +1,131 @@
+// Syntax errors in the words of a user.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <set>
+#include <string_view>
+
+#include "lang/suggestion.hpp"
+#include "lang/tree_builder.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+using Names = std::set<std::string>;
+
+// The names are those of the tokens in grammar.y.
+constexpr std::array expression_starts = {"a whole number",
+                                          "a number",
+                                          "a string",
+                                          "a name",
+                                          "an object's name",
+                                          "Macro",
+                                          "true",
+                                          "false",
+                                          "(",
+                                          "( first on its line",
+                                          "[",
+                                          "[ first on its line",
+                                          "!",
+                                          "+",
+                                          "-"};
+constexpr std::array operators = {"+",
+                                  "-",
+                                  "*",
+                                  "/",
+                                  "%",
+                                  "^",
+                                  "<",
+                                  ">",
+                                  "<=",
+                                  ">=",
+                                  "==",
+                                  "!=",
+                                  "&&",
+                                  "||",
+                                  "?",
+                                  "=",
+                                  "(",
+                                  "[",
+                                  "< before a modifier"};
+constexpr std::array statement_starts = {"while", "if", "for", "import", "Settings", "Scene", "else"};
+
+template <class List>
+void erase(Names& names, const List& list) {
+  for (const char* name : list) names.erase(name);
+}
+
+/// Replaces groups of tokens by what a user calls them.
+std::vector<std::string> in_words(const std::vector<std::string>& expected) {
+  Names names(expected.begin(), expected.end());
+  const bool statement = names.contains("while");
+  const bool whole_expression = names.contains("a whole number");
+  const bool after_operand = names.contains("*");
+  const bool attribute = names.contains("a name") && names.contains("}") && !whole_expression;
+  std::vector<std::string> words;
+  if (statement) {
+    words.emplace_back("a statement");
+    erase(names, statement_starts);
+  }
+  if (whole_expression || statement) {
+    if (!statement) words.emplace_back("an expression");
+    erase(names, expression_starts);
+    erase(names, operators);
+  }
+  if (attribute) {
+    words.emplace_back("an attribute");
+    names.erase("a name");
+  }
+  if (after_operand) erase(names, operators);
+  for (const char* name : {"a whole number", "a number", "a string", "a name", "an object's name"})
+    if (names.erase(name) > 0) words.emplace_back(name);
+  if (names.erase("the end of the script") > 0 && words.empty() && names.empty() && !after_operand)
+    words.emplace_back("the end of the script");
+  names.erase("( first on its line");
+  for (const std::string& name : names) words.push_back("'" + name + "'");
+  if (words.empty() && after_operand) words.emplace_back("an operator");
+  return words;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+}  // namespace
+
+std::string TreeBuilder::describe_found(Span place, const std::string& found) const {
+  constexpr std::size_t longest_shown = 30;
+  if (found == "the end of the script") return found;
+  if (found == "a string") return "string";
+  const std::string text(lexer_.text(place).substr(0, longest_shown));
+  return "'" + text + "'";
+}
+
+void TreeBuilder::syntax_error(Span place, const std::string& found,
+                               const std::vector<std::string>& expected) {
+  const std::vector<std::string> words = in_words(expected);
+  std::string message = "unexpected " + describe_found(place, found);
+  const bool wants_arrow = expected.size() == 1 && expected[0] == "->";
+  if (wants_arrow) {
+    message +=
+        found == "=" ? "; an attribute is given with '->'" : "; expected '->' after the attribute's name";
+  } else if (found == "->") {
+    message += "; attributes stand in an object's braces, and a variable is set with '='";
+  } else if (!words.empty()) {
+    message += "; expected " + enumerate(words);
+  }
+  const std::vector<Span>& open = lexer_.open_brackets();
+  if (found == "the end of the script" && !open.empty()) {
+    const std::string_view bracket = lexer_.text(open.back());
+    reporter_.error(open.back(), fmt::format("this '{}' is never closed", bracket));
+    return;
+  }
+  if (contains({"Settings", "Scene", "import"}, found) && !contains(expected, found) &&
+      contains(expected, "while"))
+    message = fmt::format("'{}' stands at the top level only, in no braces", found);
+  reporter_.error(place, message);
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,182 @@
+#include "lang/tree_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <memory>
+#include <utility>
+
+namespace crt::lang {
+
+namespace {
+
+template <class... Functions>
+struct Overloaded : Functions... {
+  using Functions::operator()...;
+};
+template <class... Functions>
+Overloaded(Functions...) -> Overloaded<Functions...>;
+
+int height_of(const Expression* expression) {
+  return expression ? expression->height + 1 : 0;
+}
+
+int height_of(const std::vector<const Expression*>& expressions) {
+  int height = 0;
+  for (const Expression* expression : expressions) height = std::max(height, height_of(expression));
+  return height;
+}
+
+int height_of(const std::vector<AttributeSyntax>& attributes) {
+  int height = 0;
+  for (const AttributeSyntax& attribute : attributes) height = std::max(height, height_of(attribute.value));
+  return height;
+}
+
+int height_of(const std::vector<Modifier>& modifiers) {
+  int height = 0;
+  for (const Modifier& modifier : modifiers) height = std::max(height, height_of(modifier.operand));
+  return height;
+}
+
+int height_of(const Block& block) {
+  return block.height + 1;
+}
+
+int height_of_node(const ExpressionNode& node) {
+  return std::visit(
+      Overloaded{
+          [](const Literal&) { return 0; },
+          [](const Name&) { return 0; },
+          [](const ObjectLiteral& object) { return height_of(object.attributes); },
+          [](const MacroLiteral& macro) { return height_of(macro.body); },
+          [](const ListLiteral& list) { return height_of(list.items); },
+          [](const Index& index) { return std::max(height_of(index.base), height_of(index.index)); },
+          [](const Call& call) { return std::max(height_of(call.callee), height_of(call.arguments)); },
+          [](const Modified& m) { return std::max(height_of(m.base), height_of(m.modifiers)); },
+          [](const Unary& unary) { return height_of(unary.operand); },
+          [](const Chain& chain) { return height_of(chain.first); },
+          [](const Logical& logical) { return height_of(logical.operands); },
+          [](const Conditional& c) {
+            return std::max({height_of(c.condition), height_of(c.yes), height_of(c.no)});
+          },
+          [](const Assignment& assignment) { return height_of(assignment.value); },
+      },
+      node);
+}
+
+int height_of_node(const Statement& statement) {
+  return std::visit(
+      Overloaded{
+          [](const ExpressionStatement& s) { return height_of(s.expression); },
+          [](const While& loop) { return std::max(height_of(loop.condition), height_of(loop.body)); },
+          [](const If& choice) {
+            int height = 0;
+            for (const If::Branch& branch : choice.branches)
+              height = std::max({height, height_of(branch.condition), height_of(branch.body)});
+            return height;
+          },
+          [](const For& loop) { return std::max(height_of(loop.list), height_of(loop.body)); },
+          [](const SettingsBlock& settings) { return height_of(settings.attributes); },
+          [](const SceneBlock& scene) { return height_of(scene.body); },
+          [](const Import&) { return 0; },
+      },
+      statement.node);
+}
+
+}  // namespace
+
+Nesting TreeBuilder::enter(Span place) {
+  check_height(place, depth_ + 1);
+  return Nesting(depth_);
+}
+
+void TreeBuilder::check_height(Span span, int height) {
+  if (height <= max_nesting) return;
+  reporter_.error(span, fmt::format("nested more than {} levels deep", max_nesting), ErrorCode::limit);
+  throw GiveUp{};
+}
+
+void TreeBuilder::charge(std::size_t bytes, Span span) {
+  if (bytes > memory_left_) {
+    reporter_.error(span, "the script is too long for the memory that its limits allow", ErrorCode::limit);
+    throw GiveUp{};
+  }
+  memory_left_ -= bytes;
+}
+
+Value TreeBuilder::string(std::string text) {
+  return std::make_shared<const StringValue>(StringValue{std::move(text)});
+}
+
+Expression* TreeBuilder::expression(Span span, ExpressionNode node) {
+  charge(sizeof(Expression), span);
+  const int height = height_of_node(node);
+  check_height(span, height);
+  return &script_.expressions.emplace_back(Expression{span, std::move(node), height});
+}
+
+Expression* TreeBuilder::chain(Expression* left, BinaryOperator op, Span op_span, const Expression* right) {
+  // A chain is worked off from the left whatever its operators are, so that a * b + c goes on where
+  // a * b ends; an operand on the right that binds tighter is a chain of its own.
+  const Span span{left->span.begin, right->span.end};
+  if (!std::holds_alternative<Chain>(left->node)) left = expression(span, Chain{left, {}});
+  charge(sizeof(ChainLink), span);
+  check_height(right->span, height_of(right));
+  std::get<Chain>(left->node).links.push_back({op, op_span, right});
+  left->span = span;
+  left->height = std::max(left->height, height_of(right));
+  return left;
+}
+
+Expression* TreeBuilder::logical(LogicalOperator op, Expression* left, const Expression* right) {
+  const Span span{left->span.begin, right->span.end};
+  const auto* same = std::get_if<Logical>(&left->node);
+  if (!same || same->op != op) left = expression(span, Logical{op, {left}});
+  charge(sizeof(right), span);
+  check_height(right->span, height_of(right));
+  std::get<Logical>(left->node).operands.push_back(right);
+  left->span = span;
+  left->height = std::max(left->height, height_of(right));
+  return left;
+}
+
+Expression* TreeBuilder::assignment(Span span, const Expression* target, const Expression* value) {
+  const auto* name = std::get_if<Name>(&target->node);
+  if (!name) reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
+  const NamePlace place{name ? name->symbol : Symbol{}, target->span};
+  return expression(span, Assignment{place, value});
+}
+
+Expression* TreeBuilder::macro(Span span, std::vector<NamePlace> parameters, Block body) {
+  std::vector<Symbol> seen;
+  for (const NamePlace& parameter : parameters) seen.push_back(parameter.symbol);
+  std::sort(seen.begin(), seen.end());
+  for (const NamePlace& parameter : parameters) {
+    const auto same = std::equal_range(seen.begin(), seen.end(), parameter.symbol);
+    if (same.second - same.first < 2) continue;
+    reporter_.error(parameter.span, "two parameters of a macro have this name");
+    break;
+  }
+  return expression(span, MacroLiteral{std::move(parameters), std::move(body)});
+}
+
+Statement TreeBuilder::finish_statement(Statement statement) {
+  statement.height = height_of_node(statement);
+  check_height(statement.span, statement.height);
+  return statement;
+}
+
+If TreeBuilder::branch(If branches, const Expression* condition, Block body) {
+  branches.branches.push_back({condition, std::move(body)});
+  return branches;
+}
+
+Block TreeBuilder::append(Block block, Statement statement) {
+  charge(sizeof(Statement), statement.span);
+  block.height = std::max(block.height, statement.height);
+  block.statements.push_back(std::move(statement));
+  return block;
+}
+
+}  // namespace crt::lang

@@ -1,0 +1,64 @@
+// What the grammar's actions do: builds the tree's nodes, bounds their nesting and number, and puts
+// syntax errors into words.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "lang/lexer.hpp"
+#include "lang/nesting.hpp"
+#include "lang/reporter.hpp"
+#include "lang/syntax.hpp"
+
+namespace crt::lang {
+
+class TreeBuilder {
+ public:
+  /// `memory_left` is what the tree may hold; it shrinks.
+  TreeBuilder(const Lexer& lexer, Reporter& reporter, std::size_t& memory_left)
+      : lexer_(lexer), reporter_(reporter), memory_left_(memory_left) {}
+
+  /// The finished tree.
+  Script take() { return std::move(script_); }
+
+  // What follows is for the grammar.
+
+  /// Opens something that can hold itself, at `place`.
+  Nesting enter(Span place);
+
+  Expression* literal(Span span, Value value) { return expression(span, Literal{std::move(value)}); }
+  static Value string(std::string text);
+
+  Expression* expression(Span span, ExpressionNode node);
+  Expression* chain(Expression* left, BinaryOperator op, Span op_span, const Expression* right);
+  Expression* logical(LogicalOperator op, Expression* left, const Expression* right);
+  Expression* assignment(Span span, const Expression* target, const Expression* value);
+  Expression* macro(Span span, std::vector<NamePlace> parameters, Block body);
+
+  template <class Node>
+  Statement statement(Span span, Node node) {
+    return finish_statement(Statement{span, std::move(node)});
+  }
+  static If branch(If branches, const Expression* condition, Block body);
+  Block append(Block block, Statement statement);
+
+  void finish(Block statements) { script_.statements = std::move(statements); }
+  void finish(const Expression* expression) { script_.expression = expression; }
+
+  void syntax_error(Span place, const std::string& found, const std::vector<std::string>& expected);
+
+ private:
+  Statement finish_statement(Statement statement);
+  void check_height(Span span, int height);
+  void charge(std::size_t bytes, Span span);
+  std::string describe_found(Span place, const std::string& found) const;
+
+  const Lexer& lexer_;
+  Reporter& reporter_;
+  std::size_t& memory_left_;
+  int depth_ = 0;
+  Script script_;
+};
+
+}  // namespace crt::lang

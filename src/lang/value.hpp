@@ -1,0 +1,101 @@
+// What a script computes with: immutable values, shared and not copied where they are large.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include "crt/background.hpp"
+#include "crt/camera.hpp"
+#include "crt/entity.hpp"
+#include "crt/light.hpp"
+#include "crt/material.hpp"
+
+namespace crt::lang {
+
+struct Builtin;
+struct MacroLiteral;
+class Scope;
+struct StringValue;
+struct ListValue;
+struct MacroValue;
+
+/// What a call without a value gives, such as that of `print`.
+struct Nothing {};
+
+/// What a variable holds when the statement that should have set it failed; using it is no further error.
+struct Unknown {};
+
+using String = std::shared_ptr<const StringValue>;
+using List = std::shared_ptr<const ListValue>;
+using Macro = std::shared_ptr<const MacroValue>;
+
+// The order is that of type_name() in value.cpp.
+using Value = std::variant<Nothing, Unknown, std::int64_t, double, bool, Vec3, Color, String, List, Macro,
+                           const Builtin*, Entity, SharedMaterial, std::shared_ptr<const Pattern>,
+                           std::shared_ptr<const Light>, std::shared_ptr<const Camera>,
+                           std::shared_ptr<const Background>>;
+
+/// Memory that a value holds, given back to where it is counted when the value goes.
+class Charge {
+ public:
+  Charge() = default;
+  Charge(std::size_t& counter, std::size_t bytes) : counter_(&counter), bytes_(bytes) { counter += bytes; }
+  Charge(Charge&& other) noexcept : counter_(std::exchange(other.counter_, nullptr)), bytes_(other.bytes_) {}
+  Charge(const Charge&) = delete;
+  Charge& operator=(const Charge&) = delete;
+  Charge& operator=(Charge&&) = delete;
+  ~Charge() {
+    if (counter_) *counter_ -= bytes_;
+  }
+
+ private:
+  std::size_t* counter_ = nullptr;
+  std::size_t bytes_ = 0;
+};
+
+struct StringValue {
+  std::string text;
+  Charge charge = {};
+};
+
+struct ListValue {
+  std::vector<Value> items;
+  /// Lists within lists: 1 for a flat one.
+  int depth = 1;
+  Charge charge = {};
+};
+
+/// A macro and the scope that it was made in.
+struct MacroValue {
+  const MacroLiteral* literal = nullptr;
+  std::shared_ptr<Scope> scope;
+};
+
+/// "Integer", "Vec3", ...
+std::string_view type_name(const Value& value);
+
+/// The same with its article: "an Integer".
+std::string type_with_article(const Value& value);
+
+/// "a" or "an", as the word wants it.
+std::string_view article(std::string_view word);
+
+/// A number as a Float; nothing else has one.
+inline const double* as_float(const Value& value, double& room) {
+  if (const auto* number = std::get_if<double>(&value)) return number;
+  const auto* integer = std::get_if<std::int64_t>(&value);
+  if (!integer) return nullptr;
+  room = static_cast<double>(*integer);
+  return &room;
+}
+
+/// A Float as text: the shortest that reads as the same number ("2" for 2.0).
+std::string float_text(double number);
+
+}  // namespace crt::lang
