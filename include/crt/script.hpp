@@ -47,7 +47,7 @@ std::string diagnostics_to_json(const std::vector<Diagnostic>& diagnostics);
 
 /// What a script may use up; passing one is an ordinary error (ErrorCode::limit) at its place.
 struct ScriptLimits {
-  std::uint64_t steps = 50'000'000;     ///< expressions evaluated
+  std::uint64_t steps = 20'000'000;     ///< expressions evaluated; making an entity counts as 16 more
   std::uint64_t entities = 10'000'000;  ///< made or put into the scene
   std::size_t call_depth = 256;         ///< macros within macros; at most 1000
   std::size_t list_length = 10'000'000;

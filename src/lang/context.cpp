@@ -61,6 +61,7 @@ void Context::spend(Span span, std::size_t steps) {
 }
 
 void Context::count_made(Span span) {
+  spend(span, steps_per_entity);
   if (++made_ > limits.entities)
     pass_limit(span, fmt::format("the script makes more than {} entities", limits.entities));
 }

@@ -21,6 +21,9 @@ namespace crt::lang {
 constexpr std::size_t items_per_step = 16;
 constexpr std::size_t bytes_per_step = 64;
 
+/// An entity takes about as long to make as so many expressions to evaluate.
+constexpr std::size_t steps_per_entity = 16;
+
 /// Lists within lists; freeing them takes stack.
 constexpr int deepest_list = 100;
 
