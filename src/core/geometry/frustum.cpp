@@ -63,7 +63,7 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
   if (!std::isfinite(t)) return false;
   line.move_to(ray, narrow_, t);
-  clip_side(line, stretch);
+  clip_side(ray, line, stretch);
   return stretch.finish(out);
 }
 
@@ -87,25 +87,54 @@ FrustumShape::SideEquation FrustumShape::side_equation(const NearLine& line) con
   return side;
 }
 
-/// n . d at a root is sqrt(discriminant) / (s0 + s1 x).
+/// |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
+double FrustumShape::approach(const SideEquation& side, double x) {
+  // Through the apex the cone is met as squarely as the angle to its side allows.
+  if (!(side.discriminant > 0)) return std::sqrt(std::abs(side.a));
+  return std::sqrt(side.discriminant) / std::abs(side.radius + side.radius_rate * x);
+}
+
+/// The crossing at a root, after one more shift to the root itself and one step of Newton's iteration on
+/// the distance from the side there, which knows nothing of the rounding of a, b and c.
+Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
+                                const Root& root) const {
+  const Crossing crossing = side_crossing(line, side, root.x, root.number);
+  // Where a ray grazes more closely, a step could be longer than the roots are apart.
+  constexpr double squarely = 0x1p-20;
+  const double rate = approach(side, root.x);
+  if (!(rate > squarely * std::sqrt(line.squared_speed)) || !std::isfinite(rate)) return crossing;
+  if (!std::isfinite(crossing.t)) return crossing;
+  NearLine at_root = line;
+  at_root.move_to(ray, narrow_, crossing.t);
+  const Vec3& p = at_root.point;
+  const double distance = cosine_ * (glm::length(accurate_cross(p, axis_)) - narrow_radius_) -
+                          sine_ * accurate_dot(p, axis_).value();
+  Crossing result = crossing;
+  result.t = at_root.to_t(root.entering ? distance / rate : -distance / rate);
+  return result;
+}
+
 Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, double x,
                                      std::uint8_t root) const {
   const double t = line.to_t(x);
-  const double reach = wide_radius_ + glm::length(line.at(x));
-  const double radius = std::abs(side.radius + side.radius_rate * x);
-  const double size = std::sqrt(std::abs(side.a));
-  // Through the apex: the cone is met as squarely as the angle to its side allows.
-  const double approach = side.discriminant > 0 ? std::sqrt(side.discriminant) / radius : size;
-  const double longest = side.a > 0
-                             ? std::sqrt(line.squared_speed) / size * grazing_error(line, reach, wide_radius_)
-                             : std::numeric_limits<double>::max();
-  return {
-      .t = t, .error = standard_error(line, t, reach, approach, longest), .face = side_face, .root = root};
+  const Vec3 p = line.at(x);
+  // Along needles the square of the length may overflow, the length does not.
+  const double reach = wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
+  const double speed = std::sqrt(line.squared_speed);
+  const double graze = speed / std::sqrt(std::abs(side.a)) * grazing_error(line, reach, wide_radius_);
+  const double longest = std::min(side.a > 0 ? graze : reach / speed, reach / speed);
+  return {.t = t,
+          .error = standard_error(line, t, reach, approach(side, x), longest),
+          .face = side_face,
+          .root = root};
 }
 
-void FrustumShape::clip_side(const NearLine& line, Stretch& stretch) const {
+void FrustumShape::clip_side(const ObjectRay& ray, const NearLine& line, Stretch& stretch) const {
   const SideEquation side = side_equation(line);
   const double s1 = side.radius_rate;
+  const auto crossing_at = [&](double x, bool entering, std::uint8_t number) {
+    return polished(ray, line, side, {x, entering, number});
+  };
   if (side.a == 0) {
     // Parallel to a ruling (for a cylinder: to the axis): at most one root.
     if (side.b == 0) {
@@ -113,7 +142,7 @@ void FrustumShape::clip_side(const NearLine& line, Stretch& stretch) const {
       return;
     }
     if ((s1 > 0) != (side.b < 0)) return stretch.clear();
-    const Crossing crossing = side_crossing(line, side, -side.c / (2 * side.b), 0);
+    const Crossing crossing = crossing_at(-side.c / (2 * side.b), s1 > 0, 0);
     return s1 > 0 ? stretch.enter(crossing) : stretch.leave(crossing);
   }
 
@@ -128,12 +157,12 @@ void FrustumShape::clip_side(const NearLine& line, Stretch& stretch) const {
     // Both roots are on one nappe: the one on which the middle between them is.
     const bool other_nappe = side.a * side.radius < side.b * s1;
     if (!(side.discriminant > 0) || other_nappe) return stretch.clear();
-    stretch.enter(side_crossing(line, side, low, 0));
-    stretch.leave(side_crossing(line, side, high, 1));
+    stretch.enter(crossing_at(low, true, 0));
+    stretch.leave(crossing_at(high, false, 1));
   } else if (s1 > 0) {
-    stretch.enter(side_crossing(line, side, high, 1));
+    stretch.enter(crossing_at(high, true, 1));
   } else {
-    stretch.leave(side_crossing(line, side, low, 0));
+    stretch.leave(crossing_at(low, false, 0));
   }
 }
 
@@ -181,16 +210,18 @@ void FrustumShape::clip_side_from_other_nappe(const SideEquation& side, Crossing
 SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
   if (crossing.face != side_face) return cap_point(ray, crossing);
   const Vec3 offset = ray.from_center(narrow_, crossing.t) * (1 / unit_);
-  const double z = std::clamp(glm::dot(offset, axis_), 0.0, height_);
+  const double z = glm::dot(offset, axis_);
   // Across the axis, twice: the second time removes what the first one's rounding left along it.
-  Vec3 across = offset - glm::dot(offset, axis_) * axis_;
+  Vec3 across = offset - z * axis_;
   across -= glm::dot(across, axis_) * axis_;
   const bool at_apex = largest_component(across) == 0;
   const Vec3 radial = at_apex ? frame_.zero : unit_vector(across);
-  const double share = z / height_;
+  // Onto the ruling in this direction, straight.
+  const double slant = (glm::dot(across, radial) - narrow_radius_) * sine_ + z * cosine_;
+  const double share = std::clamp(slant * cosine_ / height_, 0.0, 1.0);
   const double radius = narrow_radius_ + (wide_radius_ - narrow_radius_) * share;
   SurfacePoint result;
-  result.position = narrow_ + unit_ * (z * axis_ + radius * radial);
+  result.position = narrow_ + unit_ * (share * height_ * axis_ + radius * radial);
   result.normal = at_apex && sine_ > 0 ? -axis_ : unit_vector(cosine_ * radial - sine_ * axis_);
   result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
   result.v = narrow_ == from_ ? share : 1 - share;

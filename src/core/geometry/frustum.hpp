@@ -48,8 +48,16 @@ class FrustumShape : public Shape {
     double radius, radius_rate;  ///< s0 and s1
   };
   SideEquation side_equation(const NearLine& line) const;
+  static double approach(const SideEquation& side, double x);
+  struct Root {
+    double x;
+    bool entering;
+    std::uint8_t number;
+  };
+  Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
+                    const Root& root) const;
   Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
-  void clip_side(const NearLine& line, Stretch& stretch) const;
+  void clip_side(const ObjectRay& ray, const NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
   static void clip_side_from_other_nappe(const SideEquation& side, Crossing other, Stretch& stretch);
   SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing) const;

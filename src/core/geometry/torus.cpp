@@ -22,7 +22,9 @@ void obey_side(Side side, bool bulging, double shortest, TorusLine::Dips& dips) 
   if (side == Side::inside) {
     const bool leaves_at_start = here > 0 && dips.dip[here - 1].leave == 0;
     if (!bulging && here < dips.count) {
-      next.enter = 0;
+      const TorusLine::Dip onwards{0, next.leave};
+      if (leaves_at_start) --dips.count;
+      dips.dip[leaves_at_start ? here - 1 : here] = onwards;
       return;
     }
     if (leaves_at_start) {
