@@ -8,38 +8,44 @@
 
 namespace crt::test {
 
-struct FrustumOracle {
-  RealVec from;
-  RealVec to;
-  Real from_radius;
-  Real to_radius;
-
-  RealVec axis() const { return normalized(to - from); }
-  Real height() const { return length(to - from); }
+class FrustumOracle {
+ public:
+  FrustumOracle(const Vec3& from, const Vec3& to, double from_radius, double to_radius)
+      : from_(from),
+        to_(to),
+        axis_(normalized(to_ - from_)),
+        height_(length(to_ - from_)),
+        radius_(from_radius),
+        slope_((Real(to_radius) - Real(from_radius)) / height_),
+        cosine_(1 / square_root(1 + slope_ * slope_)) {}
 
   std::vector<Real> candidates(const RealRay& ray) const {
-    const RealVec w = axis();
-    const RealVec o = ray.origin - from;
-    const RealVec p = cross(o, w);
-    const RealVec m = cross(ray.direction, w);
-    const Real slope = (to_radius - from_radius) / height();
-    const Real s0 = from_radius + slope * dot(o, w);
-    const Real s1 = slope * dot(ray.direction, w);
+    const RealVec o = ray.origin - from_;
+    const RealVec p = cross(o, axis_);
+    const RealVec m = cross(ray.direction, axis_);
+    const Real s0 = radius_ + slope_ * dot(o, axis_);
+    const Real s1 = slope_ * dot(ray.direction, axis_);
     std::vector<Real> result = quadratic_roots(dot(m, m) - s1 * s1, dot(p, m) - s0 * s1, dot(p, p) - s0 * s0);
-    for (const RealVec& end : {from, to}) {
-      for (const Real root : plane_roots(ray, w, end)) result.push_back(root);
+    for (const RealVec& end : {from_, to_}) {
+      for (const Real root : plane_roots(ray, axis_, end)) result.push_back(root);
     }
     return result;
   }
 
   Real field(const RealVec& point) const {
-    const RealVec w = axis();
-    const Real z = dot(point - from, w);
-    const Real rho = length(cross(point - from, w));
-    const Real slope = (to_radius - from_radius) / height();
-    const Real cosine = 1 / square_root(1 + slope * slope);
-    return std::max({cosine * (rho - from_radius - slope * z), -z, z - height()});
+    const Real z = dot(point - from_, axis_);
+    const Real rho = length(cross(point - from_, axis_));
+    return std::max({cosine_ * (rho - radius_ - slope_ * z), -z, z - height_});
   }
+
+ private:
+  RealVec from_;
+  RealVec to_;
+  RealVec axis_;
+  Real height_;
+  Real radius_;  ///< at from
+  Real slope_;
+  Real cosine_;
 };
 
 }  // namespace crt::test

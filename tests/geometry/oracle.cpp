@@ -373,6 +373,22 @@ void check_start(const Shape& shape, const ObjectRay& ray, bool convex) {
   if (shape.bounds().finite()) REQUIRE((ahead % 2 == 1) == inside);
 }
 
+/// The roots that are left after the start's own was taken out are the true ones of this very ray.
+void require_true_roots(const Subject& subject, const ObjectRay& ray, const Vec3& normal,
+                        const CrossingList& crossings) {
+  constexpr double squarely = 0.01;
+  if (std::abs(glm::dot(normal, ray.direction)) < squarely * glm::length(ray.direction)) return;
+  const RealRay real(ray);
+  const std::vector<Real> candidates = subject.candidates(real);
+  for (const Crossing& crossing : crossings) {
+    Real nearest = magnitude(candidates.front() - crossing.t);
+    for (const Real root : candidates) nearest = std::min(nearest, magnitude(root - crossing.t));
+    // The start itself is as exact as its coordinates.
+    const double start = 8 * u * (glm::length(ray.origin) + 4 * subject.size) / squarely;
+    REQUIRE(nearest <= (crossing.t == 0 ? start : 2 * crossing.error));
+  }
+}
+
 }  // namespace
 
 void check_starts(const MakeSubject& make, int count, bool convex) {
@@ -402,6 +418,7 @@ void check_starts(const MakeSubject& make, int count, bool convex) {
       check_start(*shape, ray, convex);
       CrossingList again;
       shape->crossings(ray, again);
+      if (random.one_in(10)) require_true_roots(subject, ray, point.normal, again);
       if (std::any_of(again.begin(), again.end(), [](const Crossing& c) { return c.t == 0; })) ++exact;
       // The side counts even if the direction is at odds with it.
       if (random.one_in(20)) {
