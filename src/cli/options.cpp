@@ -103,7 +103,7 @@ constexpr SettingOption setting_options[] = {
     {"recursiondepth", SettingKind::integer, "bounces followed after the camera's ray"},
     {"minweight", SettingKind::number, "rays that add less than this share are not followed"},
     {"falloffmodel", SettingKind::text, "distance that dims a light: path or light"},
-    {"showclip", SettingKind::flag, "marks pixels brighter than white in red (or 'false': does not)"},
+    {"showclip", SettingKind::flag, "marks pixels brighter than white in red; --showclip=false does not"},
     {"seed", SettingKind::integer, "another seed, another noise"},
     {"projection", SettingKind::text, "pinhole, spherical, cylindrical or orthographic"},
     {"title", SettingKind::text, "of the picture, kept in its file"},
@@ -125,7 +125,6 @@ std::string setting_expression(const SettingOption& setting, const std::string& 
       if (!parse_finite(value, number)) throw wrong_value(option, "a number", value);
       return value;
     case SettingKind::flag:
-      if (value != "true" && value != "false") throw wrong_value(option, "true or false", value);
       return value;
     case SettingKind::text:
       break;
@@ -141,11 +140,9 @@ void add_settings(CLI::App& command, ScriptOptions& script) {
     const std::string name = fmt::format("--{}", setting.name);
     constexpr const char* group = "Settings (they win over the script's)";
     if (setting.kind == SettingKind::flag) {
-      command.add_option_function<std::string>(name, take, setting.help)
-          ->expected(0, 1)
-          ->default_str("true")
-          ->type_name("")
-          ->group(group);
+      // CLI11 counts a flag, downwards for "=false".
+      const auto take_count = [take](std::int64_t count) { take(count > 0 ? "true" : "false"); };
+      command.add_flag_function(name, take_count, setting.help)->group(group);
       continue;
     }
     const char* type = setting.kind == SettingKind::text      ? "TEXT"
@@ -263,8 +260,7 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
       command
           .add_option_function<std::string>(
               "--frames", [&request](const std::string& text) { request.frames = parse_frames(text); },
-              "renders an animation: a picture for each whole t in the range; '###' or '%03d' in the "
-              "output's name stands for the number")
+              "renders a picture for each whole t in the range; ### in the output's name is the number")
           ->type_name("A-B");
   frames->excludes(command.get_option("--time"));
   command

@@ -38,11 +38,11 @@ ExitCode graver(ExitCode a, ExitCode b) {
 }  // namespace
 
 void Reporter::add(const std::vector<Diagnostic>& diagnostics) {
-  for (const Diagnostic& diagnostic : diagnostics) {
-    if (diagnostic.severity == Severity::error)
-      exit_code_ = graver(exit_code_, exit_code_of(diagnostic.code));
-    tell(diagnostic, format_diagnostic(diagnostic));
-  }
+  // The first error is the cause of some that follow: a name is unknown since its file is missing.
+  const auto first_error = std::find_if(diagnostics.begin(), diagnostics.end(),
+                                        [](const Diagnostic& it) { return it.severity == Severity::error; });
+  if (first_error != diagnostics.end()) exit_code_ = graver(exit_code_, exit_code_of(first_error->code));
+  for (const Diagnostic& diagnostic : diagnostics) tell(diagnostic, format_diagnostic(diagnostic));
 }
 
 void Reporter::add(ErrorCode code, const std::string& message, ExitCode exit_code) {

@@ -14,7 +14,7 @@ class Reporter {
  public:
   explicit Reporter(const CommonRequest& request) : format_(request.diagnostics), quiet_(request.quiet) {}
 
-  /// What a script's run gave. What was told before (for another frame) is not told again.
+  /// What one run of a script gave. What was told before (for another frame) is not told again.
   void add(const std::vector<Diagnostic>& diagnostics);
 
   /// An error that has no place in a script; `exit_code` is what it means for the process.
