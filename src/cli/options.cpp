@@ -125,6 +125,7 @@ std::string setting_expression(const SettingOption& setting, const std::string& 
       if (!parse_finite(value, number)) throw wrong_value(option, "a number", value);
       return value;
     case SettingKind::flag:
+      if (value != "true" && value != "false") throw wrong_value(option, "true or false", value);
       return value;
     case SettingKind::text:
       break;
@@ -140,9 +141,7 @@ void add_settings(CLI::App& command, ScriptOptions& script) {
     const std::string name = fmt::format("--{}", setting.name);
     constexpr const char* group = "Settings (they win over the script's)";
     if (setting.kind == SettingKind::flag) {
-      // CLI11 counts a flag, downwards for "=false".
-      const auto take_count = [take](std::int64_t count) { take(count > 0 ? "true" : "false"); };
-      command.add_flag_function(name, take_count, setting.help)->group(group);
+      command.add_flag(name, setting.help)->group(group)->each(take);
       continue;
     }
     const char* type = setting.kind == SettingKind::text      ? "TEXT"
