@@ -4,7 +4,6 @@
 
 #include <random>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "crt/error.hpp"
@@ -55,16 +54,21 @@ Bytes with_right_checksums(const Bytes& content) {
   return to_bytes(text);
 }
 
+struct NamedFile {
+  std::string name;
+  Bytes content;
+};
+
 /// A sound file of every format that can be read.
-std::vector<std::pair<std::string, Bytes>> sound_files() {
+std::vector<NamedFile> sound_files() {
   const TemporaryDirectory directory;
-  std::vector<std::pair<std::string, Bytes>> files;
+  std::vector<NamedFile> files;
   for (const char* name : {"a.png", "a.tif", "a.jpg", "a.bmp", "a.ppm", "a.exr", "a.hdr"}) {
     smooth_picture(40, 70, std::string(name) == "a.png" || std::string(name) == "a.exr")
         .write(directory / name);
-    files.emplace_back(name, file_bytes(directory / name));
+    files.push_back({name, file_bytes(directory / name)});
   }
-  files.emplace_back("a.webp", webp_pixel());
+  files.push_back({"a.webp", webp_pixel()});
   return files;
 }
 
@@ -87,8 +91,9 @@ TEST_CASE("what is no image is an error that lists what can be read") {
 }
 
 TEST_CASE("a file of any format that is cut to half, or to its first bytes, is an error") {
-  for (const auto& [name, content] : sound_files()) {
-    CAPTURE(name);
+  for (const NamedFile& file : sound_files()) {
+    const Bytes& content = file.content;
+    CAPTURE(file.name);
     CHECK(decode_error(content).empty());
     for (const std::size_t length :
          {content.size() / 2, content.size() * 3 / 4, std::size_t{16}, std::size_t{9}}) {
@@ -111,6 +116,43 @@ TEST_CASE("a PNG with a wrong checksum, a nameless chunk or no end is refused") 
   CHECK(contains(decode_error(damaged), "no proper name"));
   constexpr std::size_t end_chunk_size = 12;
   CHECK(contains(decode_error({sound.begin(), sound.end() - end_chunk_size}), "cut short"));
+}
+
+TEST_CASE("an EXR header that claims what no file of its length can hold is refused") {
+  const TemporaryDirectory directory;
+  smooth_picture(40, 70).write(directory / "a.exr");
+  const Bytes sound = file_bytes(directory / "a.exr");
+  const std::string text = file_text(directory / "a.exr");
+  // The name and type of the attribute with their zeros, its size, then the corner that is nearest to 0.
+  const std::size_t far_corner = text.find("dataWindow") + 11 + 6 + 4 + 8;
+  for (const std::size_t coordinate : {far_corner, far_corner + 4}) {
+    for (const int most : {0x7f, 0xff}) {
+      Bytes damaged = sound;
+      damaged[coordinate + 3] = static_cast<std::byte>(most);
+      CHECK(contains(decode_error(damaged), "impossible size"));
+    }
+  }
+}
+
+TEST_CASE("metadata of any kind and damage to it do not matter for the pixels") {
+  const TemporaryDirectory directory;
+  Image image = smooth_picture(16, 16);
+  Settings settings;
+  settings.notes = std::string(300, 'n');
+  image.set_settings(settings);
+  for (const char* name : {"a.png", "a.tif", "a.jpg"}) {
+    CAPTURE(name);
+    image.write(directory / name);
+    const Bytes sound = file_bytes(directory / name);
+    const std::string text = file_text(directory / name);
+    Bytes damaged = sound;
+    for (std::size_t at = text.find("nnnn"); at != std::string::npos; at = text.find("nnnn", at + 300)) {
+      for (std::size_t i = 0; i < 200; ++i) damaged[at + i] = std::byte{0x1c};
+    }
+    if (std::string(name) == "a.png") damaged = with_right_checksums(damaged);
+    REQUIRE(damaged != sound);
+    CHECK(Image::decode(damaged, name).to_rgba8() == Image::decode(sound, name).to_rgba8());
+  }
 }
 
 TEST_CASE("a run-length encoded BMP is refused") {

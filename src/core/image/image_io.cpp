@@ -5,8 +5,9 @@
 #include <new>
 #include <optional>
 #include <string>
+#include <utility>
 
-#include "core/image/file_check.hpp"
+#include "core/image/essential_bytes.hpp"
 #include "core/image/file_format.hpp"
 #include "core/image/file_texts.hpp"
 #include "core/image/image_limits.hpp"
@@ -57,14 +58,22 @@ struct Failure {
   }
 };
 
-Image decode_content(std::span<const std::byte> content, const std::string& name) {
+/// What of the file its pixels need.
+FileBytes checked(const char* format, FileBytes content, const std::string& name) {
+  try {
+    return essential_bytes(format, std::move(content));
+  } catch (const RefusedFile& refusal) {
+    fail(ErrorCode::io, "read", name, refusal.what());
+  }
+}
+
+Image decode_content(FileBytes content, const std::string& name) {
   const char* const format = format_of_content(content);
   if (format == nullptr) {
     fail(ErrorCode::io, "read", name,
          content.empty() ? "it is empty" : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
   }
-  const std::string refusal = reason_to_refuse(format, content);
-  if (!refusal.empty()) fail(ErrorCode::io, "read", name, refusal);
+  const FileBytes essential = checked(format, std::move(content), name);
   std::optional<Image> image;
   const ImageFilesPicture picture = {
       &image, [](void* context, int width, int height, bool integer) -> float* {
@@ -76,8 +85,8 @@ Image decode_content(std::span<const std::byte> content, const std::string& name
           return nullptr;
         }
       }};
-  const ImageFilesContent file = {format, reinterpret_cast<const unsigned char*>(content.data()),
-                                  content.size(), max_image_pixels};
+  const ImageFilesContent file = {format, reinterpret_cast<const unsigned char*>(essential.data()),
+                                  essential.size(), max_image_pixels};
   Failure failure;
   const ImageFilesError error = failure.sink();
   failure.throw_if(image_files().decode(&file, &picture, &error), "read", name);
@@ -131,7 +140,7 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
 
 Image Image::decode(std::span<const std::byte> content, const std::string& name) {
   try {
-    return decode_content(content, name);
+    return decode_content(FileBytes(content.begin(), content.end()), name);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "read", name, "out of memory");
   }

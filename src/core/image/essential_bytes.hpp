@@ -1,0 +1,36 @@
+// What of an image file its pixels need. The libraries behind OpenImageIO are good at pixels and
+// less so at the rest: OpenImageIO 2.4 reads beyond its memory for some IPTC records (which JPEG and
+// TIFF files carry) and run-length encoded BMP files, and the PNG library prints its complaints to
+// the standard error output, and the EXR library makes room for whatever a header claims. So they
+// get no metadata, and no file that is cut short or whose structure is broken.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <stdexcept>
+#include <string_view>
+#include <vector>
+
+namespace crt::core {
+
+using FileBytes = std::vector<std::byte>;
+using FileView = std::span<const std::byte>;
+
+/// Why a file is refused, as in "cannot read 'a.png': ...".
+class RefusedFile : public std::runtime_error {
+ public:
+  using std::runtime_error::runtime_error;
+};
+
+/// The file of the given format (see format_of_content) without all that its pixels do not need.
+FileBytes essential_bytes(std::string_view format, FileBytes content);
+
+// The formats that something is left out of, or refused of. Each takes a file that begins with the
+// signature of its format.
+FileBytes essential_png(FileView content);
+FileBytes essential_jpeg(FileView content);
+FileBytes essential_tiff(FileBytes content);
+void check_exr(FileView content);
+void check_bmp(FileView content);
+
+}  // namespace crt::core

@@ -1,0 +1,83 @@
+// Source: W3C, Portable Network Graphics, 2nd edition, chapter 5 (chunks) and annex D (their sums).
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "core/image/byte_order.hpp"
+#include "core/image/essential_bytes.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr std::array<std::uint32_t, 256> make_crc_table() {
+  constexpr std::uint32_t polynomial = 0xedb88320u;
+  std::array<std::uint32_t, 256> table{};
+  for (std::uint32_t byte = 0; byte < table.size(); ++byte) {
+    std::uint32_t crc = byte;
+    for (int bit = 0; bit < 8; ++bit) crc = crc >> 1 ^ ((crc & 1) != 0 ? polynomial : 0);
+    table[byte] = crc;
+  }
+  return table;
+}
+
+std::uint32_t crc32(FileView bytes) {
+  static constexpr std::array<std::uint32_t, 256> table = make_crc_table();
+  std::uint32_t crc = 0xffffffffu;
+  for (const std::byte byte : bytes)
+    crc = table[(crc ^ std::to_integer<std::uint32_t>(byte)) & 0xff] ^ crc >> 8;
+  return ~crc;
+}
+
+bool is_letter(std::byte byte) {
+  const auto lower = std::to_integer<unsigned>(byte) | 0x20u;
+  return lower >= 'a' && lower <= 'z';
+}
+
+/// Chunks whose name begins with a capital may not be skipped by who does not know them.
+bool is_critical(const std::string& name) {
+  return name[0] >= 'A' && name[0] <= 'Z';
+}
+
+bool is_needed(const std::string& name) {
+  constexpr std::array<std::string_view, 5> needed = {"IHDR", "PLTE", "tRNS", "IDAT", "IEND"};
+  return std::find(needed.begin(), needed.end(), name) != needed.end();
+}
+
+}  // namespace
+
+FileBytes essential_png(FileView content) {
+  constexpr std::size_t signature_size = 8;
+  constexpr std::size_t length_size = 4;
+  constexpr std::size_t name_size = 4;
+  constexpr std::size_t frame_size = length_size + name_size + 4;  // the last is the checksum
+  const FileView signature = content.first(std::min(signature_size, content.size()));
+  FileBytes result(signature.begin(), signature.end());
+  FileView rest = content.subspan(signature.size());
+  while (rest.size() >= frame_size) {
+    const std::size_t length = big_endian(rest.first(length_size));
+    if (length > rest.size() - frame_size) break;
+    const FileView chunk = rest.first(frame_size + length);
+    const FileView summed = chunk.subspan(length_size, name_size + length);
+    if (!std::all_of(summed.begin(), summed.begin() + name_size, is_letter)) {
+      throw RefusedFile("it is damaged: a chunk has no proper name");
+    }
+    const std::string name(reinterpret_cast<const char*>(summed.data()), name_size);
+    if (crc32(summed) != big_endian(chunk.last(4))) {
+      throw RefusedFile(fmt::format("it is damaged: the checksum of its chunk {} is wrong", name));
+    }
+    if (is_needed(name)) {
+      result.insert(result.end(), chunk.begin(), chunk.end());
+    } else if (is_critical(name)) {
+      throw RefusedFile(fmt::format("its chunk {} is not known", name));
+    }
+    if (name == "IEND") return result;
+    rest = rest.subspan(chunk.size());
+  }
+  throw RefusedFile("it is cut short");
+}
+
+}  // namespace crt::core
