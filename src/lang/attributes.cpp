@@ -73,7 +73,7 @@ void convert(const Given& given, Context&, double& field) {
 void convert(const Given& given, Context&, int& field) {
   const std::int64_t number = get<std::int64_t>(given);
   constexpr std::int64_t most = std::numeric_limits<int>::max();
-  if (number > most || number < -most) fail(given, fmt::format("must be between {} and {}", -most, most));
+  if (number > most || number < -most) fail(given, fmt::format("is far out of range (it is {})", number));
   field = static_cast<int>(number);
 }
 

@@ -32,7 +32,9 @@ class Checker {
       const std::string_view name = symbols_.name(attribute.name.symbol);
       attribute.index = find_attribute(type, name);
       if (attribute.index == type.attributes.size()) {
-        unknown_attribute(type, attribute.name.span, name);
+        // The attribute that was meant is not missing.
+        const std::size_t meant = unknown_attribute(type, attribute.name.span, name);
+        if (meant < given.size()) given[meant] = true;
       } else if (given[attribute.index]) {
         reporter_.error(attribute.name.span, fmt::format("the attribute '{}' is given twice", name));
       } else {
@@ -50,7 +52,8 @@ class Checker {
   }
 
  private:
-  void unknown_attribute(const ObjectType& type, Span span, std::string_view name) {
+  /// The number of the attribute that was most likely meant; that of all attributes if none was.
+  std::size_t unknown_attribute(const ObjectType& type, Span span, std::string_view name) {
     std::vector<std::string_view> names;
     std::vector<std::string> listed;
     for (const AttributeType& attribute : type.attributes) {
@@ -60,6 +63,7 @@ class Checker {
     std::string hint = did_you_mean(name, names);
     if (hint.empty()) hint = fmt::format("; {} has {}", type.name, enumerate(listed, "and"));
     reporter_.error(span, fmt::format("unknown attribute '{}'{}", name, hint));
+    return find_attribute(type, nearest(name, names));
   }
 
   const SymbolTable& symbols_;

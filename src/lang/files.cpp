@@ -132,8 +132,7 @@ std::shared_ptr<const Image> Files::image(const std::string& name, const fs::pat
   if (!image) {
     try {
       image = std::make_shared<const Image>(
-          found.content ? Image::decode(*found.content, found.path.filename().string())
-                        : Image::read(found.path));
+          found.content ? Image::decode(*found.content, found.shown.string()) : Image::read(found.shown));
     } catch (const Error& error) {
       throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
     }

@@ -39,6 +39,8 @@ class Lexer {
   Grammar::symbol_type opening(Grammar::token::token_kind_type kind);
   Grammar::symbol_type closing(Grammar::token::token_kind_type kind, char opening_bracket);
   Grammar::symbol_type word();
+  Grammar::symbol_type wrong_word();
+  Grammar::symbol_type single_quoted();
   Grammar::symbol_type whole_number();
   Grammar::symbol_type decimal_number();
   Grammar::symbol_type string();

@@ -83,6 +83,7 @@ Grammar::symbol_type Lexer::next() {
 
       digits = [0-9]+;
       exponent = [eE] [+-]? digits;
+      other_letter = [\u00C0-\u1FFF\u3040-\uD7FF\uF900-\uFAFF];
 
       $        { return sign(Token::END); }
       *        { not_utf8(); continue; }
@@ -91,10 +92,14 @@ Grammar::symbol_type Lexer::next() {
       "\r\n" | "\n" | "\r"     { first_on_line_ = true; continue; }
 
       [a-zA-Z] [A-Za-z0-9_]*   { return word(); }
+      // What is meant as a name, if with letters that names do not have.
+      ([A-Za-z0-9_] | other_letter)* ([_] | other_letter) ([A-Za-z0-9_] | other_letter)*
+                               { return wrong_word(); }
       digits                   { return whole_number(); }
       digits "." digits? exponent? | "." digits exponent? | digits exponent
                                { return decimal_number(); }
       "\""                     { return string(); }
+      "'" [^'"\r\n]* "'"        { return single_quoted(); }
 
       "{"      { return opening(Token::LEFT_BRACE); }
       "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS : Token::LEFT_PARENTHESIS); }
@@ -162,6 +167,20 @@ Grammar::symbol_type Lexer::word() {
   return Grammar::make_OBJECT_NAME(symbols_.intern(name), token_span());
 }
 
+Grammar::symbol_type Lexer::wrong_word() {
+  const bool only_begins_wrong = std::all_of(token_, cursor_, is_word_byte);
+  reporter_.error(token_span(), only_begins_wrong ? "names begin with a letter"
+                                                  : "names consist of the letters a to z and A to Z, digits and '_'");
+  first_on_line_ = false;
+  return Grammar::make_IDENTIFIER(symbols_.intern(token_text()), token_span());
+}
+
+Grammar::symbol_type Lexer::single_quoted() {
+  reporter_.error(token_span(), "strings stand in double quotes");
+  first_on_line_ = false;
+  return Grammar::make_STRING(std::string(), token_span());
+}
+
 void Lexer::skip_comment() {
   // What a comment holds is nobody's business, not even whether it is UTF-8.
   while (cursor_ < limit_ && *cursor_ != '\n' && *cursor_ != '\r') ++cursor_;
@@ -200,7 +219,6 @@ void Lexer::unexpected_character() {
   const std::optional<char32_t> character = decode_utf8(token_text(), position);
   std::string message = "unexpected character " + describe_code_point(character.value_or(0));
   if (character == U';') message += "; nothing ends a statement here";
-  if (character == U'_') message += "; names begin with a letter";
   if (character == U'\'') message += "; strings stand in double quotes";
   if (character == U'#') message += "; comments begin with '--'";
   if (character == U'&') message += "; 'and' is '&&'";

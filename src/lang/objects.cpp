@@ -16,6 +16,26 @@ std::string without_style(std::string_view name) {
   return result;
 }
 
+bool is_name_byte(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+/// "must differ from corner_a" names another field as C++ does: that is turned into 'cornerA'.
+void name_other_field(std::string& message, std::span<const Given> attributes) {
+  constexpr std::string_view introduction = "must differ from ";
+  const std::size_t found = message.find(introduction);
+  if (found == std::string::npos) return;
+  const std::size_t begin = found + introduction.size();
+  std::size_t end = begin;
+  while (end < message.size() && is_name_byte(message[end])) ++end;
+  const std::string field = without_style(std::string_view(message).substr(begin, end - begin));
+  for (const Given& given : attributes) {
+    if (without_style(given.type->name) != field) continue;
+    message.replace(begin, end - begin, "'" + std::string(given.type->name) + "'");
+    return;
+  }
+}
+
 }  // namespace
 
 const ObjectType* find_object_type(std::string_view name) {
@@ -38,6 +58,7 @@ void blame(const Error& error, Span otherwise, std::span<const Given> attributes
     if (field.empty() || without_style(given.type->name) != field) continue;
     // The core's messages begin with the field's name in C++.
     if (message.starts_with(error.argument())) message.erase(0, error.argument().size());
+    name_other_field(message, attributes);
     message = "'" + std::string(given.type->name) + "'" +
               (given.type->rule.empty() ? message : " " + std::string(given.type->rule));
     throw Failure{.span = given.value_span, .message = std::move(message), .code = error.code()};

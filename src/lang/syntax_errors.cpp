@@ -78,7 +78,10 @@ std::vector<std::string> in_words(const std::vector<std::string>& expected) {
     words.emplace_back("an attribute");
     names.erase("a name");
   }
+  // In a list of modifiers '>' closes the list, and is no comparison.
+  const bool closes_modifiers = names.contains(">") && !names.contains("<");
   if (after_operand) erase(names, operators);
+  if (closes_modifiers) names.insert(">");
   for (const char* name : {"a whole number", "a number", "a string", "a name", "an object's name"})
     if (names.erase(name) > 0) words.emplace_back(name);
   if (names.erase("the end of the script") > 0 && words.empty() && names.empty() && !after_operand)
@@ -103,6 +106,15 @@ std::string TreeBuilder::describe_found(Span place, const std::string& found) co
   return "'" + text + "'";
 }
 
+/// Whether no syntax error was told of this line: what else is wrong there mostly follows from the first.
+bool TreeBuilder::is_first_on_line(Span place) {
+  const bool same_line =
+      last_error_ && lexer_.text({*last_error_, std::max(place.begin, *last_error_)}).find_first_of("\r\n") ==
+                         std::string_view::npos;
+  last_error_ = place.begin;
+  return !same_line;
+}
+
 void TreeBuilder::syntax_error(Span place, const std::string& found,
                                const std::vector<std::string>& expected) {
   const std::vector<std::string> words = in_words(expected);
@@ -116,6 +128,7 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
   } else if (!words.empty()) {
     message += "; expected " + enumerate(words);
   }
+  if (!is_first_on_line(place)) return;
   const std::vector<Span>& open = lexer_.open_brackets();
   if (found == "the end of the script" && !open.empty()) {
     const std::string_view bracket = lexer_.text(open.back());

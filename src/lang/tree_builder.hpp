@@ -2,6 +2,8 @@
 // syntax errors into words.
 #pragma once
 
+#include <cstdint>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -52,12 +54,14 @@ class TreeBuilder {
   Statement finish_statement(Statement statement);
   void check_height(Span span, int height);
   void charge(std::size_t bytes, Span span);
+  bool is_first_on_line(Span place);
   std::string describe_found(Span place, const std::string& found) const;
 
   const Lexer& lexer_;
   Reporter& reporter_;
   std::size_t& memory_left_;
   int depth_ = 0;
+  std::optional<std::uint32_t> last_error_;
   Script script_;
 };
 

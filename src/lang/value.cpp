@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <array>
+#include <cmath>
 
 namespace crt::lang {
 
@@ -25,7 +26,8 @@ std::string type_with_article(const Value& value) {
 }
 
 std::string float_text(double number) {
-  return fmt::format("{}", number);
+  // Which sign a NaN has is up to the machine.
+  return std::isnan(number) ? "nan" : fmt::format("{}", number);
 }
 
 }  // namespace crt::lang
