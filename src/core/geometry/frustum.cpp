@@ -179,19 +179,20 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
     other.error += line.to_t_length(start_error(side.c, side.a, side.b));
   }
   if (side.radius < 0) return clip_side_from_other_nappe(side, other, stretch);
-  const bool leaving = side.b > 0 || (side.b == 0 && side.a > 0);
-  const std::uint8_t leaving_root = side.a > 0 ? 1 : 0;
-  if (leaving) {
-    stretch.leave({.face = side_face, .root = leaving_root});
-    if (side.a > 0) stretch.enter(other);
+  if (side.a > 0) {
+    const bool leaving = side.b >= 0;
+    other.root = leaving ? 0 : 1;
+    const Crossing start{.face = side_face, .root = static_cast<std::uint8_t>(leaving ? 1 : 0)};
+    if (!leaving && ray.start.side == Side::outside) return stretch.clear();
+    stretch.enter(leaving ? other : start);
+    stretch.leave(leaving ? start : other);
     return;
   }
+  // Steeper than the side: on the way to the wider end the ray enters for good.
+  if (side.radius_rate < 0) return stretch.leave({.face = side_face});
   if (ray.start.side == Side::outside) return stretch.clear();
-  if (side.b == 0) return;
-  stretch.enter({.face = side_face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
-  if (side.a > 0) {
-    other.root = 1;
-    stretch.leave(other);
+  if (side.radius_rate > 0) {
+    stretch.enter({.face = side_face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
   }
 }
 

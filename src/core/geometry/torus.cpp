@@ -84,8 +84,11 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
       // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
       const double approach = std::abs(torus.half_slope(x)) / tube_;
       const double longest = (dip.leave - dip.enter) + grazing_error(line, reach, size);
-      const bool start = on_surface && x == 0;
-      const double error = start ? 0 : standard_error(line, t, reach, approach, longest);
+      if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
+      // A start that rounding has moved off the surface takes the whole level of G along.
+      const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
+      const double along = off_surface < longest * approach ? off_surface / approach : longest;
+      const double error = standard_error(line, t, reach, approach, longest) + line.to_t_length(along);
       return Crossing{.t = t, .error = error, .root = root++, .entering = entering};
     };
     const Crossing enter = crossing(dip.enter, true);

@@ -16,17 +16,20 @@ TorusLine::TorusLine(const Vec3& point, const Vec3& direction, double ring, doub
       passing_(std::abs(difference_of_products(point.x, direction.y, point.y, direction.x))),
       on_surface_(on_surface) {}
 
+double TorusLine::level(const Vec3& p) const {
+  const double outward = std::sqrt(p.x * p.x + p.y * p.y) - ring_;
+  return outward * outward - (tube_ - p.z) * (tube_ + p.z);
+}
+
 double TorusLine::value(double x) const {
   const Vec3 p = point_ + x * direction_;
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  if (on_surface_) {
-    const Vec3 sum = p + point_;
-    const double rho_sum = rho + std::sqrt(point_.x * point_.x + point_.y * point_.y);
-    const double lateral = sum.x * direction_.x + sum.y * direction_.y;
-    const double pull = rho_sum > 0 ? lateral - 2 * ring_ * (lateral / rho_sum) : 0;
-    return x * (pull + sum.z * direction_.z);
-  }
-  return (rho - ring_) * (rho - ring_) - (tube_ - p.z) * (tube_ + p.z);
+  if (!on_surface_) return level(p);
+  const Vec3 sum = p + point_;
+  const double rho_sum =
+      std::sqrt(p.x * p.x + p.y * p.y) + std::sqrt(point_.x * point_.x + point_.y * point_.y);
+  const double lateral = sum.x * direction_.x + sum.y * direction_.y;
+  const double pull = rho_sum > 0 ? lateral - 2 * ring_ * (lateral / rho_sum) : 0;
+  return x * (pull + sum.z * direction_.z);
 }
 
 double TorusLine::half_slope(double x) const {

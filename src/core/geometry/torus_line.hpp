@@ -26,15 +26,17 @@ class TorusLine {
   /// In ascending order. Ends at x = 0 are exactly 0 if the point is on the surface.
   Dips dips() const;
 
-  double value(double x) const;           ///< G
-  double half_slope(double x) const;      ///< G' / 2
-  double half_curvature(double x) const;  ///< G'' / 2
+  double value(double x) const;  ///< G; less what it is at x = 0, if the point is on the surface
+  double level_at_start() const { return level(point_); }  ///< what G is at x = 0 all the same, by rounding
+  double half_slope(double x) const;                       ///< G' / 2
+  double half_curvature(double x) const;                   ///< G'' / 2
 
  private:
   struct Range {
     double low;
     double high;
   };
+  double level(const Vec3& p) const;
   std::optional<Range> range() const;
   Range concave_part(const Range& range) const;
   std::optional<double> find_sign(double low, double high, double sign) const;
