@@ -23,7 +23,8 @@ enum class PanoramaProjection {
   cylindrical,  ///< the full turn across, a cylinder of height 2 pi h/w up and down; its edge beyond that
 };
 
-/// A picture all around.
+/// A picture all around: its middle column is straight ahead (+z) and its right half to the right
+/// (+x) at angle 0.
 struct PanoramaBackground {
   std::shared_ptr<const Image> image{};
   PanoramaProjection projection = PanoramaProjection::spherical;

@@ -69,7 +69,8 @@ struct Wood {
   Vec3 offset{0, 0, 0};
 };
 
-/// A picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v` times, bilinear.
+/// A picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v` times, bilinear;
+/// u = 0 is its left edge, v = 0 its lower one.
 struct ImageMap {
   std::shared_ptr<const Image> image{};
   double repeat_u = 1;
