@@ -177,6 +177,29 @@ TEST_CASE("a ray that leaves an inner solid is back in the outer one") {
   check_level(seen(scene, {0, 0, -5}, {0, 0, 0}), through + from_front + from_bubble, 2e-6);
 }
 
+TEST_CASE("a hollow cut into glass looks like a bubble of index 1 in it") {
+  Scene scene;
+  scene.settings.width = 40;
+  scene.settings.height = 40;
+  scene.settings.recursion_depth = 8;
+  scene.camera = {.position = {0, 0, -4}, .pointing = {0, 0, 0}};
+  scene.background = GradientBackground{};
+  const Sphere outer{.radius = 1, .material = glass(1.5)};
+  Sphere inner{.center = {0.2, 0.1, 0}, .radius = 0.6, .material = glass(1)};
+  scene.entities = {outer, inner};
+  const Image bubble = render(prepare(scene));
+  inner.material = glass(1.5);  // the cut is a surface of the glass
+  scene.entities = {Entity(outer) - Entity(inner)};
+  const Image hollow = render(prepare(scene));
+  for (int y = 0; y < 40; ++y) {
+    for (int x = 0; x < 40; ++x) {
+      CHECK(hollow.at(x, y).r == doctest::Approx(bubble.at(x, y).r).epsilon(1e-6));
+      CHECK(hollow.at(x, y).g == doctest::Approx(bubble.at(x, y).g).epsilon(1e-6));
+    }
+  }
+  CHECK(hollow.stats().refraction_rays == bubble.stats().refraction_rays);
+}
+
 TEST_CASE("solids that merely overlap are media one after the other") {
   // Index 1.5 for the whole way through both: no boundary inside reflects.
   const double f = straight_on_reflectance(1.5, 1);
