@@ -138,29 +138,30 @@ TEST_CASE("circle, uniform, line and gaussian have the moments of their formulas
 TEST_CASE("equal areas of every polygon and of the disc get equally many points") {
   // Sub-areas of equal size by construction: each of `wedges` equal wedges cut into `rings` parts of
   // equal area by scaled copies of the outline.
-  constexpr int rings = 4;
+  constexpr std::size_t rings = 4;
   for (const Polygon& polygon : polygons) {
     CAPTURE(polygon.name);
-    const int wedges = 2 * polygon.sides;  // by symmetry half a side each
-    std::vector<double> counts(static_cast<std::size_t>(wedges * rings), 0.0);
+    const auto wedges = 2 * static_cast<std::size_t>(polygon.sides);  // by symmetry half a side each
+    std::vector<double> counts(wedges * rings, 0.0);
     for_each_point(polygon.shape, [&](const LensPoint& p) {
       const double turn = (std::atan2(p.x, p.y) - polygon.first_corner) / (2 * pi);
-      const int wedge = static_cast<int>((turn - std::floor(turn)) * wedges) % wedges;
+      const std::size_t wedge =
+          static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(wedges)) % wedges;
       const double scale = 1 + beyond_sides(polygon, p) / std::cos(pi / polygon.sides);
-      const int ring = std::min(rings - 1, static_cast<int>(scale * scale * rings));
-      counts[static_cast<std::size_t>(wedge * rings + ring)] += 1;
+      const std::size_t ring = std::min(rings - 1, static_cast<std::size_t>(scale * scale * rings));
+      counts[wedge * rings + ring] += 1;
     });
-    const double expected = double{grid_side} * grid_side / (wedges * rings);
+    const double expected = double{grid_side} * grid_side / static_cast<double>(wedges * rings);
     for (const double count : counts) CHECK(count == doctest::Approx(expected).epsilon(0.02));
   }
 
-  constexpr int sectors = 12;
+  constexpr std::size_t sectors = 12;
   std::array<double, sectors * rings> counts{};
   for_each_point(ApertureShape::circle, [&](const LensPoint& p) {
     const double turn = std::atan2(p.y, p.x) / (2 * pi) + 0.5;
-    const int sector = std::min(sectors - 1, static_cast<int>(turn * sectors));
-    const int ring = std::min(rings - 1, static_cast<int>((p.x * p.x + p.y * p.y) * rings));
-    counts[static_cast<std::size_t>(sector * rings + ring)] += 1;
+    const std::size_t sector = std::min(sectors - 1, static_cast<std::size_t>(turn * sectors));
+    const std::size_t ring = std::min(rings - 1, static_cast<std::size_t>((p.x * p.x + p.y * p.y) * rings));
+    counts[sector * rings + ring] += 1;
   });
   const double expected = double{grid_side} * grid_side / (sectors * rings);
   for (const double count : counts) CHECK(count == doctest::Approx(expected).epsilon(0.02));

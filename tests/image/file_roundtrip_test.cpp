@@ -76,7 +76,7 @@ TEST_CASE("lossless 8-bit formats keep every level, with gamma applied once") {
     CHECK(read.display_encoded());
     CHECK(read.to_rgba8() == image.to_rgba8());
     CHECK(read.at(0, 0).g == 1);
-    CHECK(read.at(1, 1).r == double{static_cast<float>(image.to_rgba8()[4 * 257] / 255.0)});
+    CHECK(read.at(1, 1).r == double{static_cast<float>(image.to_rgba8()[std::size_t{4} * 257] / 255.0)});
   }
 }
 

@@ -150,7 +150,7 @@ TEST_CASE("no file tells the time of its writing") {
     // The form that all of these formats give a time of theirs: 2003:05:31 12:00:00, in any century.
     const std::string file = file_text(directory / name);
     bool found = false;
-    for (std::size_t colon = file.find(":"); colon != std::string::npos; colon = file.find(":", colon + 1)) {
+    for (std::size_t colon = file.find(':'); colon != std::string::npos; colon = file.find(':', colon + 1)) {
       const auto digit = [&](std::size_t at) {
         return at < file.size() && file[at] >= '0' && file[at] <= '9';
       };

@@ -71,7 +71,7 @@ TEST_CASE("what is set is found at its place, rows from the top") {
   Image image(4, 3);
   image.set(1, 2, {0.25, 2, -1, 0.5});
   CHECK(image.at(1, 2) == Color{0.25, 2, -1, 0.5});
-  CHECK(image.pixels()[4 * (2 * 4 + 1)] == 0.25f);
+  CHECK(image.pixels()[std::size_t{4} * (2 * 4 + 1)] == 0.25f);
   CHECK(image.at(2, 1) == Color{0, 0, 0, 1});
 }
 

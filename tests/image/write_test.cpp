@@ -114,6 +114,7 @@ TEST_CASE("writing replaces what was there, leaves no other file, and takes odd 
 TEST_CASE("many threads may write at once, into one directory and to one file") {
   const TemporaryDirectory directory;
   std::vector<std::thread> threads;
+  threads.reserve(4);
   for (int thread = 0; thread < 4; ++thread) {
     threads.emplace_back([&, thread] {
       for (int i = 0; i < 10; ++i) {
