@@ -103,7 +103,9 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
   const Vec3 offset = ray.from_center(center_, crossing.t) * (1 / unit_);
   const double height = glm::dot(offset, frame_.along);
-  const Vec3 across = offset - height * frame_.along;
+  // Twice: the second time removes what the first one's rounding left along the axis.
+  Vec3 across = offset - height * frame_.along;
+  across -= glm::dot(across, frame_.along) * frame_.along;
   const Vec3 radial = largest_component(across) > 0 ? unit_vector(across) : frame_.zero;
   const double outward = glm::dot(across, radial) - ring_;
   const Vec3 from_ring = outward * radial + height * frame_.along;
