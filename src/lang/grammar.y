@@ -220,7 +220,10 @@ expressions:
 primary:
     open nest expression ")"                 { $$ = $3; }
   | literal                                  { $$ = $1; }
-  | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1}); }
+  | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1});
+                                               /* Bison keeps silent for three tokens after an error;
+                                                  errors on the next line are to be told all the same. */
+                                               if (tree.is_past_error(@1)) yyerrok; }
   | object                                   { $$ = $1; }
   | macro                                    { $$ = $1; }
   | list                                     { $$ = $1; }

@@ -25,6 +25,9 @@ class Lexer {
   /// The text of a piece of this source.
   std::string_view text(Span span) const;
 
+  /// Where the line ends that the span begins on.
+  std::uint32_t line_end(Span span) const;
+
   /// The brackets that are open now, outermost first.
   const std::vector<Span>& open_brackets() const { return open_brackets_; }
 

@@ -62,12 +62,17 @@ std::string_view Lexer::text(Span span) const {
   return std::string_view(source_.text).substr(span.begin - source_.base, span.end - span.begin);
 }
 
+std::uint32_t Lexer::line_end(Span span) const {
+  const std::size_t end = source_.text.find_first_of("\r\n", span.begin - source_.base);
+  return source_.base + static_cast<std::uint32_t>(std::min(end, source_.text.size()));
+}
+
 std::string_view Lexer::token_text() const { return text(token_span()); }
 
 Grammar::symbol_type Lexer::next() {
   if (!std::exchange(started_, true)) {
     token_ = cursor_;
-    return sign(start_);
+    return Grammar::symbol_type(start_, token_span());
   }
   for (;;) {
     token_ = cursor_;

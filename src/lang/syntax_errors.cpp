@@ -106,13 +106,10 @@ std::string TreeBuilder::describe_found(Span place, const std::string& found) co
   return "'" + text + "'";
 }
 
-/// Whether no syntax error was told of this line: what else is wrong there mostly follows from the first.
-bool TreeBuilder::is_first_on_line(Span place) {
-  const bool same_line =
-      last_error_ && lexer_.text({*last_error_, std::max(place.begin, *last_error_)}).find_first_of("\r\n") ==
-                         std::string_view::npos;
-  last_error_ = place.begin;
-  return !same_line;
+/// Whether `place` is on a later line than the last syntax error. What else is wrong on the same line
+/// mostly follows from the first error.
+bool TreeBuilder::is_past_error(Span place) const {
+  return !last_error_line_end_ || place.begin > *last_error_line_end_;
 }
 
 void TreeBuilder::syntax_error(Span place, const std::string& found,
@@ -128,7 +125,8 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
   } else if (!words.empty()) {
     message += "; expected " + enumerate(words);
   }
-  if (!is_first_on_line(place)) return;
+  if (!is_past_error(place)) return;
+  last_error_line_end_ = lexer_.line_end(place);
   const std::vector<Span>& open = lexer_.open_brackets();
   if (found == "the end of the script" && !open.empty()) {
     const std::string_view bracket = lexer_.text(open.back());

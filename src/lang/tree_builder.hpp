@@ -48,20 +48,20 @@ class TreeBuilder {
   void finish(Block statements) { script_.statements = std::move(statements); }
   void finish(const Expression* expression) { script_.expression = expression; }
 
+  bool is_past_error(Span place) const;
   void syntax_error(Span place, const std::string& found, const std::vector<std::string>& expected);
 
  private:
   Statement finish_statement(Statement statement);
   void check_height(Span span, int height);
   void charge(std::size_t bytes, Span span);
-  bool is_first_on_line(Span place);
   std::string describe_found(Span place, const std::string& found) const;
 
   const Lexer& lexer_;
   Reporter& reporter_;
   std::size_t& memory_left_;
   int depth_ = 0;
-  std::optional<std::uint32_t> last_error_;
+  std::optional<std::uint32_t> last_error_line_end_;
   Script script_;
 };
 

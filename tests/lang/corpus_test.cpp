@@ -36,7 +36,8 @@ std::vector<std::string> expectations(const fs::path& script) {
   std::vector<std::string> lines;
   std::ifstream file(script, std::ios::binary);
   for (std::string line; std::getline(file, line);) {
-    for (const char* kind : {"-- prints: ", "-- error ", "-- warning ", "-- in ", "-- and ", "-- entities: "}) {
+    for (const char* kind :
+         {"-- prints: ", "-- error ", "-- warning ", "-- in ", "-- and ", "-- entities: "}) {
       if (line.starts_with(kind)) lines.push_back(line);
     }
   }
@@ -56,9 +57,9 @@ void describe(const crt::Diagnostic& diagnostic, const fs::path& script, std::ve
   const crt::SourcePlace& place = diagnostic.place;
   const std::string file =
       place.file == script.string() ? "" : without_folder(place.file, script.parent_path()) + ":";
-  lines.push_back(fmt::format("-- {} {}{}:{}: {}",
-                              diagnostic.severity == crt::Severity::error ? "error" : "warning", file, place.line,
-                              place.column, without_folder(diagnostic.message, script.parent_path())));
+  lines.push_back(
+      fmt::format("-- {} {}{}:{}: {}", diagnostic.severity == crt::Severity::error ? "error" : "warning",
+                  file, place.line, place.column, without_folder(diagnostic.message, script.parent_path())));
   for (std::size_t i = 0; i < std::min(diagnostic.calls.size(), most_calls); ++i) {
     const auto& [name, call] = diagnostic.calls[i];
     lines.push_back(fmt::format("-- in {} {}:{}", name, call.line, call.column));

@@ -1,0 +1,150 @@
+// The lexer alone: tokens, their places, and what it says of text that is none.
+#include "lang/lexer.hpp"
+
+#include <doctest/doctest.h>
+
+#include <string>
+#include <vector>
+
+namespace {
+
+using crt::lang::Grammar;
+using crt::lang::Span;
+using Kind = Grammar::symbol_kind;
+
+struct Lexed {
+  std::vector<Grammar::symbol_kind_type> kinds;
+  std::vector<Span> spans;
+  std::vector<std::string> errors;
+};
+
+Lexed lex(const std::string& text) {
+  crt::lang::SourceMap sources;
+  crt::lang::SymbolTable symbols;
+  crt::lang::Reporter reporter(sources, 100);
+  crt::lang::Lexer lexer(sources.add("test", text), crt::lang::TextKind::script, symbols, reporter);
+  Lexed result;
+  CHECK(lexer.next().kind() == Kind::S_START_SCRIPT);
+  for (;;) {
+    const Grammar::symbol_type token = lexer.next();
+    if (token.kind() == Kind::S_YYEOF) break;
+    result.kinds.push_back(token.kind());
+    result.spans.push_back(token.location);
+  }
+  for (const crt::Diagnostic& diagnostic : reporter.diagnostics())
+    result.errors.push_back(diagnostic.message);
+  return result;
+}
+
+std::vector<Grammar::symbol_kind_type> kinds(const std::string& text) {
+  return lex(text).kinds;
+}
+
+using Kinds = std::vector<Grammar::symbol_kind_type>;
+
+}  // namespace
+
+TEST_CASE("signs are read as long as they go") {
+  CHECK(kinds("< <= = == ! != && || -> - > >=") ==
+        Kinds{Kind::S_LESS, Kind::S_LESS_EQUAL, Kind::S_ASSIGN, Kind::S_EQUAL, Kind::S_NOT, Kind::S_NOT_EQUAL,
+              Kind::S_AND, Kind::S_OR, Kind::S_ARROW, Kind::S_MINUS, Kind::S_GREATER, Kind::S_GREATER_EQUAL});
+  CHECK(kinds("a->b") == Kinds{Kind::S_IDENTIFIER, Kind::S_ARROW, Kind::S_IDENTIFIER});
+}
+
+TEST_CASE("two dashes begin a comment, whatever follows") {
+  CHECK(kinds("1 --> 2\n3").size() == 2);
+  CHECK(kinds("a--b").size() == 1);
+  CHECK(kinds("--").empty());
+  CHECK(kinds("----\n----").empty());
+}
+
+TEST_CASE("all three kinds of line ends end a comment and a line") {
+  for (const char* end : {"\n", "\r\n", "\r"}) {
+    const Kinds found = kinds(std::string("a -- comment") + end + "(b");
+    CHECK(found == Kinds{Kind::S_IDENTIFIER, Kind::S_FIRST_PARENTHESIS, Kind::S_IDENTIFIER});
+  }
+}
+
+TEST_CASE("only a bracket that is first on its line is another token") {
+  CHECK(kinds("( (") == Kinds{Kind::S_FIRST_PARENTHESIS, Kind::S_LEFT_PARENTHESIS});
+  CHECK(kinds("a( [") == Kinds{Kind::S_IDENTIFIER, Kind::S_LEFT_PARENTHESIS, Kind::S_LEFT_BRACKET});
+  CHECK(kinds("a\n \t [") == Kinds{Kind::S_IDENTIFIER, Kind::S_FIRST_BRACKET});
+  CHECK(kinds("3\n(")[1] == Kind::S_FIRST_PARENTHESIS);
+  CHECK(kinds("\"s\" [")[1] == Kind::S_LEFT_BRACKET);
+  CHECK(kinds("1.5 [")[1] == Kind::S_LEFT_BRACKET);
+}
+
+TEST_CASE("a '<' before scale, translate or rotate begins modifiers") {
+  for (const char* word : {"scale", "translate", "rotate"}) {
+    CHECK(kinds(std::string("<") + word)[0] == Kind::S_MODIFIER_START);
+    CHECK(kinds(std::string("< -- comment\n\t") + word)[0] == Kind::S_MODIFIER_START);
+    CHECK(kinds(std::string("<") + word + "d")[0] == Kind::S_LESS);
+    CHECK(kinds(std::string("<") + word + "_2")[0] == Kind::S_LESS);
+    CHECK(kinds(std::string("<=") + word)[0] == Kind::S_LESS_EQUAL);
+  }
+  CHECK(kinds("<")[0] == Kind::S_LESS);
+}
+
+TEST_CASE("before an arrow every keyword is the name of an attribute") {
+  for (const char* word : {"Settings", "Scene", "Macro", "scale", "translate", "rotate", "true", "false",
+                           "while", "if", "else", "for", "in", "import"}) {
+    CHECK(kinds(std::string(word) + "->")[0] == Kind::S_IDENTIFIER);
+    CHECK(kinds(std::string(word) + " -- comment\n ->")[0] == Kind::S_IDENTIFIER);
+    CHECK(kinds(word)[0] != Kind::S_IDENTIFIER);
+    CHECK(kinds(std::string(word) + " - >")[0] != Kind::S_IDENTIFIER);
+  }
+}
+
+TEST_CASE("names of objects begin with a capital") {
+  CHECK(kinds("Sphere sphere sceneX Scenery") ==
+        Kinds{Kind::S_OBJECT_NAME, Kind::S_IDENTIFIER, Kind::S_IDENTIFIER, Kind::S_OBJECT_NAME});
+}
+
+TEST_CASE("numbers are Integers or Floats by how they are written") {
+  CHECK(kinds("0 7 1. .5 1.5 1e3 1.e-3 .5E+2 007") == Kinds{Kind::S_INTEGER, Kind::S_INTEGER, Kind::S_FLOAT,
+                                                            Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_FLOAT,
+                                                            Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_INTEGER});
+  CHECK(kinds("1.2.3").size() == 2);
+  CHECK(lex("9223372036854775807").errors.empty());
+  CHECK(lex("9223372036854775808").errors.size() == 1);
+  CHECK(lex("1e308").errors.empty());
+  CHECK(lex("1e309").errors.size() == 1);
+  CHECK(lex("1e").errors.size() == 1);
+}
+
+TEST_CASE("spans are bytes of the text") {
+  const Lexed result = lex("ab = \"é\"\n>=");
+  REQUIRE(result.spans.size() == 4);
+  CHECK(result.spans[0] == Span{0, 2});
+  CHECK(result.spans[1] == Span{3, 4});
+  CHECK(result.spans[2] == Span{5, 9});
+  CHECK(result.spans[3] == Span{10, 12});
+}
+
+TEST_CASE("bytes that are no token are told and passed over") {
+  CHECK(lex("a ; b").kinds.size() == 2);
+  CHECK(lex("a ; b").errors.size() == 1);
+  CHECK(lex("a \xff b").kinds.size() == 2);
+  CHECK(lex("a \xff b").errors ==
+        std::vector<std::string>{"this byte is not UTF-8, the encoding of scripts"});
+  CHECK(lex(std::string("a \0 b", 5)).errors == std::vector<std::string>{"unexpected character U+0000"});
+  CHECK(lex(std::string("a \0 b", 5)).kinds.size() == 2);
+}
+
+TEST_CASE("what is no UTF-8 is told in strings, but not in comments") {
+  // A lone continuation, an overlong slash, a surrogate, beyond U+10FFFF, a character cut short.
+  for (const char* wrong : {"\x80", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82"}) {
+    CHECK_FALSE(lex(std::string("\"") + wrong + "\"").errors.empty());
+    CHECK(lex(std::string("-- ") + wrong + "\n").errors.empty());
+  }
+  CHECK(lex("\"\xf4\x8f\xbf\xbf\xe2\x82\xac\"").errors.empty());
+}
+
+TEST_CASE("strings end on their line") {
+  CHECK(lex("\"abc").errors.size() == 1);
+  CHECK(lex("\"abc\ndef\"").errors.size() == 2);
+  CHECK(lex("\"abc\\").errors.size() == 1);
+  CHECK(lex("\"\\").errors.size() == 1);
+  CHECK(lex("\"\\u12\"").errors.size() == 1);
+  CHECK(lex("\"\\ud83d\\u0041\"").errors.size() == 1);
+}

@@ -1,0 +1,230 @@
+// No script hangs or exhausts its host: every limit ends in an ordinary error that says where.
+#include <doctest/doctest.h>
+
+#include <pthread.h>
+
+#include <string>
+
+#include "run.hpp"
+
+namespace {
+
+using crt::ErrorCode;
+using crt::ScriptLimits;
+using crt::ScriptOptions;
+using crt::test::run;
+using crt::test::run_statements;
+
+const std::string ball = "ball = Sphere { center -> vec3(0, 0, 0) radius -> 1 }\n";
+
+ScriptOptions with(ScriptLimits limits) {
+  ScriptOptions options;
+  options.limits = limits;
+  return options;
+}
+
+/// Whether the script ends in one error of a limit whose message holds `words`.
+bool ends_in_limit(const std::string& text, const ScriptOptions& options, const std::string& words) {
+  const crt::test::Run result = run_statements(text, options);
+  if (!result.failed_with(ErrorCode::limit)) return false;
+  INFO(result.errors()[0].message);
+  const bool found = result.errors()[0].message.find(words) != std::string::npos;
+  CHECK(found);
+  return found;
+}
+
+/// Runs a function on a thread with a stack of a given size.
+template <class Function>
+void on_small_stack(std::size_t bytes, Function function) {
+  pthread_attr_t attributes;
+  REQUIRE(pthread_attr_init(&attributes) == 0);
+  REQUIRE(pthread_attr_setstacksize(&attributes, bytes) == 0);
+  pthread_t thread{};
+  const auto start = [](void* argument) -> void* {
+    (*static_cast<Function*>(argument))();
+    return nullptr;
+  };
+  REQUIRE(pthread_create(&thread, &attributes, start, &function) == 0);
+  REQUIRE(pthread_join(thread, nullptr) == 0);
+  pthread_attr_destroy(&attributes);
+}
+
+std::string repeated(const std::string& piece, int times) {
+  std::string text;
+  for (int i = 0; i < times; ++i) text += piece;
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("listing 2.1's own loop, which counts the wrong way, ends in an error that names it") {
+  const std::string listing = R"(sphere1 = Sphere {
+    center -> vec3(0, 0.5, 0)
+    radius -> 0.5
+}
+n = 18
+max = (3 * n) / 4 + 5
+myMacro = Macro (arg1) {
+    i = 0
+    while (i < max) {
+        sphere1 <translate vec3(i*1.0, 0.0, 0.0)>
+        i = i - 1
+    }
+}
+Scene { myMacro(1) }
+)";
+  const crt::test::Run result = run(listing);
+  REQUIRE(result.failed_with(ErrorCode::limit));
+  const crt::Diagnostic& error = result.result.diagnostics[0];
+  CHECK(error.message.find("in the loop 'while' at test.crt:9:5") != std::string::npos);
+  REQUIRE(error.calls.size() == 1);
+  CHECK(error.calls[0].first == "myMacro");
+  CHECK(error.calls[0].second.line == 14);
+}
+
+TEST_CASE("an endless loop is the one that goes round most, not what runs within it") {
+  const ScriptOptions options = with({.steps = 10'000});
+  CHECK(ends_in_limit("i = 0\nwhile (true) { for (j in range(3)) { i = i + j } }", options,
+                      "'while' at test.crt:2:1"));
+  CHECK(ends_in_limit("for (i in range(5)) { while (true) { i } }", options, "'while' at test.crt:1:23"));
+  CHECK(ends_in_limit("f = Macro () { while (true) { g() } }\ng = Macro () { 1 + 1 }\nf()", options,
+                      "'while' at test.crt:1:16"));
+}
+
+TEST_CASE("steps are counted to the one") {
+  // Four expressions: the assignment's sum and its operands, and the assignment itself.
+  const std::string text = "x = 1 + 2";
+  CHECK(run_statements(text, with({.steps = 4})).ok());
+  CHECK(ends_in_limit(text, with({.steps = 3}), "more than 3 steps"));
+}
+
+TEST_CASE("work within a step is paid for in steps") {
+  const ScriptOptions options = with({.steps = 100'000});
+  CHECK(ends_in_limit("s = \"x\" * 1000000\nwhile (true) { t2 = s + \"y\" }", options, "steps"));
+  CHECK(ends_in_limit("l = range(100000)\nwhile (true) { m = l + l }", options, "steps"));
+  CHECK(ends_in_limit("l = range(100000)\nwhile (true) { l == l }", options, "steps"));
+  CHECK(ends_in_limit("l = range(1000)\nwhile (true) { x = str(l) }", options, "steps"));
+  CHECK(ends_in_limit("s = \"x\" * 1000000\nwhile (true) { len(s) }", options, "steps"));
+  CHECK(ends_in_limit("l = range(100000)\nfor (i in l) { }", with({.steps = 50'000}), "'for'"));
+}
+
+TEST_CASE("macros call one another to a depth") {
+  const std::string recursion = "f = Macro (n) { if (n > 0) { f(n - 1) } }\n";
+  CHECK(run_statements(recursion + "f(99)", with({.call_depth = 100})).ok());
+  CHECK(
+      ends_in_limit(recursion + "f(100)", with({.call_depth = 100}), "more than 100 deep, in the call 'f'"));
+  CHECK(run_statements(recursion + "f(255)").ok());
+  CHECK(ends_in_limit(recursion + "f(256)", {}, "more than 256 deep"));
+  CHECK(ends_in_limit("f = Macro () { g() }\ng = Macro () { x = f() }\nf()", {}, "more than 256 deep"));
+}
+
+TEST_CASE("at all limits a script needs no more than about a megabyte of stack") {
+  // Half as much again, for what calls run_script() and for the standard library.
+  constexpr std::size_t stack_bytes = 3 << 19;
+  const std::string brackets = repeated("[", 90);
+  const std::string closed = repeated("]", 90);
+  const std::string deep_call = "f = Macro (n) { x = " + brackets + "f(n + 1)" + closed + " }\nf(0)";
+  const std::string deep_blocks =
+      "f = Macro (n) { " + repeated("if (true) { ", 90) + "f(n + 1)" + repeated("}", 90) + " }\nf(0)";
+  const std::string deep_text = "l = []\nfor (i in range(98)) { l = [l] }\nprint(l, l == l)";
+  const std::string deep_expression = "x = " + repeated("- ", 190) + "1";
+  on_small_stack(stack_bytes, [&] {
+    CHECK(run_statements(deep_call, with({.call_depth = 1000})).failed_with(ErrorCode::limit));
+    CHECK(run_statements(deep_blocks, with({.call_depth = 1000})).failed_with(ErrorCode::limit));
+    CHECK(run_statements("f = Macro (n) { f(n + 1) }\nf(0)", with({.call_depth = 1'000'000}))
+              .failed_with(ErrorCode::limit));
+    CHECK(run_statements(deep_text).ok());
+    CHECK(run_statements(deep_expression).ok());
+  });
+}
+
+TEST_CASE("long chains are worked off and freed without deep recursion") {
+  constexpr int many = 100'000;
+  constexpr std::size_t stack_bytes = 1 << 20;
+  std::string sum = "x = 1";
+  std::string both = "x = true";
+  std::string solid = ball + "x = ball";
+  for (int i = 0; i < many; ++i) {
+    sum += " + 1";
+    both += " && true";
+    solid += " + ball";
+  }
+  on_small_stack(stack_bytes, [&] {
+    CHECK(run_statements(sum + "\nprint(x)").printed == std::vector<std::string>{"100001"});
+    CHECK(run_statements(both).ok());
+    CHECK(run_statements(solid).ok());
+    // Chains that are made while it runs: macros that hold the scope of the last, entities of entities.
+    CHECK(run_statements("m = 0\nfor (i in range(100000)) { last = m\n m = Macro () { last } }").ok());
+    CHECK(run_statements(ball + "for (i in range(100000)) { ball = ball + ball2 }\n", {}).messages().size() ==
+          1);
+    CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum - ball }").ok());
+    CHECK(run_statements(ball + "for (i in range(100000)) { ball = ball <translate vec3(0, 0.5, 0)> }").ok());
+  });
+}
+
+TEST_CASE("strings and lists have a greatest size") {
+  CHECK(run_statements("x = \"ab\" * 50", with({.string_bytes = 100})).ok());
+  CHECK(ends_in_limit("x = \"ab\" * 51", with({.string_bytes = 100}), "a string of more than 100 bytes"));
+  CHECK(ends_in_limit("x = \"abc\" * 9223372036854775807", {}, "a string of more than"));
+  CHECK(ends_in_limit("s = \"x\"\nwhile (true) { s = s + s }", {}, "in the loop 'while'"));
+  CHECK(run_statements("x = range(10)", with({.list_length = 10})).ok());
+  CHECK(ends_in_limit("x = range(11)", with({.list_length = 10}), "a list of more than 10 items"));
+  CHECK(ends_in_limit("x = [1, 2, 3]", with({.list_length = 2}), "a list of more than 2 items"));
+  CHECK(ends_in_limit("x = [1] + [2, 3]", with({.list_length = 2}), "a list of more than 2 items"));
+  CHECK(ends_in_limit("x = range(-9223372036854775807, 9223372036854775807)", {}, "a list of more than"));
+  CHECK(ends_in_limit("x = range(0, 1, 1e-300)", {}, "a list of more than"));
+}
+
+TEST_CASE("strings and lists share a memory, and give it back") {
+  const ScriptOptions options = with({.memory_bytes = 1'000'000});
+  CHECK(ends_in_limit("l = []\nwhile (true) { l = l + [\"x\" * 1000] }", options,
+                      "need more than 1000000 bytes"));
+  CHECK(run_statements("for (i in range(5000)) { s = \"x\" * 10000 }", options).ok());
+  CHECK(run_statements("for (i in range(1000)) { l = range(1000) }", options).ok());
+  CHECK(ends_in_limit("for (i in range(100000)) { m = Macro () { } }", options,
+                      "need more than 1000000 bytes"));
+  CHECK(ends_in_limit("", with({.memory_bytes = 50}), "too long for the memory"));
+}
+
+TEST_CASE("entities are counted when they are made and when they are emitted") {
+  CHECK(ends_in_limit(ball + "for (i in range(100)) { ball <scale 2> }", with({.entities = 50}),
+                      "makes more than 50 entities, in the loop 'for'"));
+  const std::string eight = ball + "for (i in range(3)) { ball = ball + ball }\n";
+  CHECK(ends_in_limit(eight, with({.entities = 7}), "an entity of more than 7 primitives"));
+  CHECK(run(eight + "Scene { ball ball }", with({.entities = 16})).ok());
+  CHECK(run(eight + "Scene { ball ball }", with({.entities = 15})).failed_with(ErrorCode::limit));
+  CHECK(ends_in_limit(ball + "while (true) { ball = ball + ball }", {}, "in the loop 'while'"));
+  CHECK(ends_in_limit(ball + "f = Macro (b) { b b }\nwhile (true) { ball = f(ball) }", {},
+                      "in the loop 'while'"));
+}
+
+TEST_CASE("what is printed is bounded, too") {
+  CHECK(ends_in_limit("while (true) { print(\"0123456789\") }", with({.string_bytes = 1000}),
+                      "prints more than 1000 bytes"));
+}
+
+TEST_CASE("a script and its imports have a greatest size together") {
+  ScriptOptions options = with({.source_bytes = 100});
+  CHECK(run("Scene { }" + std::string(91, ' '), options).ok());
+  CHECK(run("Scene { }" + std::string(92, ' '), options).failed_with(ErrorCode::limit));
+  options.open_file = [](const std::filesystem::path&) { return std::vector<std::byte>(60, std::byte{' '}); };
+  CHECK(run_statements("import \"a\"", options).ok());
+  CHECK(run_statements("import \"a\"\nimport \"b\"", options).failed_with(ErrorCode::limit));
+}
+
+TEST_CASE("errors are told up to a number, warnings likewise") {
+  std::string text;
+  for (int i = 0; i < 50; ++i) text += "x" + std::to_string(i) + " = 1 / 0\n";
+  CHECK(run_statements(text, with({.errors = 7})).result.diagnostics.size() == 7);
+  CHECK(run_statements(text, with({.errors = 0})).result.diagnostics.size() == 1);
+  std::string warnings;
+  for (int i = 0; i < 50; ++i) warnings += "\"" + std::to_string(i) + "\"\n";
+  CHECK(run_statements(warnings, with({.errors = 7})).result.diagnostics.size() == 7);
+}
+
+TEST_CASE("a scope with many variables is searched in no time") {
+  std::string text = "f = Macro () {\n";
+  for (int i = 0; i < 5000; ++i) text += "v" + std::to_string(i) + " = " + std::to_string(i) + "\n";
+  text += "sum = 0\nfor (i in range(20000)) { sum = sum + v4999 }\nprint(sum)\n}\nf()";
+  CHECK(run_statements(text).printed == std::vector<std::string>{"99980000"});
+}
