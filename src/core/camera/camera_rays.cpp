@@ -1,23 +1,16 @@
 #include "core/camera/camera_rays.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+
+#include "core/math/direction_and_length.hpp"
 
 namespace crt::core {
 
 namespace {
 
-/// The same direction with length 1, for any vector but 0. Where the square of its length would
-/// overflow or lose bits the vector is first scaled by a power of two, which changes nothing else.
 Vec3 unit(const Vec3& v) {
-  constexpr double safe_square_min = 0x1p-900;
-  constexpr double safe_square_max = 0x1p+900;
-  const double square = glm::dot(v, v);
-  if (square > safe_square_min && square < safe_square_max) return v / std::sqrt(square);
-  const int exponent = std::ilogb(std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)}));
-  const Vec3 scaled(std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent));
-  return scaled / std::sqrt(glm::dot(scaled, scaled));
+  return direction_and_length(v).direction;
 }
 
 /// Where "up" comes from. Within a billionth of a radian of straight up or down the direction's

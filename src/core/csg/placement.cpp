@@ -1,8 +1,9 @@
 #include "core/csg/placement.hpp"
 
 #include <cmath>
-#include <glm/geometric.hpp>
 #include <limits>
+
+#include "core/math/vector.hpp"
 
 namespace crt::core {
 
@@ -80,11 +81,7 @@ Vec3 Placement::covector_to_world(const Vec3& object) const {
 }
 
 Vec3 Placement::normal_to_world(const Vec3& object) const {
-  if (kind_ != Kind::affine) return object;
-  const Vec3 covector = covector_to_world(object);
-  // Brought near 1 first, so that no square over- or underflows.
-  const double largest = std::max({std::abs(covector.x), std::abs(covector.y), std::abs(covector.z)});
-  return glm::normalize(covector * std::exp2(-std::ilogb(largest)));
+  return kind_ == Kind::affine ? unit_vector(covector_to_world(object)) : object;
 }
 
 Bounds Placement::bounds_to_world(const Bounds& object) const {

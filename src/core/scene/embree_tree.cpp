@@ -107,7 +107,12 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   total_.upper = total.upper + Vec3(std::ldexp(2 * box_margin, -exponent_));
 
   auto handles = std::make_unique<Handles>();
+#ifdef CRT_TASKS_THREADS
+  // Builds for ThreadSanitizer: it does not see how Embree's own threads agree.
+  handles->device = rtcNewDevice("threads=1");
+#else
   handles->device = rtcNewDevice(nullptr);
+#endif
   if (handles->device == nullptr) fail(rtcGetDeviceError(nullptr));
   handles->boxes.reserve(boxes.size());
   for (const Bounds& box : boxes) {

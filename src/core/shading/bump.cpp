@@ -3,7 +3,7 @@
 #include <cmath>
 #include <type_traits>
 
-#include "core/math/unit_vector.hpp"
+#include "core/math/direction_and_length.hpp"
 #include "core/shading/rgb.hpp"
 
 namespace crt::core {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "core/math/unit_vector.hpp"
+#include "core/math/direction_and_length.hpp"
 
 namespace crt::core {
 

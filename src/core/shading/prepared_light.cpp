@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/math/unit_vector.hpp"
+#include "core/math/direction_and_length.hpp"
 
 namespace crt::core {
 

@@ -6,7 +6,7 @@
 #include <numbers>
 #include <type_traits>
 
-#include "core/math/unit_vector.hpp"
+#include "core/math/direction_and_length.hpp"
 #include "core/shading/noise.hpp"
 #include "core/shading/rgb.hpp"
 
