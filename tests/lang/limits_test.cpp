@@ -155,8 +155,7 @@ TEST_CASE("long chains are worked off and freed without deep recursion") {
     CHECK(run_statements(solid).ok());
     // Chains that are made while it runs: macros that hold the scope of the last, entities of entities.
     CHECK(run_statements("m = 0\nfor (i in range(100000)) { last = m\n m = Macro () { last } }").ok());
-    CHECK(run_statements(ball + "for (i in range(100000)) { ball = ball + ball2 }\n", {}).messages().size() ==
-          1);
+    CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum + ball }").ok());
     CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum - ball }").ok());
     CHECK(run_statements(ball + "for (i in range(100000)) { ball = ball <translate vec3(0, 0.5, 0)> }").ok());
   });
