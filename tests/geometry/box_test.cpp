@@ -6,6 +6,7 @@
 #include <cmath>
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "geometry/oracle.hpp"
 
@@ -47,6 +48,20 @@ Subject random_box(Random& random) {
 core::CrossingList crossings(const Box& box, const core::ObjectRay& ray) {
   core::CrossingList result;
   core::make_shape(box)->crossings(ray, result);
+  return result;
+}
+
+/// One of each primitive that has a flat face, far from its rim, at height y.
+std::vector<Primitive> faces_across_y(double y) {
+  constexpr double wide = 1e9;
+  std::vector<Primitive> result;
+  result.emplace_back(Plane{.normal = {0, -0.7, 0}, .position = {3, y, -8}});
+  result.emplace_back(Box{.corner_a = {-wide, y, -wide}, .corner_b = {wide, y + 5, wide}});
+  result.emplace_back(HalfPlane{.normal = {0, 3, 0}, .position = {-wide, y, 0}});
+  result.emplace_back(Disc{.center = {0.1, y, 0.2}, .normal = {0, 1, 0}, .radius = wide});
+  result.emplace_back(Cylinder{.from = {0.3, y, 0}, .to = {0.3, y - 2, 0}, .radius = wide});
+  result.emplace_back(Cone{.from = {0.3, y, 0}, .to = {0.3, y + 2, 0}, .radius = wide, .radius2 = wide / 2});
+  result.emplace_back(Triangle{.a = {-wide, y, -wide}, .b = {3 * wide, y, -wide}, .c = {-wide, y, 3 * wide}});
   return result;
 }
 
@@ -124,14 +139,7 @@ TEST_CASE("box: faces across the axes have the same t in every primitive") {
     if (direction.y == 0) continue;
     const core::ObjectRay ray{.origin = target - direction * random.power_of_ten(-1, 5),
                               .direction = direction};
-    const Primitive primitives[] = {
-        Plane{.normal = {0, -0.7, 0}, .position = {3, y, -8}},
-        Box{.corner_a = {-1e9, y, -1e9}, .corner_b = {1e9, y + 5, 1e9}},
-        HalfPlane{.normal = {0, 3, 0}, .position = {-1e9, y, 0}},
-        Disc{.center = {0.1, y, 0.2}, .normal = {0, 1, 0}, .radius = 1e9},
-        Cylinder{.from = {0.3, y, 0}, .to = {0.3, y - 2, 0}, .radius = 1e9},
-        Cone{.from = {0.3, y, 0}, .to = {0.3, y + 2, 0}, .radius = 1e9, .radius2 = 0.5e9},
-        Triangle{.a = {-1e9, y, -1e9}, .b = {3e9, y, -1e9}, .c = {-1e9, y, 3e9}}};
+    const std::vector<Primitive> primitives = faces_across_y(y);
     core::CrossingList plane;
     core::make_shape(primitives[0])->crossings(ray, plane);
     REQUIRE(plane.size() == 1);
@@ -150,4 +158,18 @@ TEST_CASE("box: faces across the axes have the same t in every primitive") {
       REQUIRE(surface.position == Vec3(0, y, 0));
     }
   }
+}
+
+TEST_CASE("box: a ray that starts beside a face, on its plane, enters where it does") {
+  // On the plane of the top, on its side away from the box and on the other.
+  core::ObjectRay ray{.origin = {-3, 1, 0}, .direction = {1, -0.25, 0}};
+  ray.start = {.face = 3, .side = core::Side::inside, .on_face = false};
+  const auto found = crossings(Box{}, ray);
+  REQUIRE(found.size() == 2);
+  CHECK(found[0].t == 2);
+  CHECK(found[0].face == 0);
+  CHECK(found[1].t == 4);
+  ray.direction = {1, 0.25, 0};
+  ray.start.side = core::Side::outside;
+  CHECK(crossings(Box{}, ray).empty());
 }

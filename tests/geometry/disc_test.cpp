@@ -67,3 +67,20 @@ TEST_CASE("disc: angle and distance") {
   CHECK(point.v == 0.5);
   CHECK(shape->surface_point({.origin = {0, 5, 0}, .direction = {0, -1, 0}}, {.t = 5}).u == 0);
 }
+
+TEST_CASE("disc: a ray that starts on its plane, on something else, meets it at 0 or not at all") {
+  const auto shape = core::make_shape(Disc{.center = {1, 2, 3}, .normal = {1, 2, -1}});
+  for (const core::Side side : {core::Side::outside, core::Side::inside}) {
+    core::CrossingList list;
+    core::ObjectRay ray{.origin = {1.5, 2, 3.5}, .direction = {1, 1, 1}};
+    ray.start = {.face = 0, .side = side, .on_face = false};
+    shape->crossings(ray, list);
+    REQUIRE(list.size() == 1);
+    CHECK(list[0].t == 0);
+    CHECK(list[0].entering == (side == core::Side::inside));
+    ray.origin = {3, 2, 5};
+    list.clear();
+    shape->crossings(ray, list);
+    CHECK(list.empty());
+  }
+}

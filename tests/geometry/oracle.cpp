@@ -141,65 +141,6 @@ bool near_rim(const Subject& subject, const RealRay& ray, const std::vector<Real
 
 }  // namespace
 
-Real square_root(Real x) {
-  if (!(x > 0)) return 0;
-  Real root = std::sqrt(static_cast<double>(x));
-  for (int i = 0; i < 3; ++i) root = (root + x / root) / 2;
-  return root;
-}
-
-std::vector<Real> quadratic_roots(Real a, Real b, Real c) {
-  if (a == 0) return b == 0 ? std::vector<Real>{} : std::vector<Real>{-c / (2 * b)};
-  const Real discriminant = b * b - a * c;
-  if (discriminant < 0) return {};
-  const Real root = square_root(discriminant);
-  const Real sum = b >= 0 ? -(b + root) : root - b;
-  if (sum == 0) return {0};
-  return {sum / a, c / sum};
-}
-
-std::vector<Real> plane_roots(const RealRay& ray, const RealVec& normal, const RealVec& position) {
-  const Real rate = dot(normal, ray.direction);
-  if (rate == 0) return {};
-  return {dot(normal, position - ray.origin) / rate};
-}
-
-std::uint64_t Random::bits() {  // splitmix64
-  state_ += 0x9e3779b97f4a7c15u;
-  std::uint64_t z = state_;
-  z = (z ^ (z >> 30)) * 0xbf58476d1ce4e5b9u;
-  z = (z ^ (z >> 27)) * 0x94d049bb133111ebu;
-  return z ^ (z >> 31);
-}
-
-double Random::uniform(double low, double high) {
-  return low + (high - low) * (static_cast<double>(bits() >> 11) * 0x1p-53);
-}
-
-double Random::power_of_ten(double low, double high) {
-  return std::pow(10.0, uniform(low, high));
-}
-
-Vec3 Random::in_cube() {
-  const double x = uniform(-1, 1);
-  const double y = uniform(-1, 1);
-  const double z = uniform(-1, 1);
-  return {x, y, z};
-}
-
-Vec3 Random::direction() {
-  if (one_in(4)) {
-    Vec3 axis(0.0);
-    axis[static_cast<int>(bits() % 3)] = one_in(2) ? 1 : -1;
-    return axis;
-  }
-  for (;;) {
-    const Vec3 v = in_cube();
-    const double squared = v.x * v.x + v.y * v.y + v.z * v.z;
-    if (squared > 0.01 && squared <= 1) return v / std::sqrt(squared);
-  }
-}
-
 void check_against_oracle(const MakeSubject& make, int count) {
   Random random(1);
   int hits = 0;
@@ -430,63 +371,6 @@ void check_starts(const MakeSubject& make, int count, bool convex) {
   }
   // All but those within the surface (of a box, one in six), or next to an edge, have their start as a root.
   CHECK(exact >= starts - starts / 4);
-}
-
-namespace {
-
-Sphere times(Sphere s, double k) {
-  s.center *= k;
-  s.radius *= k;
-  return s;
-}
-Box times(Box s, double k) {
-  s.corner_a *= k;
-  s.corner_b *= k;
-  return s;
-}
-Plane times(Plane s, double k) {
-  s.position *= k;
-  return s;
-}
-HalfPlane times(HalfPlane s, double k) {
-  s.position *= k;
-  return s;
-}
-Cylinder times(Cylinder s, double k) {
-  s.from *= k;
-  s.to *= k;
-  s.radius *= k;
-  return s;
-}
-Cone times(Cone s, double k) {
-  s.from *= k;
-  s.to *= k;
-  s.radius *= k;
-  s.radius2 *= k;
-  return s;
-}
-Torus times(Torus s, double k) {
-  s.center *= k;
-  s.radius *= k;
-  s.thickness *= k;
-  return s;
-}
-Disc times(Disc s, double k) {
-  s.center *= k;
-  s.radius *= k;
-  return s;
-}
-Triangle times(Triangle s, double k) {
-  s.a *= k;
-  s.b *= k;
-  s.c *= k;
-  return s;
-}
-
-}  // namespace
-
-Primitive scaled(const Primitive& primitive, double factor) {
-  return std::visit([factor](const auto& p) -> Primitive { return times(p, factor); }, primitive);
 }
 
 }  // namespace crt::test
