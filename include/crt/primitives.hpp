@@ -82,7 +82,8 @@ struct Disc {
   std::optional<SharedMaterial> material{};
 };
 
-/// A surface: a flat triangle, which must have an area. (u, v): the weights of b and c.
+/// A surface: a flat triangle, which must have an area; its normal is along (b - a) x (c - a).
+/// (u, v): the weights of b and c.
 struct Triangle {
   Vec3 a{0, 0, 0};
   Vec3 b{1, 0, 0};
