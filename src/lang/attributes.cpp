@@ -7,23 +7,26 @@
 #include <limits>
 #include <utility>
 
+#include "lang/failure.hpp"
 #include "lang/suggestion.hpp"
 
 namespace crt::lang {
 
 namespace {
 
-[[noreturn]] void fail(const Given& given, const std::string& message) {
-  throw Failure{.span = given.value_span, .message = fmt::format("'{}' {}", given.type->name, message)};
+[[noreturn]] void reject(const Given& given, const std::string& message) {
+  fail(given.value_span, "'{}' {}", given.type->name, message);
 }
 
 [[noreturn]] void wrong_type(const Given& given) {
   const std::string_view wanted = given.type->type;
-  fail(given, fmt::format("must be {} {}, not {}", article(wanted), wanted, type_with_article(given.value)));
+  reject(given,
+         fmt::format("must be {} {}, not {}", article(wanted), wanted, type_with_article(given.value)));
 }
 
 void require_finite(const Given& given, double number) {
-  if (!std::isfinite(number)) fail(given, fmt::format("must be a finite number, not {}", float_text(number)));
+  if (!std::isfinite(number))
+    reject(given, fmt::format("must be a finite number, not {}", float_text(number)));
 }
 
 template <class Wanted>
@@ -49,7 +52,7 @@ void choose(const Given& given, const std::array<std::pair<std::string_view, Enu
   }
   const std::string_view meant = nearest(text, names);
   const std::string suggestion = meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant);
-  fail(given, fmt::format("must be {}{}", enumerate(quoted), suggestion));
+  reject(given, fmt::format("must be {}{}", enumerate(quoted), suggestion));
 }
 
 /// An optional field takes what the field itself takes.
@@ -73,13 +76,13 @@ void convert(const Given& given, Context&, double& field) {
 void convert(const Given& given, Context&, int& field) {
   const std::int64_t number = get<std::int64_t>(given);
   constexpr std::int64_t most = std::numeric_limits<int>::max();
-  if (number > most || number < -most) fail(given, fmt::format("is far out of range (it is {})", number));
+  if (number > most || number < -most) reject(given, fmt::format("is far out of range (it is {})", number));
   field = static_cast<int>(number);
 }
 
 void convert(const Given& given, Context&, std::uint64_t& field) {
   const std::int64_t number = get<std::int64_t>(given);
-  if (number < 0) fail(given, fmt::format("must be at least 0 (it is {})", number));
+  if (number < 0) reject(given, fmt::format("must be at least 0 (it is {})", number));
   field = static_cast<std::uint64_t>(number);
 }
 
@@ -165,7 +168,7 @@ void convert(const Given& given, Context&, std::vector<Light>& field) {
   for (const Value& item : get<List>(given)->items) {
     const auto* light = std::get_if<std::shared_ptr<const Light>>(&item);
     if (!light)
-      fail(given, fmt::format("must be a List of lights; it has {} in it", type_with_article(item)));
+      reject(given, fmt::format("must be a List of lights; it has {} in it", type_with_article(item)));
     field.push_back(**light);
   }
 }

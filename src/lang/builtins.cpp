@@ -1,4 +1,5 @@
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 
 #include <fmt/format.h>
 
@@ -8,9 +9,7 @@
 namespace crt::lang {
 
 void Arguments::wrong_type(std::size_t i, std::string_view wanted) const {
-  throw Failure{.span = span(i),
-                .message = fmt::format("{} takes {} here, not {}", builtin_.signature, wanted,
-                                       type_with_article(values_[i]))};
+  fail(span(i), "{} takes {} here, not {}", builtin_.signature, wanted, values_[i]);
 }
 
 double Arguments::number(std::size_t i) const {

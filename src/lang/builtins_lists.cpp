@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 #include "lang/operators.hpp"
 #include "lang/utf8.hpp"
 
@@ -23,7 +24,7 @@ Value count_items(const Arguments& arguments) {
 }
 
 [[noreturn]] void refuse_step(const Arguments& arguments) {
-  throw Failure{.span = arguments.span(2), .message = "range needs a step other than 0"};
+  fail(arguments.span(2), "range needs a step other than 0");
 }
 
 Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t end, std::int64_t step) {
@@ -49,7 +50,7 @@ Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t
 Value float_range(const Arguments& arguments, double first, double end, double step) {
   if (!(step < 0 || step > 0)) refuse_step(arguments);
   if (!std::isfinite(first) || !std::isfinite(end) || !std::isfinite(step))
-    throw Failure{.span = arguments.call, .message = "range needs finite numbers"};
+    fail(arguments.call, "range needs finite numbers");
   const double count = std::max(0.0, std::ceil((end - first) / step));
   constexpr double most = 0x1p62;
   arguments.context.check_list_size(arguments.call, static_cast<std::size_t>(std::min(count, most)));

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 #include "lang/random.hpp"
 
 namespace crt::lang {
@@ -65,15 +66,14 @@ Value to_integer(const Arguments& arguments) {
   const double whole = function(arguments.number(0));
   constexpr double beyond = 0x1p63;
   if (!(whole >= -beyond && whole < beyond))
-    throw Failure{.span = arguments.span(0),
-                  .message = fmt::format("{} does not fit into a 64-bit Integer", float_text(whole))};
+    fail(arguments.span(0), "{} does not fit into a 64-bit Integer", float_text(whole));
   return static_cast<std::int64_t>(whole);
 }
 
 Value absolute(const Arguments& arguments) {
   if (const auto* integer = std::get_if<std::int64_t>(&arguments[0])) {
     if (*integer == std::numeric_limits<std::int64_t>::min())
-      throw Failure{.span = arguments.span(0), .message = "the result does not fit into a 64-bit Integer"};
+      fail(arguments.span(0), "the result does not fit into a 64-bit Integer");
     return *integer < 0 ? -*integer : *integer;
   }
   return std::abs(arguments.number(0));
@@ -110,7 +110,7 @@ Value clamp(const Arguments& arguments) {
   const double low = arguments.number(1);
   const double high = arguments.number(2);
   const double x = arguments.number(0);
-  if (!(low <= high)) throw Failure{.span = arguments.call, .message = "clamp needs low <= high"};
+  if (!(low <= high)) fail(arguments.call, "clamp needs low <= high");
   if (!arguments.all_integers()) return std::clamp(x, low, high);
   return std::clamp(std::get<std::int64_t>(arguments[0]), std::get<std::int64_t>(arguments[1]),
                     std::get<std::int64_t>(arguments[2]));
@@ -119,9 +119,8 @@ Value clamp(const Arguments& arguments) {
 Value random_number(const Arguments& arguments) {
   const double low = arguments.size() > 0 ? arguments.number(0) : 0;
   const double high = arguments.size() > 1 ? arguments.number(1) : 1;
-  if (arguments.size() == 1)
-    throw Failure{.span = arguments.call, .message = "rand takes no arguments or two: rand(low, high)"};
-  if (!(low <= high)) throw Failure{.span = arguments.call, .message = "rand needs low <= high"};
+  if (arguments.size() == 1) fail(arguments.call, "rand takes no arguments or two: rand(low, high)");
+  if (!(low <= high)) fail(arguments.call, "rand needs low <= high");
   // Rounding may reach `high`, which is not among the results unless it is `low` too.
   const double number = low + (high - low) * arguments.context.random.next_float();
   return number < high ? number : low;

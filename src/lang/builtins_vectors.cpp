@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 
 namespace crt::lang {
 
@@ -29,7 +30,7 @@ Value normalize(const Arguments& arguments) {
   const Vec3 v = arguments.vector(0);
   const double size = norm(v);
   if (!(size > 0) || !std::isfinite(size))
-    throw Failure{.span = arguments.span(0), .message = "only a finite Vec3 other than 0 has a direction"};
+    fail(arguments.span(0), "only a finite Vec3 other than 0 has a direction");
   return v / size;
 }
 

@@ -2,16 +2,12 @@
 #include <fmt/format.h>
 
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 
 namespace crt::lang {
 
 namespace {
-
-/// "1 argument", "2 arguments"
-std::string count_of_arguments(std::size_t count) {
-  return fmt::format("{} argument{}", count, count == 1 ? "" : "s");
-}
 
 /// Takes what a call has put onto the stack of arguments off again.
 class ArgumentsGuard {
@@ -47,8 +43,7 @@ std::string_view Interpreter::callee_name(const Call& call) const {
 }
 
 void Interpreter::not_callable(const Call& call, const Value& callee) const {
-  throw Failure{.span = call.callee->span,
-                .message = fmt::format("only a Macro can be called, not {}", type_with_article(callee))};
+  fail(call.callee->span, "only a Macro can be called, not {}", callee);
 }
 
 [[gnu::noinline]] Value Interpreter::evaluate_node(const Call& call, const Expression& expression) {
@@ -64,44 +59,47 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
                                                   const Builtin& builtin) {
   const std::size_t count = call.arguments.size();
   if (count < builtin.least_arguments || count > builtin.most_arguments) {
-    throw Failure{.span = expression.span,
-                  .message = fmt::format("wrong number of arguments, {}: {}", count, builtin.signature)};
+    fail(expression.span, "wrong number of arguments, {}: {}", count, builtin.signature);
   }
   const ArgumentsGuard guard(arguments_);
   for (const Expression* argument : call.arguments) arguments_.push_back(evaluate(*argument));
   return builtin.function(Arguments(context_, builtin, expression.span, guard.values(), call.arguments));
 }
 
-[[gnu::noinline]] void Interpreter::call_macro(const Expression& expression, const Call& call,
-                                               const MacroValue& macro) {
+/// The scope of a call: the parameters bound to the arguments.
+[[gnu::noinline]] std::shared_ptr<Scope> Interpreter::bind_arguments(const Expression& expression,
+                                                                     const Call& call,
+                                                                     const MacroValue& macro) {
   const std::vector<NamePlace>& parameters = macro.literal->parameters;
-  const std::string_view name = callee_name(call);
-  if (call.arguments.size() != parameters.size()) {
-    throw Failure{.span = expression.span,
-                  .message = fmt::format("'{}' takes {}, and this call has {}", name,
-                                         count_of_arguments(parameters.size()), call.arguments.size())};
+  const std::size_t count = parameters.size();
+  if (call.arguments.size() != count) {
+    fail(expression.span, "'{}' takes {} argument{}, and this call has {}", callee_name(call), count,
+         count == 1 ? "" : "s", call.arguments.size());
   }
   auto scope = std::make_shared<Scope>(Scope::Kind::border, macro.scope);
-  for (std::size_t i = 0; i < parameters.size(); ++i) {
+  for (std::size_t i = 0; i < count; ++i) {
     Value argument = evaluate(*call.arguments[i]);
-    if (std::holds_alternative<Nothing>(argument))
-      throw Failure{.span = call.arguments[i]->span, .message = "this call has no value"};
+    if (std::holds_alternative<Nothing>(argument)) fail(call.arguments[i]->span, "this call has no value");
     scope->set(parameters[i].symbol, std::move(argument));
   }
-  run_macro(expression.span, name, macro, std::move(scope));
+  return scope;
 }
 
-[[gnu::noinline]] void Interpreter::run_macro(Span span, std::string_view name, const MacroValue& macro,
-                                              std::shared_ptr<Scope> scope) {
-  const Context::Running running(context_, {.name = name, .span = span});
-  if (call_depth_ >= context_.limits.call_depth)
-    context_.pass_limit(span,
-                        fmt::format("macros call one another more than {} deep", context_.limits.call_depth));
+[[gnu::noinline]] void Interpreter::pass_call_depth(Span span) const {
+  context_.pass_limit(span,
+                      fmt::format("macros call one another more than {} deep", context_.limits.call_depth));
+}
+
+[[gnu::noinline]] void Interpreter::call_macro(const Expression& expression, const Call& call,
+                                               const MacroValue& macro) {
+  const Temporarily inside(scope_, bind_arguments(expression, call, macro));
+  const Context::Running running(context_, {.name = callee_name(call), .span = expression.span});
+  if (call_depth_ >= context_.limits.call_depth) pass_call_depth(expression.span);
   const DepthGuard depth(call_depth_);
   try {
-    execute_in(macro.literal->body, std::move(scope));
+    execute(macro.literal->body);
   } catch (Failure& failure) {
-    failure.calls.emplace_back(name, span);
+    failure.add_call(callee_name(call), expression.span);
     throw;
   }
 }
@@ -115,9 +113,7 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
     call_macro(expression, call, macro);
   }
   if (parts.empty()) {
-    throw Failure{
-        .span = expression.span,
-        .message = fmt::format("'{}' emitted nothing, so its call has no value", callee_name(call))};
+    fail(expression.span, "'{}' emitted nothing, so its call has no value", callee_name(call));
   }
   context_.count_made(expression.span);
   Entity whole = csg_union(parts);

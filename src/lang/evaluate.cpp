@@ -6,6 +6,7 @@
 
 #include "crt/transform.hpp"
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/operators.hpp"
 
@@ -57,8 +58,7 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   items.reserve(list.items.size());
   for (const Expression* item : list.items) {
     items.push_back(evaluate(*item));
-    if (std::holds_alternative<Nothing>(items.back()))
-      throw Failure{.span = item->span, .message = "this call has no value"};
+    if (std::holds_alternative<Nothing>(items.back())) fail(item->span, "this call has no value");
   }
   return context_.make_list(expression.span, std::move(items));
 }
@@ -87,9 +87,7 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   for (const Expression* operand : logical.operands) {
     const Value value = evaluate(*operand);
     const auto* boolean = std::get_if<bool>(&value);
-    if (!boolean)
-      throw Failure{.span = operand->span,
-                    .message = fmt::format("{} takes Booleans, not {}", what, type_with_article(value))};
+    if (!boolean) fail(operand->span, "{} takes Booleans, not {}", what, value);
     if (*boolean == decisive) return decisive;
   }
   return !decisive;
@@ -103,8 +101,7 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   const Symbol name = assignment.name.symbol;
   if (overridden_.contains(name) && &scope_->target_of(name) == globals_.get()) return *globals_->find(name);
   Value value = evaluate(*assignment.value);
-  if (std::holds_alternative<Nothing>(value))
-    throw Failure{.span = assignment.value->span, .message = "this call has no value"};
+  if (std::holds_alternative<Nothing>(value)) fail(assignment.value->span, "this call has no value");
   scope_->target_of(name).set(name, value);
   return value;
 }
@@ -113,9 +110,7 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   const Value base = evaluate(*modified.base);
   const auto* entity = std::get_if<Entity>(&base);
   if (!entity) {
-    throw Failure{.span = modified.base->span,
-                  .message = fmt::format("only an Entity can be scaled, translated or rotated, not {}",
-                                         type_with_article(base))};
+    fail(modified.base->span, "only an Entity can be scaled, translated or rotated, not {}", base);
   }
   Entity result = *entity;
   for (const Modifier& modifier : modified.modifiers) result = modify(result, modifier);
@@ -151,9 +146,7 @@ Transform transform_of(const Modifier& modifier, const Value& operand) {
   const double* number = modifier.kind == ModifierKind::scale ? as_float(operand, room) : nullptr;
   if (number) return scale(*number);
   const char* wanted = modifier.kind == ModifierKind::scale ? "a number or a Vec3" : "a Vec3";
-  throw Failure{.span = modifier.operand->span,
-                .message = fmt::format("'{}' takes {}, not {}", modifier_name(modifier.kind), wanted,
-                                       type_with_article(operand))};
+  fail(modifier.operand->span, "'{}' takes {}, not {}", modifier_name(modifier.kind), wanted, operand);
 }
 
 }  // namespace

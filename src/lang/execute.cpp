@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include "lang/check.hpp"
+#include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/settings.hpp"
 
@@ -61,9 +62,8 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
   const Value value = evaluate(expression);
   if (const auto* boolean = std::get_if<bool>(&value)) return *boolean;
   const bool assigns = std::holds_alternative<Assignment>(expression.node);
-  throw Failure{.span = expression.span,
-                .message = fmt::format("the condition of {} must be a Boolean, not {}{}", what,
-                                       type_with_article(value), assigns ? "; to compare, write '=='" : "")};
+  fail(expression.span, "the condition of {} must be a Boolean, not {}{}", what, value,
+       assigns ? "; to compare, write '=='" : "");
 }
 
 [[gnu::noinline]] void Interpreter::execute_node(const While& loop) {
@@ -79,9 +79,7 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
 [[gnu::noinline]] void Interpreter::execute_node(const For& loop) {
   const Value value = evaluate(*loop.list);
   const List* list = std::get_if<List>(&value);
-  if (!list)
-    throw Failure{.span = loop.list->span,
-                  .message = fmt::format("'for' goes through a List, not {}", type_with_article(value))};
+  if (!list) fail(loop.list->span, "'for' goes through a List, not {}", value);
   const Context::Running running(context_, {.name = "for", .span = loop.keyword, .is_loop = true});
   std::shared_ptr<Scope> scope;
   for (const Value& item : (*list)->items) {

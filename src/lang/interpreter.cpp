@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "lang/builtins.hpp"
+#include "lang/failure.hpp"
 #include "lang/suggestion.hpp"
 
 namespace crt::lang {
@@ -54,7 +55,7 @@ void Interpreter::unknown_name(Symbol name, Span span) const {
     for (const auto& [symbol, value] : scope->variables()) names.push_back(context_.symbols.name(symbol));
   }
   const std::string_view text = context_.symbols.name(name);
-  throw Failure{.span = span, .message = fmt::format("unknown name '{}'{}", text, did_you_mean(text, names))};
+  fail(span, "unknown name '{}'{}", text, did_you_mean(text, names));
 }
 
 /// Called where a macro is made: all scopes that it can see stay.

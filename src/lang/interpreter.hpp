@@ -111,7 +111,9 @@ class Interpreter {
   // Calls: call.cpp.
   Value call_builtin(const Expression& expression, const Call& call, const Builtin& builtin);
   void call_macro(const Expression& expression, const Call& call, const MacroValue& macro);
-  void run_macro(Span span, std::string_view name, const MacroValue& macro, std::shared_ptr<Scope> scope);
+  std::shared_ptr<Scope> bind_arguments(const Expression& expression, const Call& call,
+                                        const MacroValue& macro);
+  [[noreturn]] void pass_call_depth(Span span) const;
   Value group(const Expression& expression, const Call& call, const MacroValue& macro);
   [[noreturn]] void not_callable(const Call& call, const Value& callee) const;
   std::string_view callee_name(const Call& call) const;

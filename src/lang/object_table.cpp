@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "crt/validate.hpp"
+#include "lang/failure.hpp"
 #include "lang/object_builder.hpp"
 
 namespace crt::lang {
@@ -189,13 +190,14 @@ Background choose_background(const BackgroundFields& fields, Span span) {
   const bool solid = fields.color.has_value();
   const bool gradient = fields.horizon || fields.sky;
   const bool panorama = fields.image || fields.angle || fields.projection;
-  const auto fail = [span](const char* message) { throw Failure{.span = span, .message = message}; };
+  const auto refuse = [span](const char* message) { fail(span, "{}", message); };
   if (solid + gradient + panorama > 1)
-    fail(
+    refuse(
         "Background takes either color, or horizon and sky, or image with angle and projection; not two of "
         "these");
-  if (gradient && !(fields.horizon && fields.sky)) fail("Background needs both of horizon and sky");
-  if (panorama && !fields.image) fail("Background needs the attribute 'image' for its angle and projection");
+  if (gradient && !(fields.horizon && fields.sky)) refuse("Background needs both of horizon and sky");
+  if (panorama && !fields.image)
+    refuse("Background needs the attribute 'image' for its angle and projection");
   if (gradient) return GradientBackground{*fields.horizon, *fields.sky};
   if (panorama) {
     return PanoramaBackground{fields.image, fields.projection.value_or(PanoramaProjection::spherical),

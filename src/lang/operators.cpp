@@ -5,6 +5,7 @@
 #include <cmath>
 #include <limits>
 
+#include "lang/failure.hpp"
 #include "lang/utf8.hpp"
 
 namespace crt::lang {
@@ -42,15 +43,11 @@ const char* sign(BinaryOperator op) {
 }
 
 [[noreturn]] void wrong_types(BinaryOperator op, Span span, const Value& left, const Value& right) {
-  throw Failure{.span = span,
-                .message = fmt::format("'{}' does not take {} and {}", sign(op), type_with_article(left),
-                                       type_with_article(right))};
+  fail(span, "'{}' does not take {} and {}", sign(op), left, right);
 }
 
 [[noreturn]] void overflow(Span span) {
-  throw Failure{
-      .span = span,
-      .message = "the result does not fit into a 64-bit Integer; with a Float (2.0 for 2) it would"};
+  fail(span, "the result does not fit into a 64-bit Integer; with a Float (2.0 for 2) it would");
 }
 
 Value integers(BinaryOperator op, Span span, std::int64_t a, std::int64_t b) {
@@ -67,7 +64,7 @@ Value integers(BinaryOperator op, Span span, std::int64_t a, std::int64_t b) {
       return result;
     case BinaryOperator::divide:
     case BinaryOperator::remainder:
-      if (b == 0) throw Failure{.span = span, .message = "division by zero"};
+      if (b == 0) fail(span, "division by zero");
       if (b == -1)
         return op == BinaryOperator::remainder ? 0 : integers(BinaryOperator::subtract, span, 0, a);
       return op == BinaryOperator::divide ? a / b : a % b;
@@ -217,7 +214,7 @@ Value join_strings(Context& context, Span span, const Value& left, const Value& 
 }
 
 Value repeat_string(Context& context, Span span, const std::string& text, std::int64_t times) {
-  if (times < 0) throw Failure{.span = span, .message = "a string cannot be repeated less than 0 times"};
+  if (times < 0) fail(span, "a string cannot be repeated less than 0 times");
   std::uint64_t bytes = 0;
   if (__builtin_mul_overflow(text.size(), static_cast<std::uint64_t>(times), &bytes))
     bytes = std::numeric_limits<std::uint64_t>::max();
@@ -290,17 +287,14 @@ Value binary(Context& context, BinaryOperator op, Span op_span, const Value& lef
 Value unary(UnaryOperator op, Span span, const Value& operand) {
   if (op == UnaryOperator::negation) {
     if (const auto* boolean = std::get_if<bool>(&operand)) return !*boolean;
-    throw Failure{.span = span,
-                  .message = fmt::format("'!' takes a Boolean, not {}", type_with_article(operand))};
+    fail(span, "'!' takes a Boolean, not {}", operand);
   }
   const bool minus = op == UnaryOperator::minus;
   if (const auto* integer = std::get_if<std::int64_t>(&operand))
     return minus ? integers(BinaryOperator::subtract, span, 0, *integer) : operand;
   if (const auto* number = std::get_if<double>(&operand)) return minus ? -*number : *number;
   if (const auto* vector = std::get_if<Vec3>(&operand)) return minus ? -*vector : *vector;
-  throw Failure{
-      .span = span,
-      .message = fmt::format("a sign stands before a number or a Vec3, not {}", type_with_article(operand))};
+  fail(span, "a sign stands before a number or a Vec3, not {}", operand);
 }
 
 }  // namespace crt::lang

@@ -2,6 +2,10 @@
 
 namespace crt::lang {
 
+void Failure::add_call(std::string_view name, Span call) {
+  calls.emplace_back(name, call);
+}
+
 Diagnostic Reporter::make(Severity severity, Span span, std::string message, ErrorCode code) const {
   Diagnostic diagnostic;
   diagnostic.severity = severity;

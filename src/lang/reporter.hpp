@@ -5,6 +5,7 @@
 #include <exception>
 #include <set>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -20,6 +21,8 @@ struct Failure {
   ErrorCode code = ErrorCode::script;
   /// The macros it passed through: name and where each was called, innermost first.
   std::vector<std::pair<std::string, Span>> calls = {};
+
+  void add_call(std::string_view name, Span call);
 };
 
 /// Thrown where going on makes no sense and everything that there is to say was said.

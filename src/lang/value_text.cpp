@@ -3,6 +3,7 @@
 
 #include <iterator>
 
+#include "lang/failure.hpp"
 #include "lang/operators.hpp"
 #include "lang/utf8.hpp"
 
@@ -92,10 +93,8 @@ struct Identity {
 };
 
 [[noreturn]] void index_out_of_range(Span span, std::int64_t index, std::size_t size, std::string_view what) {
-  throw Failure{.span = span,
-                .message = size == 0 ? fmt::format("there is no item {} in an empty {}", index, what)
-                                     : fmt::format("there is no item {} in a {} of {}; they count from 0",
-                                                   index, what, size)};
+  if (size == 0) fail(span, "there is no item {} in an empty {}", index, what);
+  fail(span, "there is no item {} in a {} of {}; they count from 0", index, what, size);
 }
 
 Value character(Context& context, Span span, const std::string& text, std::int64_t index) {
@@ -140,9 +139,7 @@ bool equal(Context& context, Span span, const Value& left, const Value& right) {
 
 Value item(Context& context, Span index_span, const Value& base, const Value& index) {
   const auto* number = std::get_if<std::int64_t>(&index);
-  if (!number)
-    throw Failure{.span = index_span,
-                  .message = fmt::format("an index is an Integer, not {}", type_with_article(index))};
+  if (!number) fail(index_span, "an index is an Integer, not {}", index);
   const std::int64_t i = *number;
   const auto within = [&](std::size_t size, std::string_view what) {
     if (i < 0 || static_cast<std::uint64_t>(i) >= size) index_out_of_range(index_span, i, size, what);
@@ -159,8 +156,7 @@ Value item(Context& context, Span index_span, const Value& base, const Value& in
     if (i < 0) index_out_of_range(index_span, i, count_code_points((*string)->text), "String");
     return character(context, index_span, (*string)->text, i);
   }
-  throw Failure{.span = index_span,
-                .message = fmt::format("{} has no items to be read by an index", type_with_article(base))};
+  fail(index_span, "{} has no items to be read by an index", base);
 }
 
 }  // namespace crt::lang

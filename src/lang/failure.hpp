@@ -1,0 +1,35 @@
+// Throwing a Failure with a formatted message. The formatting happens in a function of its own, so
+// that what throws keeps a small stack frame: the interpreter has many of them on the stack at once.
+#pragma once
+
+#include <fmt/format.h>
+
+#include <string>
+#include <type_traits>
+
+#include "lang/reporter.hpp"
+#include "lang/value.hpp"
+
+namespace crt::lang {
+
+/// A value stands in a message as its type: "an Integer".
+template <class Argument>
+decltype(auto) as_shown(const Argument& argument) {
+  if constexpr (std::is_same_v<Argument, Value>) {
+    return type_with_article(argument);
+  } else {
+    return (argument);
+  }
+}
+
+template <class Argument>
+using Shown = std::remove_cvref_t<decltype(as_shown(std::declval<const Argument&>()))>;
+
+template <class... Arguments>
+[[noreturn, gnu::noinline]] void fail(Span span, fmt::format_string<const Shown<Arguments>&...> format,
+                                      const Arguments&... arguments) {
+  const auto write = [&](const auto&... shown) { return fmt::format(format, shown...); };
+  throw Failure{.span = span, .message = write(as_shown(arguments)...)};
+}
+
+}  // namespace crt::lang
