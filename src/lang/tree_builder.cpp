@@ -133,7 +133,7 @@ Expression* TreeBuilder::logical(LogicalOperator op, Expression* left, const Exp
   const Span span{left->span.begin, right->span.end};
   const auto* same = std::get_if<Logical>(&left->node);
   if (!same || same->op != op) left = expression(span, Logical{op, {left}});
-  charge(sizeof(right), span);
+  charge(sizeof(right), span);  // NOLINT(bugprone-sizeof-expression): room for one pointer more
   check_height(right->span, height_of(right));
   std::get<Logical>(left->node).operands.push_back(right);
   left->span = span;
@@ -150,6 +150,7 @@ Expression* TreeBuilder::assignment(Span span, const Expression* target, const E
 
 Expression* TreeBuilder::macro(Span span, std::vector<NamePlace> parameters, Block body) {
   std::vector<Symbol> seen;
+  seen.reserve(parameters.size());
   for (const NamePlace& parameter : parameters) seen.push_back(parameter.symbol);
   std::sort(seen.begin(), seen.end());
   for (const NamePlace& parameter : parameters) {

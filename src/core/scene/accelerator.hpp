@@ -36,7 +36,7 @@ class Accelerator {
     return compiled_.face_surfaces[leaf.first_face + face];
   }
   /// A leaf's own ray for a ray in the world.
-  ObjectRay object_ray(std::uint32_t leaf, const WorldRay& ray) const;
+  ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
 
  private:
   class Query;
