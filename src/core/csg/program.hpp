@@ -25,7 +25,7 @@ struct FaceSurface {
 struct Leaf {
   std::unique_ptr<const Shape> shape;
   const Placement* placement = nullptr;  ///< shared by leaves that are placed alike; the scene owns it
-  Bounds bounds;                         ///< in the world
+  Bounds bounds;                         ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces

@@ -32,7 +32,8 @@ class Compiler {
   void expand(const Pending& pending, CsgProgram& program);
   void add_leaf(const Part& part, bool complemented);
   void finish_program(CsgProgram& program);
-  Bounds program_bounds(const CsgProgram& program) const;
+  /// Narrows the boxes of the leaves to where they matter; returns the box around the object.
+  Bounds narrow_bounds(const CsgProgram& program);
   const Placement* place(const PreciseTransform& to_world);
   std::uint32_t material_number(const Part& part);
 
@@ -91,7 +92,7 @@ void Compiler::add_group(std::span<const Part> parts) {
     CsgProgram program;
     program.first_leaf = object.first_leaf;
     build_program(parts, program);
-    object.bounds = program_bounds(program);
+    object.bounds = narrow_bounds(program);
     object.program = static_cast<std::uint32_t>(result_.programs.size());
     result_.programs.push_back(std::move(program));
   }
@@ -164,27 +165,43 @@ void Compiler::finish_program(CsgProgram& program) {
   program.coincident_faces = std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end();
 }
 
-Bounds Compiler::program_bounds(const CsgProgram& program) const {
+// Every node has a box outside of which it has the value that it has where all leaves are outside
+// of their primitives, whatever its leaves do there. If one child's having that value is enough for it,
+// the boxes of such children are all boxes of the node, and so is what they have in common. What a
+// leaf does outside of the boxes of all nodes above it does not matter: a ray that misses what
+// they leave of the leaf's own box may leave out the leaf.
+Bounds Compiler::narrow_bounds(const CsgProgram& program) {
+  const auto outside_value = [&](std::size_t node) {
+    return program.nodes[node].count_outside >= program.nodes[node].needed;
+  };
+  const auto one_is_enough = [&](std::size_t node) {
+    return outside_value(node) == (program.nodes[node].needed == 1);
+  };
   std::vector<Bounds> bounds(program.nodes.size());
   for (std::size_t node = 0; node < bounds.size(); ++node) {
-    if (program.nodes[node].needed != 1) bounds[node] = Bounds::everything();
+    if (one_is_enough(node)) bounds[node] = Bounds::everything();
   }
-  const auto add = [&](std::uint32_t node, const Bounds& child) {
-    if (program.nodes[node].needed == 1) {
-      bounds[node].include(child);
-    } else {
+  const auto add = [&](std::uint32_t node, const Bounds& child, bool child_value) {
+    if (!one_is_enough(node)) {
+      if (!child.empty()) bounds[node].include(child);
+    } else if (child_value == outside_value(node)) {
       bounds[node] = bounds[node].clipped(child);
     }
   };
+  // Children come after their parents.
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
     const Leaf& leaf = result_.leaves[program.first_leaf + i];
-    add(program.leaf_parents[i], leaf.complemented ? Bounds::everything() : leaf.bounds);
+    add(program.leaf_parents[i], leaf.bounds, leaf.complemented);
   }
   for (std::size_t node = bounds.size(); node-- > 1;) {
-    if (!bounds[node].empty())
-      add(program.nodes[node].parent, bounds[node]);
-    else if (program.nodes[program.nodes[node].parent].needed != 1)
-      bounds[program.nodes[node].parent] = Bounds{};
+    add(program.nodes[node].parent, bounds[node], outside_value(node));
+  }
+  for (std::size_t node = 1; node < bounds.size(); ++node) {
+    bounds[node] = bounds[node].clipped(bounds[program.nodes[node].parent]);
+  }
+  for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
+    Leaf& leaf = result_.leaves[program.first_leaf + i];
+    leaf.bounds = leaf.bounds.clipped(bounds[program.leaf_parents[i]]);
   }
   return bounds[0];
 }
