@@ -72,12 +72,13 @@ fs::path frame_path(const fs::path& output, int frame) {
 
 void check_folder(const fs::path& file) {
   const fs::path folder = folder_of(file);
-  if (!fs::is_directory(folder)) {
+  std::error_code unreachable;
+  if (!fs::is_directory(folder, unreachable)) {
     throw Error(ErrorCode::io,
                 fmt::format("cannot write '{}': there is no folder '{}'; make it first, or name another",
                             file.string(), folder.string()));
   }
-  if (fs::is_directory(file)) {
+  if (fs::is_directory(file, unreachable)) {
     throw Error(ErrorCode::io,
                 fmt::format("cannot write '{}': it is a folder; add a file's name to it", file.string()));
   }

@@ -6,6 +6,7 @@
 #include <new>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/options.hpp"
 
 namespace {
@@ -21,14 +22,14 @@ struct Run {
 }  // namespace
 
 int main(int argc, char** argv) try {
+  hold_standard_streams();
   return static_cast<int>(std::visit(Run{}, parse_command_line(argc, argv)));
 } catch (const std::bad_alloc&) {
-  std::fputs("crt: error: not enough memory; try a smaller picture or a simpler scene\n", stderr);
+  tell(stderr, "crt: error: not enough memory; try a smaller picture or a simpler scene\n");
   return static_cast<int>(ExitCode::internal);
 } catch (const std::exception& error) {
-  fmt::print(
-      stderr,
-      "crt: error: {}\nThis should not happen: please report it with the script and the command line.\n",
-      error.what());
+  tell(stderr, fmt::format("crt: error: {}\n"
+                           "This should not happen: please report it with the script and the command line.\n",
+                           error.what()));
   return static_cast<int>(ExitCode::internal);
 }

@@ -10,7 +10,10 @@
 #include <crt/version.hpp>
 #include <cstdio>
 #include <string_view>
+#include <system_error>
 #include <utility>
+
+#include "cli/console.hpp"
 
 namespace crt::cli {
 
@@ -216,7 +219,7 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
           "--resources",
           [&request](const std::vector<std::string>& folders) {
             for (const std::string& folder : folders) {
-              if (!std::filesystem::is_directory(folder))
+              if (std::error_code unreachable; !std::filesystem::is_directory(folder, unreachable))
                 throw wrong_value("--resources", "a folder", folder);
               request.script.resource_directories.emplace_back(folder);
             }
@@ -296,7 +299,7 @@ ExitCode complain(const CLI::ParseError& error, const CLI::App& app, int argc, c
   } else if (argc <= 1) {
     message = "say what to do, such as: crt render scene.crt";
   }
-  fmt::print(stderr, "crt: error: {}\nSee {} --help.\n", message, command);
+  tell(stderr, fmt::format("crt: error: {}\nSee {} --help.\n", message, command));
   return ExitCode::usage;
 }
 

@@ -11,6 +11,8 @@
 #include <string_view>
 #include <utility>
 
+#include "cli/console.hpp"
+
 namespace crt::cli {
 
 namespace {
@@ -55,8 +57,7 @@ Progress::Progress(std::string name, ProgressStyle style) : name_(std::move(name
 
 Progress::~Progress() {
   if (!drawn_) return;
-  std::fwrite(erase_line.data(), 1, erase_line.size(), stderr);
-  std::fflush(stderr);
+  tell(stderr, erase_line);
 }
 
 void Progress::update(double share) {
@@ -73,17 +74,15 @@ void Progress::draw_bar(double share, Clock::time_point now) {
   const int width = std::clamp(room, 0, widest_bar);
   const int filled = static_cast<int>(share * width);
   const std::string bar = width == 0 ? "" : fmt::format(" [{:#<{}}{:.<{}}]", "", filled, "", width - filled);
-  fmt::print(stderr, "{}{}{} {:3.0f} %{}", erase_line, name_, bar, std::floor(100 * share),
-             time_left(share, now));
-  std::fflush(stderr);
+  tell(stderr, fmt::format("{}{}{} {:3.0f} %{}", erase_line, name_, bar, std::floor(100 * share),
+                           time_left(share, now)));
 }
 
 void Progress::print_line(double share, Clock::time_point now) {
   const int tenth = static_cast<int>(10 * share);
   if (tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  fmt::print(stderr, "{}: {} %{}\n", name_, 10 * tenth, time_left(share, now));
-  std::fflush(stderr);
+  tell(stderr, fmt::format("{}: {} %{}\n", name_, 10 * tenth, time_left(share, now)));
 }
 
 std::string Progress::time_left(double share, Clock::time_point now) const {

@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "cli/commands.hpp"
+#include "cli/console.hpp"
 #include "cli/files.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -118,10 +119,7 @@ class RenderJob {
     options.t = t;
     // Standard output belongs to the statistics if they are asked for there.
     std::FILE* const stream = request_.stats == "-" ? stderr : stdout;
-    options.print = [stream](std::string_view line) {
-      fmt::print(stream, "{}\n", line);
-      std::fflush(stream);
-    };
+    options.print = [stream](std::string_view line) { tell(stream, fmt::format("{}\n", line)); };
     ScriptResult result = run_script_file(request_.scene, options);
     reporter_.add(result.diagnostics);
     return std::move(result.scene);
@@ -159,7 +157,7 @@ class RenderJob {
 
   void write_stats(const std::string& json) {
     if (request_.stats == "-") {
-      fmt::print("{}", json);
+      if (!tell(stdout, json)) throw Error(ErrorCode::io, "cannot write the statistics to standard output");
     } else if (!request_.stats.empty()) {
       write_text_file(request_.stats, json);
     }

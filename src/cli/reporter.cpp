@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cstdio>
 
+#include "cli/console.hpp"
+
 namespace crt::cli {
 
 namespace {
@@ -42,12 +44,12 @@ void Reporter::add(const std::vector<Diagnostic>& diagnostics) {
   const auto first_error = std::find_if(diagnostics.begin(), diagnostics.end(),
                                         [](const Diagnostic& it) { return it.severity == Severity::error; });
   if (first_error != diagnostics.end()) exit_code_ = graver(exit_code_, exit_code_of(first_error->code));
-  for (const Diagnostic& diagnostic : diagnostics) tell(diagnostic, format_diagnostic(diagnostic));
+  for (const Diagnostic& diagnostic : diagnostics) add_one(diagnostic, format_diagnostic(diagnostic));
 }
 
 void Reporter::add(ErrorCode code, const std::string& message, ExitCode exit_code) {
   exit_code_ = graver(exit_code_, exit_code);
-  tell(Diagnostic{.code = code, .message = message}, fmt::format("crt: error: {}\n", message));
+  add_one(Diagnostic{.code = code, .message = message}, fmt::format("crt: error: {}\n", message));
 }
 
 void Reporter::add(const Error& error) {
@@ -55,18 +57,18 @@ void Reporter::add(const Error& error) {
 }
 
 void Reporter::note(const std::string& message) const {
-  if (!quiet_ && format_ == DiagnosticsFormat::text) fmt::print(stderr, "{}\n", message);
+  if (!quiet_ && format_ == DiagnosticsFormat::text) tell(stderr, message + "\n");
 }
 
-void Reporter::tell(const Diagnostic& diagnostic, const std::string& text) {
+void Reporter::add_one(const Diagnostic& diagnostic, const std::string& text) {
   if (quiet_ && diagnostic.severity == Severity::warning) return;
   if (!texts_.insert(text).second) return;
   told_.push_back(diagnostic);
-  if (format_ == DiagnosticsFormat::text) fmt::print(stderr, "{}", text);
+  if (format_ == DiagnosticsFormat::text) tell(stderr, text);
 }
 
 ExitCode Reporter::finish() {
-  if (format_ == DiagnosticsFormat::json) fmt::print(stderr, "{}\n", diagnostics_to_json(told_));
+  if (format_ == DiagnosticsFormat::json) tell(stderr, diagnostics_to_json(told_) + "\n");
   return exit_code_;
 }
 

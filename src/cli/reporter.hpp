@@ -29,7 +29,7 @@ class Reporter {
   ExitCode finish();
 
  private:
-  void tell(const Diagnostic& diagnostic, const std::string& text);
+  void add_one(const Diagnostic& diagnostic, const std::string& text);
 
   DiagnosticsFormat format_;
   bool quiet_;

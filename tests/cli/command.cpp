@@ -112,6 +112,14 @@ Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& a
   return {exit_code, content_of(out), content_of(err)};
 }
 
+int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  Streams streams(folder.path());
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
+    posix_spawn_file_actions_addclose(&streams.actions, stream);
+  }
+  return exit_code_of(spawn_crt(streams, arguments));
+}
+
 CrtOnTerminal::CrtOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
   terminal_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   require(terminal_ >= 0 && grantpt(terminal_) == 0 && unlockpt(terminal_) == 0, "cannot open a terminal");

@@ -38,6 +38,9 @@ struct Outcome {
 /// Runs `crt` with these arguments in the folder. Standard input is empty, the outputs are files.
 Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
+/// Runs `crt` with all standard streams closed; its exit code.
+int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+
 /// `crt` with its standard error on a terminal.
 class CrtOnTerminal {
  public:

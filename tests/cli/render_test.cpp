@@ -153,6 +153,13 @@ TEST_CASE_FIXTURE(Fixture, "where standard error is no terminal, progress is pla
   CHECK(std::none_of(run.err.begin(), run.err.end(), [](char c) { return c == '\r' || c == '\033'; }));
 }
 
+TEST_CASE_FIXTURE(Fixture, "what is told to closed standard streams gets into no file") {
+  run_crt(folder, {"render", "ball.crt", "--reproducible", "-o", "heard.png"});
+  CHECK(run_crt_unheard(folder, {"render", "ball.crt", "--reproducible", "-o", "unheard.png"}) == 0);
+  REQUIRE(is_png(folder.read("heard.png")));
+  CHECK(folder.read("unheard.png") == folder.read("heard.png"));
+}
+
 TEST_CASE_FIXTURE(Fixture, "a picture of linear light is written as .exr") {
   const Outcome run = run_crt(folder, {"render", "ball.crt", "-o", "ball.exr"});
   CHECK_MESSAGE(run.exit_code == 0, run.err);
