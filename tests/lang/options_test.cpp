@@ -65,14 +65,15 @@ TEST_CASE("a variable that only an import sets can be set from outside") {
 }
 
 TEST_CASE("errors in a value from outside stand in that value") {
-  for (const auto& [text, column] : std::vector<std::pair<std::string, int>>{
+  for (const auto& example : std::vector<std::pair<std::string, int>>{
            {"1 +", 4}, {"1 / 0", 3}, {"unknown", 1}, {"n", 1}, {"", 1}, {"1 2", 3}, {"\"a", 1}}) {
+    const std::string& text = example.first;
     CAPTURE(text);
     const crt::test::Run result = run_statements("n = 1", with_variables({{"n", text}}));
     REQUIRE_FALSE(result.ok());
     CHECK(result.errors()[0].place.file == "<set n>");
     CHECK(result.errors()[0].place.line == 1);
-    CHECK(result.errors()[0].place.column == column);
+    CHECK(result.errors()[0].place.column == example.second);
     CHECK(result.errors()[0].source_line == text);
   }
 }
