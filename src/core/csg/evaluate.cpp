@@ -67,13 +67,19 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
 void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
   work_.crossings_.clear();
   ++stamp_;
+  // Leaves that are placed alike follow one another: the ray is taken to their space once.
+  const Placement* placement = nullptr;
+  ObjectRay object_ray;
   for (std::uint32_t index = 0; index < program_.leaf_count(); ++index) {
     const Leaf& leaf = leaves_[index];
     // A leaf that the line misses, has passed or meets too late stays outside.
     const LineSpan span = span_in_box(leaf.bounds, ray_.origin, ray_.direction);
     if (span.enter > span.leave || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max)
       continue;
-    ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
+    if (leaf.placement != placement) {
+      placement = leaf.placement;
+      object_ray = placement->to_object(ray_.origin, ray_.direction);
+    }
     object_ray.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces, ray_.start);
     work_.leaf_crossings_.clear();
     if (leaf.shape->crossings(object_ray, work_.leaf_crossings_)) flip_leaf(index);
