@@ -44,7 +44,9 @@ inline DoubleDouble two_product(double a, double b) {
   return {product, std::fma(a, b, -product)};
 }
 
-inline DoubleDouble operator-(const DoubleDouble& a) { return {-a.hi, -a.lo}; }
+inline DoubleDouble operator-(const DoubleDouble& a) {
+  return {-a.hi, -a.lo};
+}
 
 inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble high = two_sum(a.hi, b.hi);
@@ -53,7 +55,9 @@ inline DoubleDouble operator+(const DoubleDouble& a, const DoubleDouble& b) {
   return quick_two_sum(first.hi, low.lo + first.lo);
 }
 
-inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) { return a + -b; }
+inline DoubleDouble operator-(const DoubleDouble& a, const DoubleDouble& b) {
+  return a + -b;
+}
 
 inline DoubleDouble operator*(const DoubleDouble& a, const DoubleDouble& b) {
   const DoubleDouble high = two_product(a.hi, b.hi);
