@@ -62,7 +62,10 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
     fail(expression.span, "wrong number of arguments, {}: {}", count, builtin.signature);
   }
   const ArgumentsGuard guard(arguments_);
-  for (const Expression* argument : call.arguments) arguments_.push_back(evaluate(*argument));
+  for (const Expression* argument : call.arguments) {
+    arguments_.push_back(evaluate(*argument));
+    if (std::holds_alternative<Nothing>(arguments_.back())) fail(argument->span, "this call has no value");
+  }
   return builtin.function(Arguments(context_, builtin, expression.span, guard.values(), call.arguments));
 }
 

@@ -76,7 +76,7 @@ bool Files::is_really_open(const fs::path& canonical) const {
 }
 
 Files::Found Files::find(const std::string& name, const fs::path& directory, Span span) const {
-  const std::string shown = printable(name);
+  const std::string shown = abbreviated(name);
   if (name.empty()) fail(span, "a file's name must not be empty");
   if (name.find('\0') != std::string::npos) fail(span, "a file's name must not hold the character U+0000");
   bool outside = false;
@@ -110,7 +110,7 @@ Files::Found Files::find(const std::string& name, const fs::path& directory, Spa
 }
 
 std::string Files::read_text(Found found, std::size_t most_bytes, Span span) const {
-  const std::string shown = printable(found.shown.string());
+  const std::string shown = abbreviated(found.shown.string());
   if (found.content) {
     const std::vector<std::byte>& bytes = *found.content;
     if (bytes.size() > most_bytes)

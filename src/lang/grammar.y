@@ -269,6 +269,7 @@ parameters:
 namespace crt::lang {
 
 void Grammar::report_syntax_error(const context& context) const {
+  if (!tree.is_past_error(context.location())) return;
   // A place in the grammar expects fewer kinds of token than there are.
   symbol_kind_type expected[YYNTOKENS];
   const int count = context.expected_tokens(expected, YYNTOKENS);

@@ -25,6 +25,9 @@ class Lexer {
   /// The text of a piece of this source.
   std::string_view text(Span span) const;
 
+  /// The place before everything.
+  Span start() const { return {source_.base, source_.base}; }
+
   /// Where the line ends that the span begins on.
   std::uint32_t line_end(Span span) const;
 

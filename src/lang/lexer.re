@@ -16,6 +16,12 @@ namespace {
 
 using Token = Grammar::token;
 
+/// Of those that wait to be closed; the parser takes no more.
+constexpr std::size_t most_open_brackets = 1000;
+constexpr std::size_t most_forgotten_brackets = 8;
+/// No name needs to be longer.
+constexpr std::size_t longest_name = 255;
+
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
 struct Keyword {
@@ -145,22 +151,26 @@ Grammar::symbol_type Lexer::sign(Token::token_kind_type kind) {
 }
 
 Grammar::symbol_type Lexer::opening(Token::token_kind_type kind) {
-  open_brackets_.push_back(token_span());
+  if (open_brackets_.size() < most_open_brackets) open_brackets_.push_back(token_span());
   return sign(kind);
 }
 
 Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_bracket) {
-  // Brackets that were opened within this pair and never closed are forgotten with it.
-  for (std::size_t i = open_brackets_.size(); i-- > 0;) {
-    if (text(open_brackets_[i])[0] != opening_bracket) continue;
-    open_brackets_.resize(i);
+  // Brackets that were opened within this pair and never closed are forgotten with it; but of a
+  // closing bracket that has no partner no more is believed than a few.
+  const std::size_t size = open_brackets_.size();
+  for (std::size_t i = size; i > size - std::min(size, most_forgotten_brackets); --i) {
+    if (text(open_brackets_[i - 1])[0] != opening_bracket) continue;
+    open_brackets_.resize(i - 1);
     break;
   }
   return sign(kind);
 }
 
 Grammar::symbol_type Lexer::word() {
-  const std::string_view name = token_text();
+  const std::string_view name = token_text().substr(0, longest_name);
+  if (name.size() < token_text().size())
+    reporter_.error(token_span(), "names have at most 255 letters, digits and '_'");
   const auto* keyword =
       std::find_if(keywords.begin(), keywords.end(), [name](const Keyword& k) { return k.text == name; });
   // Before an arrow every word is the name of an attribute.
@@ -177,7 +187,7 @@ Grammar::symbol_type Lexer::wrong_word() {
   reporter_.error(token_span(), only_begins_wrong ? "names begin with a letter"
                                                   : "names consist of the letters a to z and A to Z, digits and '_'");
   first_on_line_ = false;
-  return Grammar::make_IDENTIFIER(symbols_.intern(token_text()), token_span());
+  return Grammar::make_IDENTIFIER(symbols_.intern(token_text().substr(0, longest_name)), token_span());
 }
 
 Grammar::symbol_type Lexer::single_quoted() {

@@ -10,6 +10,7 @@ Script parse(const Source& source, TextKind kind, SymbolTable& symbols, Reporter
              std::size_t& memory_left) {
   Lexer lexer(source, kind, symbols, reporter);
   TreeBuilder tree(lexer, reporter, memory_left);
+  tree.charge_source(source.text.size());
   Grammar(lexer, tree).parse();
   return tree.take();
 }

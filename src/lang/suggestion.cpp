@@ -8,6 +8,8 @@ namespace crt::lang {
 namespace {
 
 constexpr std::size_t longest_word = 64;
+/// A script may have millions of names; of so many the first will do.
+constexpr std::size_t most_candidates = 10'000;
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
@@ -42,7 +44,8 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   std::string_view best;
   // A third of the letters may be wrong; of one or two letters only the case.
   std::size_t best_distance = word.size() / 3 + 1;
-  for (const std::string_view candidate : candidates) {
+  for (std::size_t i = 0; i < std::min(candidates.size(), most_candidates); ++i) {
+    const std::string_view candidate = candidates[i];
     if (candidate == word || candidate.size() > longest_word) continue;
     const std::size_t edits = distance(word, candidate);
     if (edits < best_distance) {

@@ -125,7 +125,6 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
   } else if (!words.empty()) {
     message += "; expected " + enumerate(words);
   }
-  if (!is_past_error(place)) return;
   last_error_line_end_ = lexer_.line_end(place);
   const std::vector<Span>& open = lexer_.open_brackets();
   if (found == "the end of the script" && !open.empty()) {

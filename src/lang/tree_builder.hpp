@@ -21,6 +21,9 @@ class TreeBuilder {
   TreeBuilder(const Lexer& lexer, Reporter& reporter, std::size_t& memory_left)
       : lexer_(lexer), reporter_(reporter), memory_left_(memory_left) {}
 
+  /// Pays for the names in a text of so many bytes.
+  void charge_source(std::size_t bytes);
+
   /// The finished tree.
   Script take() { return std::move(script_); }
 

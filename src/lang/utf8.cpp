@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cstdint>
+#include <cstring>
 
 namespace crt::lang {
 
@@ -72,7 +73,18 @@ void append_utf8(std::string& text, char32_t code_point) {
 
 std::size_t count_code_points(std::string_view text) {
   std::size_t count = 0;
-  for (std::size_t position = 0; position < text.size(); ++count) decode_utf8(text, position);
+  for (std::size_t position = 0; position < text.size(); ++count) {
+    // Eight bytes at a time as long as they are ASCII: lines can be long, and are counted again and again.
+    for (; text.size() - position >= sizeof(std::uint64_t); position += sizeof(std::uint64_t)) {
+      constexpr std::uint64_t high_bits = 0x8080808080808080U;
+      std::uint64_t bytes = 0;
+      std::memcpy(&bytes, text.data() + position, sizeof bytes);
+      if ((bytes & high_bits) != 0) break;
+      count += sizeof bytes;
+    }
+    if (position == text.size()) break;
+    decode_utf8(text, position);
+  }
   return count;
 }
 
@@ -84,6 +96,14 @@ std::string printable(std::string_view text) {
     append_utf8(result, code_point && !is_control(*code_point) ? *code_point : replacement_character);
   }
   return result;
+}
+
+std::string abbreviated(std::string_view text) {
+  constexpr std::size_t longest_bytes = 200;
+  if (text.size() <= longest_bytes) return printable(text);
+  std::size_t end = 0;
+  while (end < longest_bytes) decode_utf8(text, end);
+  return printable(text.substr(0, end)) + "...";
 }
 
 std::string describe_code_point(char32_t code_point) {

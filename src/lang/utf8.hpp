@@ -21,6 +21,9 @@ std::size_t count_code_points(std::string_view text);
 /// tab, bytes that are not UTF-8) replaced by U+FFFD, the sign for that.
 std::string printable(std::string_view text);
 
+/// The same, cut off where it is longer than a message should be.
+std::string abbreviated(std::string_view text);
+
 /// How a code point is named in a message: 'x', or U+00A0 where it cannot be seen.
 std::string describe_code_point(char32_t code_point);
 

@@ -13,7 +13,7 @@ void require(bool condition) {
 
 crt::ScriptOptions small_world() {
   crt::ScriptOptions options;
-  options.limits = {.steps = 20'000,
+  options.limits = {.steps = 5'000,
                     .entities = 1'000,
                     .call_depth = 100,
                     .list_length = 10'000,
