@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstddef>
-#include <exception>
 #include <set>
 #include <string>
 #include <string_view>
@@ -22,13 +21,14 @@ struct Failure {
   /// The macros it passed through: name and where each was called, innermost first.
   std::vector<std::pair<std::string, Span>> calls = {};
 
+  /// Passes out of a macro that was called at `call`.
   void add_call(std::string_view name, Span call);
 };
 
 /// Thrown where going on makes no sense and everything that there is to say was said.
 struct GiveUp {};
 
-/// The first error's place and the rest of a diagnostic, in the order they came.
+/// The diagnostics of a run, in the order they come.
 class Reporter {
  public:
   Reporter(const SourceMap& sources, std::size_t most_errors)
