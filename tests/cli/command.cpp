@@ -120,6 +120,12 @@ int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string
   return exit_code_of(spawn_crt(streams, arguments));
 }
 
+bool has_terminals() {
+  const int terminal = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  if (terminal >= 0) close(terminal);
+  return terminal >= 0;
+}
+
 CrtOnTerminal::CrtOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
   terminal_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
   require(terminal_ >= 0 && grantpt(terminal_) == 0 && unlockpt(terminal_) == 0, "cannot open a terminal");

@@ -41,6 +41,9 @@ Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& a
 /// Runs `crt` with all standard streams closed; its exit code.
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
+/// Whether this machine has terminals to give: a container without /dev/pts has none.
+bool has_terminals();
+
 /// `crt` with its standard error on a terminal.
 class CrtOnTerminal {
  public:

@@ -16,7 +16,7 @@ const std::string first_sight_of_bar = "0 %";
 
 }  // namespace
 
-TEST_CASE("an interrupt while rendering ends with 130 and leaves no file") {
+TEST_CASE("an interrupt while rendering ends with 130 and leaves no file" * doctest::skip(!has_terminals())) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     folder.write("endless.crt", endless_script);
@@ -29,7 +29,7 @@ TEST_CASE("an interrupt while rendering ends with 130 and leaves no file") {
   }
 }
 
-TEST_CASE("an interrupted animation keeps the frames that are done") {
+TEST_CASE("an interrupted animation keeps the frames that are done" * doctest::skip(!has_terminals())) {
   const TemporaryFolder folder;
   folder.write("film.crt", endless_script);
   CrtOnTerminal crt(folder, {"render", "film.crt", "--frames", "0-2"});
@@ -39,7 +39,7 @@ TEST_CASE("an interrupted animation keeps the frames that are done") {
   CHECK(folder.names() == std::vector<std::string>{"film.crt", "film_0000.png"});
 }
 
-TEST_CASE("on a terminal progress is a bar that goes away") {
+TEST_CASE("on a terminal progress is a bar that goes away" * doctest::skip(!has_terminals())) {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
   CrtOnTerminal crt(folder, {"render", "ball.crt"});
