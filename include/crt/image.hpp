@@ -8,6 +8,7 @@
 #include <filesystem>
 #include <span>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -38,12 +39,19 @@ class Image {
   /// The same from a file's content in memory; `name` is for messages.
   static Image decode(std::span<const std::byte> content, const std::string& name);
 
+  /// From 8-bit RGBA with straight alpha, as displays want it: 4 * width * height bytes, rows from the top.
+  /// The image is display_encoded(). Throws Error (invalid_argument) for a wrong size or number of bytes.
+  static Image from_rgba8(int width, int height, std::span<const std::uint8_t> rgba);
+
   /// Writes a file whose format its ending says: png, tif, jpg, bmp and ppm get 8-bit integers with
   /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some pixel is
   /// not fully covered; the others then show the picture in front of black. The file is written under
   /// another name and then renamed, so that no half file is ever seen. Throws Error: io, unsupported
   /// (an unknown ending, or OpenImageIO cannot be loaded), invalid_argument (no pixels), out_of_memory.
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
+
+  /// The bytes of such a file; `format` is its ending: "png", "exr", ... Throws Error as write() does.
+  std::vector<std::byte> encode(std::string_view format, const WriteOptions& options = {}) const;
 
   /// Pixels across.
   int width() const { return width_; }

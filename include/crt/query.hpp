@@ -1,10 +1,15 @@
-// Ray queries: what a program asks of the geometry without making a picture. All are safe from any
-// number of threads at once.
+// Ray queries: what a program asks of the geometry without making a picture: the same crossings that
+// pictures see. All functions are safe from any number of threads at once. They throw Error: invalid_argument
+// for a ray with a number that is not finite (t_min and t_max may be infinite) or without a direction,
+// out_of_memory.
 #pragma once
 
 #include <crt/prepared_scene.hpp>
+#include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <vector>
 
@@ -38,5 +43,38 @@ bool occluded(const PreparedScene& scene, const Ray& ray);
 
 /// Every crossing along the ray in order: per entity, the solid intervals that CSG leaves.
 std::vector<Hit> crossings(const PreparedScene& scene, const Ray& ray);
+
+/// Throws Error (invalid_argument) for a ray that no query takes.
+void validate(const Ray& ray);
+
+/// The same questions for many rays one after the other, with memory that it keeps between them: cheaper
+/// than the functions above. For one thread at a time.
+class RayQueries {
+ public:
+  explicit RayQueries(const PreparedScene& scene);
+  ~RayQueries();
+  RayQueries(RayQueries&&) noexcept;
+  RayQueries& operator=(RayQueries&&) noexcept;
+
+  /// The nearest hit.
+  std::optional<Hit> intersect(const Ray& ray);
+  /// Whether anything at all is hit.
+  bool occluded(const Ray& ray);
+  /// Every crossing in order, in place of what `out` holds.
+  void crossings(const Ray& ray, std::vector<Hit>& out);
+
+ private:
+  class State;
+  std::unique_ptr<State> state_;
+};
+
+/// Work on the rays first ... last - 1 of a batch.
+using RayBatchWork = std::function<void(RayQueries& queries, std::size_t first, std::size_t last)>;
+
+/// Splits `count` rays into pieces and calls `work` for each, on up to `threads` threads (0: what the calling
+/// TBB arena has; 1 starts none), this one among them. Small batches stay on this thread. What `work` throws
+/// comes out.
+void query_in_parallel(const PreparedScene& scene, std::size_t count, const RayBatchWork& work,
+                       int threads = 0);
 
 }  // namespace crt

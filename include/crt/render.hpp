@@ -2,8 +2,10 @@
 
 #include <crt/image.hpp>
 #include <crt/prepared_scene.hpp>
+#include <cstdint>
 #include <functional>
 #include <optional>
+#include <string_view>
 
 namespace crt {
 
@@ -15,6 +17,8 @@ struct Region {
   int height = 0;
 };
 
+enum class LogLevel { info, warning };
+
 /// What a render may be asked beyond the scene; the defaults render all of it on all cores.
 struct RenderOptions {
   /// Renders only this part of the picture: the image has its size. The pixels are those of the whole.
@@ -24,6 +28,10 @@ struct RenderOptions {
   /// Called now and then, from one thread at a time, with the share done: first 0, never less than
   /// before, last 1. Returning false cancels: render() then throws Error (cancelled).
   std::function<bool(double)> progress{};
+  /// Takes the place of Settings::seed.
+  std::optional<std::uint64_t> seed{};
+  /// Gets what there is to tell of the render, a line each without its end. From the thread that calls render().
+  std::function<void(LogLevel, std::string_view)> log{};
 };
 
 /// Renders the picture. The pixels depend on the scene alone: not on threads, tiles or regions.

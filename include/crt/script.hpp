@@ -76,6 +76,8 @@ struct ScriptOptions {
   std::function<void(std::string_view)> print{};
   /// Asked for each file (its resolved path) before the file system is; nothing means: read it from there.
   std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file{};
+  /// Asked every few thousand steps; returning false ends the script with ErrorCode::cancelled.
+  std::function<bool()> go_on{};
 };
 
 /// What running a script gave.
@@ -86,7 +88,7 @@ struct ScriptResult {
 };
 
 /// Runs a script. `name` stands for it in messages and its directory is where its files are looked
-/// for. Never throws for what a script does; errors are in the result.
+/// for. Never throws for what a script does, errors are in the result; what a callback throws comes out.
 ScriptResult run_script(std::string_view text, const std::string& name, const ScriptOptions& options = {});
 
 /// The same for a file; a missing one is a diagnostic with ErrorCode::io.

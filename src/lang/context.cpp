@@ -49,15 +49,21 @@ void Context::pass_limit(Span span, const std::string& message) const {
   throw Failure{.span = span, .message = message + where(), .code = ErrorCode::limit};
 }
 
-void Context::pass_step_limit(Span span) const {
-  pass_limit(span, fmt::format("the script takes more than {} steps", limits.steps));
+void Context::pause(Span span) {
+  if (steps_ > limits.steps)
+    pass_limit(span, fmt::format("the script takes more than {} steps", limits.steps));
+  if (options.go_on && !options.go_on()) {
+    throw Failure{.span = span, .message = "the script was cancelled", .code = ErrorCode::cancelled};
+  }
+  constexpr std::uint64_t steps_between_pauses = 4096;
+  next_pause_ = std::min(limits.steps, steps_ + steps_between_pauses);
 }
 
 void Context::spend(Span span, std::size_t steps) {
   steps_ = steps > std::numeric_limits<std::uint64_t>::max() - steps_
                ? std::numeric_limits<std::uint64_t>::max()
                : steps_ + steps;
-  if (steps_ > limits.steps) pass_step_limit(span);
+  if (steps_ > next_pause_) pause(span);
 }
 
 void Context::count_made(Span span) {

@@ -44,8 +44,8 @@ class Context {
 
   /// Counts an expression evaluated at `span`. This is the hot path.
   void step(Span span) {
-    if (++steps_ > limits.steps) [[unlikely]]
-      pass_step_limit(span);
+    if (++steps_ > next_pause_) [[unlikely]]
+      pause(span);
   }
   void spend(Span span, std::size_t steps);
 
@@ -95,10 +95,12 @@ class Context {
   void count_round() { ++activities_.back().rounds; }
 
  private:
-  [[noreturn]] void pass_step_limit(Span span) const;
+  /// Ends the script if it has used up its steps or the caller wants it; else sets the next pause.
+  void pause(Span span);
   std::string where() const;
 
   std::uint64_t steps_ = 0;
+  std::uint64_t next_pause_ = 0;
   std::uint64_t made_ = 0;
   std::uint64_t emitted_ = 0;
   std::size_t memory_ = 0;

@@ -20,7 +20,7 @@ void Interpreter::attempt(const Statement& statement) {
     return;
   } catch (const Failure& failure) {
     context_.reporter.error(failure);
-    if (failure.code == ErrorCode::limit) throw GiveUp{};
+    if (ends_script(failure)) throw GiveUp{};
   } catch (const Abandoned&) {
     // Told already.
   }

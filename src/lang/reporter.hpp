@@ -25,6 +25,11 @@ struct Failure {
   void add_call(std::string_view name, Span call);
 };
 
+/// Whether there is no going on after it: a limit was passed, or the caller wants no more.
+inline bool ends_script(const Failure& failure) {
+  return failure.code == ErrorCode::limit || failure.code == ErrorCode::cancelled;
+}
+
 /// Thrown where going on makes no sense and everything that there is to say was said.
 struct GiveUp {};
 

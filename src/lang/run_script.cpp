@@ -170,7 +170,7 @@ bool Session::evaluate_override(std::string_view option, const std::pair<std::st
     reporter_.error(given.value_span, "this call has no value");
   } catch (const Failure& failure) {
     reporter_.error(failure);
-    if (failure.code == ErrorCode::limit) throw GiveUp{};
+    if (ends_script(failure)) throw GiveUp{};
   }
   return false;
 }

@@ -121,13 +121,15 @@ SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& 
   return result;
 }
 
+bool has_area(const Triangle& triangle) {
+  return largest_component(normal_of(triangle)) != 0;
+}
+
 void validate(const Triangle& triangle) {
   check_coordinates("a", triangle.a);
   check_coordinates("b", triangle.b);
   check_coordinates("c", triangle.c);
-  if (largest_component(normal_of(triangle)) == 0) {
-    reject("c", "must not be on a line with a and b (the triangle has no area)");
-  }
+  if (!has_area(triangle)) reject("c", "must not be on a line with a and b (the triangle has no area)");
 }
 
 std::unique_ptr<const Shape> make_shape(const Triangle& triangle) {

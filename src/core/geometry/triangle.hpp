@@ -36,6 +36,9 @@ class TriangleShape final : public Shape {
   PlaneFace face_;
 };
 
+/// Whether the corners are not on one line.
+bool has_area(const Triangle& triangle);
+
 void validate(const Triangle& triangle);
 inline bool is_solid(const Triangle&) {
   return false;

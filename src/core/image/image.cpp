@@ -43,6 +43,25 @@ Image::Image(int width, int height) : width_(width), height_(height) {
   for (std::size_t i = 3; i < pixels_.size(); i += 4) pixels_[i] = 1;
 }
 
+Image Image::from_rgba8(int width, int height, std::span<const std::uint8_t> rgba) {
+  Image image(width, height);
+  if (rgba.size() != image.pixels_.size()) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("{} bytes are not a picture of {} x {} pixels", rgba.size(), width, height),
+                "rgba");
+  }
+  constexpr float full = 255;
+  for (std::size_t i = 0; i < rgba.size(); i += 4) {
+    const float alpha = static_cast<float>(rgba[i + 3]) / full;
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      image.pixels_[i + channel] = static_cast<float>(rgba[i + channel]) / full * alpha;
+    }
+    image.pixels_[i + 3] = alpha;
+  }
+  image.set_display_encoded(true);
+  return image;
+}
+
 Color Image::at(int x, int y) const {
   const float* const pixel = pixels_.data() + first_value(x, y, width_);
   return {double{pixel[0]}, double{pixel[1]}, double{pixel[2]}, double{pixel[3]}};

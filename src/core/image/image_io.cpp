@@ -154,16 +154,34 @@ Image Image::read(const std::filesystem::path& path) {
   }
 }
 
-void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
-  const std::string name = path.string();
-  if (empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
-  const WritableFormat* const format = writable_format(path.filename().string());
+namespace {
+
+/// The bytes of a file of a format; `name` is for messages.
+std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* format,
+                                  const WriteOptions& options, const std::string& name) {
+  if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
   if (format == nullptr) {
     fail(ErrorCode::unsupported, "write", name, "the name must end in one of " + writable_endings());
   }
+  const FileTexts texts = file_texts(image, options.reproducible);
+  return encode(image, *format, format->free_texts ? texts : gathered_texts(texts), name);
+}
+
+}  // namespace
+
+void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
+  const std::string name = path.string();
   try {
-    const FileTexts texts = file_texts(*this, options.reproducible);
-    write_whole_file(path, encode(*this, *format, format->free_texts ? texts : gathered_texts(texts), name));
+    write_whole_file(path, file_bytes(*this, writable_format(path.filename().string()), options, name));
+  } catch (const std::bad_alloc&) {
+    fail(ErrorCode::out_of_memory, "write", name, "out of memory");
+  }
+}
+
+std::vector<std::byte> Image::encode(std::string_view format, const WriteOptions& options) const {
+  const std::string name = fmt::format("picture.{}", format);
+  try {
+    return file_bytes(*this, writable_format(name), options, name);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "write", name, "out of memory");
   }

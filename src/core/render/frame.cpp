@@ -2,15 +2,15 @@
 
 namespace crt::core {
 
-Frame::Frame(const PreparedData& data, Workspace& work)
-    : data_(data), camera_(data.scene().camera, data.scene().settings.width, data.scene().settings.height) {
+Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work)
+    : data_(data), settings_(settings), camera_(data.scene().camera, settings.width, settings.height) {
   lights_.reserve(data.scene().lights.size());
   for (const Light& light : data.scene().lights) {
-    lights_.emplace_back(light, settings().falloff_model);
+    lights_.emplace_back(light, settings.falloff_model);
     ambient_ += lights_.back().ambient();
   }
   if (features().transparency && one_viewpoint()) {
-    const CameraRay middle = camera_.ray(0.5 * settings().width, 0.5 * settings().height);
+    const CameraRay middle = camera_.ray(0.5 * settings.width, 0.5 * settings.height);
     find_surrounding_media(data, {.origin = middle.origin, .direction = middle.direction}, camera_media_,
                            work);
   }

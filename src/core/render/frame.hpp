@@ -11,11 +11,11 @@ namespace crt::core {
 
 class Frame {
  public:
-  /// `data` must outlive the frame. The workspace lends memory and counts what is looked up.
-  Frame(const PreparedData& data, Workspace& work);
+  /// `data` and `settings` must outlive the frame. The workspace lends memory and counts what is looked up.
+  Frame(const PreparedData& data, const Settings& settings, Workspace& work);
 
   const PreparedData& data() const { return data_; }
-  const Settings& settings() const { return data_.scene().settings; }
+  const Settings& settings() const { return settings_; }
   const Features& features() const { return data_.features(); }
   const CameraRays& camera() const { return camera_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
@@ -30,6 +30,7 @@ class Frame {
 
  private:
   const PreparedData& data_;
+  const Settings& settings_;
   CameraRays camera_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};

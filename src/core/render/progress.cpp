@@ -1,5 +1,6 @@
 #include "core/render/progress.hpp"
 
+#include "core/math/float_environment.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
@@ -21,12 +22,17 @@ Progress::Progress(const std::function<bool(double)>& callback, std::size_t task
     : callback_(callback), task_count_(static_cast<double>(task_count)) {}
 
 void Progress::begin() {
+  if (stopped_) throw_cancelled();
   last_call_ = Clock::now();
   if (callback_) call(0);
 }
 
 void Progress::finish() {
   if (callback_) call(1);
+}
+
+double Progress::share() const {
+  return static_cast<double>(tasks_done_.load()) / task_count_;
 }
 
 void Progress::task_done() {
@@ -47,7 +53,7 @@ void Progress::report(bool even_without_news) {
     ~Release() { flag.clear(std::memory_order_release); }
   } release{reporting_};
 
-  const double share = static_cast<double>(tasks_done_.load()) / task_count_;
+  const double share = this->share();
   const bool is_news = share >= last_share_ + news && share < 1;
   const bool is_silent = even_without_news && Clock::now() - last_call_ >= longest_silence;
   if (!is_news && !is_silent) return;
@@ -57,7 +63,11 @@ void Progress::report(bool even_without_news) {
 }
 
 void Progress::call(double share) {
-  if (callback_(share)) return;
+  const bool go_on = [&] {
+    const HostFloatEnvironment host;
+    return callback_(share);
+  }();
+  if (go_on) return;
   stopped_ = true;
   throw_cancelled();
 }

@@ -25,8 +25,11 @@ class Progress {
   /// To be called often during a long task; throws like task_done().
   void poll();
 
-  /// Makes every other thread's next call throw: something has gone wrong.
+  /// Makes every thread's next call throw: the caller has cancelled, or something has gone wrong.
   void stop() { stopped_ = true; }
+
+  /// Of the tasks, how many are done: from 0 to 1.
+  double share() const;
 
  private:
   using Clock = std::chrono::steady_clock;

@@ -10,6 +10,10 @@ namespace crt::core {
 
 class Tiles {
  public:
+  /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
+  /// to the end.
+  static constexpr int side = 8;
+
   explicit Tiles(const Region& region)
       : region_(region),
         columns_((region.width + side - 1) / side),
@@ -26,10 +30,6 @@ class Tiles {
   }
 
  private:
-  /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
-  /// to the end.
-  static constexpr int side = 8;
-
   Region region_;
   int columns_;
   int rows_;

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/math/float_environment.hpp"
 #include "core/scene/accelerator.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/prepared_scene.hpp"
@@ -136,6 +137,7 @@ const Leaf& PreparedData::leaf(const HitPoint& point) const {
 namespace crt {
 
 PreparedScene prepare(const Scene& scene) {
+  const core::FloatEnvironment ieee;
   return PreparedScene(std::make_shared<const core::PreparedData>(scene));
 }
 

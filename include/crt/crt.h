@@ -1,0 +1,780 @@
+/**
+ * @file
+ * The C interface of CRT: solids, scenes, pictures and ray queries for programs in any language.
+ *
+ * Rules that hold for every function
+ *
+ * - **Status.** What can fail returns a crt_status and writes its result through its last parameter,
+ *   which it leaves untouched on failure. crt_error_message() then tells the calling thread what was
+ *   wrong. Nothing throws, ends the process or prints. NULL where something is required, an unknown
+ *   value of an enumeration and a number that is not finite are CRT_ERROR_INVALID_ARGUMENT. Any
+ *   function may return CRT_ERROR_OUT_OF_MEMORY and CRT_ERROR_INTERNAL (a fault of CRT).
+ * - **Handles** (crt_entity, crt_scene, ...) are counted: what a function hands out is one reference,
+ *   yours to release; `*_retain` adds one and returns its argument; `*_release` drops one, from any
+ *   thread; both take NULL. What goes into a container is held by it, so the order of releasing does
+ *   not matter.
+ * - **Structs** that may grow begin with `struct_size`. Have their `crt_*_init(&s, sizeof s)` fill in
+ *   the defaults, then change what you like. Fields beyond the size that you pass have their default.
+ * - **Threads.** Each group says who may call it: *any thread*; *one thread at a time* (a scene that
+ *   is being put together); *shared* (what is immutable: any number of threads at once).
+ * - **Conventions.** Left-handed space: x to the right, y up, z into the screen. Vectors are double[3].
+ *   Colours are double[3], linear RGB. Transforms are double[12], the three rows of a 3x4 affine matrix
+ *   (linear part, then translation). Angles are radians. Texts are UTF-8, ended by 0 unless there is
+ *   a length. Coordinates and sizes lie between 1e-100 and 1e100.
+ *
+ * A sphere in 20 lines:
+ * @code{.c}
+ * #include <crt/crt.h>
+ * #include <stdio.h>
+ *
+ * int main(void) {
+ *   const double center[3] = {0, 0, 2};
+ *   crt_entity *sphere = NULL;
+ *   crt_scene *scene = NULL;
+ *   crt_light light;
+ *   crt_prepared *prepared = NULL;
+ *   crt_image *image = NULL;
+ *   crt_light_init(&light, sizeof light);
+ *   light.origin[1] = 3;
+ *   const int failed = crt_sphere_create(center, 1, &sphere) || crt_scene_create(&scene) ||
+ *                      crt_scene_add_entity(scene, sphere) || crt_scene_add_light(scene, &light) ||
+ *                      crt_scene_prepare(scene, &prepared) || crt_render(prepared, NULL, &image) ||
+ *                      crt_image_write(image, "sphere.png");
+ *   if (failed) fprintf(stderr, "%s\n", crt_error_message());
+ *   crt_image_release(image);
+ *   crt_prepared_release(prepared);
+ *   crt_scene_release(scene);
+ *   crt_entity_release(sphere);
+ *   return failed;
+ * }
+ * @endcode
+ */
+#ifndef CRT_CRT_H
+#define CRT_CRT_H
+
+#include <stddef.h>
+#include <stdint.h>
+
+#if defined(__GNUC__)
+#define CRT_API __attribute__((visibility("default")))
+#else
+#define CRT_API
+#endif
+
+#ifdef __cplusplus
+extern "C" {
+#endif
+
+/* ---- versions and errors -------------------------------------------------------------------- */
+
+/** @defgroup errors Versions and errors
+ * *Any thread.*
+ * @{ */
+
+/** The version of this header. A program runs with the library of this or any later minor version. */
+#define CRT_VERSION_MAJOR 1
+#define CRT_VERSION_MINOR 0
+#define CRT_VERSION_PATCH 0
+
+/** What became of a call. Later versions may add values. */
+typedef enum crt_status {
+  CRT_OK = 0,
+  CRT_ERROR_INVALID_ARGUMENT, /**< a value that is NULL, not finite, out of its range or unknown */
+  CRT_ERROR_SCRIPT,           /**< a script is wrong; the diagnostics say where */
+  CRT_ERROR_IO,               /**< a file could not be found, read, understood or written */
+  CRT_ERROR_UNSUPPORTED,      /**< this library or machine cannot do it */
+  CRT_ERROR_LIMIT,            /**< a limit was passed, of the options or of the library */
+  CRT_ERROR_CANCELLED,        /**< a callback or crt_job_cancel() stopped it */
+  CRT_ERROR_OUT_OF_MEMORY,
+  CRT_ERROR_INTERNAL /**< a fault of CRT: please report it */
+} crt_status;
+
+/** The version of the library: major << 16 | minor << 8 | patch. */
+CRT_API uint32_t crt_version(void);
+
+/**
+ * What went wrong in the calling thread's last call that failed; "" if none has. The text is valid
+ * until that thread's next failing call. Long messages are cut at 2000 bytes or so.
+ */
+CRT_API const char* crt_error_message(void);
+
+/** A name for a status: "ok", "invalid argument", ... "unknown" for a number that is none. */
+CRT_API const char* crt_status_string(crt_status status);
+
+/**
+ * The number with which a callback stopped the call of this thread that returned CRT_ERROR_CANCELLED
+ * last; 0 if that was crt_job_cancel() or there was none. For jobs: after crt_job_wait().
+ */
+CRT_API int32_t crt_cancel_value(void);
+
+/** @} */
+
+/* ---- handles -------------------------------------------------------------------------------- */
+
+/** @defgroup handles Handles
+ * Retaining and releasing: *any thread*.
+ * @{ */
+
+/** Something in a scene: a primitive, or several combined. Immutable. */
+typedef struct crt_entity crt_entity;
+/** The description of a picture, which you put together. */
+typedef struct crt_scene crt_scene;
+/** A scene made ready for rays. Immutable. */
+typedef struct crt_prepared crt_prepared;
+/** A render under way. */
+typedef struct crt_job crt_job;
+/** A picture. Immutable. */
+typedef struct crt_image crt_image;
+/** Bytes that the library made. Immutable. */
+typedef struct crt_buffer crt_buffer;
+/** What there is to say about a script. Immutable. */
+typedef struct crt_diagnostics crt_diagnostics;
+
+CRT_API crt_entity* crt_entity_retain(crt_entity* entity);
+CRT_API void crt_entity_release(crt_entity* entity);
+CRT_API crt_scene* crt_scene_retain(crt_scene* scene);
+CRT_API void crt_scene_release(crt_scene* scene);
+CRT_API crt_prepared* crt_prepared_retain(crt_prepared* prepared);
+CRT_API void crt_prepared_release(crt_prepared* prepared);
+CRT_API crt_job* crt_job_retain(crt_job* job);
+/** Dropping the last reference to a job that still runs cancels it and waits for its threads. */
+CRT_API void crt_job_release(crt_job* job);
+CRT_API crt_image* crt_image_retain(crt_image* image);
+CRT_API void crt_image_release(crt_image* image);
+CRT_API crt_buffer* crt_buffer_retain(crt_buffer* buffer);
+CRT_API void crt_buffer_release(crt_buffer* buffer);
+CRT_API crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics);
+CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
+
+/** @} */
+
+/* ---- plain values --------------------------------------------------------------------------- */
+
+/** @defgroup values Materials, lights, cameras, backgrounds, settings
+ * Plain structs in your memory; what a function takes of them it copies (images are retained).
+ * `crt_*_init` fill in the defaults, never beyond `struct_size` bytes; a size that does not hold
+ * `struct_size` itself is an error. *Any thread.*
+ *
+ * @code{.c}
+ * crt_material glass;
+ * crt_material_init(&glass, sizeof glass);
+ * glass.transparency = 0.95;
+ * glass.refractive_index = 1.5;
+ * crt_entity_with_material(sphere, &glass, &glass_sphere);
+ * @endcode
+ * @{ */
+
+typedef enum crt_pattern_type {
+  CRT_PATTERN_CHECKER = 0, /**< cubes whose edges are `scale` long */
+  CRT_PATTERN_STRIPES,     /**< bands of equal width across `direction`, one of each colour in `scale` */
+  CRT_PATTERN_GRADIENT,    /**< from color_a to color_b and back along `direction` within `scale` */
+  CRT_PATTERN_NOISE,       /**< clouds: gradient noise of `octaves` octaves */
+  CRT_PATTERN_MARBLE,      /**< veins: a wave along `direction`, shifted by noise times `turbulence` */
+  CRT_PATTERN_WOOD,        /**< rings about the line through `offset` along `direction` */
+  CRT_PATTERN_IMAGE        /**< `image` laid over the surface by its (u, v) */
+} crt_pattern_type;
+
+/** Colours that vary over a surface or through space. Lives in the space of the entity that wears it. */
+typedef struct crt_pattern {
+  uint32_t struct_size;
+  int32_t type;      /**< a crt_pattern_type */
+  double color_a[3]; /**< linear RGB, each in [0, 1] */
+  double alpha_a;    /**< in [0, 1]; what is missing to 1 adds to the material's transparency */
+  double color_b[3];
+  double alpha_b;
+  double direction[3];    /**< any length but 0 */
+  double offset[3];       /**< moves the pattern; scene units */
+  double scale;           /**< of one period, in scene units; > 0 */
+  double turbulence;      /**< >= 0 */
+  int32_t octaves;        /**< in [1, 16] */
+  int32_t reserved;       /**< 0 */
+  const crt_image* image; /**< of CRT_PATTERN_IMAGE alone */
+  double repeat_u;        /**< how often the image repeats across the surface; > 0 */
+  double repeat_v;
+} crt_pattern;
+
+/** What a surface is made of. */
+typedef struct crt_material {
+  uint32_t struct_size;
+  int32_t reserved;           /**< 0 */
+  double color[3];            /**< linear RGB, each in [0, 1]; default 0.5 */
+  double alpha;               /**< in [0, 1]; what is missing to 1 adds to the transparency; default 1 */
+  const crt_pattern* pattern; /**< takes the place of the colour; default NULL */
+  double reflectivity;        /**< share of light mirrored, in [0, 1]; default 0 */
+  double transparency;        /**< share of light let through, in [0, 1]; default 0 */
+  double refractive_index;    /**< of the inside, in [0.01, 100]; default 1 */
+  double diffuse;             /**< >= 0, or -1 (default) for max(0, 1 - reflectivity - transparency) */
+  double specular;            /**< strength of the highlight, >= 0; default 0 */
+  double shininess;           /**< exponent of the highlight's cosine, >= 0; default 3 */
+  double absorption[3];       /**< inside, per scene unit and channel (Beer-Lambert), >= 0; default 0 */
+  const crt_pattern* bump;    /**< its luminance raises the surface; default NULL */
+  double bump_height;         /**< scene units; default 0.1 */
+} crt_material;
+
+typedef enum crt_light_type {
+  CRT_LIGHT_POINT = 0, /**< shines from `origin` in all directions */
+  CRT_LIGHT_PARALLEL,  /**< shines along `origin` to `pointing` everywhere, like a sun */
+  CRT_LIGHT_SPOT,      /**< shines from `origin` into a cone about the direction to `pointing` */
+  CRT_LIGHT_CYLINDER   /**< parallel rays that fill a cylinder from `origin` towards `pointing` */
+} crt_light_type;
+
+typedef struct crt_light {
+  uint32_t struct_size;
+  int32_t type;       /**< a crt_light_type; default CRT_LIGHT_POINT */
+  double origin[3];   /**< default 0 */
+  double pointing[3]; /**< default 0; a point light has none, others need one that is not `origin` */
+  double color[3];    /**< linear RGB, >= 0, may pass 1; default 1 */
+  double angle;       /**< spot: full angle of the cone, in (0, 2 pi]; default pi / 3 */
+  double penumbra;    /**< spot: how far it fades inwards, radians of the half angle; default pi / 36 */
+  double radius;      /**< cylinder: > 0; default 1 */
+  double falloff;     /**< 0 (default): distance does not matter; else the light is falloff / D^2 */
+  double ambient;     /**< share of the colour that every point gets, >= 0; default 0 */
+} crt_light;
+
+typedef enum crt_projection {
+  CRT_PROJECTION_PINHOLE = 0,
+  CRT_PROJECTION_SPHERICAL,
+  CRT_PROJECTION_CYLINDRICAL,
+  CRT_PROJECTION_ORTHOGRAPHIC
+} crt_projection;
+
+/** Shapes of the lens opening. */
+typedef enum crt_aperture_shape {
+  CRT_APERTURE_CIRCLE = 0,
+  CRT_APERTURE_UNIFORM, /**< the whole square around the circle */
+  CRT_APERTURE_GAUSSIAN,
+  CRT_APERTURE_TRIANGLE,
+  CRT_APERTURE_SQUARE,
+  CRT_APERTURE_PENTAGON,
+  CRT_APERTURE_HEXAGON,
+  CRT_APERTURE_OCTAGON,
+  CRT_APERTURE_LINE
+} crt_aperture_shape;
+
+typedef struct crt_camera {
+  uint32_t struct_size;
+  int32_t projection;     /**< a crt_projection; default CRT_PROJECTION_PINHOLE */
+  double position[3];     /**< default (0, 0, -1) */
+  double pointing[3];     /**< the point looked at; default 0 */
+  double fov;             /**< vertical field of view, radians, in (0, pi); default pi / 3 */
+  double roll;            /**< radians; positive tips the picture's top to the right; default 0 */
+  double aperture;        /**< radius of the lens in thousandths of a scene unit; 0 (default): all is sharp */
+  double focal_distance;  /**< along the view direction to what is in focus, > 0; default 1 */
+  int32_t aperture_shape; /**< a crt_aperture_shape; default CRT_APERTURE_CIRCLE */
+  int32_t reserved;       /**< 0 */
+} crt_camera;
+
+typedef enum crt_background_type {
+  CRT_BACKGROUND_SOLID = 0,  /**< `color` in every direction */
+  CRT_BACKGROUND_GRADIENT,   /**< from `horizon` (level) to `sky` (straight up and down) */
+  CRT_BACKGROUND_SPHERICAL,  /**< `image` all around, equirectangular */
+  CRT_BACKGROUND_CYLINDRICAL /**< `image` all around on a cylinder */
+} crt_background_type;
+
+/** What a ray that hits nothing sees. */
+typedef struct crt_background {
+  uint32_t struct_size;
+  int32_t type;    /**< a crt_background_type; default CRT_BACKGROUND_SOLID */
+  double color[3]; /**< linear RGB, >= 0; default 1 */
+  double alpha;    /**< of the pixels where nothing is hit, in [0, 1]; default 1 */
+  double horizon[3];
+  double horizon_alpha;
+  double sky[3];
+  double sky_alpha;
+  const crt_image* image; /**< its middle column is straight ahead (+z) at angle 0 */
+  double angle;           /**< turns the image about y, radians */
+} crt_background;
+
+typedef enum crt_falloff_model {
+  CRT_FALLOFF_PATH = 0, /**< D is the whole way from the camera over all bounces to the light */
+  CRT_FALLOFF_LIGHT     /**< D is the way from the lit point to the light */
+} crt_falloff_model;
+
+/** How a scene is rendered. */
+typedef struct crt_settings {
+  uint32_t struct_size;
+  int32_t width;           /**< pixels, in [1, 65536]; default 640; width * height is at most 2^27 */
+  int32_t height;          /**< default 480 */
+  int32_t supersampling;   /**< n x n rays a pixel, in [1, 64]; default 1 */
+  int32_t dof_samples;     /**< points of the lens for each of them, in [1, 65536]; default 1: no lens */
+  int32_t recursion_depth; /**< bounces after the camera's ray, in [0, 256]; default 3 */
+  double gamma;            /**< 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1 */
+  double min_weight;       /**< rays that matter less to every channel are dropped; default 1/1024 */
+  int32_t falloff_model;   /**< a crt_falloff_model; default CRT_FALLOFF_PATH */
+  int32_t show_clip;       /**< not 0: pixels with a channel above 1 are red in 8-bit files; default 0 */
+  uint64_t seed;           /**< of the random numbers; default 0 */
+  const char* title;       /**< this and the next go into the files; NULL (default) for none */
+  const char* author;
+  const char* date;
+  const char* notes;
+} crt_settings;
+
+/** As a checker, with all values that other types need at sensible defaults too. */
+CRT_API crt_status crt_pattern_init(crt_pattern* pattern, size_t struct_size);
+/** The defaults of a crt_pattern_type: those of wood are brown. */
+CRT_API crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_size, int32_t type);
+CRT_API crt_status crt_material_init(crt_material* material, size_t struct_size);
+/** A white point light at the origin. */
+CRT_API crt_status crt_light_init(crt_light* light, size_t struct_size);
+/** The defaults of a crt_light_type: all but the point light shine from (0, 1, 0) down to the origin. */
+CRT_API crt_status crt_light_init_type(crt_light* light, size_t struct_size, int32_t type);
+CRT_API crt_status crt_camera_init(crt_camera* camera, size_t struct_size);
+CRT_API crt_status crt_background_init(crt_background* background, size_t struct_size);
+CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size);
+
+/** @} */
+
+/* ---- entities ------------------------------------------------------------------------------- */
+
+/** @defgroup entities Entities
+ * Made, combined and placed: each function makes a new entity, which never changes. Combining and
+ * placing are cheap and share their parts. *Shared.*
+ *
+ * @code{.c}
+ * crt_entity *cutters[] = {hole_a, hole_b};
+ * crt_difference_create(plate, cutters, 2, &part);  // the holes' walls have the cutters' materials
+ * @endcode
+ * @{ */
+
+CRT_API crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out);
+/** An axis-parallel box between any two opposite corners, which must differ in every coordinate. */
+CRT_API crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out);
+/** The half-space behind a plane: `normal` (any length but 0) points out of the solid. */
+CRT_API crt_status crt_plane_create(const double normal[3], const double position[3], crt_entity** out);
+/** A surface: the half of a plane on the `direction` side of the line through `position` across it. */
+CRT_API crt_status crt_half_plane_create(const double normal[3], const double position[3],
+                                         const double direction[3], crt_entity** out);
+CRT_API crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
+                                       crt_entity** out);
+/** A cone or frustum: `radius` at `from`, `radius2` (0 or more) at `to`. */
+CRT_API crt_status crt_cone_create(const double from[3], const double to[3], double radius, double radius2,
+                                   crt_entity** out);
+/** All points within `thickness` of the circle of `radius` about `center` across `axis`. */
+CRT_API crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
+                                    double thickness, crt_entity** out);
+/** A surface: a flat disc. */
+CRT_API crt_status crt_disc_create(const double center[3], const double normal[3], double radius,
+                                   crt_entity** out);
+/** A surface: a triangle, which must have an area; its normal is along (b - a) x (c - a). */
+CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3],
+                                       crt_entity** out);
+/**
+ * A surface of triangles. Triangles without an area are left out (an error if all are).
+ * @param positions       3 * vertex_count numbers
+ * @param indices         3 * triangle_count numbers, each below vertex_count
+ */
+CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
+                                   size_t triangle_count, crt_entity** out);
+
+/** What is in any of the parts (at least one), which may be surfaces too. */
+CRT_API crt_status crt_union_create(crt_entity* const* parts, size_t count, crt_entity** out);
+/** What is in all of the parts: at least one, all solids. */
+CRT_API crt_status crt_intersection_create(crt_entity* const* parts, size_t count, crt_entity** out);
+/** What is in `from` and in none of the cutters (none is fine); all solids. A cut has its cutter's material.
+ */
+CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cutters, size_t count,
+                                         crt_entity** out);
+
+/** The entity moved by an affine map with an inverse, after whatever moved it before. */
+CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12], crt_entity** out);
+/** The entity with a material on every part that has none of its own. */
+CRT_API crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material,
+                                            crt_entity** out);
+/** The entity under a number that hits report; without one that is its place in the scene. The outermost
+ * holds. */
+CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out);
+
+/** 1 if the entity has an inside, 0 if a part of it is a mere surface (or it is NULL). */
+CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
+/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL. */
+CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
+
+/** @} */
+
+/* ---- scenes --------------------------------------------------------------------------------- */
+
+/** @defgroup scenes Scenes
+ * A scene needs nothing to be prepared: without a camera it has the default one. *One thread at a time* for
+ * each scene. What was prepared does not change with the scene.
+ * @{ */
+
+CRT_API crt_status crt_scene_create(crt_scene** out);
+/** Another scene with the same content. */
+CRT_API crt_status crt_scene_copy(const crt_scene* scene, crt_scene** out);
+
+CRT_API crt_status crt_scene_add_entity(crt_scene* scene, crt_entity* entity);
+CRT_API crt_status crt_scene_add_light(crt_scene* scene, const crt_light* light);
+CRT_API crt_status crt_scene_set_camera(crt_scene* scene, const crt_camera* camera);
+CRT_API crt_status crt_scene_set_background(crt_scene* scene, const crt_background* background);
+CRT_API crt_status crt_scene_set_settings(crt_scene* scene, const crt_settings* settings);
+CRT_API crt_status crt_scene_clear_entities(crt_scene* scene);
+CRT_API crt_status crt_scene_clear_lights(crt_scene* scene);
+
+/** 0 for NULL. */
+CRT_API size_t crt_scene_entity_count(const crt_scene* scene);
+CRT_API size_t crt_scene_light_count(const crt_scene* scene);
+CRT_API crt_status crt_scene_get_entity(const crt_scene* scene, size_t index, crt_entity** out);
+/** These four fill in as much of the struct as its `struct_size` (which must be set) holds. */
+CRT_API crt_status crt_scene_get_light(const crt_scene* scene, size_t index, crt_light* light);
+CRT_API crt_status crt_scene_get_camera(const crt_scene* scene, crt_camera* camera);
+/** The image belongs to the scene: retain it to keep it. */
+CRT_API crt_status crt_scene_get_background(const crt_scene* scene, crt_background* background);
+/** The texts are valid until the scene changes. */
+CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings);
+
+/** Checks the scene, which stays as it is, and builds what rays need. */
+CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
+
+/** @} */
+
+/* ---- scripts -------------------------------------------------------------------------------- */
+
+/** @defgroup scripts Scripts
+ * Scenes from the CRT language. *Any thread.*
+ *
+ * @code{.c}
+ * crt_diagnostics *diagnostics = NULL;
+ * if (crt_scene_from_script_file("part.crt", NULL, &diagnostics, &scene) != CRT_OK)
+ *   fputs(crt_diagnostics_text(diagnostics), stderr);
+ * crt_diagnostics_release(diagnostics);
+ * @endcode
+ * @{ */
+
+/** Takes what a file holds; see crt_open_file_fn. */
+typedef struct crt_file_content crt_file_content;
+
+/** What a crt_open_file_fn returns; any other number cancels the script. */
+enum {
+  CRT_FILE_GIVEN = 0,    /**< the content was appended (an empty file: nothing) */
+  CRT_FILE_NOT_GIVEN = 1 /**< the file system is to be asked */
+};
+
+/**
+ * Asked for each file that a script imports or shows, before the file system is. Called from the thread
+ * that runs the script.
+ * @param path  where the file would be: the script's directory or a resource directory, and its name
+ */
+typedef int (*crt_open_file_fn)(const char* path, crt_file_content* content, void* user);
+/** Appends to the content of a file. Inside a crt_open_file_fn only. */
+CRT_API crt_status crt_file_content_append(crt_file_content* content, const void* bytes, size_t count);
+
+/** Gets a line that the script prints, without its end; a return value other than 0 cancels the script. */
+typedef int (*crt_print_fn)(const char* line, size_t length, void* user);
+/** Asked every few thousand steps of a script; a return value other than 0 cancels it. */
+typedef int (*crt_poll_fn)(void* user);
+
+/** What a script may see and use. All 0 is the default: files of its own directory, and the limits below. */
+typedef struct crt_script_options {
+  uint32_t struct_size;
+  int32_t allow_outside_files; /**< not 0: files outside its directory and the resource directories too */
+  const char* const* resource_directories; /**< where files are looked for after the script's directory */
+  uint64_t resource_directory_count;
+  double t;                           /**< the frame of an animation: the script's constant `t` */
+  const char* const* variable_names;  /**< top-level variables set from outside ... */
+  const char* const* variable_values; /**< ... to these expressions of the language, such as "18" */
+  uint64_t variable_count;
+  const char* const* setting_names;  /**< attributes of Settings that win over the script's ... */
+  const char* const* setting_values; /**< ... with these expressions */
+  uint64_t setting_count;
+  uint64_t max_steps;         /**< expressions evaluated; 0: 20 million */
+  uint64_t max_entities;      /**< 0: 10 million */
+  uint64_t max_call_depth;    /**< macros within macros, at most 1000; 0: 256 */
+  uint64_t max_list_length;   /**< 0: 10 million */
+  uint64_t max_string_bytes;  /**< 0: 16 MiB */
+  uint64_t max_memory_bytes;  /**< of all lists and strings together, about; 0: 2 GiB */
+  uint64_t max_source_bytes;  /**< of the script and its imports; 0: 64 MiB */
+  uint64_t max_errors;        /**< reported before giving up; 0: 20 */
+  crt_open_file_fn open_file; /**< NULL: files come from the file system */
+  void* open_file_user;
+  crt_print_fn print; /**< NULL: what is printed goes nowhere */
+  void* print_user;
+  crt_poll_fn poll; /**< NULL: only the limits end a script */
+  void* poll_user;
+} crt_script_options;
+
+CRT_API crt_status crt_script_options_init(crt_script_options* options, size_t struct_size);
+
+/**
+ * Runs a script.
+ * @param text         UTF-8, `length` bytes; NULL if length is 0
+ * @param name         stands for the script in messages; its directory is where its files are looked for
+ * @param options      NULL for the defaults
+ * @param diagnostics  NULL, or gets what there is to say, warnings too, whether the script failed or not
+ *                     (it is left untouched only if the arguments are wrong or memory ran out)
+ * @return CRT_ERROR_SCRIPT, or the status of the first error: CRT_ERROR_IO, CRT_ERROR_LIMIT,
+ *         CRT_ERROR_CANCELLED, ...
+ */
+CRT_API crt_status crt_scene_from_script(const char* text, size_t length, const char* name,
+                                         const crt_script_options* options, crt_diagnostics** diagnostics,
+                                         crt_scene** out);
+/** The same for a file. */
+CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script_options* options,
+                                              crt_diagnostics** diagnostics, crt_scene** out);
+
+typedef enum crt_severity { CRT_SEVERITY_WARNING = 0, CRT_SEVERITY_ERROR } crt_severity;
+
+/** One thing to say. Lines and columns count from 1, columns in code points; 0: it has no place. */
+typedef struct crt_diagnostic {
+  uint32_t struct_size;
+  int32_t severity; /**< a crt_severity */
+  int32_t status;   /**< a crt_status: what kind of error */
+  int32_t line;
+  int32_t column;
+  int32_t length; /**< of the marked piece, in code points */
+  const char* message;
+  const char* file;
+  const char* source_line; /**< the text of that line, without its end */
+  uint64_t call_count;     /**< macro calls that led there */
+} crt_diagnostic;
+
+/** A macro call that led to an error. */
+typedef struct crt_diagnostic_call {
+  uint32_t struct_size;
+  int32_t line; /**< where the macro was called */
+  int32_t column;
+  int32_t reserved;
+  const char* name; /**< of the macro */
+  const char* file;
+} crt_diagnostic_call;
+
+/* Texts belong to the handle. *Shared.* */
+
+/** 0 for NULL. */
+CRT_API size_t crt_diagnostics_count(const crt_diagnostics* diagnostics);
+/** Fills in as much as `diagnostic->struct_size` (which must be set) holds. */
+CRT_API crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
+                                       crt_diagnostic* diagnostic);
+/** A call that led to a diagnostic, innermost first; `call->struct_size` must be set. */
+CRT_API crt_status crt_diagnostics_get_call(const crt_diagnostics* diagnostics, size_t index,
+                                            size_t call_index, crt_diagnostic_call* call);
+/** All of them as a compiler would print them, with source lines and carets; "" for NULL. */
+CRT_API const char* crt_diagnostics_text(const crt_diagnostics* diagnostics);
+/** All of them as a JSON array of objects; "[]" for NULL. */
+CRT_API const char* crt_diagnostics_json(const crt_diagnostics* diagnostics);
+
+/** @} */
+
+/* ---- rendering ------------------------------------------------------------------------------ */
+
+/** @defgroup rendering Rendering
+ * The pixels depend on the scene and the seed alone, not on threads or regions. *Shared.*
+ *
+ * @code{.c}
+ * static int show(double fraction, void *user) { printf("%3.0f %%\n", 100 * fraction); return 0; }
+ *
+ * crt_render_options options;
+ * crt_render_options_init(&options, sizeof options);
+ * options.progress = show;
+ * crt_render(prepared, &options, &image);
+ * @endcode
+ * @{ */
+
+/**
+ * Told how far a render is, now and then: first 0, never less than before, last 1. From one thread at a
+ * time, which may be one of the render's own. A return value other than 0 cancels.
+ */
+typedef int (*crt_progress_fn)(double fraction, void* user);
+
+typedef enum crt_log_level { CRT_LOG_INFO = 0, CRT_LOG_WARNING } crt_log_level;
+
+/** Gets what there is to tell of a render. From the thread that called crt_render(), or the job's own. */
+typedef void (*crt_log_fn)(int32_t level, const char* message, void* user);
+
+/** What a render may be asked beyond the scene. All 0 is the default: the whole picture on all cores. */
+typedef struct crt_render_options {
+  uint32_t struct_size;
+  int32_t threads;  /**< at most; 0: what the calling TBB arena has; 1: none is started */
+  int32_t region_x; /**< renders a part of the picture only, from the top left; the image has its size */
+  int32_t region_y;
+  int32_t region_width; /**< region_width and region_height 0: all of it */
+  int32_t region_height;
+  uint64_t seed; /**< takes the place of the settings' seed; 0: the settings' */
+  crt_progress_fn progress;
+  void* progress_user;
+  crt_log_fn log;
+  void* log_user;
+} crt_render_options;
+
+CRT_API crt_status crt_render_options_init(crt_render_options* options, size_t struct_size);
+
+/** Renders, and returns when done. `options` NULL: the defaults. */
+CRT_API crt_status crt_render(crt_prepared* prepared, const crt_render_options* options, crt_image** out);
+
+/**
+ * Starts to render on a thread of the job's own, which counts as one of `threads`, in the arena of the
+ * calling thread unless `threads` is set. The callbacks must be good to call until the job has ended.
+ */
+CRT_API crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options, crt_job** out);
+/** How much is done, from 0 to 1. */
+CRT_API crt_status crt_job_progress(crt_job* job, double* fraction);
+/** The image so far; what is not yet rendered is transparent black. Also after the end, however it came. */
+CRT_API crt_status crt_job_snapshot(crt_job* job, crt_image** out);
+/** Asks the job to stop, which it does within a few tiles, and returns at once. Harmless after its end. */
+CRT_API crt_status crt_job_cancel(crt_job* job);
+/**
+ * Waits for the end and gives the image, again for each call (`out` NULL: only waits), or what went wrong.
+ * Not from the job's own callbacks: CRT_ERROR_INVALID_ARGUMENT.
+ */
+CRT_API crt_status crt_job_wait(crt_job* job, crt_image** out);
+
+/** What a render did. Counts do not depend on the number of threads. */
+typedef struct crt_render_stats {
+  uint32_t struct_size;
+  int32_t threads; /**< that were allowed to work on it */
+  uint64_t pixels;
+  uint64_t camera_rays;
+  uint64_t shadow_rays;
+  uint64_t reflection_rays;
+  uint64_t refraction_rays;
+  uint64_t rays_below_min_weight;  /**< not traced: below the settings' min_weight */
+  uint64_t rays_beyond_depth;      /**< not traced: the recursion depth was reached */
+  uint64_t samples_over_ray_bound; /**< camera samples that reached 65536 rays and dropped the rest */
+  uint64_t intersection_tests;     /**< rays against primitives or CSG objects */
+  uint64_t interval_events;        /**< crossings sorted and flipped inside CSG objects */
+  uint64_t media_lookups;
+  uint64_t media_changes;
+  uint64_t pattern_lookups;
+  uint64_t lens_samples;
+  double prepare_seconds; /**< by the clock on the wall, as the next */
+  double trace_seconds;
+} crt_render_stats;
+
+/** @} */
+
+/* ---- images --------------------------------------------------------------------------------- */
+
+/** @defgroup images Images
+ * Rows from the top; RGBA floats, linear, alpha premultiplied. *Shared.*
+ *
+ * @code{.c}
+ * size_t stride = 0;
+ * const float *rows = crt_image_pixels(image, &stride);
+ * const float *pixel = (const float *)((const char *)rows + y * stride) + 4 * x;  // r, g, b, a
+ * @endcode
+ * @{ */
+
+/** From pixels of yours: 4 floats each, rows `row_stride` bytes apart (0: without gaps). Must be finite. */
+CRT_API crt_status crt_image_create(uint32_t width, uint32_t height, const float* pixels, size_t row_stride,
+                                    crt_image** out);
+/** From 8-bit RGBA with straight alpha, as displays want them: where it serves in a scene, its gamma undoes
+ * the scene's. */
+CRT_API crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* pixels,
+                                        size_t row_stride, crt_image** out);
+/** Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file; its content tells which. */
+CRT_API crt_status crt_image_read(const char* path, crt_image** out);
+/** The same from a file's bytes; `name` (or NULL) is for messages. */
+CRT_API crt_status crt_image_decode(const void* bytes, size_t count, const char* name, crt_image** out);
+
+/** 0 for NULL, as the height. */
+CRT_API uint32_t crt_image_width(const crt_image* image);
+CRT_API uint32_t crt_image_height(const crt_image* image);
+/**
+ * The pixels, which belong to the image; NULL for NULL.
+ * @param row_stride  gets the bytes from row to row; may be NULL
+ */
+CRT_API const float* crt_image_pixels(const crt_image* image, size_t* row_stride);
+/**
+ * The 8-bit RGBA that a file gets: gamma applied, alpha straight.
+ * @param row_stride  bytes from row to row of yours; 0: without gaps
+ */
+CRT_API crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t row_stride);
+
+/** How to write a file. */
+typedef struct crt_write_options {
+  uint32_t struct_size;
+  int32_t reproducible; /**< not 0: leaves out what changes from run to run (the render time) */
+} crt_write_options;
+
+CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t struct_size);
+
+/**
+ * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr and hdr
+ * linear floats. The file appears whole or not at all.
+ */
+CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
+CRT_API crt_status crt_image_write_with(const crt_image* image, const char* path,
+                                        const crt_write_options* options);
+/** The bytes of such a file. `format` is its ending ("png", "exr", ...); `options` may be NULL. */
+CRT_API crt_status crt_image_encode(const crt_image* image, const char* format,
+                                    const crt_write_options* options, crt_buffer** out);
+/** NULL for NULL. */
+CRT_API const void* crt_buffer_data(const crt_buffer* buffer);
+/** In bytes; 0 for NULL. */
+CRT_API size_t crt_buffer_size(const crt_buffer* buffer);
+
+/** What rendering it took; `stats->struct_size` must be set. All 0 for an image that was not rendered. */
+CRT_API crt_status crt_image_stats(const crt_image* image, crt_render_stats* stats);
+/** The settings that it was rendered with; `settings->struct_size` must be set; texts belong to the image. */
+CRT_API crt_status crt_image_settings(const crt_image* image, crt_settings* settings);
+/** The same pixels with other settings: gamma and show_clip act when it is written, the texts go into files.
+ */
+CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_settings* settings,
+                                           crt_image** out);
+
+/** @} */
+
+/* ---- ray queries ---------------------------------------------------------------------------- */
+
+/** @defgroup queries Ray queries
+ * What a program asks of the geometry without making a picture; the same crossings that pictures see.
+ * Many rays are asked on several threads: what the calling TBB arena has. *Shared.*
+ *
+ * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one after the
+ * other. Any alignment will do, and hits may take the place of their own rays.
+ *
+ * @code{.c}
+ * const crt_ray ray = {{0, 0, -5}, {0, 0, 1}, 0, INFINITY};
+ * crt_hit hit;
+ * if (crt_intersect(prepared, &ray, 0, 1, &hit, 0) == CRT_OK && hit.t < INFINITY)
+ *   printf("hit %u at t = %g\n", hit.entity_id, hit.t);
+ * @endcode
+ * @{ */
+
+/**
+ * The points origin + t * direction with t_min < t < t_max. The direction may have any length but 0; t_min
+ * may be -INFINITY, t_max INFINITY. The layout is fixed for ever: 64 bytes.
+ */
+typedef struct crt_ray {
+  double origin[3];
+  double direction[3];
+  double t_min;
+  double t_max;
+} crt_ray;
+
+/** Bits of crt_hit.flags. */
+enum {
+  CRT_HIT_ENTERING = 1, /**< the ray goes into the solid, or through a surface against its normal */
+  CRT_HIT_BACKFACE = 2  /**< the ray comes from the side that the normal points away from */
+};
+
+/** Where a ray meets a surface. A miss has t = INFINITY and 0 elsewhere. The layout is fixed for ever: 56
+ * bytes. */
+typedef struct crt_hit {
+  double t;           /**< in units of |direction| */
+  double normal[3];   /**< unit length, out of the solid; of a surface as its maker turned it */
+  double u, v;        /**< as each primitive defines them */
+  uint32_t entity_id; /**< of crt_entity_with_id(), or the entity's place in the scene */
+  uint32_t flags;     /**< CRT_HIT_* */
+} crt_hit;
+
+/** The nearest hit of each ray. If any ray is wrong, none is asked, and the message names its index. */
+CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
+                                 crt_hit* hits, size_t hit_stride);
+/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes. */
+CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
+                                uint8_t* occluded);
+/**
+ * Every crossing along a ray in order: of each entity, the solid intervals that CSG leaves.
+ * @param hits      room for `capacity`; NULL if that is 0
+ * @param count     gets how many there are, which may be more than `capacity`; only so many are written
+ */
+CRT_API crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hits, size_t capacity,
+                                 size_t* count);
+
+/** @} */
+
+#ifdef __cplusplus
+}
+#endif
+
+#endif

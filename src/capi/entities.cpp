@@ -1,0 +1,182 @@
+// Entities of the C interface.
+#include <cmath>
+#include <span>
+#include <vector>
+
+#include "capi/structs.hpp"
+#include "crt/primitives.hpp"
+
+namespace crt::capi {
+
+namespace {
+
+/// Makes an entity and hands it out.
+template <class Make>
+crt_status create(crt_entity** out, const Make& make) {
+  return guarded([&] {
+    require(out, "out");
+    *out = new crt_entity(make());
+  });
+}
+
+/// The entities behind `count` handles.
+std::vector<Entity> to_entities(crt_entity* const* handles, std::size_t count, const char* argument) {
+  std::vector<Entity> entities;
+  if (count == 0) return entities;
+  require(handles, argument);
+  entities.reserve(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    require(handles[i], argument);
+    entities.push_back(handles[i]->value);
+  }
+  return entities;
+}
+
+/// From the rows of a 3x4 matrix.
+Transform to_transform(const double* affine) {
+  require(affine, "affine");
+  const std::span<const double, 12> m(affine, 12);
+  for (const double number : m) {
+    if (!std::isfinite(number)) reject("affine", "must be finite");
+  }
+  return {.row_x = {m[0], m[1], m[2]},
+          .row_y = {m[4], m[5], m[6]},
+          .row_z = {m[8], m[9], m[10]},
+          .translation = {m[3], m[7], m[11]}};
+}
+
+Entity to_mesh(const double* positions, std::size_t vertex_count, const std::uint32_t* indices,
+               std::size_t triangle_count) {
+  require(positions, "positions");
+  require(indices, "indices");
+  std::vector<Vec3> corners;
+  corners.reserve(vertex_count);
+  for (std::size_t i = 0; i < vertex_count; ++i) {
+    const double* const p = positions + 3 * i;
+    corners.emplace_back(p[0], p[1], p[2]);
+  }
+  std::vector<TriangleIndices> triangles;
+  triangles.reserve(triangle_count);
+  for (std::size_t i = 0; i < triangle_count; ++i) {
+    const std::uint32_t* const t = indices + 3 * i;
+    triangles.push_back({t[0], t[1], t[2]});
+  }
+  return triangle_mesh(corners, triangles);
+}
+
+}  // namespace
+
+}  // namespace crt::capi
+
+using namespace crt::capi;
+
+crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out) {
+  return create(out, [&] { return crt::Sphere{.center = to_vec3(center, "center"), .radius = radius}; });
+}
+
+crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out) {
+  return create(out, [&] {
+    return crt::Box{.corner_a = to_vec3(corner_a, "corner_a"), .corner_b = to_vec3(corner_b, "corner_b")};
+  });
+}
+
+crt_status crt_plane_create(const double normal[3], const double position[3], crt_entity** out) {
+  return create(out, [&] {
+    return crt::Plane{.normal = to_vec3(normal, "normal"), .position = to_vec3(position, "position")};
+  });
+}
+
+crt_status crt_half_plane_create(const double normal[3], const double position[3], const double direction[3],
+                                 crt_entity** out) {
+  return create(out, [&] {
+    return crt::HalfPlane{.normal = to_vec3(normal, "normal"),
+                          .position = to_vec3(position, "position"),
+                          .direction = to_vec3(direction, "direction")};
+  });
+}
+
+crt_status crt_cylinder_create(const double from[3], const double to[3], double radius, crt_entity** out) {
+  return create(out, [&] {
+    return crt::Cylinder{.from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius};
+  });
+}
+
+crt_status crt_cone_create(const double from[3], const double to[3], double radius, double radius2,
+                           crt_entity** out) {
+  return create(out, [&] {
+    return crt::Cone{
+        .from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius, .radius2 = radius2};
+  });
+}
+
+crt_status crt_torus_create(const double center[3], const double axis[3], double radius, double thickness,
+                            crt_entity** out) {
+  return create(out, [&] {
+    return crt::Torus{.center = to_vec3(center, "center"),
+                      .axis = to_vec3(axis, "axis"),
+                      .radius = radius,
+                      .thickness = thickness};
+  });
+}
+
+crt_status crt_disc_create(const double center[3], const double normal[3], double radius, crt_entity** out) {
+  return create(out, [&] {
+    return crt::Disc{
+        .center = to_vec3(center, "center"), .normal = to_vec3(normal, "normal"), .radius = radius};
+  });
+}
+
+crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3], crt_entity** out) {
+  return create(
+      out, [&] { return crt::Triangle{.a = to_vec3(a, "a"), .b = to_vec3(b, "b"), .c = to_vec3(c, "c")}; });
+}
+
+crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
+                           size_t triangle_count, crt_entity** out) {
+  return create(out, [&] { return to_mesh(positions, vertex_count, indices, triangle_count); });
+}
+
+crt_status crt_union_create(crt_entity* const* parts, size_t count, crt_entity** out) {
+  return create(out, [&] { return crt::csg_union(to_entities(parts, count, "parts")); });
+}
+
+crt_status crt_intersection_create(crt_entity* const* parts, size_t count, crt_entity** out) {
+  return create(out, [&] { return crt::csg_intersection(to_entities(parts, count, "parts")); });
+}
+
+crt_status crt_difference_create(crt_entity* from, crt_entity* const* cutters, size_t count,
+                                 crt_entity** out) {
+  return create(out, [&] {
+    require(from, "from");
+    return crt::csg_difference(from->value, to_entities(cutters, count, "cutters"));
+  });
+}
+
+crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12], crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.transformed(to_transform(affine));
+  });
+}
+
+crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material, crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.with_material(to_material(material));
+  });
+}
+
+crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out) {
+  return create(out, [&] {
+    require(entity, "entity");
+    return entity->value.with_id(id);
+  });
+}
+
+int32_t crt_entity_is_solid(const crt_entity* entity) {
+  return entity != nullptr && entity->value.is_solid() ? 1 : 0;
+}
+
+uint64_t crt_entity_primitive_count(const crt_entity* entity) {
+  return entity == nullptr ? 0 : entity->value.primitive_count();
+}

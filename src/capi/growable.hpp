@@ -1,0 +1,89 @@
+// Structs that grow from version to version. A program and the library may have been built with different
+// versions of a struct: `struct_size` says where the program's ends, and nothing beyond it is read or
+// written. A field that it cuts in two counts as not there.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <span>
+
+#include "capi/guard.hpp"
+
+namespace crt::capi {
+
+/// Where each field of a struct ends, in order. Of every growable struct: see structs.cpp.
+template <class Struct>
+std::span<const std::size_t> field_ends();
+
+/// The values that a struct has if its owner says nothing.
+template <class Struct>
+Struct defaults();
+
+inline constexpr std::size_t size_field = sizeof(std::uint32_t);
+/// No struct will ever be larger than this; a larger size is a mistake.
+inline constexpr std::size_t largest_struct = 1 << 16;
+
+inline void require_struct_size(std::size_t size, const char* argument) {
+  if (size == 0) reject(argument, "has a struct_size of 0: initialise it with its crt_*_init()");
+  if (size < size_field || size > largest_struct) reject(argument, "has a struct_size that cannot be");
+}
+
+/// Up to where both sides know the struct.
+template <class Struct>
+std::size_t known_size(std::size_t size) {
+  std::size_t known = size_field;
+  for (const std::size_t end : field_ends<Struct>()) {
+    if (end <= size) known = end;
+  }
+  return known;
+}
+
+template <class Struct>
+std::size_t given_size(const Struct* given, const char* argument) {
+  require(given, argument);
+  std::uint32_t size = 0;
+  std::memcpy(&size, given, sizeof size);
+  require_struct_size(size, argument);
+  return size;
+}
+
+/// What the caller gave, with defaults where it ends.
+template <class Struct>
+Struct taken(const Struct* given, const char* argument) {
+  const std::size_t known = known_size<Struct>(given_size(given, argument));
+  auto result = defaults<Struct>();
+  std::memcpy(&result, given, known);
+  return result;
+}
+
+/// The same for options, where NULL stands for the defaults.
+template <class Struct>
+Struct taken_or_default(const Struct* given, const char* argument) {
+  return given == nullptr ? defaults<Struct>() : taken(given, argument);
+}
+
+/// Writes all fields but the size into the caller's struct, as far as that goes.
+template <class Struct>
+void fill_in(Struct* out, const char* argument, const Struct& values) {
+  const std::size_t known = known_size<Struct>(given_size(out, argument));
+  std::memcpy(reinterpret_cast<char*>(out) + size_field, reinterpret_cast<const char*>(&values) + size_field,
+              known - size_field);
+}
+
+/// What the crt_*_init functions do: the values, 0 for what only the caller knows, and the size.
+template <class Struct>
+void initialise(Struct* out, std::size_t size, const Struct& values) {
+  require(out, "the struct");
+  require_struct_size(size, "the struct");
+  const std::size_t known = known_size<Struct>(size);
+  const auto given = static_cast<std::uint32_t>(size);
+  char* const bytes = reinterpret_cast<char*>(out);
+  std::memset(bytes, 0, size);
+  std::memcpy(bytes, &values, known);
+  std::memcpy(bytes, &given, sizeof given);
+}
+
+}  // namespace crt::capi

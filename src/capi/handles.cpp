@@ -1,0 +1,54 @@
+// Retaining and releasing.
+#include "capi/handles.hpp"
+
+using crt::capi::release;
+using crt::capi::retain;
+
+crt_entity* crt_entity_retain(crt_entity* entity) {
+  return retain(entity);
+}
+void crt_entity_release(crt_entity* entity) {
+  release(entity);
+}
+
+crt_scene* crt_scene_retain(crt_scene* scene) {
+  return retain(scene);
+}
+void crt_scene_release(crt_scene* scene) {
+  release(scene);
+}
+
+crt_prepared* crt_prepared_retain(crt_prepared* prepared) {
+  return retain(prepared);
+}
+void crt_prepared_release(crt_prepared* prepared) {
+  release(prepared);
+}
+
+crt_job* crt_job_retain(crt_job* job) {
+  return retain(job);
+}
+void crt_job_release(crt_job* job) {
+  release(job);
+}
+
+crt_image* crt_image_retain(crt_image* image) {
+  return retain(image);
+}
+void crt_image_release(crt_image* image) {
+  release(image);
+}
+
+crt_buffer* crt_buffer_retain(crt_buffer* buffer) {
+  return retain(buffer);
+}
+void crt_buffer_release(crt_buffer* buffer) {
+  release(buffer);
+}
+
+crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics) {
+  return retain(diagnostics);
+}
+void crt_diagnostics_release(crt_diagnostics* diagnostics) {
+  release(diagnostics);
+}

@@ -1,0 +1,106 @@
+// What is behind the handles of the C interface: a value of the C++ interface and a count of references.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "crt/crt.h"
+#include "crt/entity.hpp"
+#include "crt/image.hpp"
+#include "crt/job.hpp"
+#include "crt/prepared_scene.hpp"
+#include "crt/scene.hpp"
+#include "crt/script.hpp"
+
+namespace crt::capi {
+
+struct Counted {
+  std::atomic<std::uint32_t> references{1};
+};
+
+template <class Handle>
+Handle* retain(Handle* handle) noexcept {
+  if (handle != nullptr) handle->references.fetch_add(1, std::memory_order_relaxed);
+  return handle;
+}
+
+template <class Handle>
+void release(Handle* handle) noexcept {
+  if (handle != nullptr && handle->references.fetch_sub(1, std::memory_order_acq_rel) == 1) delete handle;
+}
+
+/// A reference that the library holds itself.
+template <class Handle>
+class Reference {
+ public:
+  Reference() = default;
+  /// Takes over the reference that the caller has.
+  explicit Reference(Handle* handle) noexcept : handle_(handle) {}
+  Reference(const Reference& other) noexcept : handle_(retain(other.handle_)) {}
+  Reference(Reference&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
+  Reference& operator=(Reference other) noexcept {
+    std::swap(handle_, other.handle_);
+    return *this;
+  }
+  ~Reference() { release(handle_); }
+
+  Handle* get() const noexcept { return handle_; }
+
+ private:
+  Handle* handle_ = nullptr;
+};
+
+/// The number with which a progress callback stopped a render; callbacks come from any thread.
+using CancelValue = std::shared_ptr<std::atomic<int>>;
+
+}  // namespace crt::capi
+
+struct crt_entity : crt::capi::Counted {
+  explicit crt_entity(crt::Entity new_value) : value(std::move(new_value)) {}
+  crt::Entity value;
+};
+
+struct crt_image : crt::capi::Counted {
+  explicit crt_image(std::shared_ptr<const crt::Image> new_value) : value(std::move(new_value)) {}
+  explicit crt_image(crt::Image image) : value(std::make_shared<const crt::Image>(std::move(image))) {}
+  std::shared_ptr<const crt::Image> value;
+};
+
+struct crt_scene : crt::capi::Counted {
+  crt::Scene value;
+  /// What crt_scene_get_background() has lent of the background's picture.
+  mutable crt::capi::Reference<crt_image> lent_background;
+};
+
+struct crt_prepared : crt::capi::Counted {
+  explicit crt_prepared(crt::PreparedScene new_value) : value(std::move(new_value)) {}
+  crt::PreparedScene value;
+};
+
+struct crt_job : crt::capi::Counted {
+  crt_job(crt::RenderJob new_value, crt::capi::CancelValue new_cancel_value)
+      : value(std::move(new_value)), cancel_value(std::move(new_cancel_value)) {}
+  crt::RenderJob value;
+  crt::capi::CancelValue cancel_value;
+};
+
+struct crt_buffer : crt::capi::Counted {
+  explicit crt_buffer(std::vector<std::byte> new_bytes) : bytes(std::move(new_bytes)) {}
+  std::vector<std::byte> bytes;
+};
+
+struct crt_diagnostics : crt::capi::Counted {
+  explicit crt_diagnostics(std::vector<crt::Diagnostic> new_list);
+  std::vector<crt::Diagnostic> list;
+  std::string text;
+  std::string json;
+};
+
+struct crt_file_content {
+  std::vector<std::byte> bytes;
+};

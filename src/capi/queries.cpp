@@ -1,0 +1,170 @@
+// Ray queries of the C interface: rays and hits stay in the caller's memory.
+#include <fmt/format.h>
+
+#include <atomic>
+#include <cstddef>
+#include <cstring>
+#include <limits>
+#include <optional>
+
+#include "capi/structs.hpp"
+#include "crt/query.hpp"
+
+// Frozen for ever: programs and arrays of numbers are laid out like this.
+static_assert(sizeof(crt_ray) == 64 && alignof(crt_ray) == alignof(double));
+static_assert(offsetof(crt_ray, origin) == 0 && offsetof(crt_ray, direction) == 24);
+static_assert(offsetof(crt_ray, t_min) == 48 && offsetof(crt_ray, t_max) == 56);
+static_assert(sizeof(crt_hit) == 56 && alignof(crt_hit) == alignof(double));
+static_assert(offsetof(crt_hit, t) == 0 && offsetof(crt_hit, normal) == 8);
+static_assert(offsetof(crt_hit, u) == 32 && offsetof(crt_hit, v) == 40);
+static_assert(offsetof(crt_hit, entity_id) == 48 && offsetof(crt_hit, flags) == 52);
+
+namespace crt::capi {
+
+namespace {
+
+/// Where each of many structs begins in memory of the caller, which need not be aligned.
+template <class Byte>
+class Places {
+ public:
+  /// `stride` 0: one after the other. Throws for memory that cannot be.
+  Places(Byte* first, std::size_t stride, std::size_t size, std::size_t count, const char* argument)
+      : first_(first), stride_(stride == 0 ? size : stride) {
+    if (count > 0) require(first, argument);
+    if (stride_ < size) {
+      reject(argument, fmt::format("are {} bytes apart, but each has {}", stride_, size));
+    }
+    if (count > std::numeric_limits<std::size_t>::max() / 2 / stride_) {
+      reject(argument, "are more than memory can hold");
+    }
+  }
+
+  Byte* operator[](std::size_t index) const { return first_ + index * stride_; }
+
+ private:
+  Byte* first_;
+  std::size_t stride_;
+};
+
+Ray to_ray(const std::byte* place) {
+  crt_ray ray;
+  std::memcpy(&ray, place, sizeof ray);
+  return {.origin = {ray.origin[0], ray.origin[1], ray.origin[2]},
+          .direction = {ray.direction[0], ray.direction[1], ray.direction[2]},
+          .t_min = ray.t_min,
+          .t_max = ray.t_max};
+}
+
+class Rays {
+ public:
+  Rays(const crt_ray* rays, std::size_t stride, std::size_t count)
+      : places_(reinterpret_cast<const std::byte*>(rays), stride, sizeof(crt_ray), count, "rays"),
+        count_(count) {}
+
+  Ray operator[](std::size_t index) const { return to_ray(places_[index]); }
+
+  /// Throws if any ray is wrong, of several the first.
+  void validate_all(const PreparedScene& scene) const {
+    std::atomic<std::size_t> first_wrong = count_;
+    query_in_parallel(scene, count_, [&](RayQueries&, std::size_t first, std::size_t last) {
+      for (std::size_t i = first; i < last && i < first_wrong; ++i) {
+        if (is_valid(i)) continue;
+        std::size_t known = first_wrong;
+        while (i < known && !first_wrong.compare_exchange_weak(known, i)) {
+        }
+      }
+    });
+    if (first_wrong < count_) throw_error_of(first_wrong);
+  }
+
+ private:
+  bool is_valid(std::size_t index) const {
+    try {
+      validate((*this)[index]);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  }
+
+  [[noreturn]] void throw_error_of(std::size_t index) const {
+    try {
+      validate((*this)[index]);
+    } catch (const Error& error) {
+      throw Error(error.code(), fmt::format("rays[{}]: {}", index, error.what()), "rays");
+    }
+    throw Error(ErrorCode::invalid_argument, "rays changed while they were asked", "rays");
+  }
+
+  Places<const std::byte> places_;
+  std::size_t count_;
+};
+
+crt_hit to_hit(const std::optional<Hit>& hit) {
+  crt_hit out{};
+  if (!hit) {
+    out.t = std::numeric_limits<double>::infinity();
+    return out;
+  }
+  out.t = hit->t;
+  for (int axis = 0; axis < 3; ++axis) out.normal[axis] = hit->normal[axis];
+  out.u = hit->u;
+  out.v = hit->v;
+  out.entity_id = hit->entity_id;
+  out.flags = hit->entering ? CRT_HIT_ENTERING : CRT_HIT_BACKFACE;
+  return out;
+}
+
+}  // namespace
+
+}  // namespace crt::capi
+
+using namespace crt::capi;
+
+crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
+                         crt_hit* hits, size_t hit_stride) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    const Rays questions(rays, ray_stride, count);
+    const Places<std::byte> answers(reinterpret_cast<std::byte*>(hits), hit_stride, sizeof(crt_hit), count,
+                                    "hits");
+    questions.validate_all(prepared->value);
+    crt::query_in_parallel(prepared->value, count,
+                           [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+                             for (std::size_t i = first; i < last; ++i) {
+                               const crt_hit hit = to_hit(queries.intersect(questions[i]));
+                               std::memcpy(answers[i], &hit, sizeof hit);
+                             }
+                           });
+  });
+}
+
+crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
+                        uint8_t* occluded) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    const Rays questions(rays, ray_stride, count);
+    if (count > 0) require(occluded, "occluded");
+    questions.validate_all(prepared->value);
+    crt::query_in_parallel(prepared->value, count,
+                           [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+                             for (std::size_t i = first; i < last; ++i) {
+                               occluded[i] = queries.occluded(questions[i]) ? 1 : 0;
+                             }
+                           });
+  });
+}
+
+crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hits, size_t capacity,
+                         size_t* count) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    require(ray, "ray");
+    if (capacity > 0) require(hits, "hits");
+    require(count, "count");
+    const std::vector<crt::Hit> found =
+        crt::crossings(prepared->value, to_ray(reinterpret_cast<const std::byte*>(ray)));
+    for (std::size_t i = 0; i < found.size() && i < capacity; ++i) hits[i] = to_hit(found[i]);
+    *count = found.size();
+  });
+}

@@ -1,0 +1,102 @@
+// Rendering through the C interface, at once or as a job.
+#include <string>
+
+#include "capi/structs.hpp"
+#include "crt/render.hpp"
+
+namespace crt::capi {
+
+namespace {
+
+RenderOptions to_options(const crt_render_options* options, const CancelValue& cancel_value) {
+  const auto given = taken_or_default(options, "options");
+  RenderOptions result;
+  result.threads = given.threads;
+  if (given.region_x != 0 || given.region_y != 0 || given.region_width != 0 || given.region_height != 0) {
+    result.region = Region{given.region_x, given.region_y, given.region_width, given.region_height};
+  }
+  if (given.seed != 0) result.seed = given.seed;
+  if (given.progress != nullptr) {
+    result.progress = [call = given.progress, user = given.progress_user, cancel_value](double fraction) {
+      const int answer = call(fraction, user);
+      if (answer != 0) *cancel_value = answer;
+      return answer == 0;
+    };
+  }
+  if (given.log != nullptr) {
+    result.log = [call = given.log, user = given.log_user](LogLevel level, std::string_view line) {
+      call(level == LogLevel::warning ? CRT_LOG_WARNING : CRT_LOG_INFO, std::string(line).c_str(), user);
+    };
+  }
+  return result;
+}
+
+CancelValue new_cancel_value() {
+  return std::make_shared<std::atomic<int>>(0);
+}
+
+/// guarded() for what a progress callback may cancel.
+template <class Body>
+crt_status guarded_render(const CancelValue& cancel_value, const Body& body) {
+  const crt_status status = guarded(body);
+  if (status == CRT_ERROR_CANCELLED) set_cancel_value(*cancel_value);
+  return status;
+}
+
+}  // namespace
+
+}  // namespace crt::capi
+
+using namespace crt::capi;
+
+crt_status crt_render(crt_prepared* prepared, const crt_render_options* options, crt_image** out) {
+  CancelValue cancel_value;
+  const crt_status ready = guarded([&] { cancel_value = new_cancel_value(); });
+  if (ready != CRT_OK) return ready;
+  return guarded_render(cancel_value, [&] {
+    require(prepared, "prepared");
+    require(out, "out");
+    *out = new crt_image(crt::render(prepared->value, to_options(options, cancel_value)));
+  });
+}
+
+crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options, crt_job** out) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    require(out, "out");
+    const CancelValue cancel_value = new_cancel_value();
+    *out = new crt_job(crt::RenderJob(prepared->value, to_options(options, cancel_value)), cancel_value);
+  });
+}
+
+crt_status crt_job_progress(crt_job* job, double* fraction) {
+  return guarded([&] {
+    require(job, "job");
+    require(fraction, "fraction");
+    *fraction = job->value.progress();
+  });
+}
+
+crt_status crt_job_snapshot(crt_job* job, crt_image** out) {
+  return guarded([&] {
+    require(job, "job");
+    require(out, "out");
+    *out = new crt_image(job->value.snapshot());
+  });
+}
+
+crt_status crt_job_cancel(crt_job* job) {
+  return guarded([&] {
+    require(job, "job");
+    job->value.cancel();
+  });
+}
+
+crt_status crt_job_wait(crt_job* job, crt_image** out) {
+  const crt_status there = guarded([&] { require(job, "job"); });
+  if (there != CRT_OK) return there;
+  return guarded_render(job->cancel_value, [&] {
+    crt::Image image = job->value.wait();
+    if (out != nullptr) *out = new crt_image(std::move(image));
+  });
+}

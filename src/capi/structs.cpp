@@ -1,0 +1,226 @@
+// The growable structs of the interface: where their fields end, and their crt_*_init functions.
+#include "capi/structs.hpp"
+
+// A field missing here would be read and written with the next one; the test of the layout finds it.
+#define CRT_END(Struct, field) (offsetof(Struct, field) + sizeof(Struct::field))
+
+namespace crt::capi {
+
+template <>
+std::span<const std::size_t> field_ends<crt_pattern>() {
+  using S = crt_pattern;
+  static constexpr std::array ends = {CRT_END(S, type),     CRT_END(S, color_a),  CRT_END(S, alpha_a),
+                                      CRT_END(S, color_b),  CRT_END(S, alpha_b),  CRT_END(S, direction),
+                                      CRT_END(S, offset),   CRT_END(S, scale),    CRT_END(S, turbulence),
+                                      CRT_END(S, octaves),  CRT_END(S, reserved), CRT_END(S, image),
+                                      CRT_END(S, repeat_u), CRT_END(S, repeat_v)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_material>() {
+  using S = crt_material;
+  static constexpr std::array ends = {
+      CRT_END(S, reserved),         CRT_END(S, color),        CRT_END(S, alpha),
+      CRT_END(S, pattern),          CRT_END(S, reflectivity), CRT_END(S, transparency),
+      CRT_END(S, refractive_index), CRT_END(S, diffuse),      CRT_END(S, specular),
+      CRT_END(S, shininess),        CRT_END(S, absorption),   CRT_END(S, bump),
+      CRT_END(S, bump_height)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_light>() {
+  using S = crt_light;
+  static constexpr std::array ends = {CRT_END(S, type),   CRT_END(S, origin),  CRT_END(S, pointing),
+                                      CRT_END(S, color),  CRT_END(S, angle),   CRT_END(S, penumbra),
+                                      CRT_END(S, radius), CRT_END(S, falloff), CRT_END(S, ambient)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_camera>() {
+  using S = crt_camera;
+  static constexpr std::array ends = {
+      CRT_END(S, projection), CRT_END(S, position), CRT_END(S, pointing),       CRT_END(S, fov),
+      CRT_END(S, roll),       CRT_END(S, aperture), CRT_END(S, focal_distance), CRT_END(S, aperture_shape),
+      CRT_END(S, reserved)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_background>() {
+  using S = crt_background;
+  static constexpr std::array ends = {CRT_END(S, type),      CRT_END(S, color),         CRT_END(S, alpha),
+                                      CRT_END(S, horizon),   CRT_END(S, horizon_alpha), CRT_END(S, sky),
+                                      CRT_END(S, sky_alpha), CRT_END(S, image),         CRT_END(S, angle)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_settings>() {
+  using S = crt_settings;
+  static constexpr std::array ends = {CRT_END(S, width),
+                                      CRT_END(S, height),
+                                      CRT_END(S, supersampling),
+                                      CRT_END(S, dof_samples),
+                                      CRT_END(S, recursion_depth),
+                                      CRT_END(S, gamma),
+                                      CRT_END(S, min_weight),
+                                      CRT_END(S, falloff_model),
+                                      CRT_END(S, show_clip),
+                                      CRT_END(S, seed),
+                                      CRT_END(S, title),
+                                      CRT_END(S, author),
+                                      CRT_END(S, date),
+                                      CRT_END(S, notes)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_script_options>() {
+  using S = crt_script_options;
+  static constexpr std::array ends = {CRT_END(S, allow_outside_files),
+                                      CRT_END(S, resource_directories),
+                                      CRT_END(S, resource_directory_count),
+                                      CRT_END(S, t),
+                                      CRT_END(S, variable_names),
+                                      CRT_END(S, variable_values),
+                                      CRT_END(S, variable_count),
+                                      CRT_END(S, setting_names),
+                                      CRT_END(S, setting_values),
+                                      CRT_END(S, setting_count),
+                                      CRT_END(S, max_steps),
+                                      CRT_END(S, max_entities),
+                                      CRT_END(S, max_call_depth),
+                                      CRT_END(S, max_list_length),
+                                      CRT_END(S, max_string_bytes),
+                                      CRT_END(S, max_memory_bytes),
+                                      CRT_END(S, max_source_bytes),
+                                      CRT_END(S, max_errors),
+                                      CRT_END(S, open_file),
+                                      CRT_END(S, open_file_user),
+                                      CRT_END(S, print),
+                                      CRT_END(S, print_user),
+                                      CRT_END(S, poll),
+                                      CRT_END(S, poll_user)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_diagnostic>() {
+  using S = crt_diagnostic;
+  static constexpr std::array ends = {CRT_END(S, severity), CRT_END(S, status),      CRT_END(S, line),
+                                      CRT_END(S, column),   CRT_END(S, length),      CRT_END(S, message),
+                                      CRT_END(S, file),     CRT_END(S, source_line), CRT_END(S, call_count)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_diagnostic_call>() {
+  using S = crt_diagnostic_call;
+  static constexpr std::array ends = {CRT_END(S, line), CRT_END(S, column), CRT_END(S, reserved),
+                                      CRT_END(S, name), CRT_END(S, file)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_render_options>() {
+  using S = crt_render_options;
+  static constexpr std::array ends = {
+      CRT_END(S, threads),       CRT_END(S, region_x), CRT_END(S, region_y), CRT_END(S, region_width),
+      CRT_END(S, region_height), CRT_END(S, seed),     CRT_END(S, progress), CRT_END(S, progress_user),
+      CRT_END(S, log),           CRT_END(S, log_user)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_render_stats>() {
+  using S = crt_render_stats;
+  static constexpr std::array ends = {CRT_END(S, threads),
+                                      CRT_END(S, pixels),
+                                      CRT_END(S, camera_rays),
+                                      CRT_END(S, shadow_rays),
+                                      CRT_END(S, reflection_rays),
+                                      CRT_END(S, refraction_rays),
+                                      CRT_END(S, rays_below_min_weight),
+                                      CRT_END(S, rays_beyond_depth),
+                                      CRT_END(S, samples_over_ray_bound),
+                                      CRT_END(S, intersection_tests),
+                                      CRT_END(S, interval_events),
+                                      CRT_END(S, media_lookups),
+                                      CRT_END(S, media_changes),
+                                      CRT_END(S, pattern_lookups),
+                                      CRT_END(S, lens_samples),
+                                      CRT_END(S, prepare_seconds),
+                                      CRT_END(S, trace_seconds)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_write_options>() {
+  static constexpr std::array ends = {CRT_END(crt_write_options, reproducible)};
+  return ends;
+}
+
+// Those whose defaults are all 0.
+template <>
+crt_script_options defaults<crt_script_options>() {
+  return {};
+}
+template <>
+crt_render_options defaults<crt_render_options>() {
+  return {};
+}
+template <>
+crt_write_options defaults<crt_write_options>() {
+  return {};
+}
+
+}  // namespace crt::capi
+
+using namespace crt::capi;
+
+crt_status crt_pattern_init(crt_pattern* pattern, size_t struct_size) {
+  return guarded([&] { initialise(pattern, struct_size, defaults<crt_pattern>()); });
+}
+
+crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_size, int32_t type) {
+  return guarded([&] { initialise(pattern, struct_size, default_pattern(type)); });
+}
+
+crt_status crt_material_init(crt_material* material, size_t struct_size) {
+  return guarded([&] { initialise(material, struct_size, defaults<crt_material>()); });
+}
+
+crt_status crt_light_init(crt_light* light, size_t struct_size) {
+  return guarded([&] { initialise(light, struct_size, defaults<crt_light>()); });
+}
+
+crt_status crt_light_init_type(crt_light* light, size_t struct_size, int32_t type) {
+  return guarded([&] { initialise(light, struct_size, default_light(type)); });
+}
+
+crt_status crt_camera_init(crt_camera* camera, size_t struct_size) {
+  return guarded([&] { initialise(camera, struct_size, defaults<crt_camera>()); });
+}
+
+crt_status crt_background_init(crt_background* background, size_t struct_size) {
+  return guarded([&] { initialise(background, struct_size, defaults<crt_background>()); });
+}
+
+crt_status crt_settings_init(crt_settings* settings, size_t struct_size) {
+  return guarded([&] { initialise(settings, struct_size, defaults<crt_settings>()); });
+}
+
+crt_status crt_script_options_init(crt_script_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_script_options>()); });
+}
+
+crt_status crt_render_options_init(crt_render_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_render_options>()); });
+}
+
+crt_status crt_write_options_init(crt_write_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_write_options>()); });
+}

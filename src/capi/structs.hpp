@@ -1,0 +1,37 @@
+// Between the structs of the C interface and the values of the C++ one.
+#pragma once
+
+#include "capi/growable.hpp"
+#include "capi/handles.hpp"
+#include "crt/background.hpp"
+#include "crt/camera.hpp"
+#include "crt/light.hpp"
+#include "crt/material.hpp"
+#include "crt/settings.hpp"
+#include "crt/stats.hpp"
+
+namespace crt::capi {
+
+/// Three numbers from the caller, checked to be there; whether they are good is for the C++ interface to say.
+Vec3 to_vec3(const double* numbers, const char* argument);
+
+// Each takes all that the caller's struct holds, NULL and unknown enumeration values refused.
+Material to_material(const crt_material* material);
+Light to_light(const crt_light* light);
+Camera to_camera(const crt_camera* camera);
+Background to_background(const crt_background* background);
+Settings to_settings(const crt_settings* settings);
+
+// And back. The texts stay where they are, in the settings.
+crt_light to_c(const Light& light);
+crt_camera to_c(const Camera& camera);
+/// `image` is the handle for the background's picture, if it has one.
+crt_background to_c(const Background& background, const crt_image* image);
+crt_settings to_c(const Settings& settings);
+crt_render_stats to_c(const RenderStats& stats);
+
+/// The defaults of one type of pattern or light.
+crt_pattern default_pattern(std::int32_t type);
+crt_light default_light(std::int32_t type);
+
+}  // namespace crt::capi

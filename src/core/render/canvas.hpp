@@ -1,0 +1,36 @@
+// The picture while it is being rendered: tiles come in from any thread, and anyone may look.
+#pragma once
+
+#include <mutex>
+#include <span>
+#include <utility>
+
+#include "crt/render.hpp"
+
+namespace crt::core {
+
+class Canvas {
+ public:
+  /// All transparent black.
+  Canvas(const Region& region, const Settings& settings);
+
+  const Region& region() const { return region_; }
+
+  /// Puts in the pixels of a tile (in picture coordinates): rows of RGBA from the top.
+  void put(const Region& tile, std::span<const float> pixels);
+
+  void set_stats(const RenderStats& stats);
+
+  /// The picture as it is now.
+  Image copy() const;
+
+  /// The picture, which is then no longer here. When all tiles are in.
+  Image take() { return std::move(image_); }
+
+ private:
+  Region region_;
+  Image image_;
+  mutable std::mutex mutex_;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,160 @@
+#include "crt/job.hpp"
+
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <new>
+#include <system_error>
+#include <thread>
+#include <utility>
+
+#include "core/render/rendering.hpp"
+#include "core/render/tasks.hpp"
+#include "crt/error.hpp"
+
+namespace crt {
+
+class RenderJob::State {
+ public:
+  State(const PreparedScene& scene, RenderOptions options)
+      : scene_(scene),
+        own_threads_(options.threads != 0),
+        rendering_(scene_.data(), marked(std::move(options))) {}
+
+  /// Starts the thread, which keeps `self` until its end.
+  void start(const std::shared_ptr<State>& self) {
+    // Taken here, where the arena is the caller's.
+    core::Runner run = own_threads_ ? core::Runner([](const auto& work) { work(); }) : core::callers_arena();
+    try {
+      thread_ = std::thread([self, run = std::move(run)] { self->work(run); });
+    } catch (const std::system_error&) {
+      throw Error(ErrorCode::limit, "the system gives no further thread to render on");
+    }
+  }
+
+  /// Stops the job; its thread has ended after this unless it is the one that calls.
+  void end() {
+    rendering_.cancel();
+    if (inside() == this) {
+      thread_.detach();
+    } else {
+      thread_.join();
+    }
+  }
+
+  Image wait() {
+    if (inside() == this) {
+      throw Error(ErrorCode::invalid_argument, "a job cannot wait for itself: not in its own callbacks");
+    }
+    std::unique_lock lock(mutex_);
+    ended_.wait(lock, [this] { return finished_; });
+    if (failure_) std::rethrow_exception(failure_);
+    return rendering_.picture();
+  }
+
+  bool finished() const {
+    const std::lock_guard lock(mutex_);
+    return finished_;
+  }
+
+  core::Rendering& rendering() { return rendering_; }
+
+ private:
+  /// The job whose callback this thread is in.
+  static const State*& inside() {
+    static thread_local const State* job = nullptr;
+    return job;
+  }
+
+  class InCallback {
+   public:
+    explicit InCallback(const State* job) : before_(std::exchange(inside(), job)) {}
+    ~InCallback() { inside() = before_; }
+    InCallback(const InCallback&) = delete;
+    InCallback& operator=(const InCallback&) = delete;
+
+   private:
+    const State* before_;
+  };
+
+  /// The options with callbacks that know whose they are.
+  RenderOptions marked(RenderOptions options) {
+    if (options.progress) {
+      options.progress = [this, progress = std::move(options.progress)](double share) {
+        const InCallback mark(this);
+        return progress(share);
+      };
+    }
+    if (options.log) {
+      options.log = [this, log = std::move(options.log)](LogLevel level, std::string_view line) {
+        const InCallback mark(this);
+        log(level, line);
+      };
+    }
+    return options;
+  }
+
+  void work(const core::Runner& run) noexcept {
+    std::exception_ptr failure;
+    try {
+      run([this] { rendering_.run(); });
+    } catch (...) {
+      failure = std::current_exception();
+    }
+    const std::lock_guard lock(mutex_);
+    failure_ = failure;
+    finished_ = true;
+    ended_.notify_all();
+  }
+
+  PreparedScene scene_;
+  bool own_threads_;
+  core::Rendering rendering_;
+  std::thread thread_;
+  mutable std::mutex mutex_;
+  std::condition_variable ended_;
+  bool finished_ = false;
+  std::exception_ptr failure_;
+};
+
+RenderJob::RenderJob(const PreparedScene& scene, RenderOptions options) {
+  try {
+    state_ = std::make_shared<State>(scene, std::move(options));
+    state_->start(state_);
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, "there is not enough memory to start a render");
+  }
+}
+
+RenderJob::~RenderJob() {
+  if (state_) state_->end();
+}
+
+RenderJob::RenderJob(RenderJob&&) noexcept = default;
+
+RenderJob& RenderJob::operator=(RenderJob&& other) noexcept {
+  std::swap(state_, other.state_);
+  return *this;
+}
+
+double RenderJob::progress() const {
+  return state_->rendering().share_done();
+}
+
+Image RenderJob::snapshot() const {
+  return state_->rendering().picture();
+}
+
+void RenderJob::cancel() {
+  state_->rendering().cancel();
+}
+
+bool RenderJob::finished() const {
+  return state_->finished();
+}
+
+Image RenderJob::wait() const {
+  return state_->wait();
+}
+
+}  // namespace crt
