@@ -1,0 +1,363 @@
+// What is no good is refused with a message that names it, and nothing is written.
+#include <functional>
+#include <utility>
+#include <vector>
+
+#include "support.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+/// One call with one thing wrong, and the name that the message must have.
+struct Wrong {
+  std::string argument;
+  std::function<crt_status()> call;
+};
+
+void check_all(const std::vector<Wrong>& calls) {
+  for (const Wrong& wrong : calls) {
+    INFO(wrong.argument);
+    CHECK(wrong.call() == CRT_ERROR_INVALID_ARGUMENT);
+    INFO(message());
+    CHECK(says(wrong.argument));
+  }
+}
+
+const Numbers zero = {0, 0, 0};
+const Numbers one = {1, 1, 1};
+const Numbers up = {0, 1, 0};
+
+/// Of the only triangle of a mesh.
+const std::uint32_t* triangle_indices() {
+  static constexpr std::uint32_t indices[] = {0, 1, 2};
+  return indices;
+}
+
+}  // namespace
+
+TEST_CASE("every pointer that is needed is refused if it is NULL, with its name") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const EntityHandle ball = sphere(zero, 1);
+  const ImageHandle image = render(prepared.get());
+  crt_entity* entity = nullptr;
+  crt_entity* const nothing[] = {nullptr};
+  crt_scene* made_scene = nullptr;
+  crt_image* made_image = nullptr;
+  crt_job* job = nullptr;
+  crt_buffer* buffer = nullptr;
+  double number = 7;
+  const double* const z = zero.data();
+  const double* const o = one.data();
+  crt_material material;
+  crt_material_init(&material, sizeof material);
+  const crt_ray ray = {{0, 0, 0}, {0, 0, 1}, 0, infinity};
+  crt_hit hit = {};
+  std::uint8_t byte = 9;
+  std::size_t count = 9;
+  crt_light light;
+  crt_light_init(&light, sizeof light);
+
+  check_all({
+      {"out", [&] { return crt_sphere_create(z, 1, nullptr); }},
+      {"center", [&] { return crt_sphere_create(nullptr, 1, &entity); }},
+      {"corner_a", [&] { return crt_box_create(nullptr, o, &entity); }},
+      {"corner_b", [&] { return crt_box_create(z, nullptr, &entity); }},
+      {"normal", [&] { return crt_plane_create(nullptr, z, &entity); }},
+      {"position", [&] { return crt_plane_create(o, nullptr, &entity); }},
+      {"direction", [&] { return crt_half_plane_create(o, z, nullptr, &entity); }},
+      {"from", [&] { return crt_cylinder_create(nullptr, o, 1, &entity); }},
+      {"to", [&] { return crt_cone_create(z, nullptr, 1, 0, &entity); }},
+      {"axis", [&] { return crt_torus_create(z, nullptr, 1, 0.1, &entity); }},
+      {"center", [&] { return crt_disc_create(nullptr, o, 1, &entity); }},
+      {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
+      {"positions", [&] { return crt_mesh_create(nullptr, 3, triangle_indices(), 1, &entity); }},
+      {"indices", [&] { return crt_mesh_create(z, 1, nullptr, 1, &entity); }},
+      {"parts", [&] { return crt_union_create(nullptr, 1, &entity); }},
+      {"parts", [&] { return crt_union_create(nothing, 1, &entity); }},
+      {"parts", [&] { return crt_intersection_create(nothing, 1, &entity); }},
+      {"from", [&] { return crt_difference_create(nullptr, nullptr, 0, &entity); }},
+      {"cutters", [&] { return crt_difference_create(ball.get(), nothing, 1, &entity); }},
+      {"entity", [&] { return crt_entity_with_transform(nullptr, z, &entity); }},
+      {"affine", [&] { return crt_entity_with_transform(ball.get(), nullptr, &entity); }},
+      {"entity", [&] { return crt_entity_with_material(nullptr, &material, &entity); }},
+      {"material", [&] { return crt_entity_with_material(ball.get(), nullptr, &entity); }},
+      {"entity", [&] { return crt_entity_with_id(nullptr, 1, &entity); }},
+      {"out", [&] { return crt_entity_with_id(ball.get(), 1, nullptr); }},
+      {"out", [&] { return crt_scene_create(nullptr); }},
+      {"scene", [&] { return crt_scene_copy(nullptr, &made_scene); }},
+      {"out", [&] { return crt_scene_copy(scene.get(), nullptr); }},
+      {"scene", [&] { return crt_scene_add_entity(nullptr, ball.get()); }},
+      {"entity", [&] { return crt_scene_add_entity(scene.get(), nullptr); }},
+      {"scene", [&] { return crt_scene_add_light(nullptr, &light); }},
+      {"light", [&] { return crt_scene_add_light(scene.get(), nullptr); }},
+      {"camera", [&] { return crt_scene_set_camera(scene.get(), nullptr); }},
+      {"background", [&] { return crt_scene_set_background(scene.get(), nullptr); }},
+      {"settings", [&] { return crt_scene_set_settings(scene.get(), nullptr); }},
+      {"scene", [&] { return crt_scene_clear_entities(nullptr); }},
+      {"scene", [&] { return crt_scene_clear_lights(nullptr); }},
+      {"scene", [&] { return crt_scene_get_entity(nullptr, 0, &entity); }},
+      {"out", [&] { return crt_scene_get_entity(scene.get(), 0, nullptr); }},
+      {"light", [&] { return crt_scene_get_light(scene.get(), 0, nullptr); }},
+      {"camera", [&] { return crt_scene_get_camera(scene.get(), nullptr); }},
+      {"background", [&] { return crt_scene_get_background(scene.get(), nullptr); }},
+      {"settings", [&] { return crt_scene_get_settings(scene.get(), nullptr); }},
+      {"scene", [&] { return crt_scene_prepare(nullptr, nullptr); }},
+      {"out", [&] { return crt_scene_prepare(scene.get(), nullptr); }},
+      {"text", [&] { return crt_scene_from_script(nullptr, 1, "x", nullptr, nullptr, &made_scene); }},
+      {"name", [&] { return crt_scene_from_script("", 0, nullptr, nullptr, nullptr, &made_scene); }},
+      {"out", [&] { return crt_scene_from_script("", 0, "x", nullptr, nullptr, nullptr); }},
+      {"path", [&] { return crt_scene_from_script_file(nullptr, nullptr, nullptr, &made_scene); }},
+      {"content", [&] { return crt_file_content_append(nullptr, "x", 1); }},
+      {"diagnostics", [&] { return crt_diagnostics_get(nullptr, 0, nullptr); }},
+      {"diagnostics", [&] { return crt_diagnostics_get_call(nullptr, 0, 0, nullptr); }},
+      {"prepared", [&] { return crt_render(nullptr, nullptr, &made_image); }},
+      {"out", [&] { return crt_render(prepared.get(), nullptr, nullptr); }},
+      {"prepared", [&] { return crt_render_start(nullptr, nullptr, &job); }},
+      {"out", [&] { return crt_render_start(prepared.get(), nullptr, nullptr); }},
+      {"job", [&] { return crt_job_progress(nullptr, &number); }},
+      {"job", [&] { return crt_job_snapshot(nullptr, &made_image); }},
+      {"job", [&] { return crt_job_cancel(nullptr); }},
+      {"job", [&] { return crt_job_wait(nullptr, &made_image); }},
+      {"pixels", [&] { return crt_image_create(1, 1, nullptr, 0, &made_image); }},
+      {"out", [&] { return crt_image_from_rgba8(1, 1, &byte, 0, nullptr); }},
+      {"path", [&] { return crt_image_read(nullptr, &made_image); }},
+      {"bytes", [&] { return crt_image_decode(nullptr, 1, nullptr, &made_image); }},
+      {"image", [&] { return crt_image_to_rgba8(nullptr, &byte, 0); }},
+      {"pixels", [&] { return crt_image_to_rgba8(image.get(), nullptr, 0); }},
+      {"image", [&] { return crt_image_write(nullptr, "x.png"); }},
+      {"path", [&] { return crt_image_write(image.get(), nullptr); }},
+      {"path", [&] { return crt_image_write(image.get(), ""); }},
+      {"format", [&] { return crt_image_encode(image.get(), nullptr, nullptr, &buffer); }},
+      {"out", [&] { return crt_image_encode(image.get(), "png", nullptr, nullptr); }},
+      {"stats", [&] { return crt_image_stats(image.get(), nullptr); }},
+      {"settings", [&] { return crt_image_settings(image.get(), nullptr); }},
+      {"settings", [&] { return crt_image_with_settings(image.get(), nullptr, &made_image); }},
+      {"prepared", [&] { return crt_intersect(nullptr, &ray, 0, 1, &hit, 0); }},
+      {"rays", [&] { return crt_intersect(prepared.get(), nullptr, 0, 1, &hit, 0); }},
+      {"hits", [&] { return crt_intersect(prepared.get(), &ray, 0, 1, nullptr, 0); }},
+      {"rays", [&] { return crt_occluded(prepared.get(), nullptr, 0, 1, &byte); }},
+      {"occluded", [&] { return crt_occluded(prepared.get(), &ray, 0, 1, nullptr); }},
+      {"ray", [&] { return crt_crossings(prepared.get(), nullptr, &hit, 1, &count); }},
+      {"hits", [&] { return crt_crossings(prepared.get(), &ray, nullptr, 1, &count); }},
+      {"count", [&] { return crt_crossings(prepared.get(), &ray, &hit, 1, nullptr); }},
+  });
+  CHECK(entity == nullptr);
+  CHECK(made_scene == nullptr);
+  CHECK(made_image == nullptr);
+  CHECK(job == nullptr);
+  CHECK(buffer == nullptr);
+  CHECK(number == 7);
+  CHECK(byte == 9);
+  CHECK(count == 9);
+}
+
+TEST_CASE("what has no status answers NULL with nothing") {
+  CHECK(crt_entity_is_solid(nullptr) == 0);
+  CHECK(crt_entity_primitive_count(nullptr) == 0);
+  CHECK(crt_scene_entity_count(nullptr) == 0);
+  CHECK(crt_scene_light_count(nullptr) == 0);
+  CHECK(crt_image_width(nullptr) == 0);
+  CHECK(crt_image_height(nullptr) == 0);
+  CHECK(crt_image_pixels(nullptr, nullptr) == nullptr);
+  CHECK(crt_buffer_data(nullptr) == nullptr);
+  CHECK(crt_buffer_size(nullptr) == 0);
+  CHECK(crt_diagnostics_count(nullptr) == 0);
+  CHECK(std::string(crt_diagnostics_text(nullptr)).empty());
+  CHECK(std::string(crt_diagnostics_json(nullptr)) == "[]");
+  CHECK(crt_entity_retain(nullptr) == nullptr);
+  CHECK(crt_image_retain(nullptr) == nullptr);
+  crt_entity_release(nullptr);
+  crt_scene_release(nullptr);
+  crt_prepared_release(nullptr);
+  crt_job_release(nullptr);
+  crt_image_release(nullptr);
+  crt_buffer_release(nullptr);
+  crt_diagnostics_release(nullptr);
+}
+
+TEST_CASE("a number that is not finite is refused in every place, with its name") {
+  const EntityHandle ball = sphere(zero, 1);
+  const SceneHandle scene = new_scene();
+  for (const double bad : {not_a_number, infinity, -infinity}) {
+    for (int axis = 0; axis < 3; ++axis) {
+      Numbers v = {1, 2, 3};
+      v[static_cast<std::size_t>(axis)] = bad;
+      crt_entity* out = nullptr;
+      const double* const p = v.data();
+      const double* const z = zero.data();
+      const double* const u = up.data();
+      std::array<double, 9> corners = {0, 0, 0, 1, 0, 0, 0, 1, 0};
+      corners[static_cast<std::size_t>(axis) + 3] = bad;
+      check_all({
+          {"center", [&] { return crt_sphere_create(p, 1, &out); }},
+          {"corner_a", [&] { return crt_box_create(p, z, &out); }},
+          {"corner_b", [&] { return crt_box_create(z, p, &out); }},
+          {"normal", [&] { return crt_plane_create(p, z, &out); }},
+          {"position", [&] { return crt_plane_create(u, p, &out); }},
+          {"direction", [&] { return crt_half_plane_create(u, z, p, &out); }},
+          {"from", [&] { return crt_cylinder_create(p, z, 1, &out); }},
+          {"to", [&] { return crt_cone_create(z, p, 1, 0, &out); }},
+          {"axis", [&] { return crt_torus_create(z, p, 1, 0.1, &out); }},
+          {"normal", [&] { return crt_disc_create(z, p, 1, &out); }},
+          {"b", [&] { return crt_triangle_create(z, p, u, &out); }},
+          {"positions", [&] { return crt_mesh_create(corners.data(), 3, triangle_indices(), 1, &out); }},
+      });
+      CHECK(out == nullptr);
+    }
+    crt_entity* out = nullptr;
+    std::array<double, 12> affine = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, bad};
+    crt_light light;
+    crt_light_init(&light, sizeof light);
+    light.falloff = bad;
+    crt_camera camera;
+    crt_camera_init(&camera, sizeof camera);
+    camera.roll = bad;
+    crt_settings settings;
+    crt_settings_init(&settings, sizeof settings);
+    settings.gamma = bad;
+    crt_background background;
+    crt_background_init(&background, sizeof background);
+    background.color[1] = bad;
+    crt_material material;
+    crt_material_init(&material, sizeof material);
+    material.absorption[2] = bad;
+    crt_script_options options;
+    crt_script_options_init(&options, sizeof options);
+    options.t = bad;
+    crt_scene* made_scene = nullptr;
+    check_all({
+        {"radius", [&] { return crt_sphere_create(zero.data(), bad, &out); }},
+        {"radius", [&] { return crt_cylinder_create(zero.data(), up.data(), bad, &out); }},
+        {"radius2", [&] { return crt_cone_create(zero.data(), up.data(), 1, bad, &out); }},
+        {"thickness", [&] { return crt_torus_create(zero.data(), up.data(), 1, bad, &out); }},
+        {"affine", [&] { return crt_entity_with_transform(ball.get(), affine.data(), &out); }},
+        {"falloff", [&] { return crt_scene_add_light(scene.get(), &light); }},
+        {"roll", [&] { return crt_scene_set_camera(scene.get(), &camera); }},
+        {"gamma", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
+        {"color", [&] { return crt_scene_set_background(scene.get(), &background); }},
+        {"absorption", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
+        {"t", [&] { return crt_scene_from_script("", 0, "x", &options, nullptr, &made_scene); }},
+    });
+    CHECK(out == nullptr);
+  }
+  CHECK(crt_scene_light_count(scene.get()) == 0);
+}
+
+TEST_CASE("a number that no enumeration has is refused, with the field's name") {
+  const SceneHandle scene = new_scene();
+  const EntityHandle ball = sphere(zero, 1);
+  for (const std::int32_t bad : {-1, 1000, std::numeric_limits<std::int32_t>::min()}) {
+    crt_light light;
+    crt_light_init(&light, sizeof light);
+    light.type = bad;
+    crt_camera projection;
+    crt_camera_init(&projection, sizeof projection);
+    crt_camera aperture = projection;
+    projection.projection = bad;
+    aperture.aperture_shape = bad;
+    crt_background background;
+    crt_background_init(&background, sizeof background);
+    background.type = bad;
+    crt_settings settings;
+    crt_settings_init(&settings, sizeof settings);
+    settings.falloff_model = bad;
+    crt_pattern pattern;
+    crt_pattern_init(&pattern, sizeof pattern);
+    pattern.type = bad;
+    crt_material material;
+    crt_material_init(&material, sizeof material);
+    material.pattern = &pattern;
+    crt_material bumpy = material;
+    bumpy.pattern = nullptr;
+    bumpy.bump = &pattern;
+    crt_entity* out = nullptr;
+    check_all({
+        {"type", [&] { return crt_scene_add_light(scene.get(), &light); }},
+        {"projection", [&] { return crt_scene_set_camera(scene.get(), &projection); }},
+        {"aperture_shape", [&] { return crt_scene_set_camera(scene.get(), &aperture); }},
+        {"type", [&] { return crt_scene_set_background(scene.get(), &background); }},
+        {"falloff_model", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
+        {"type", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
+        {"type", [&] { return crt_entity_with_material(ball.get(), &bumpy, &out); }},
+        {"type", [&] { return crt_light_init_type(&light, sizeof light, bad); }},
+        {"type", [&] { return crt_pattern_init_type(&pattern, sizeof pattern, bad); }},
+    });
+    CHECK(std::string(crt_status_string(static_cast<crt_status>((bad & 0x3f) | 0x40))) == "unknown");
+  }
+}
+
+TEST_CASE("counts and strides that no memory has are refused before anything is touched") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const crt_ray ray = {{0, 0, 0}, {0, 0, 1}, 0, infinity};
+  crt_hit hit = {};
+  hit.t = 42;
+  std::uint8_t byte = 9;
+  float pixel[4] = {0, 0, 0, 1};
+  crt_image* image = nullptr;
+  constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
+  const ImageHandle picture = render(prepared.get());
+  check_all({
+      {"rays", [&] { return crt_intersect(prepared.get(), &ray, 0, most, &hit, 0); }},
+      {"rays", [&] { return crt_intersect(prepared.get(), &ray, most, 2, &hit, 0); }},
+      {"rays", [&] { return crt_intersect(prepared.get(), &ray, 8, 1, &hit, 0); }},
+      {"hits", [&] { return crt_intersect(prepared.get(), &ray, 0, 1, &hit, 55); }},
+      {"rays", [&] { return crt_occluded(prepared.get(), &ray, 63, 1, &byte); }},
+      {"width", [&] { return crt_image_create(0, 1, pixel, 0, &image); }},
+      {"height", [&] { return crt_image_create(1, 0, pixel, 0, &image); }},
+      {"width", [&] { return crt_image_create(0xffffffffu, 1, pixel, 0, &image); }},
+      {"picture", [&] { return crt_image_create(1u << 30, 1u << 30, pixel, 0, &image); }},
+      {"picture", [&] { return crt_image_from_rgba8(1u << 20, 1u << 20, &byte, 0, &image); }},
+      {"row_stride", [&] { return crt_image_create(1, 1, pixel, 15, &image); }},
+      {"row_stride", [&] { return crt_image_to_rgba8(picture.get(), &byte, 3); }},
+      {"row_stride", [&] { return crt_image_to_rgba8(picture.get(), &byte, most); }},
+      {"index", [&] { return crt_scene_get_light(scene.get(), most, nullptr); }},
+  });
+  CHECK(hit.t == 42);
+  CHECK(byte == 9);
+  CHECK(image == nullptr);
+}
+
+TEST_CASE("no rays and no triangles are no trouble") {
+  const SceneHandle scene = new_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  CHECK(crt_intersect(prepared.get(), nullptr, 0, 0, nullptr, 0) == CRT_OK);
+  CHECK(crt_occluded(prepared.get(), nullptr, 0, 0, nullptr) == CRT_OK);
+  crt_entity* out = nullptr;
+  const double corner = 0;
+  const std::uint32_t index = 0;
+  CHECK(crt_mesh_create(&corner, 0, &index, 0, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(crt_union_create(nullptr, 0, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(out == nullptr);
+}
+
+TEST_CASE("a ray that is none is refused with its index, and no hit is written") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const crt_ray good = {{-0.4, 0, -5}, {0, 0, 1}, 0, infinity};
+  for (const std::size_t count : {10, 5000}) {
+    std::vector<crt_ray> rays(count, good);
+    rays[count - 3].direction[2] = 0;
+    rays[count - 2].origin[1] = not_a_number;
+    std::vector<crt_hit> hits(count);
+    for (crt_hit& hit : hits) hit.t = 42;
+    CHECK(crt_intersect(prepared.get(), rays.data(), 0, count, hits.data(), 0) == CRT_ERROR_INVALID_ARGUMENT);
+    CHECK(says("rays[" + std::to_string(count - 3) + "]"));
+    CHECK(says("direction"));
+    for (const crt_hit& hit : hits) CHECK(hit.t == 42);
+  }
+}
+
+TEST_CASE("a failure leaves the result untouched, and success leaves the message") {
+  const EntityHandle ball = sphere(zero, 1);
+  crt_entity* const before = ball.get();
+  crt_entity* out = before;
+  CHECK(crt_sphere_create(zero.data(), -1, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(out == before);
+  const std::string complaint = message();
+  CHECK(says("radius"));
+  const EntityHandle other = sphere(one, 2);
+  CHECK(message() == complaint);
+}

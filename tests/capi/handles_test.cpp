@@ -1,0 +1,124 @@
+// Handles: counted, released in any order, shared by any thread.
+#include <algorithm>
+#include <thread>
+#include <vector>
+
+#include "support.hpp"
+
+using namespace crt::test;
+
+TEST_CASE("the version is the header's") {
+  CHECK(crt_version() == (CRT_VERSION_MAJOR << 16 | CRT_VERSION_MINOR << 8 | CRT_VERSION_PATCH));
+}
+
+TEST_CASE("every status has a name of its own") {
+  std::vector<std::string> names;
+  for (int status = CRT_OK; status <= CRT_ERROR_INTERNAL; ++status) {
+    names.emplace_back(crt_status_string(static_cast<crt_status>(status)));
+  }
+  CHECK(names[0] == "ok");
+  CHECK(names[CRT_ERROR_OUT_OF_MEMORY] == "out of memory");
+  std::sort(names.begin(), names.end());
+  CHECK(std::adjacent_find(names.begin(), names.end()) == names.end());
+  CHECK(std::find(names.begin(), names.end(), "unknown") == names.end());
+}
+
+TEST_CASE("handles may be released in every order") {
+  // All orders of releasing what a picture is made of; each is still whole when it is used.
+  std::vector<int> order = {0, 1, 2, 3, 4};
+  do {
+    EntityHandle ball = sphere({0, 0, 2}, 0.5);
+    EntityHandle cut = sphere({0, 0, 1.5}, 0.3);
+    EntityHandle part = difference(ball.get(), cut.get());
+    SceneHandle scene = new_scene();
+    REQUIRE(crt_scene_add_entity(scene.get(), part.get()) == CRT_OK);
+    PreparedHandle prepared = prepare(scene.get());
+    for (const int which : order) {
+      if (which == 0) ball.reset();
+      if (which == 1) cut.reset();
+      if (which == 2) part.reset();
+      if (which == 3) scene.reset();
+      if (which == 4) {
+        const crt_ray ray = {{0, 0, 0}, {0, 0, 1}, 0, infinity};
+        crt_hit hit;
+        REQUIRE(crt_intersect(prepared.get(), &ray, 0, 1, &hit, 0) == CRT_OK);
+        CHECK(hit.t == doctest::Approx(1.8));
+        prepared.reset();
+      }
+    }
+  } while (std::next_permutation(order.begin(), order.end()));
+}
+
+TEST_CASE("a retained handle lives until its last release") {
+  EntityHandle ball = sphere({0, 0, 2}, 0.5);
+  const EntityHandle second(crt_entity_retain(ball.get()));
+  CHECK(second.get() == ball.get());
+  ball.reset();
+  CHECK(crt_entity_primitive_count(second.get()) == 1);
+}
+
+TEST_CASE("threads may retain and release the same handle at once") {
+  const EntityHandle ball = sphere({0, 0, 2}, 0.5);
+  std::vector<std::thread> threads;
+  for (int i = 0; i < 8; ++i) {
+    threads.emplace_back([&] {
+      for (int k = 0; k < 1000; ++k) {
+        crt_entity* const mine = crt_entity_retain(ball.get());
+        crt_entity* moved = nullptr;
+        if (crt_entity_with_id(mine, 7, &moved) == CRT_OK) crt_entity_release(moved);
+        crt_entity_release(mine);
+      }
+    });
+  }
+  for (std::thread& thread : threads) thread.join();
+  CHECK(crt_entity_is_solid(ball.get()) == 1);
+}
+
+TEST_CASE("entities say what they are") {
+  const EntityHandle ball = sphere({0, 0, 2}, 0.5);
+  const EntityHandle block = box({0, 0, 0}, {1, 1, 1});
+  const EntityHandle part = difference(block.get(), ball.get());
+  CHECK(crt_entity_is_solid(part.get()) == 1);
+  CHECK(crt_entity_primitive_count(part.get()) == 2);
+  const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
+  const std::uint32_t indices[] = {0, 1, 2, 1, 3, 2, 0, 0, 1};  // the last has no area
+  const EntityHandle mesh =
+      made<EntityHandle>([&](crt_entity** out) { return crt_mesh_create(corners, 4, indices, 3, out); });
+  CHECK(crt_entity_is_solid(mesh.get()) == 0);
+  CHECK(crt_entity_primitive_count(mesh.get()) == 2);
+  crt_entity* out = nullptr;
+  crt_entity* const cutters[] = {mesh.get()};
+  CHECK(crt_difference_create(block.get(), cutters, 1, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  const std::uint32_t beyond[] = {0, 1, 4};
+  CHECK(crt_mesh_create(corners, 4, beyond, 1, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("index 4"));
+  CHECK(out == nullptr);
+}
+
+TEST_CASE("each thread has its own last message") {
+  crt_entity* out = nullptr;
+  const double zero[3] = {0, 0, 0};
+  CHECK(crt_sphere_create(zero, -1, &out) == CRT_ERROR_INVALID_ARGUMENT);
+  std::string others;
+  std::thread([&others] { others = crt_error_message(); }).join();
+  CHECK(others.empty());
+  CHECK(says("radius"));
+}
+
+TEST_CASE("a scene is edited without touching what was prepared or copied from it") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const SceneHandle copy = made<SceneHandle>([&](crt_scene** out) { return crt_scene_copy(scene.get(), out); });
+  REQUIRE(crt_scene_clear_entities(scene.get()) == CRT_OK);
+  REQUIRE(crt_scene_clear_lights(scene.get()) == CRT_OK);
+  CHECK(crt_scene_entity_count(scene.get()) == 0);
+  CHECK(crt_scene_entity_count(copy.get()) == 2);
+  CHECK(crt_scene_light_count(copy.get()) == 1);
+  const EntityHandle again =
+      made<EntityHandle>([&](crt_entity** out) { return crt_scene_get_entity(copy.get(), 1, out); });
+  CHECK(crt_entity_primitive_count(again.get()) == 2);
+  const crt_ray ray = {{-0.4, 0, 0}, {0, 0, 1}, 0, infinity};
+  crt_hit hit;
+  REQUIRE(crt_intersect(prepared.get(), &ray, 0, 1, &hit, 0) == CRT_OK);
+  CHECK(hit.t == doctest::Approx(1.5));
+}
