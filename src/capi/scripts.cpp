@@ -91,15 +91,21 @@ ScriptOptions to_options(const crt_script_options* options) {
   return result;
 }
 
+/// What kind of error a script has. That a value in it is out of range is no wrong argument of the C
+/// caller's.
+ErrorCode script_code(ErrorCode code) {
+  return code == ErrorCode::invalid_argument ? ErrorCode::script : code;
+}
+
 /// The text of the error that decided what became of the script, on one line.
 Error error_of(const std::vector<Diagnostic>& diagnostics) {
   const auto first = std::find_if(diagnostics.begin(), diagnostics.end(),
                                   [](const Diagnostic& d) { return d.severity == Severity::error; });
   if (first == diagnostics.end()) return {ErrorCode::internal, "the script failed without a word"};
   const SourcePlace& place = first->place;
-  return {first->code, place.line == 0 ? fmt::format("{}: {}", place.file, first->message)
-                                       : fmt::format("{}:{}:{}: {}", place.file, place.line, place.column,
-                                                     first->message)};
+  return {script_code(first->code), place.line == 0 ? fmt::format("{}: {}", place.file, first->message)
+                                                    : fmt::format("{}:{}:{}: {}", place.file, place.line,
+                                                                  place.column, first->message)};
 }
 
 /// Hands out the diagnostics, then the scene or the error.
@@ -185,7 +191,7 @@ crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
     const crt::Diagnostic& source = diagnostic_at(diagnostics, index);
     crt_diagnostic values{};
     values.severity = source.severity == crt::Severity::error ? CRT_SEVERITY_ERROR : CRT_SEVERITY_WARNING;
-    values.status = to_status(source.code);
+    values.status = to_status(script_code(source.code));
     values.line = source.place.line;
     values.column = source.place.column;
     values.length = source.place.length;

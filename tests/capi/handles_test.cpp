@@ -108,7 +108,8 @@ TEST_CASE("each thread has its own last message") {
 TEST_CASE("a scene is edited without touching what was prepared or copied from it") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
-  const SceneHandle copy = made<SceneHandle>([&](crt_scene** out) { return crt_scene_copy(scene.get(), out); });
+  const SceneHandle copy =
+      made<SceneHandle>([&](crt_scene** out) { return crt_scene_copy(scene.get(), out); });
   REQUIRE(crt_scene_clear_entities(scene.get()) == CRT_OK);
   REQUIRE(crt_scene_clear_lights(scene.get()) == CRT_OK);
   CHECK(crt_scene_entity_count(scene.get()) == 0);

@@ -1,0 +1,149 @@
+// Images: in and out of memory and files.
+#include <cstring>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "support.hpp"
+
+using namespace crt::test;
+namespace fs = std::filesystem;
+
+namespace {
+
+/// A folder that goes away.
+class Scratch {
+ public:
+  Scratch() : path_(fs::temp_directory_path() / ("crt-capi-" + process())) { fs::create_directories(path_); }
+  ~Scratch() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
+  }
+  std::string file(const std::string& name) const { return (path_ / name).string(); }
+
+ private:
+  static std::string process() { return fs::read_symlink("/proc/self").string(); }
+  fs::path path_;
+};
+
+ImageHandle from_pixels(std::uint32_t width, std::uint32_t height, const float* pixels,
+                        std::size_t stride = 0) {
+  return made<ImageHandle>(
+      [&](crt_image** out) { return crt_image_create(width, height, pixels, stride, out); });
+}
+
+ImageHandle decoded(const crt_buffer* buffer) {
+  return made<ImageHandle>([&](crt_image** out) {
+    return crt_image_decode(crt_buffer_data(buffer), crt_buffer_size(buffer), nullptr, out);
+  });
+}
+
+BufferHandle encoded(const crt_image* image, const char* format) {
+  return made<BufferHandle>([&](crt_buffer** out) { return crt_image_encode(image, format, nullptr, out); });
+}
+
+}  // namespace
+
+TEST_CASE("an image is made from rows with gaps and lends its pixels without") {
+  const float rows[] = {1, 2, 3, 1, 9, 9, 4, 5, 6, 0.5f, 9, 9};
+  const ImageHandle image = from_pixels(1, 2, rows, 6 * sizeof(float));
+  std::size_t stride = 0;
+  const float* const pixels = crt_image_pixels(image.get(), &stride);
+  CHECK(stride == 16);
+  CHECK(std::vector<float>(pixels, pixels + 8) == std::vector<float>{1, 2, 3, 1, 4, 5, 6, 0.5f});
+  CHECK(crt_image_pixels(image.get(), nullptr) == pixels);
+  float bad[4] = {0, 0, std::numeric_limits<float>::infinity(), 1};
+  crt_image* none = nullptr;
+  CHECK(crt_image_create(1, 1, bad, 0, &none) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("pixels"));
+  CHECK(none == nullptr);
+}
+
+TEST_CASE("8-bit pixels come back as they were") {
+  std::vector<std::uint8_t> bytes;
+  for (int i = 0; i < 256; ++i) {
+    for (const int value : {i, 255 - i, i / 2, 255}) bytes.push_back(static_cast<std::uint8_t>(value));
+  }
+  const ImageHandle image =
+      made<ImageHandle>([&](crt_image** out) { return crt_image_from_rgba8(16, 16, bytes.data(), 0, out); });
+  std::vector<std::uint8_t> back(bytes.size());
+  REQUIRE(crt_image_to_rgba8(image.get(), back.data(), 0) == CRT_OK);
+  CHECK(back == bytes);
+  // Rows of the caller's with room between them keep what is there.
+  std::vector<std::uint8_t> wide(16 * 70, 0xaa);
+  REQUIRE(crt_image_to_rgba8(image.get(), wide.data(), 70) == CRT_OK);
+  CHECK(std::memcmp(&wide[70], &bytes[64], 64) == 0);
+  CHECK(wide[64] == 0xaa);
+  const BufferHandle png = encoded(image.get(), "png");
+  const ImageHandle again = decoded(png.get());
+  REQUIRE(crt_image_to_rgba8(again.get(), back.data(), 0) == CRT_OK);
+  CHECK(back == bytes);
+}
+
+TEST_CASE("floats go through EXR unchanged, in memory and in a file") {
+  const Scratch scratch;
+  const float pixels[8] = {0.1f, 25, 1e-6f, 1, 0.25f, 0.5f, 0, 0.5f};
+  const ImageHandle image = from_pixels(2, 1, pixels);
+  const BufferHandle exr = encoded(image.get(), "exr");
+  CHECK(std::memcmp(crt_image_pixels(decoded(exr.get()).get(), nullptr), pixels, sizeof pixels) == 0);
+  const std::string file = scratch.file("x.exr");
+  REQUIRE(crt_image_write(image.get(), file.c_str()) == CRT_OK);
+  const ImageHandle read =
+      made<ImageHandle>([&](crt_image** out) { return crt_image_read(file.c_str(), out); });
+  CHECK(std::memcmp(crt_image_pixels(read.get(), nullptr), pixels, sizeof pixels) == 0);
+}
+
+TEST_CASE("what cannot be read or written says why, and leaves no file") {
+  const Scratch scratch;
+  const float pixel[4] = {1, 1, 1, 1};
+  const ImageHandle image = from_pixels(1, 1, pixel);
+  crt_image* none = nullptr;
+  crt_buffer* no_buffer = nullptr;
+  CHECK(crt_image_read(scratch.file("none.png").c_str(), &none) == CRT_ERROR_IO);
+  CHECK(says("none.png"));
+  CHECK(crt_image_decode("GIF89a nonsense", 15, "some.gif", &none) == CRT_ERROR_IO);
+  CHECK(says("some.gif"));
+  CHECK(crt_image_write(image.get(), scratch.file("x.webm").c_str()) == CRT_ERROR_UNSUPPORTED);
+  CHECK(crt_image_encode(image.get(), "", nullptr, &no_buffer) == CRT_ERROR_UNSUPPORTED);
+  CHECK(crt_image_encode(image.get(), "gif", nullptr, &no_buffer) == CRT_ERROR_UNSUPPORTED);
+  CHECK(crt_image_write(image.get(), scratch.file("no/such/folder.png").c_str()) == CRT_ERROR_IO);
+  CHECK(none == nullptr);
+  CHECK(no_buffer == nullptr);
+  CHECK(fs::is_empty(fs::path(scratch.file(".")).parent_path()));
+}
+
+TEST_CASE("files of equal pictures are equal bytes if they are to be") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  crt_write_options options;
+  REQUIRE(crt_write_options_init(&options, sizeof options) == CRT_OK);
+  options.reproducible = 1;
+  std::vector<std::string> files;
+  for (int i = 0; i < 2; ++i) {
+    const ImageHandle image = render(prepared.get());
+    const BufferHandle file = made<BufferHandle>(
+        [&](crt_buffer** out) { return crt_image_encode(image.get(), "png", &options, out); });
+    files.emplace_back(static_cast<const char*>(crt_buffer_data(file.get())), crt_buffer_size(file.get()));
+  }
+  CHECK(files[0] == files[1]);
+  CHECK(files[0].substr(1, 3) == "PNG");
+}
+
+TEST_CASE("an image takes other settings without changing its pixels") {
+  const float pixel[4] = {0.25f, 0.25f, 0.25f, 1};
+  const ImageHandle image = from_pixels(1, 1, pixel);
+  crt_settings settings;
+  settings.struct_size = sizeof settings;
+  REQUIRE(crt_image_settings(image.get(), &settings) == CRT_OK);
+  CHECK(settings.gamma == 1);
+  settings.gamma = 2;
+  const ImageHandle brighter = made<ImageHandle>(
+      [&](crt_image** out) { return crt_image_with_settings(image.get(), &settings, out); });
+  std::uint8_t before[4];
+  std::uint8_t after[4];
+  REQUIRE(crt_image_to_rgba8(image.get(), before, 0) == CRT_OK);
+  REQUIRE(crt_image_to_rgba8(brighter.get(), after, 0) == CRT_OK);
+  CHECK(before[0] == 64);
+  CHECK(after[0] == 128);
+  CHECK(crt_image_pixels(brighter.get(), nullptr)[0] == 0.25f);
+}

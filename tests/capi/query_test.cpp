@@ -1,0 +1,204 @@
+// Ray queries: batches, strides, crossings, and that they see what pictures see.
+#include <cstddef>
+#include <cstring>
+#include <random>
+#include <vector>
+
+#include "support.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+std::vector<crt_ray> random_rays(std::size_t count) {
+  std::mt19937_64 random(1);
+  std::uniform_real_distribution<double> place(-2, 2);
+  std::vector<crt_ray> rays(count);
+  for (crt_ray& ray : rays) {
+    for (int axis = 0; axis < 3; ++axis) {
+      ray.origin[axis] = place(random);
+      ray.direction[axis] = place(random);
+    }
+    ray.t_min = 0;
+    ray.t_max = infinity;
+  }
+  return rays;
+}
+
+bool same(const crt_hit& a, const crt_hit& b) {
+  return std::memcmp(&a, &b, sizeof a) == 0;
+}
+
+}  // namespace
+
+TEST_CASE("a batch gives what single rays give, and occlusion and crossings agree with it") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const std::vector<crt_ray> rays = random_rays(20000);
+  std::vector<crt_hit> hits(rays.size());
+  std::vector<std::uint8_t> occluded(rays.size(), 7);
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), hits.data(), 0) == CRT_OK);
+  REQUIRE(crt_occluded(prepared.get(), rays.data(), 0, rays.size(), occluded.data()) == CRT_OK);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    crt_hit single;
+    REQUIRE(crt_intersect(prepared.get(), &rays[i], 0, 1, &single, 0) == CRT_OK);
+    REQUIRE(same(single, hits[i]));
+    REQUIRE(occluded[i] == (hits[i].t < infinity ? 1 : 0));
+    crt_hit crossings[16];
+    std::size_t count = 99;
+    REQUIRE(crt_crossings(prepared.get(), &rays[i], crossings, 16, &count) == CRT_OK);
+    REQUIRE((count > 0) == (hits[i].t < infinity));
+    if (count == 0) continue;
+    ++found;
+    REQUIRE(crossings[0].t == hits[i].t);
+    for (std::size_t k = 1; k < count; ++k) REQUIRE(crossings[k - 1].t <= crossings[k].t);
+  }
+  CHECK(found > 1000);
+  CHECK(found < rays.size() - 1000);
+}
+
+TEST_CASE("rays and hits lie where the caller wants them, unaligned too, and nothing else is touched") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const std::vector<crt_ray> rays = random_rays(3000);
+  std::vector<crt_hit> expected(rays.size());
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), expected.data(), 0) == CRT_OK);
+
+  constexpr std::size_t ray_stride = 77;
+  constexpr std::size_t hit_stride = 61;
+  std::vector<unsigned char> ray_bytes(3000 * ray_stride + 1);
+  std::vector<unsigned char> hit_bytes(3000 * hit_stride + 1, 0x5a);
+  for (std::size_t i = 0; i < rays.size(); ++i) std::memcpy(&ray_bytes[1 + i * ray_stride], &rays[i], 64);
+  REQUIRE(crt_intersect(prepared.get(), reinterpret_cast<const crt_ray*>(&ray_bytes[1]), ray_stride, 3000,
+                        reinterpret_cast<crt_hit*>(&hit_bytes[1]), hit_stride) == CRT_OK);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    crt_hit hit;
+    std::memcpy(&hit, &hit_bytes[1 + i * hit_stride], sizeof hit);
+    REQUIRE(same(hit, expected[i]));
+    for (std::size_t k = sizeof hit; k < hit_stride; ++k) REQUIRE(hit_bytes[1 + i * hit_stride + k] == 0x5a);
+  }
+}
+
+TEST_CASE("hits may take the place of their rays") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  std::vector<crt_ray> rays = random_rays(3000);
+  std::vector<crt_hit> expected(rays.size());
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), expected.data(), 0) == CRT_OK);
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), reinterpret_cast<crt_hit*>(rays.data()),
+                        sizeof(crt_ray)) == CRT_OK);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    REQUIRE(std::memcmp(&rays[i], &expected[i], sizeof(crt_hit)) == 0);
+}
+
+TEST_CASE("a hit tells place, normal, entity and side; a miss nothing but infinity") {
+  const SceneHandle scene = new_scene();
+  const EntityHandle ball = sphere({0, 0, 0}, 2);
+  const EntityHandle named =
+      made<EntityHandle>([&](crt_entity** out) { return crt_entity_with_id(ball.get(), 4000000000u, out); });
+  REQUIRE(crt_scene_add_entity(scene.get(), named.get()) == CRT_OK);
+  const PreparedHandle prepared = prepare(scene.get());
+  const crt_ray rays[] = {{{-5, 0, 0}, {10, 0, 0}, 0, infinity},
+                          {{0, 0, 0}, {0, 4, 0}, 0, infinity},
+                          {{0, 5, 0}, {0, 1, 0}, 0, infinity},
+                          {{-5, 0, 0}, {10, 0, 0}, 0, 0.29},
+                          {{0, 5, 0}, {0, 1, 0}, -infinity, infinity}};
+  crt_hit hits[5];
+  REQUIRE(crt_intersect(prepared.get(), rays, 0, 5, hits, 0) == CRT_OK);
+  CHECK(hits[0].t == doctest::Approx(0.3));  // in units of the direction's length
+  CHECK(hits[0].normal[0] == doctest::Approx(-1));
+  CHECK(hits[0].entity_id == 4000000000u);
+  CHECK(hits[0].flags == CRT_HIT_ENTERING);
+  CHECK(hits[1].t == doctest::Approx(0.5));
+  CHECK(hits[1].normal[1] == doctest::Approx(1));
+  CHECK(hits[1].flags == CRT_HIT_BACKFACE);
+  for (const int miss : {2, 3}) {
+    crt_hit expected = {};
+    expected.t = infinity;
+    CHECK(same(hits[miss], expected));
+  }
+  CHECK(hits[4].t == doctest::Approx(-7));
+}
+
+TEST_CASE("crossings are told however little room there is for them") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  // Through the block with the hole: in at the hole's bottom, out at the back; and the plain part.
+  const crt_ray ray = {{0.7, 0, 0}, {0, 0, 1}, 0, infinity};
+  std::size_t count = 0;
+  REQUIRE(crt_crossings(prepared.get(), &ray, nullptr, 0, &count) == CRT_OK);
+  CHECK(count == 2);
+  crt_hit hits[3] = {};
+  REQUIRE(crt_crossings(prepared.get(), &ray, hits, 1, &count) == CRT_OK);
+  CHECK(count == 2);
+  CHECK(hits[0].t == doctest::Approx(1.9));
+  CHECK(hits[0].flags == CRT_HIT_ENTERING);
+  CHECK(hits[0].normal[2] == doctest::Approx(-1));
+  CHECK(hits[1].t == 0);
+  REQUIRE(crt_crossings(prepared.get(), &ray, hits, 3, &count) == CRT_OK);
+  CHECK(hits[1].t == doctest::Approx(2.5));
+  CHECK(hits[1].flags == CRT_HIT_BACKFACE);
+  CHECK(hits[1].entity_id == 1);
+}
+
+TEST_CASE("rays see what the picture sees, pixel by pixel") {
+  // Each entity has a channel of its own, so that a pixel tells whom its ray met.
+  constexpr int width = 96;
+  constexpr int height = 72;
+  const SceneHandle scene = new_scene();
+  const auto add = [&](const EntityHandle& entity, double r, double g, double b) {
+    crt_material material;
+    REQUIRE(crt_material_init(&material, sizeof material) == CRT_OK);
+    material.color[0] = r;
+    material.color[1] = g;
+    material.color[2] = b;
+    const EntityHandle dressed = made<EntityHandle>(
+        [&](crt_entity** out) { return crt_entity_with_material(entity.get(), &material, out); });
+    REQUIRE(crt_scene_add_entity(scene.get(), dressed.get()) == CRT_OK);
+  };
+  const EntityHandle block = box({0.2, -0.5, 1.5}, {1.2, 0.5, 2.5});
+  const EntityHandle hole = sphere({0.7, 0, 1.5}, 0.4);
+  add(sphere({-0.4, 0, 2}, 0.5), 1, 0, 0);
+  add(difference(block.get(), hole.get()), 0, 1, 0);
+  add(sphere({0, -100.5, 2}, 100), 0, 0, 1);
+  crt_light light;
+  REQUIRE(crt_light_init(&light, sizeof light) == CRT_OK);
+  light.origin[2] = -1;  // where the camera is, so that whatever is seen is lit
+  REQUIRE(crt_scene_add_light(scene.get(), &light) == CRT_OK);
+  crt_settings settings;
+  REQUIRE(crt_settings_init(&settings, sizeof settings) == CRT_OK);
+  settings.width = width;
+  settings.height = height;
+  REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
+  const PreparedHandle prepared = prepare(scene.get());
+  const ImageHandle image = render(prepared.get());
+  const float* const pixels = crt_image_pixels(image.get(), nullptr);
+
+  // The default camera: at z = -1, looking along z, 60 degrees up and down.
+  const double half = std::tan(std::acos(-1) / 6);
+  std::vector<crt_ray> rays;
+  for (int y = 0; y < height; ++y) {
+    for (int x = 0; x < width; ++x) {
+      const double nx = 2 * (x + 0.5) / width - 1;
+      const double ny = 1 - 2 * (y + 0.5) / height;
+      rays.push_back({{0, 0, -1}, {nx * half * width / height, ny * half, 1}, 0, infinity});
+    }
+  }
+  std::vector<crt_hit> hits(rays.size());
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), hits.data(), 0) == CRT_OK);
+  std::array<int, 4> seen = {0, 0, 0, 0};
+  int differing = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const float* const pixel = pixels + 4 * i;
+    const bool missed = hits[i].t == infinity;
+    const std::size_t whom = missed ? 3 : hits[i].entity_id;
+    ++seen[whom];
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      const bool bright = pixel[channel] > 0;
+      if (bright != (missed || channel == whom)) ++differing;
+    }
+  }
+  for (const int count : seen) CHECK(count > 100);
+  CHECK(differing == 0);
+}
