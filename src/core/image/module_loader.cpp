@@ -66,7 +66,9 @@ std::vector<fs::path> image_files_directories() {
     directories.push_back(home / "crt");
     directories.push_back(home.parent_path() / "lib" / CRT_MULTIARCH / "crt");
   }
+#ifdef CRT_IMAGE_FILES_BUILD_DIR
   directories.emplace_back(CRT_IMAGE_FILES_BUILD_DIR);
+#endif
   directories.emplace_back(CRT_IMAGE_FILES_INSTALL_DIR);
   return directories;
 }

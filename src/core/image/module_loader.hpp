@@ -9,8 +9,8 @@
 
 namespace crt::core {
 
-/// Where the module may be, the likeliest first: near the program or library that this code is in,
-/// in the build tree, where it gets installed.
+/// Where the module may be, the likeliest first: near the program or library that this code is in, in
+/// the build tree if CRT is part of another project, where it gets installed.
 std::vector<std::filesystem::path> image_files_directories();
 
 /// Loads the module from the first directory that has it. Throws Error (unsupported) telling where it
