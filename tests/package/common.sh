@@ -1,0 +1,42 @@
+# What the tests of installing and packaging share. They get, from CTest, in the environment:
+#   BUILD, SOURCE  CRT's build tree and source
+#   WORK           a folder for what they make
+#   CC, CXX        the compilers that CRT was built with
+#   LIBDIR         where libraries go, such as lib
+#   BUILD_TYPE     such as Release
+#   UNFIT          why this build cannot be installed and used by others, if so
+# shellcheck shell=bash
+set -euo pipefail
+export LC_ALL=C
+
+moved=$WORK/moved             # the installed tree, not where it was installed to
+static_only=$WORK/static_only # the same as a build without libcrt.so installs it
+skipped=77                    # CTest's SKIP_RETURN_CODE
+
+skip() {
+  echo "SKIPPED: $*"
+  exit "$skipped"
+}
+
+fail() {
+  echo "FAILED: $*" >&2
+  exit 1
+}
+
+# need TOOL PACKAGE: skips where the tool is missing.
+need() {
+  command -v "$1" >/dev/null || skip "no $1 here; it is in Debian's package $2"
+}
+
+expect_png() {
+  [[ $(od -An -tx1 -N8 "$1" | tr -d ' ') == 89504e470d0a1a0a ]] || fail "$1 is no PNG file"
+}
+
+# run_program COMMAND...: has a consumer write program.png in its folder, with an environment of its own.
+run_program() {
+  rm -f program.png
+  env -u LD_LIBRARY_PATH "$@" "$PWD/program.png"
+  expect_png program.png
+}
+
+[[ -z ${UNFIT:-} ]] || skip "$UNFIT"

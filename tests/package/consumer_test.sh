@@ -1,0 +1,59 @@
+#!/usr/bin/env bash
+# Builds and runs a consumer against the installed, moved tree. usage: consumer_test.sh KIND, one of the cases below.
+# shellcheck source=tests/package/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+
+kind=$1
+consumers=$(cd "$(dirname "${BASH_SOURCE[0]}")" && pwd)/consumers
+build=$WORK/consumers/$kind
+rm -rf "$build"
+mkdir -p "$build"
+cd "$build"
+
+# with_cmake PROJECT TREE [ARGUMENT...]
+with_cmake() {
+  cmake -S "$consumers/$1" -B . -DCMAKE_PREFIX_PATH="$2" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli "${@:3}" >configure.log 2>&1 || fail "$(cat configure.log)"
+  cmake --build . >build.log 2>&1 || fail "$(cat build.log)"
+  run_program ./program
+}
+
+# with_pkg_config TREE [FLAG...]: a plain compiler, C99 to the letter.
+with_pkg_config() {
+  need pkg-config pkg-config
+  export PKG_CONFIG_PATH=$1/$LIBDIR/pkgconfig
+  # shellcheck disable=SC2046 # flags are words
+  "$CC" -std=c99 -pedantic -Wall -Wextra -Werror "$consumers/c/program.c" -o program \
+    $(pkg-config --cflags --libs "${@:2}" crt)
+}
+
+# A machine that has libcrt-dev and none of what the C++ libraries need.
+without_dependencies=()
+for package in glm fmt TBB embree OpenImageIO Threads; do
+  without_dependencies+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
+done
+
+case $kind in
+  cmake) with_cmake c "$moved" "${without_dependencies[@]}" ;;
+  cmake_cpp) with_cmake cpp "$moved" ;;
+  cmake_static) with_cmake c "$moved" -DSTATIC=ON ;;
+  cmake_static_only) with_cmake c "$static_only" ;;
+  pkg_config)
+    with_pkg_config "$moved"
+    run_program LD_LIBRARY_PATH="$moved/$LIBDIR" ./program
+    ;;
+  pkg_config_static)
+    with_pkg_config "$static_only" --static
+    ln -s "$static_only/$LIBDIR/crt" crt
+    run_program ./program
+    ;;
+  *) fail "no kind $kind" ;;
+esac
+
+if [[ $kind == *static* || $kind == *cpp ]]; then
+  ! readelf -d program | grep -F libcrt || fail "the program was to have libcrt in it"
+else
+  readelf -d program | grep -qF 'NEEDED' || fail "the program has no libraries"
+  readelf -d program | grep -qF '[libcrt.so.1]' || fail "the program does not need libcrt.so.1"
+  ! readelf -d program | grep -E 'NEEDED.*(embree|tbb|fmt|stdc)' || fail "it needs what is libcrt's business"
+fi
