@@ -1,11 +1,26 @@
-# Runs PROGRAM in an empty FOLDER and fails unless it leaves PICTURE there, a PNG file.
+# Runs PROGRAM with ARGUMENTS in an empty FOLDER. It must end with STATUS (0 unless told), write what the regular
+# expressions EXPECT ask for, in this order, to its output or its errors, and leave PICTURES there, which
+# CHECK_PICTURE looks at. Lists have bars between their items.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
-execute_process(COMMAND ${PROGRAM} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status)
-if(NOT status EQUAL 0)
-  message(FATAL_ERROR "${PROGRAM} ended with ${status}")
+string(REPLACE "|" ";" arguments "${ARGUMENTS}")
+execute_process(COMMAND ${PROGRAM} ${arguments} WORKING_DIRECTORY ${FOLDER}
+  RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+if(NOT status EQUAL "0${STATUS}")
+  message(FATAL_ERROR "${PROGRAM} ended with ${status}:\n${output}")
 endif()
-file(READ ${FOLDER}/${PICTURE} signature LIMIT 8 HEX)
-if(NOT signature STREQUAL "89504e470d0a1a0a")
-  message(FATAL_ERROR "${FOLDER}/${PICTURE} is no PNG file")
+
+if(EXPECT)
+  string(REPLACE "|" ".*" expected "${EXPECT}")
+  if(NOT output MATCHES "${expected}")
+    message(FATAL_ERROR "The output of ${PROGRAM} does not match ${expected}:\n${output}")
+  endif()
 endif()
+
+string(REPLACE "|" ";" pictures "${PICTURES}")
+foreach(picture ${pictures})
+  execute_process(COMMAND ${CHECK_PICTURE} ${picture} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status)
+  if(NOT status EQUAL 0)
+    message(FATAL_ERROR "${FOLDER}/${picture} is not the picture that ${PROGRAM} should have left")
+  endif()
+endforeach()
