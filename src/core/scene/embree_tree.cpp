@@ -7,6 +7,10 @@
 #include <string>
 #include <vector>
 
+#ifndef CRT_TASKS_THREADS
+#include <oneapi/tbb/task_arena.h>
+#endif
+
 #include "core/csg/evaluate.hpp"
 #include "core/scene/embree_compat.hpp"
 #include "crt/error.hpp"
@@ -30,6 +34,19 @@ float round_down(double value) {
 float round_up(double value) {
   const auto nearest = static_cast<float>(value);
   return static_cast<double>(nearest) >= value ? nearest : std::nextafter(nearest, float_infinity);
+}
+
+/// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
+/// worth starting any for.
+void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
+#ifndef CRT_TASKS_THREADS
+  constexpr std::size_t worth_threads = 2048;
+  if (box_count < worth_threads) {
+    tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
+    return;
+  }
+#endif
+  rtcCommitScene(scene);
 }
 
 [[noreturn]] void fail(RTCError error) {
@@ -134,7 +151,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(handles->scene, geometry);
   rtcReleaseGeometry(geometry);
-  rtcCommitScene(handles->scene);
+  build(handles->scene, boxes.size());
   check(handles->device);
   handles_ = std::move(handles);
 }
