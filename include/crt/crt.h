@@ -607,6 +607,8 @@ CRT_API crt_status crt_render(crt_prepared* prepared, const crt_render_options* 
 CRT_API crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options, crt_job** out);
 /** How much is done, from 0 to 1. */
 CRT_API crt_status crt_job_progress(crt_job* job, double* fraction);
+/** 1 if it has ended, in one way or another: done, cancelled or failed. Else 0, also for NULL. */
+CRT_API int32_t crt_job_is_finished(const crt_job* job);
 /** The image so far; what is not yet rendered is transparent black. Also after the end, however it came. */
 CRT_API crt_status crt_job_snapshot(crt_job* job, crt_image** out);
 /** Asks the job to stop, which it does within a few tiles, and returns at once. Harmless after its end. */

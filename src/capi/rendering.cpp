@@ -77,6 +77,10 @@ crt_status crt_job_progress(crt_job* job, double* fraction) {
   });
 }
 
+int32_t crt_job_is_finished(const crt_job* job) {
+  return job != nullptr && job->value.finished() ? 1 : 0;
+}
+
 crt_status crt_job_snapshot(crt_job* job, crt_image** out) {
   return guarded([&] {
     require(job, "job");
