@@ -40,12 +40,12 @@ static int prepare(crt_prepared** out) {
   return failed;
 }
 
-// Returns when at least so much is done, be it by the job's end; `done` gets how much.
+// Returns when at least so much is done, or the job has ended otherwise; `done` gets how much.
 static int wait_until(crt_job* job, double fraction, double* done) {
   const struct timespec a_moment = {0, 20 * 1000 * 1000};
   for (;;) {
     if (crt_job_progress(job, done)) return 1;
-    if (*done >= fraction) return 0;
+    if (*done >= fraction || crt_job_is_finished(job)) return 0;
     nanosleep(&a_moment, NULL);
   }
 }
