@@ -1,0 +1,284 @@
+// The layout of what crt.h declares, on every machine where pointers and size_t have 64 bits: written down
+// once, and never to change. A version that appends a field adds its line here and corrects the size.
+#include <crt/crt.h>
+#include <stdio.h>
+#include <string.h>
+
+#if UINTPTR_MAX != UINT64_MAX
+#error "the numbers below are those of LP64"
+#endif
+
+#define SIZE(type, bytes) _Static_assert(sizeof(type) == (bytes), "the size of " #type)
+#define AT(type, field, bytes) \
+  _Static_assert(offsetof(type, field) == (bytes), "the place of " #type "." #field)
+#define VALUE(name, number) _Static_assert((name) == (number), "the value of " #name)
+
+SIZE(crt_pattern, 168);
+AT(crt_pattern, struct_size, 0);
+AT(crt_pattern, type, 4);
+AT(crt_pattern, color_a, 8);
+AT(crt_pattern, alpha_a, 32);
+AT(crt_pattern, color_b, 40);
+AT(crt_pattern, alpha_b, 64);
+AT(crt_pattern, direction, 72);
+AT(crt_pattern, offset, 96);
+AT(crt_pattern, scale, 120);
+AT(crt_pattern, turbulence, 128);
+AT(crt_pattern, octaves, 136);
+AT(crt_pattern, reserved, 140);
+AT(crt_pattern, image, 144);
+AT(crt_pattern, repeat_u, 152);
+AT(crt_pattern, repeat_v, 160);
+
+SIZE(crt_material, 136);
+AT(crt_material, struct_size, 0);
+AT(crt_material, reserved, 4);
+AT(crt_material, color, 8);
+AT(crt_material, alpha, 32);
+AT(crt_material, pattern, 40);
+AT(crt_material, reflectivity, 48);
+AT(crt_material, transparency, 56);
+AT(crt_material, refractive_index, 64);
+AT(crt_material, diffuse, 72);
+AT(crt_material, specular, 80);
+AT(crt_material, shininess, 88);
+AT(crt_material, absorption, 96);
+AT(crt_material, bump, 120);
+AT(crt_material, bump_height, 128);
+
+SIZE(crt_light, 120);
+AT(crt_light, struct_size, 0);
+AT(crt_light, type, 4);
+AT(crt_light, origin, 8);
+AT(crt_light, pointing, 32);
+AT(crt_light, color, 56);
+AT(crt_light, angle, 80);
+AT(crt_light, penumbra, 88);
+AT(crt_light, radius, 96);
+AT(crt_light, falloff, 104);
+AT(crt_light, ambient, 112);
+
+SIZE(crt_camera, 96);
+AT(crt_camera, struct_size, 0);
+AT(crt_camera, projection, 4);
+AT(crt_camera, position, 8);
+AT(crt_camera, pointing, 32);
+AT(crt_camera, fov, 56);
+AT(crt_camera, roll, 64);
+AT(crt_camera, aperture, 72);
+AT(crt_camera, focal_distance, 80);
+AT(crt_camera, aperture_shape, 88);
+AT(crt_camera, reserved, 92);
+
+SIZE(crt_background, 120);
+AT(crt_background, struct_size, 0);
+AT(crt_background, type, 4);
+AT(crt_background, color, 8);
+AT(crt_background, alpha, 32);
+AT(crt_background, horizon, 40);
+AT(crt_background, horizon_alpha, 64);
+AT(crt_background, sky, 72);
+AT(crt_background, sky_alpha, 96);
+AT(crt_background, image, 104);
+AT(crt_background, angle, 112);
+
+SIZE(crt_settings, 88);
+AT(crt_settings, struct_size, 0);
+AT(crt_settings, width, 4);
+AT(crt_settings, height, 8);
+AT(crt_settings, supersampling, 12);
+AT(crt_settings, dof_samples, 16);
+AT(crt_settings, recursion_depth, 20);
+AT(crt_settings, gamma, 24);
+AT(crt_settings, min_weight, 32);
+AT(crt_settings, falloff_model, 40);
+AT(crt_settings, show_clip, 44);
+AT(crt_settings, seed, 48);
+AT(crt_settings, title, 56);
+AT(crt_settings, author, 64);
+AT(crt_settings, date, 72);
+AT(crt_settings, notes, 80);
+
+SIZE(crt_script_options, 192);
+AT(crt_script_options, struct_size, 0);
+AT(crt_script_options, allow_outside_files, 4);
+AT(crt_script_options, resource_directories, 8);
+AT(crt_script_options, resource_directory_count, 16);
+AT(crt_script_options, t, 24);
+AT(crt_script_options, variable_names, 32);
+AT(crt_script_options, variable_values, 40);
+AT(crt_script_options, variable_count, 48);
+AT(crt_script_options, setting_names, 56);
+AT(crt_script_options, setting_values, 64);
+AT(crt_script_options, setting_count, 72);
+AT(crt_script_options, max_steps, 80);
+AT(crt_script_options, max_entities, 88);
+AT(crt_script_options, max_call_depth, 96);
+AT(crt_script_options, max_list_length, 104);
+AT(crt_script_options, max_string_bytes, 112);
+AT(crt_script_options, max_memory_bytes, 120);
+AT(crt_script_options, max_source_bytes, 128);
+AT(crt_script_options, max_errors, 136);
+AT(crt_script_options, open_file, 144);
+AT(crt_script_options, open_file_user, 152);
+AT(crt_script_options, print, 160);
+AT(crt_script_options, print_user, 168);
+AT(crt_script_options, poll, 176);
+AT(crt_script_options, poll_user, 184);
+
+SIZE(crt_diagnostic, 56);
+AT(crt_diagnostic, struct_size, 0);
+AT(crt_diagnostic, severity, 4);
+AT(crt_diagnostic, status, 8);
+AT(crt_diagnostic, line, 12);
+AT(crt_diagnostic, column, 16);
+AT(crt_diagnostic, length, 20);
+AT(crt_diagnostic, message, 24);
+AT(crt_diagnostic, file, 32);
+AT(crt_diagnostic, source_line, 40);
+AT(crt_diagnostic, call_count, 48);
+
+SIZE(crt_diagnostic_call, 32);
+AT(crt_diagnostic_call, struct_size, 0);
+AT(crt_diagnostic_call, line, 4);
+AT(crt_diagnostic_call, column, 8);
+AT(crt_diagnostic_call, reserved, 12);
+AT(crt_diagnostic_call, name, 16);
+AT(crt_diagnostic_call, file, 24);
+
+SIZE(crt_render_options, 64);
+AT(crt_render_options, struct_size, 0);
+AT(crt_render_options, threads, 4);
+AT(crt_render_options, region_x, 8);
+AT(crt_render_options, region_y, 12);
+AT(crt_render_options, region_width, 16);
+AT(crt_render_options, region_height, 20);
+AT(crt_render_options, seed, 24);
+AT(crt_render_options, progress, 32);
+AT(crt_render_options, progress_user, 40);
+AT(crt_render_options, log, 48);
+AT(crt_render_options, log_user, 56);
+
+SIZE(crt_render_stats, 136);
+AT(crt_render_stats, struct_size, 0);
+AT(crt_render_stats, threads, 4);
+AT(crt_render_stats, pixels, 8);
+AT(crt_render_stats, camera_rays, 16);
+AT(crt_render_stats, shadow_rays, 24);
+AT(crt_render_stats, reflection_rays, 32);
+AT(crt_render_stats, refraction_rays, 40);
+AT(crt_render_stats, rays_below_min_weight, 48);
+AT(crt_render_stats, rays_beyond_depth, 56);
+AT(crt_render_stats, samples_over_ray_bound, 64);
+AT(crt_render_stats, intersection_tests, 72);
+AT(crt_render_stats, interval_events, 80);
+AT(crt_render_stats, media_lookups, 88);
+AT(crt_render_stats, media_changes, 96);
+AT(crt_render_stats, pattern_lookups, 104);
+AT(crt_render_stats, lens_samples, 112);
+AT(crt_render_stats, prepare_seconds, 120);
+AT(crt_render_stats, trace_seconds, 128);
+
+SIZE(crt_write_options, 8);
+AT(crt_write_options, struct_size, 0);
+AT(crt_write_options, reproducible, 4);
+
+SIZE(crt_ray, 64);
+AT(crt_ray, origin, 0);
+AT(crt_ray, direction, 24);
+AT(crt_ray, t_min, 48);
+AT(crt_ray, t_max, 56);
+
+SIZE(crt_hit, 56);
+AT(crt_hit, t, 0);
+AT(crt_hit, normal, 8);
+AT(crt_hit, u, 32);
+AT(crt_hit, v, 40);
+AT(crt_hit, entity_id, 48);
+AT(crt_hit, flags, 52);
+
+VALUE(CRT_OK, 0);
+VALUE(CRT_ERROR_INVALID_ARGUMENT, 1);
+VALUE(CRT_ERROR_SCRIPT, 2);
+VALUE(CRT_ERROR_IO, 3);
+VALUE(CRT_ERROR_UNSUPPORTED, 4);
+VALUE(CRT_ERROR_LIMIT, 5);
+VALUE(CRT_ERROR_CANCELLED, 6);
+VALUE(CRT_ERROR_OUT_OF_MEMORY, 7);
+VALUE(CRT_ERROR_INTERNAL, 8);
+
+VALUE(CRT_PATTERN_CHECKER, 0);
+VALUE(CRT_PATTERN_STRIPES, 1);
+VALUE(CRT_PATTERN_GRADIENT, 2);
+VALUE(CRT_PATTERN_NOISE, 3);
+VALUE(CRT_PATTERN_MARBLE, 4);
+VALUE(CRT_PATTERN_WOOD, 5);
+VALUE(CRT_PATTERN_IMAGE, 6);
+
+VALUE(CRT_LIGHT_POINT, 0);
+VALUE(CRT_LIGHT_PARALLEL, 1);
+VALUE(CRT_LIGHT_SPOT, 2);
+VALUE(CRT_LIGHT_CYLINDER, 3);
+
+VALUE(CRT_PROJECTION_PINHOLE, 0);
+VALUE(CRT_PROJECTION_SPHERICAL, 1);
+VALUE(CRT_PROJECTION_CYLINDRICAL, 2);
+VALUE(CRT_PROJECTION_ORTHOGRAPHIC, 3);
+
+VALUE(CRT_APERTURE_CIRCLE, 0);
+VALUE(CRT_APERTURE_UNIFORM, 1);
+VALUE(CRT_APERTURE_GAUSSIAN, 2);
+VALUE(CRT_APERTURE_TRIANGLE, 3);
+VALUE(CRT_APERTURE_SQUARE, 4);
+VALUE(CRT_APERTURE_PENTAGON, 5);
+VALUE(CRT_APERTURE_HEXAGON, 6);
+VALUE(CRT_APERTURE_OCTAGON, 7);
+VALUE(CRT_APERTURE_LINE, 8);
+
+VALUE(CRT_BACKGROUND_SOLID, 0);
+VALUE(CRT_BACKGROUND_GRADIENT, 1);
+VALUE(CRT_BACKGROUND_SPHERICAL, 2);
+VALUE(CRT_BACKGROUND_CYLINDRICAL, 3);
+
+VALUE(CRT_FALLOFF_PATH, 0);
+VALUE(CRT_FALLOFF_LIGHT, 1);
+
+VALUE(CRT_FILE_GIVEN, 0);
+VALUE(CRT_FILE_NOT_GIVEN, 1);
+
+VALUE(CRT_SEVERITY_WARNING, 0);
+VALUE(CRT_SEVERITY_ERROR, 1);
+
+VALUE(CRT_LOG_INFO, 0);
+VALUE(CRT_LOG_WARNING, 1);
+
+VALUE(CRT_HIT_ENTERING, 1);
+VALUE(CRT_HIT_BACKFACE, 2);
+
+// The library must have the same opinion: where its defaults end up, in bytes.
+static int failures = 0;
+
+static void expect_double(const char* what, const void* bytes, size_t place, double expected) {
+  double found = 0;
+  memcpy(&found, (const char*)bytes + place, sizeof found);
+  if (found == expected) return;
+  printf("%s: the library writes %g where %g should be\n", what, found, expected);
+  ++failures;
+}
+
+int main(void) {
+  _Alignas(8) unsigned char bytes[256] = {0};
+  if (crt_pattern_init((crt_pattern*)(void*)bytes, 168) != CRT_OK) return 1;
+  expect_double("crt_pattern.repeat_v", bytes, 160, 1);
+  if (crt_material_init((crt_material*)(void*)bytes, 136) != CRT_OK) return 1;
+  expect_double("crt_material.bump_height", bytes, 128, 0.1);
+  if (crt_light_init((crt_light*)(void*)bytes, 120) != CRT_OK) return 1;
+  expect_double("crt_light.radius", bytes, 96, 1);
+  if (crt_camera_init((crt_camera*)(void*)bytes, 96) != CRT_OK) return 1;
+  expect_double("crt_camera.focal_distance", bytes, 80, 1);
+  if (crt_background_init((crt_background*)(void*)bytes, 120) != CRT_OK) return 1;
+  expect_double("crt_background.alpha", bytes, 32, 1);
+  if (crt_settings_init((crt_settings*)(void*)bytes, 88) != CRT_OK) return 1;
+  expect_double("crt_settings.min_weight", bytes, 32, 1.0 / 1024);
+  return failures == 0 ? 0 : 1;
+}
