@@ -36,7 +36,8 @@ without() {
   grep -vE -- "$1" || true
 }
 
-code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp')
+code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h')
+users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h' 'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
 
 # A folder of src/core uses those before it in this list, and itself.
 layers=(math geometry csg shading camera scene render image)
@@ -54,7 +55,7 @@ check_layers() {
 only_in() {
   local regex=$1
   shift
-  lines_with "^#include [<\"]($regex)" "${code[@]}" 'examples/*.cpp' |
+  lines_with "^#include [<\"]($regex)" "${code[@]}" 'examples/*' |
     without "^($(IFS='|' && echo "$*"))/"
 }
 
@@ -78,7 +79,8 @@ check_umbrella() {
 limit_of_lines=450
 wish_of_lines=400
 long_files() {
-  tracked "${code[@]}" 'tests/*.cpp' 'tests/*.hpp' 'tests/*.sh' 'examples/*.cpp' '*.cmake' '*CMakeLists.txt' dev |
+  tracked "${code[@]}" "${users[@]}" 'tests/*.sh' '*.cmake' '*CMakeLists.txt' dev |
+    without '^include/crt/crt\.h$' | # one header is what C programs are promised
     xargs -r -d '\n' awk -v least="$1" -v most="$2" \
       'FNR == 1 { if (last && n > least && n <= most) print last ": " n " lines"; last = FILENAME } { n = FNR }
        END { if (n > least && n <= most) print last ": " n " lines" }'
@@ -96,7 +98,7 @@ check_scripts() {
 check_ends() {
   local file
   git ls-files -z --eol | tr '\0' '\n' | awk '$1 ~ /crlf|mixed/ { print $NF ": line ends are not \\n" }'
-  tracked "${code[@]}" 'tests/*.cpp' '*.md' '*.txt' | while IFS= read -r file; do
+  tracked "${code[@]}" "${users[@]}" '*.md' '*.txt' | while IFS= read -r file; do
     [[ ! -s $file || -z $(tail -c 1 "$file") ]] || echo "$file: the last line has no end"
   done
 }
@@ -116,8 +118,11 @@ lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
 lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' | complain "The library reads the environment"
 lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' 'src/core/*' 'src/lang/*' 'src/capi/*' |
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
-lines_with '\b(TODO|FIXME|XXX|HACK)\b' "${code[@]}" 'tests/*.cpp' 'examples/*' '*.cmake' '*CMakeLists.txt' |
+lines_with '\b(TODO|FIXME|XXX|HACK)\b' "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |
   complain "Unfinished work is not committed"
+lines_with '^#include ' 'include/crt/crt.h' | without '<std(def|int)\.h>' | complain "crt.h includes more than it must"
+lines_with '^#include [<"]crt/' 'examples/*.c' 'examples/*.h' 'tests/abi/*.c' 'tests/package/consumers/c/*' |
+  without '<crt/crt\.h>' | complain "A C program sees crt.h alone"
 lines_with '\.\./shared' . | without '^tests/house/check.sh:' | complain "The project stands alone"
 long_files "$limit_of_lines" 1000000 | complain "Over $limit_of_lines lines: split by subject"
 check_scripts | complain "Shell scripts"
