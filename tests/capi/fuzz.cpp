@@ -1,0 +1,386 @@
+// libFuzzer: random sequences of calls of the C interface, with random arguments, wrong ones among them.
+// Whatever comes, no call may crash, and each must keep to the rule: a result if and only if CRT_OK.
+#include <crt/crt.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <cstdlib>
+#include <cstring>
+#include <limits>
+#include <string>
+#include <vector>
+
+namespace {
+
+/// What the fuzzer gives, read as values; zeros when it is used up.
+class Input {
+ public:
+  Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
+
+  bool empty() const { return size_ == 0; }
+
+  template <class Value>
+  Value raw() {
+    Value value{};
+    const std::size_t count = std::min(size_, sizeof value);
+    std::memcpy(&value, data_, count);
+    data_ += count;
+    size_ -= count;
+    return value;
+  }
+
+  std::uint8_t byte() { return raw<std::uint8_t>(); }
+  std::uint32_t below(std::uint32_t limit) { return byte() % limit; }
+
+  /// Mostly an ordinary number, sometimes an extreme one, sometimes any bits at all.
+  double number() {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    static const std::array special = {0.0,    -0.0, 1.0,   -1.0,     0.5,       1e-300,       1e300,  1e100,
+                                    1e-100, 1e18, 1e-18, infinity, -infinity, std::nan(""), 5e-324, 2.0};
+    const std::uint8_t kind = byte();
+    if (kind < 16) return special[kind];
+    if (kind < 20) return raw<double>();
+    return (static_cast<double>(kind) - 128) / 16;
+  }
+
+  std::array<double, 3> vector() {
+    const double x = number();
+    const double y = number();
+    return {x, y, number()};
+  }
+
+  std::string text() {
+    std::string result;
+    for (std::uint32_t i = below(40); i > 0; --i) result += static_cast<char>(byte());
+    return result;
+  }
+
+ private:
+  const std::uint8_t* data_;
+  std::size_t size_;
+};
+
+void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+/// A few handles of one kind; the newest takes the place of the oldest.
+template <class Handle, auto release>
+class Slots {
+ public:
+  ~Slots() {
+    for (Handle* handle : slots_) release(handle);
+  }
+
+  /// Possibly NULL.
+  Handle* any(Input& input) const { return slots_[input.below(count)]; }
+
+  template <class Call>
+  void make(const Call& call) {
+    Handle* out = nullptr;
+    const crt_status status = call(&out);
+    require((status == CRT_OK) == (out != nullptr));
+    require(crt_error_message() != nullptr);
+    if (status == CRT_OK) keep(out);
+  }
+
+  void keep(Handle* handle) {
+    release(slots_[next_]);
+    slots_[next_] = handle;
+    next_ = (next_ + 1) % count;
+  }
+
+ private:
+  static constexpr std::uint32_t count = 6;
+  std::array<Handle*, count> slots_{};
+  std::uint32_t next_ = 0;
+};
+
+class Session {
+ public:
+  explicit Session(Input input) : input_(input) {}
+
+  void run() {
+    constexpr int most_calls = 200;
+    for (int i = 0; i < most_calls && !input_.empty(); ++i) call(input_.below(32));
+  }
+
+ private:
+  void call(std::uint32_t which);
+  void make_primitive();
+  void combine();
+  void dress();
+  void edit_scene();
+  void edit_settings();
+  void run_script();
+  void use_prepared();
+  void ask_rays();
+  void use_image();
+
+  /// A struct with its defaults and some of its bytes changed.
+  template <class Struct, class Init>
+  Struct scrambled(const Init& init) {
+    Struct result;
+    init(&result, sizeof result);
+    if (input_.below(8) == 0) result.struct_size = input_.raw<std::uint16_t>();
+    return result;
+  }
+
+  Input input_;
+  Slots<crt_entity, crt_entity_release> entities_;
+  Slots<crt_scene, crt_scene_release> scenes_;
+  Slots<crt_prepared, crt_prepared_release> prepared_;
+  Slots<crt_image, crt_image_release> images_;
+  Slots<crt_diagnostics, crt_diagnostics_release> diagnostics_;
+};
+
+void Session::make_primitive() {
+  const auto a = input_.vector();
+  const auto b = input_.vector();
+  const auto c = input_.vector();
+  const double r = input_.number();
+  const double s = input_.number();
+  const std::uint32_t kind = input_.below(10);
+  entities_.make([&](crt_entity** out) {
+    switch (kind) {
+      case 0:
+        return crt_sphere_create(a.data(), r, out);
+      case 1:
+        return crt_box_create(a.data(), b.data(), out);
+      case 2:
+        return crt_plane_create(a.data(), b.data(), out);
+      case 3:
+        return crt_half_plane_create(a.data(), b.data(), c.data(), out);
+      case 4:
+        return crt_cylinder_create(a.data(), b.data(), r, out);
+      case 5:
+        return crt_cone_create(a.data(), b.data(), r, s, out);
+      case 6:
+        return crt_torus_create(a.data(), b.data(), r, s, out);
+      case 7:
+        return crt_disc_create(a.data(), b.data(), r, out);
+      case 8:
+        return crt_triangle_create(a.data(), b.data(), c.data(), out);
+      default: {
+        const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
+        const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};
+        return crt_mesh_create(positions, 3, indices, 2, out);
+      }
+    }
+  });
+}
+
+void Session::combine() {
+  crt_entity* const parts[3] = {entities_.any(input_), entities_.any(input_), entities_.any(input_)};
+  // Not so deep that trees grow without bound.
+  for (const crt_entity* part : parts) {
+    constexpr std::uint64_t enough = 64;
+    if (crt_entity_primitive_count(part) > enough) return;
+  }
+  const std::size_t count = input_.below(4);
+  const std::uint32_t kind = input_.below(3);
+  entities_.make([&](crt_entity** out) {
+    if (kind == 0) return crt_union_create(parts, count, out);
+    if (kind == 1) return crt_intersection_create(parts, count, out);
+    return crt_difference_create(entities_.any(input_), parts, count, out);
+  });
+}
+
+void Session::dress() {
+  crt_entity* const entity = entities_.any(input_);
+  switch (input_.below(3)) {
+    case 0: {
+      double affine[12];
+      for (double& number : affine) number = input_.number();
+      entities_.make([&](crt_entity** out) { return crt_entity_with_transform(entity, affine, out); });
+      break;
+    }
+    case 1:
+      entities_.make(
+          [&](crt_entity** out) { return crt_entity_with_id(entity, input_.raw<std::uint32_t>(), out); });
+      break;
+    default: {
+      auto material = scrambled<crt_material>(crt_material_init);
+      auto pattern = scrambled<crt_pattern>(crt_pattern_init);
+      crt_pattern_init_type(&pattern, sizeof pattern, static_cast<std::int32_t>(input_.below(9)) - 1);
+      pattern.scale = input_.number();
+      pattern.octaves = input_.byte();
+      pattern.image = images_.any(input_);
+      material.color[1] = input_.number();
+      material.transparency = input_.number();
+      material.reflectivity = input_.number();
+      material.refractive_index = input_.number();
+      if (input_.below(2) == 0) material.pattern = &pattern;
+      if (input_.below(2) == 0) material.bump = &pattern;
+      entities_.make([&](crt_entity** out) { return crt_entity_with_material(entity, &material, out); });
+    }
+  }
+}
+
+void Session::edit_settings() {
+  crt_scene* const scene = scenes_.any(input_);
+  auto settings = scrambled<crt_settings>(crt_settings_init);
+  settings.width = static_cast<std::int32_t>(input_.below(12)) - 1;
+  settings.height = static_cast<std::int32_t>(input_.below(12)) - 1;
+  settings.supersampling = static_cast<std::int32_t>(input_.below(3));
+  settings.recursion_depth = static_cast<std::int32_t>(input_.below(6));
+  settings.gamma = input_.number();
+  settings.falloff_model = static_cast<std::int32_t>(input_.below(4)) - 1;
+  const std::string title = input_.text();
+  settings.title = title.c_str();
+  crt_scene_set_settings(scene, &settings);
+  settings.struct_size = input_.raw<std::uint16_t>() % (sizeof settings + 1);
+  crt_scene_get_settings(scene, &settings);
+}
+
+void Session::edit_scene() {
+  crt_scene* const scene = scenes_.any(input_);
+  switch (input_.below(7)) {
+    case 0:
+    case 1:
+      if (crt_scene_entity_count(scene) < 8) crt_scene_add_entity(scene, entities_.any(input_));
+      break;
+    case 2: {
+      auto light = scrambled<crt_light>(crt_light_init);
+      crt_light_init_type(&light, sizeof light, static_cast<std::int32_t>(input_.below(6)) - 1);
+      light.origin[0] = input_.number();
+      light.falloff = input_.number();
+      light.angle = input_.number();
+      if (crt_scene_light_count(scene) < 4) crt_scene_add_light(scene, &light);
+      light.struct_size = sizeof light;
+      crt_scene_get_light(scene, input_.below(5), &light);
+      break;
+    }
+    case 3: {
+      auto camera = scrambled<crt_camera>(crt_camera_init);
+      camera.projection = static_cast<std::int32_t>(input_.below(6)) - 1;
+      camera.position[2] = input_.number();
+      camera.fov = input_.number();
+      camera.aperture = input_.number();
+      camera.aperture_shape = static_cast<std::int32_t>(input_.below(11)) - 1;
+      crt_scene_set_camera(scene, &camera);
+      break;
+    }
+    case 4: {
+      auto background = scrambled<crt_background>(crt_background_init);
+      background.type = static_cast<std::int32_t>(input_.below(6)) - 1;
+      background.color[0] = input_.number();
+      background.image = images_.any(input_);
+      background.angle = input_.number();
+      crt_scene_set_background(scene, &background);
+      background.struct_size = sizeof background;
+      crt_scene_get_background(scene, &background);
+      break;
+    }
+    case 5:
+      if (input_.below(4) == 0) crt_scene_clear_entities(scene);
+      if (input_.below(4) == 0) crt_scene_clear_lights(scene);
+      break;
+    default:
+      edit_settings();
+  }
+}
+
+void Session::run_script() {
+  const std::string text = input_.text();
+  auto options = scrambled<crt_script_options>(crt_script_options_init);
+  options.max_steps = 1000;
+  options.max_entities = 100;
+  options.open_file = [](const char*, crt_file_content* content, void*) -> int {
+    return crt_file_content_append(content, "x = 1", 5) == CRT_OK ? CRT_FILE_GIVEN : CRT_FILE_NOT_GIVEN;
+  };
+  options.print = [](const char*, std::size_t length, void*) { return length > 20 ? 1 : 0; };
+  crt_diagnostics* diagnostics = nullptr;
+  scenes_.make([&](crt_scene** out) {
+    return crt_scene_from_script(text.data(), text.size(), "fuzz.crt", &options, &diagnostics, out);
+  });
+  if (diagnostics != nullptr) diagnostics_.keep(diagnostics);
+  crt_diagnostic diagnostic;
+  diagnostic.struct_size = sizeof diagnostic;
+  const crt_diagnostics* const some = diagnostics_.any(input_);
+  for (std::size_t i = 0; i <= crt_diagnostics_count(some); ++i) {
+    require((crt_diagnostics_get(some, i, &diagnostic) == CRT_OK) == (i < crt_diagnostics_count(some)));
+  }
+  require(crt_diagnostics_text(some) != nullptr && crt_diagnostics_json(some) != nullptr);
+}
+
+void Session::ask_rays() {
+  crt_prepared* const prepared = prepared_.any(input_);
+  std::array<crt_ray, 3> rays{};
+  for (crt_ray& ray : rays) {
+    for (double& number : ray.origin) number = input_.number();
+    for (double& number : ray.direction) number = input_.number();
+    ray.t_min = input_.number();
+    ray.t_max = input_.number();
+  }
+  std::array<crt_hit, 3> hits{};
+  std::array<std::uint8_t, 3> occluded{};
+  const crt_status first = crt_intersect(prepared, rays.data(), 0, 3, hits.data(), 0);
+  const crt_status second = crt_occluded(prepared, rays.data(), 0, 3, occluded.data());
+  require(first == second);
+  for (std::size_t i = 0; first == CRT_OK && i < 3; ++i) {
+    const bool hit = hits[i].t < std::numeric_limits<double>::infinity();
+    require(hit == (occluded[i] != 0));
+    require(!hit || (hits[i].t > rays[i].t_min && hits[i].t < rays[i].t_max));
+    std::size_t count = 0;
+    crt_hit crossing{};
+    require(crt_crossings(prepared, &rays[i], &crossing, 1, &count) == CRT_OK);
+    require(hit == (count > 0));
+    require(!hit || crossing.t == hits[i].t);
+  }
+}
+
+void Session::use_prepared() {
+  crt_prepared* const prepared = prepared_.any(input_);
+  auto options = scrambled<crt_render_options>(crt_render_options_init);
+  options.threads = 1;
+  options.region_width = static_cast<std::int32_t>(input_.below(5));
+  options.region_height = static_cast<std::int32_t>(input_.below(5));
+  options.region_x = static_cast<std::int32_t>(input_.below(4));
+  int calls = static_cast<int>(input_.below(4));
+  options.progress_user = &calls;
+  options.progress = [](double, void* user) { return --*static_cast<int*>(user) == 0 ? 5 : 0; };
+  images_.make([&](crt_image** out) { return crt_render(prepared, &options, out); });
+  ask_rays();
+}
+
+void Session::use_image() {
+  crt_image* const image = images_.any(input_);
+  if (input_.below(3) == 0) {
+    std::array<float, 64> pixels;
+    for (float& value : pixels) value = static_cast<float>(input_.number());
+    const std::uint32_t width = input_.below(5);
+    const std::uint32_t height = input_.below(5);
+    images_.make([&](crt_image** out) { return crt_image_create(width, height, pixels.data(), 0, out); });
+  }
+  std::vector<std::uint8_t> bytes(std::size_t{4} * crt_image_width(image) * crt_image_height(image) + 1);
+  require((crt_image_to_rgba8(image, bytes.data(), 0) == CRT_OK) == (image != nullptr));
+  auto stats = crt_render_stats{};
+  stats.struct_size = input_.raw<std::uint16_t>() % (sizeof stats + 1);
+  crt_image_stats(image, &stats);
+}
+
+void Session::call(std::uint32_t which) {
+  if (which < 8) return make_primitive();
+  if (which < 13) return combine();
+  if (which < 17) return dress();
+  if (which < 18) return scenes_.make([](crt_scene** out) { return crt_scene_create(out); });
+  if (which < 19)
+    return scenes_.make([&](crt_scene** out) { return crt_scene_copy(scenes_.any(input_), out); });
+  if (which < 25) return edit_scene();
+  if (which < 27) {
+    return prepared_.make([&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); });
+  }
+  if (which < 29) return use_prepared();
+  if (which < 31) return use_image();
+  run_script();
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  Session(Input(data, size)).run();
+  return 0;
+}
