@@ -15,6 +15,16 @@ namespace crt::capi {
 /// Three numbers from the caller, checked to be there; whether they are good is for the C++ interface to say.
 Vec3 to_vec3(const double* numbers, const char* argument);
 
+/// Throws: the argument has a value that `list`, an enumeration of crt.h, has not.
+[[noreturn]] void reject_value(const char* argument, std::int32_t value, const char* list);
+
+/// An enumeration of C++ whose values have the numbers of the interface, 0 to `last`.
+template <class Enum>
+Enum to_enum(std::int32_t value, Enum last, const char* argument, const char* list) {
+  if (value < 0 || value > static_cast<std::int32_t>(last)) reject_value(argument, value, list);
+  return static_cast<Enum>(value);
+}
+
 // Each takes all that the caller's struct holds, NULL and unknown enumeration values refused.
 Material to_material(const crt_material* material);
 Light to_light(const crt_light* light);

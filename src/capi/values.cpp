@@ -1,5 +1,5 @@
-// Materials, lights, cameras, backgrounds and settings from C to C++ and back. The defaults are those of the
-// C++ structs: they are converted, never written down again.
+// Materials, lights, cameras and backgrounds from C to C++ and back. The defaults are those of the C++
+// structs: they are converted, never written down again.
 #include <fmt/format.h>
 
 #include <type_traits>
@@ -27,17 +27,6 @@ void put(double (&out)[3], const Color& color) {
   out[0] = color.r;
   out[1] = color.g;
   out[2] = color.b;
-}
-
-[[noreturn]] void reject_value(const char* argument, std::int32_t value, const char* list) {
-  reject(argument, fmt::format("is {}, which is no {}", value, list));
-}
-
-/// An enumeration of C++ whose values have the numbers of the interface, 0 to `last`.
-template <class Enum>
-Enum to_enum(std::int32_t value, Enum last, const char* argument, const char* list) {
-  if (value < 0 || value > static_cast<std::int32_t>(last)) reject_value(argument, value, list);
-  return static_cast<Enum>(value);
 }
 
 std::shared_ptr<const Image> to_image(const crt_image* image, const char* argument) {
@@ -101,11 +90,11 @@ void put_defaults(crt_pattern& out) {
   if constexpr (requires { pattern.turbulence; }) out.turbulence = pattern.turbulence;
 }
 
-const char* text_or_empty(const char* text) {
-  return text == nullptr ? "" : text;
-}
-
 }  // namespace
+
+void reject_value(const char* argument, std::int32_t value, const char* list) {
+  reject(argument, fmt::format("is {}, which is no {}", value, list));
+}
 
 Vec3 to_vec3(const double* numbers, const char* argument) {
   require(numbers, argument);
@@ -385,82 +374,6 @@ Background to_background(const crt_background* background) {
     default:
       reject_value("background.type", given.type, "crt_background_type");
   }
-}
-
-// ---- settings and statistics --------------------------------------------------------------------------
-
-crt_settings to_c(const Settings& settings) {
-  crt_settings out{};
-  out.struct_size = sizeof out;
-  out.width = settings.width;
-  out.height = settings.height;
-  out.supersampling = settings.supersampling;
-  out.dof_samples = settings.dof_samples;
-  out.recursion_depth = settings.recursion_depth;
-  out.gamma = settings.gamma;
-  out.min_weight = settings.min_weight;
-  out.falloff_model = static_cast<std::int32_t>(settings.falloff_model);
-  out.show_clip = settings.show_clip ? 1 : 0;
-  out.seed = settings.seed;
-  out.title = settings.title.c_str();
-  out.author = settings.author.c_str();
-  out.date = settings.date.c_str();
-  out.notes = settings.notes.c_str();
-  return out;
-}
-
-template <>
-crt_settings defaults<crt_settings>() {
-  crt_settings out = to_c(Settings{});
-  out.title = out.author = out.date = out.notes = nullptr;
-  return out;
-}
-
-static_assert(static_cast<int>(FalloffModel::path) == CRT_FALLOFF_PATH);
-static_assert(static_cast<int>(FalloffModel::light) == CRT_FALLOFF_LIGHT);
-
-Settings to_settings(const crt_settings* settings) {
-  const auto given = taken(settings, "settings");
-  Settings result;
-  result.width = given.width;
-  result.height = given.height;
-  result.supersampling = given.supersampling;
-  result.dof_samples = given.dof_samples;
-  result.recursion_depth = given.recursion_depth;
-  result.gamma = given.gamma;
-  result.min_weight = given.min_weight;
-  result.falloff_model =
-      to_enum(given.falloff_model, FalloffModel::light, "settings.falloff_model", "crt_falloff_model");
-  result.show_clip = given.show_clip != 0;
-  result.seed = given.seed;
-  result.title = text_or_empty(given.title);
-  result.author = text_or_empty(given.author);
-  result.date = text_or_empty(given.date);
-  result.notes = text_or_empty(given.notes);
-  return result;
-}
-
-crt_render_stats to_c(const RenderStats& stats) {
-  crt_render_stats out{};
-  out.struct_size = sizeof out;
-  out.threads = stats.threads;
-  out.pixels = stats.pixels;
-  out.camera_rays = stats.camera_rays;
-  out.shadow_rays = stats.shadow_rays;
-  out.reflection_rays = stats.reflection_rays;
-  out.refraction_rays = stats.refraction_rays;
-  out.rays_below_min_weight = stats.rays_below_min_weight;
-  out.rays_beyond_depth = stats.rays_beyond_depth;
-  out.samples_over_ray_bound = stats.samples_over_ray_bound;
-  out.intersection_tests = stats.intersection_tests;
-  out.interval_events = stats.interval_events;
-  out.media_lookups = stats.media_lookups;
-  out.media_changes = stats.media_changes;
-  out.pattern_lookups = stats.pattern_lookups;
-  out.lens_samples = stats.lens_samples;
-  out.prepare_seconds = stats.prepare_seconds;
-  out.trace_seconds = stats.trace_seconds;
-  return out;
 }
 
 }  // namespace crt::capi
