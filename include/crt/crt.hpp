@@ -7,6 +7,7 @@
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
 #include <crt/image.hpp>
+#include <crt/job.hpp>
 #include <crt/light.hpp>
 #include <crt/material.hpp>
 #include <crt/pattern.hpp>
