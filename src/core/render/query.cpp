@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <limits>
 #include <new>
 
 #include "core/math/float_environment.hpp"
@@ -50,13 +51,15 @@ class Query {
  public:
   Query(const PreparedData& data, const Ray& ray, RayWorkspace& work)
       : data_(data), work_(work), exponent_(exponent_of(ray.direction)) {
+    // Beyond the largest number there is no t to tell of, and so no hit.
+    constexpr double largest = std::numeric_limits<double>::max();
     const PowerOfTwo shorten(-exponent_);
     const PowerOfTwo lengthen(exponent_);
     const Vec3& d = ray.direction;
     ray_ = {.origin = ray.origin,
             .direction = {shorten * d.x, shorten * d.y, shorten * d.z},
-            .t_min = lengthen * ray.t_min,
-            .t_max = lengthen * ray.t_max};
+            .t_min = lengthen * std::max(ray.t_min, -largest),
+            .t_max = lengthen * std::min(ray.t_max, largest)};
   }
 
   std::optional<Hit> nearest() const {
