@@ -47,6 +47,14 @@ case $kind in
     ln -s "$static_only/$LIBDIR/crt" crt
     run_program ./program
     ;;
+  subdirectory)
+    # Building all of CRT once more would take too long to be told that it still does.
+    cmake -S "$consumers/subdirectory" -B . -DCRT_SOURCE="$SOURCE" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+      >configure.log 2>&1 || fail "$(cat configure.log)"
+    cmake --build . --target help >targets.txt
+    ! grep -E '(test_|abi_|\bhello\b)' targets.txt || fail "a project with CRT in it has CRT's tests and examples"
+    exit
+    ;;
   *) fail "no kind $kind" ;;
 esac
 

@@ -1,0 +1,49 @@
+#!/usr/bin/env bash
+# What docs/installing.md tells readers to write and to type does what it says, word for word.
+# shellcheck source=tests/package/common.sh
+source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
+need pkg-config pkg-config
+
+work=$WORK/document
+rm -rf "$work"
+mkdir -p "$work"
+cd "$work"
+
+# Each piece of code into a file of its own, named for its number and language.
+awk '/^```/ { if (out != "") { out = ""; next } out = sprintf("%02d.%s", ++count, substr($0, 4)); next }
+     out != "" { print > out }' "$SOURCE/docs/installing.md"
+module=$(grep -l 'TARGET_FILE:crt::image_files' ./*.cmake) || fail "nothing brings the module along"
+
+# prepare FOLDER: a folder with the consumers' sources under the names that the document uses.
+prepare() {
+  mkdir "$work/$1"
+  cd "$work/$1"
+  cp "$SOURCE/tests/package/consumers/c/program.c" my_program.c
+  cp "$SOURCE/tests/package/consumers/cpp/program.cpp" my_program.cpp
+}
+
+projects=0
+for piece in "$work"/*.cmake; do
+  grep -q '^project(' "$piece" || continue
+  projects=$((projects + 1))
+  prepare "project_$projects"
+  cat "$piece" >CMakeLists.txt
+  ! grep -q 'COMPONENTS' "$piece" || cat "$work/$module" >>CMakeLists.txt
+  cmake -S . -B . -DCMAKE_PREFIX_PATH="$moved" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli >configure.log 2>&1 || fail "$piece: $(cat configure.log)"
+  cmake --build . >build.log 2>&1 || fail "$piece: $(cat build.log)"
+  run_program ./my_program
+done
+((projects == 3)) || fail "$projects CMake projects in the document, not 3"
+
+lines=0
+while IFS= read -r line; do
+  lines=$((lines + 1))
+  prepare "line_$lines"
+  tree=$moved
+  [[ $line != *--static* ]] || tree=$static_only
+  ln -s "$tree/$LIBDIR/crt" crt
+  PKG_CONFIG_PATH=$tree/$LIBDIR/pkgconfig bash -euc "$line" || fail "$line"
+  run_program LD_LIBRARY_PATH="$tree/$LIBDIR" ./my_program
+done < <(cat "$work"/*.sh | grep '^cc ')
+((lines == 2)) || fail "$lines lines to compile with in the document, not 2"
