@@ -15,8 +15,8 @@
  *   not matter.
  * - **Structs** that may grow begin with `struct_size`. Have their `crt_*_init(&s, sizeof s)` fill in
  *   the defaults, then change what you like. Fields beyond the size that you pass have their default.
- * - **Threads.** Each group says who may call it: *any thread*; *one thread at a time* (a scene that
- *   is being put together); *shared* (what is immutable: any number of threads at once).
+ * - **Threads.** Each group says who may call it: any thread; one thread at a time (a scene that
+ *   is being put together); shared (what is immutable: any number of threads at once).
  * - **Conventions.** Left-handed space: x to the right, y up, z into the screen. Vectors are double[3].
  *   Colours are double[3], linear RGB. Transforms are double[12], the three rows of a 3x4 affine matrix
  *   (linear part, then translation). Angles are radians. Texts are UTF-8, ended by 0 unless there is
@@ -55,6 +55,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
+/** Marks what the library offers. */
 #if defined(__GNUC__)
 #define CRT_API __attribute__((visibility("default")))
 #else
@@ -68,12 +69,14 @@ extern "C" {
 /* ---- versions and errors -------------------------------------------------------------------- */
 
 /** @defgroup errors Versions and errors
- * *Any thread.*
+ * Threads: Any thread.
  * @{ */
 
 /** The version of this header. A program runs with the library of this or any later minor version. */
 #define CRT_VERSION_MAJOR 1
+/** Grows with every release that adds something. */
 #define CRT_VERSION_MINOR 0
+/** Grows with every other release. */
 #define CRT_VERSION_PATCH 0
 
 /** What became of a call. Later versions may add values. */
@@ -112,7 +115,7 @@ CRT_API int32_t crt_cancel_value(void);
 /* ---- handles -------------------------------------------------------------------------------- */
 
 /** @defgroup handles Handles
- * Retaining and releasing: *any thread*.
+ * Retaining and releasing: any thread.
  * @{ */
 
 /** Something in a scene: a primitive, or several combined. Immutable. */
@@ -130,20 +133,33 @@ typedef struct crt_buffer crt_buffer;
 /** What there is to say about a script. Immutable. */
 typedef struct crt_diagnostics crt_diagnostics;
 
+/** Adds a reference to an entity and returns it. */
 CRT_API crt_entity* crt_entity_retain(crt_entity* entity);
+/** Drops a reference to an entity. */
 CRT_API void crt_entity_release(crt_entity* entity);
+/** Adds a reference to a scene and returns it: the same scene, not a copy. */
 CRT_API crt_scene* crt_scene_retain(crt_scene* scene);
+/** Drops a reference to a scene. */
 CRT_API void crt_scene_release(crt_scene* scene);
+/** Adds a reference to a prepared scene and returns it. */
 CRT_API crt_prepared* crt_prepared_retain(crt_prepared* prepared);
+/** Drops a reference to a prepared scene; jobs that render it hold their own. */
 CRT_API void crt_prepared_release(crt_prepared* prepared);
+/** Adds a reference to a job and returns it. */
 CRT_API crt_job* crt_job_retain(crt_job* job);
 /** Dropping the last reference to a job that still runs cancels it and waits for its threads. */
 CRT_API void crt_job_release(crt_job* job);
+/** Adds a reference to an image and returns it. */
 CRT_API crt_image* crt_image_retain(crt_image* image);
+/** Drops a reference to an image, and with the last one its pixels. */
 CRT_API void crt_image_release(crt_image* image);
+/** Adds a reference to a buffer and returns it. */
 CRT_API crt_buffer* crt_buffer_retain(crt_buffer* buffer);
+/** Drops a reference to a buffer, and with the last one its bytes. */
 CRT_API void crt_buffer_release(crt_buffer* buffer);
+/** Adds a reference to diagnostics and returns it. */
 CRT_API crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics);
+/** Drops a reference to diagnostics, and with the last one all their texts. */
 CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
 
 /** @} */
@@ -153,7 +169,7 @@ CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
 /** @defgroup values Materials, lights, cameras, backgrounds, settings
  * Plain structs in your memory; what a function takes of them it copies (images are retained).
  * `crt_*_init` fill in the defaults, never beyond `struct_size` bytes; a size that does not hold
- * `struct_size` itself is an error. *Any thread.*
+ * `struct_size` itself is an error. Threads: Any thread.
  *
  * @code{.c}
  * crt_material glass;
@@ -164,6 +180,7 @@ CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
  * @endcode
  * @{ */
 
+/** Kinds of patterns. */
 typedef enum crt_pattern_type {
   CRT_PATTERN_CHECKER = 0, /**< cubes whose edges are `scale` long */
   CRT_PATTERN_STRIPES,     /**< bands of equal width across `direction`, one of each colour in `scale` */
@@ -211,6 +228,7 @@ typedef struct crt_material {
   double bump_height;         /**< scene units; default 0.1 */
 } crt_material;
 
+/** Kinds of lights. All cast shadows. */
 typedef enum crt_light_type {
   CRT_LIGHT_POINT = 0, /**< shines from `origin` in all directions */
   CRT_LIGHT_PARALLEL,  /**< shines along `origin` to `pointing` everywhere, like a sun */
@@ -218,6 +236,7 @@ typedef enum crt_light_type {
   CRT_LIGHT_CYLINDER   /**< parallel rays that fill a cylinder from `origin` towards `pointing` */
 } crt_light_type;
 
+/** A light. */
 typedef struct crt_light {
   uint32_t struct_size;
   int32_t type;       /**< a crt_light_type; default CRT_LIGHT_POINT */
@@ -231,6 +250,7 @@ typedef struct crt_light {
   double ambient;     /**< share of the colour that every point gets, >= 0; default 0 */
 } crt_light;
 
+/** How a camera maps directions to the picture. */
 typedef enum crt_projection {
   CRT_PROJECTION_PINHOLE = 0,
   CRT_PROJECTION_SPHERICAL,
@@ -251,6 +271,7 @@ typedef enum crt_aperture_shape {
   CRT_APERTURE_LINE
 } crt_aperture_shape;
 
+/** Where the picture is seen from. */
 typedef struct crt_camera {
   uint32_t struct_size;
   int32_t projection;     /**< a crt_projection; default CRT_PROJECTION_PINHOLE */
@@ -264,6 +285,7 @@ typedef struct crt_camera {
   int32_t reserved;       /**< 0 */
 } crt_camera;
 
+/** Kinds of backgrounds. */
 typedef enum crt_background_type {
   CRT_BACKGROUND_SOLID = 0,  /**< `color` in every direction */
   CRT_BACKGROUND_GRADIENT,   /**< from `horizon` (level) to `sky` (straight up and down) */
@@ -285,6 +307,7 @@ typedef struct crt_background {
   double angle;           /**< turns the image about y, radians */
 } crt_background;
 
+/** What the distance D in a light's falloff / D^2 is. */
 typedef enum crt_falloff_model {
   CRT_FALLOFF_PATH = 0, /**< D is the whole way from the camera over all bounces to the light */
   CRT_FALLOFF_LIGHT     /**< D is the way from the lit point to the light */
@@ -313,13 +336,17 @@ typedef struct crt_settings {
 CRT_API crt_status crt_pattern_init(crt_pattern* pattern, size_t struct_size);
 /** The defaults of a crt_pattern_type: those of wood are brown. */
 CRT_API crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_size, int32_t type);
+/** A matt grey. */
 CRT_API crt_status crt_material_init(crt_material* material, size_t struct_size);
 /** A white point light at the origin. */
 CRT_API crt_status crt_light_init(crt_light* light, size_t struct_size);
 /** The defaults of a crt_light_type: all but the point light shine from (0, 1, 0) down to the origin. */
 CRT_API crt_status crt_light_init_type(crt_light* light, size_t struct_size, int32_t type);
+/** At (0, 0, -1), looking at the origin, 60 degrees high. */
 CRT_API crt_status crt_camera_init(crt_camera* camera, size_t struct_size);
+/** White. */
 CRT_API crt_status crt_background_init(crt_background* background, size_t struct_size);
+/** 640 x 480, one ray a pixel. */
 CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size);
 
 /** @} */
@@ -328,7 +355,7 @@ CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size)
 
 /** @defgroup entities Entities
  * Made, combined and placed: each function makes a new entity, which never changes. Combining and
- * placing are cheap and share their parts. *Shared.*
+ * placing are cheap and share their parts. Threads: Shared.
  *
  * @code{.c}
  * crt_entity *cutters[] = {hole_a, hole_b};
@@ -336,6 +363,7 @@ CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size)
  * @endcode
  * @{ */
 
+/** A solid ball of `radius` > 0. */
 CRT_API crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out);
 /** An axis-parallel box between any two opposite corners, which must differ in every coordinate. */
 CRT_API crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out);
@@ -344,6 +372,7 @@ CRT_API crt_status crt_plane_create(const double normal[3], const double positio
 /** A surface: the half of a plane on the `direction` side of the line through `position` across it. */
 CRT_API crt_status crt_half_plane_create(const double normal[3], const double position[3],
                                          const double direction[3], crt_entity** out);
+/** A solid cylinder of `radius` > 0 between the centres of its two caps, which must differ. */
 CRT_API crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
                                        crt_entity** out);
 /** A cone or frustum: `radius` at `from`, `radius2` (0 or more) at `to`. */
@@ -394,28 +423,40 @@ CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 /* ---- scenes --------------------------------------------------------------------------------- */
 
 /** @defgroup scenes Scenes
- * A scene needs nothing to be prepared: without a camera it has the default one. *One thread at a time* for
+ * A scene needs nothing to be prepared: without a camera it has the default one. Threads: one at a time for
  * each scene. What was prepared does not change with the scene.
  * @{ */
 
+/** An empty scene with the default camera, background and settings. */
 CRT_API crt_status crt_scene_create(crt_scene** out);
 /** Another scene with the same content. */
 CRT_API crt_status crt_scene_copy(const crt_scene* scene, crt_scene** out);
 
+/** Adds an entity behind those that are there: its place, from 0, is the id that hits report of it. */
 CRT_API crt_status crt_scene_add_entity(crt_scene* scene, crt_entity* entity);
+/** Adds a light; errors name the field that is out of range. */
 CRT_API crt_status crt_scene_add_light(crt_scene* scene, const crt_light* light);
+/** Takes the place of the camera that is there; errors name the field that is out of range. */
 CRT_API crt_status crt_scene_set_camera(crt_scene* scene, const crt_camera* camera);
+/** Takes the place of the background that is there; its image is retained. */
 CRT_API crt_status crt_scene_set_background(crt_scene* scene, const crt_background* background);
+/** Takes the place of all settings that are there; the texts are copied. */
 CRT_API crt_status crt_scene_set_settings(crt_scene* scene, const crt_settings* settings);
+/** Takes all entities out. */
 CRT_API crt_status crt_scene_clear_entities(crt_scene* scene);
+/** Takes all lights out. */
 CRT_API crt_status crt_scene_clear_lights(crt_scene* scene);
 
-/** 0 for NULL. */
+/** How many entities there are; 0 for NULL. */
 CRT_API size_t crt_scene_entity_count(const crt_scene* scene);
+/** How many lights there are; 0 for NULL. */
 CRT_API size_t crt_scene_light_count(const crt_scene* scene);
+/** The entity at a place from 0, as a reference of yours. */
 CRT_API crt_status crt_scene_get_entity(const crt_scene* scene, size_t index, crt_entity** out);
-/** These four fill in as much of the struct as its `struct_size` (which must be set) holds. */
+/** The light at a place from 0. This and the next three fill in as much of the struct as its `struct_size`
+ * (which must be set) holds. */
 CRT_API crt_status crt_scene_get_light(const crt_scene* scene, size_t index, crt_light* light);
+/** The camera; see crt_scene_get_light(). */
 CRT_API crt_status crt_scene_get_camera(const crt_scene* scene, crt_camera* camera);
 /** The image belongs to the scene: retain it to keep it. */
 CRT_API crt_status crt_scene_get_background(const crt_scene* scene, crt_background* background);
@@ -430,7 +471,7 @@ CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 /* ---- scripts -------------------------------------------------------------------------------- */
 
 /** @defgroup scripts Scripts
- * Scenes from the CRT language. *Any thread.*
+ * Scenes from the CRT language. Threads: Any thread.
  *
  * @code{.c}
  * crt_diagnostics *diagnostics = NULL;
@@ -492,6 +533,7 @@ typedef struct crt_script_options {
   void* poll_user;
 } crt_script_options;
 
+/** The defaults, which are all 0. */
 CRT_API crt_status crt_script_options_init(crt_script_options* options, size_t struct_size);
 
 /**
@@ -511,6 +553,7 @@ CRT_API crt_status crt_scene_from_script(const char* text, size_t length, const 
 CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script_options* options,
                                               crt_diagnostics** diagnostics, crt_scene** out);
 
+/** How bad it is. */
 typedef enum crt_severity { CRT_SEVERITY_WARNING = 0, CRT_SEVERITY_ERROR } crt_severity;
 
 /** One thing to say. Lines and columns count from 1, columns in code points; 0: it has no place. */
@@ -537,9 +580,9 @@ typedef struct crt_diagnostic_call {
   const char* file;
 } crt_diagnostic_call;
 
-/* Texts belong to the handle. *Shared.* */
+/* Texts belong to the handle. Threads: Shared. */
 
-/** 0 for NULL. */
+/** How many there are; 0 for NULL. */
 CRT_API size_t crt_diagnostics_count(const crt_diagnostics* diagnostics);
 /** Fills in as much as `diagnostic->struct_size` (which must be set) holds. */
 CRT_API crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
@@ -557,7 +600,7 @@ CRT_API const char* crt_diagnostics_json(const crt_diagnostics* diagnostics);
 /* ---- rendering ------------------------------------------------------------------------------ */
 
 /** @defgroup rendering Rendering
- * The pixels depend on the scene and the seed alone, not on threads or regions. *Shared.*
+ * The pixels depend on the scene and the seed alone, not on threads or regions. Threads: Shared.
  *
  * @code{.c}
  * static int show(double fraction, void *user) { printf("%3.0f %%\n", 100 * fraction); return 0; }
@@ -575,6 +618,7 @@ CRT_API const char* crt_diagnostics_json(const crt_diagnostics* diagnostics);
  */
 typedef int (*crt_progress_fn)(double fraction, void* user);
 
+/** How much a line of the log matters. */
 typedef enum crt_log_level { CRT_LOG_INFO = 0, CRT_LOG_WARNING } crt_log_level;
 
 /** Gets what there is to tell of a render. From the thread that called crt_render(), or the job's own. */
@@ -595,6 +639,7 @@ typedef struct crt_render_options {
   void* log_user;
 } crt_render_options;
 
+/** The defaults, which are all 0. */
 CRT_API crt_status crt_render_options_init(crt_render_options* options, size_t struct_size);
 
 /** Renders, and returns when done. `options` NULL: the defaults. */
@@ -646,7 +691,7 @@ typedef struct crt_render_stats {
 /* ---- images --------------------------------------------------------------------------------- */
 
 /** @defgroup images Images
- * Rows from the top; RGBA floats, linear, alpha premultiplied. *Shared.*
+ * Rows from the top; RGBA floats, linear, alpha premultiplied. Threads: Shared.
  *
  * @code{.c}
  * size_t stride = 0;
@@ -667,8 +712,9 @@ CRT_API crt_status crt_image_read(const char* path, crt_image** out);
 /** The same from a file's bytes; `name` (or NULL) is for messages. */
 CRT_API crt_status crt_image_decode(const void* bytes, size_t count, const char* name, crt_image** out);
 
-/** 0 for NULL, as the height. */
+/** Pixels across; 0 for NULL. */
 CRT_API uint32_t crt_image_width(const crt_image* image);
+/** Pixels down; 0 for NULL. */
 CRT_API uint32_t crt_image_height(const crt_image* image);
 /**
  * The pixels, which belong to the image; NULL for NULL.
@@ -687,6 +733,7 @@ typedef struct crt_write_options {
   int32_t reproducible; /**< not 0: leaves out what changes from run to run (the render time) */
 } crt_write_options;
 
+/** The defaults, which are all 0. */
 CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t struct_size);
 
 /**
@@ -694,14 +741,15 @@ CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t str
  * linear floats. The file appears whole or not at all.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
+/** The same with options; NULL for the defaults. */
 CRT_API crt_status crt_image_write_with(const crt_image* image, const char* path,
                                         const crt_write_options* options);
 /** The bytes of such a file. `format` is its ending ("png", "exr", ...); `options` may be NULL. */
 CRT_API crt_status crt_image_encode(const crt_image* image, const char* format,
                                     const crt_write_options* options, crt_buffer** out);
-/** NULL for NULL. */
+/** The bytes, which belong to the buffer; NULL for NULL. */
 CRT_API const void* crt_buffer_data(const crt_buffer* buffer);
-/** In bytes; 0 for NULL. */
+/** How many bytes there are; 0 for NULL. */
 CRT_API size_t crt_buffer_size(const crt_buffer* buffer);
 
 /** What rendering it took; `stats->struct_size` must be set. All 0 for an image that was not rendered. */
@@ -719,7 +767,7 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
 
 /** @defgroup queries Ray queries
  * What a program asks of the geometry without making a picture; the same crossings that pictures see.
- * Many rays are asked on several threads: what the calling TBB arena has. *Shared.*
+ * Many rays are asked on several threads: what the calling TBB arena has. Threads: Shared.
  *
  * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one after the
  * other. Any alignment will do, and hits may take the place of their own rays.

@@ -79,8 +79,9 @@ Entity csg_difference(const Entity& from, std::span<const Entity> cutters);
 /// The corners of a triangle of a mesh, by their places in the list of positions.
 using TriangleIndices = std::array<std::uint32_t, 3>;
 
-/// A surface of many triangles with shared corners: a union of Triangle. Triangles without an area are left out;
-/// throws Error (invalid_argument) if that leaves none, for an index that is out of range, and as Triangle does.
+/// A surface of many triangles with shared corners: a union of Triangle. Triangles without an area are left
+/// out; throws Error (invalid_argument) if that leaves none, for an index that is out of range, and as
+/// Triangle does.
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles);
 
 }  // namespace crt

@@ -17,7 +17,9 @@ class RenderJob {
 
   /// Cancels the job and waits for its threads; in one of its own callbacks it does not wait.
   ~RenderJob();
+  /// The job goes on under the new name; the old one is good for nothing but being assigned to or destroyed.
   RenderJob(RenderJob&&) noexcept;
+  /// The same; what was here ends as if destroyed.
   RenderJob& operator=(RenderJob&&) noexcept;
 
   /// The share done, from 0 to 1.

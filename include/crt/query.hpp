@@ -51,9 +51,12 @@ void validate(const Ray& ray);
 /// than the functions above. For one thread at a time.
 class RayQueries {
  public:
+  /// Shares the scene; throws Error (out_of_memory).
   explicit RayQueries(const PreparedScene& scene);
   ~RayQueries();
+  /// What was moved from is good for nothing but being assigned to or destroyed, as in the next.
   RayQueries(RayQueries&&) noexcept;
+  /// Lets go of what is here.
   RayQueries& operator=(RayQueries&&) noexcept;
 
   /// The nearest hit.

@@ -30,7 +30,8 @@ struct RenderOptions {
   std::function<bool(double)> progress{};
   /// Takes the place of Settings::seed.
   std::optional<std::uint64_t> seed{};
-  /// Gets what there is to tell of the render, a line each without its end. From the thread that calls render().
+  /// Gets what there is to tell of the render, a line each without its end. From the thread that calls
+  /// render().
   std::function<void(LogLevel, std::string_view)> log{};
 };
 

@@ -133,7 +133,8 @@ RenderJob::~RenderJob() {
 RenderJob::RenderJob(RenderJob&&) noexcept = default;
 
 RenderJob& RenderJob::operator=(RenderJob&& other) noexcept {
-  std::swap(state_, other.state_);
+  RenderJob taken(std::move(other));
+  std::swap(state_, taken.state_);
   return *this;
 }
 
