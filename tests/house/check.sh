@@ -95,6 +95,14 @@ check_scripts() {
   done
 }
 
+# docs/abi.md names the test of each promise: programs that CTest knows, and cases that they have.
+check_promises() {
+  local name
+  grep '^|' docs/abi.md | grep -oE '"[^"]+"' | tr -d '"' | while IFS= read -r name; do
+    grep -rqF "TEST_CASE(\"$name\")" tests || echo "docs/abi.md: no test has the case \"$name\""
+  done
+}
+
 check_ends() {
   local file
   git ls-files -z --eol | tr '\0' '\n' | awk '$1 ~ /crlf|mixed/ { print $NF ": line ends are not \\n" }'
@@ -127,6 +135,7 @@ lines_with '\.\./shared' . | without '^tests/house/check.sh:' | complain "The pr
 long_files "$limit_of_lines" 1000000 | complain "Over $limit_of_lines lines: split by subject"
 check_scripts | complain "Shell scripts"
 check_ends | complain "Line ends"
+check_promises | complain "A promise without its test"
 
 long_files "$wish_of_lines" "$limit_of_lines" | sed "s/^/note: over $wish_of_lines lines, think of splitting: /"
 

@@ -306,8 +306,7 @@ TEST_CASE("rendering stays within the host's arena") {
   }
 }
 
-TEST_CASE(
-    "a job works in the arena that it was started from, even if that has one place, taken by who waits") {
+TEST_CASE("a job works in the arena that it was started from, even if its only place is taken") {
   const SceneHandle scene = small_scene(100, 75);
   const PreparedHandle prepared = prepare(scene.get());
   const std::vector<float> expected = pixels_of(render(prepared.get()).get());
