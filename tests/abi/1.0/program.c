@@ -221,6 +221,7 @@ static void render(crt_prepared* prepared) {
 
   EXPECT_OK(crt_render_start(prepared, NULL, &job));
   EXPECT_OK(crt_job_wait(job, &same));
+  EXPECT(crt_job_is_finished(job) == 1 && crt_job_is_finished(NULL) == 0);
   EXPECT_OK(crt_job_progress(job, &fraction));
   EXPECT(fraction == 1);
   EXPECT_OK(crt_job_snapshot(job, &so_far));
