@@ -38,7 +38,7 @@ class Input {
   double number() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     static const std::array special = {0.0,    -0.0, 1.0,   -1.0,     0.5,       1e-300,       1e300,  1e100,
-                                    1e-100, 1e18, 1e-18, infinity, -infinity, std::nan(""), 5e-324, 2.0};
+                                       1e-100, 1e18, 1e-18, infinity, -infinity, std::nan(""), 5e-324, 2.0};
     const std::uint8_t kind = byte();
     if (kind < 16) return special[kind];
     if (kind < 20) return raw<double>();
