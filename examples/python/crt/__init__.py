@@ -1,0 +1,99 @@
+"""CRT for Python: solids, scenes, pictures and ray queries by libcrt and NumPy.
+
+    import crt
+
+    ball = crt.Sphere((0, 1, 0), 1, material=crt.Material(color=(0.6, 0.02, 0.01)))
+    corner = crt.Box((0, 1, 0), (2, 3, -2))
+    scene = crt.Scene([ball - corner], [crt.Light.point(origin=(3, 5, -4))])
+    scene.camera = crt.Camera(position=(2, 2, -5), pointing=(0, 1, 0))
+    scene.render().save("ball.png")
+
+Space is left-handed: x to the right, y up, z into the picture. Everything is released by itself; `with`
+and `close()` do so earlier. Prepared scenes, images and entities may be shared between threads, and threads
+run at once while the library works. What fails raises crt.Error.
+"""
+
+from ._library import version
+from .entities import (
+    Box,
+    Cone,
+    Cylinder,
+    Disc,
+    Entity,
+    HalfPlane,
+    Mesh,
+    Plane,
+    Sphere,
+    Torus,
+    Triangle,
+    difference,
+    intersection,
+    union,
+)
+from .errors import Call, Diagnostic, Error, ScriptError, Status
+from .expressions import Expression
+from .images import Image
+from .rays import BACKFACE, ENTERING, HIT, RAY, camera_rays, ray, rays
+from .rendering import Job, Prepared
+from .scenes import Scene
+from .values import (
+    ApertureShape,
+    Background,
+    BackgroundType,
+    Camera,
+    Light,
+    LightType,
+    Material,
+    Pattern,
+    PatternType,
+    Projection,
+    RenderStats,
+    Settings,
+)
+
+__all__ = [
+    "ApertureShape",
+    "BACKFACE",
+    "Background",
+    "BackgroundType",
+    "Box",
+    "Call",
+    "Camera",
+    "Cone",
+    "Cylinder",
+    "Diagnostic",
+    "Disc",
+    "ENTERING",
+    "Entity",
+    "Error",
+    "Expression",
+    "HIT",
+    "HalfPlane",
+    "Image",
+    "Job",
+    "Light",
+    "LightType",
+    "Material",
+    "Mesh",
+    "Pattern",
+    "PatternType",
+    "Plane",
+    "Prepared",
+    "Projection",
+    "RAY",
+    "RenderStats",
+    "Scene",
+    "ScriptError",
+    "Settings",
+    "Sphere",
+    "Status",
+    "Torus",
+    "Triangle",
+    "camera_rays",
+    "difference",
+    "intersection",
+    "ray",
+    "rays",
+    "union",
+    "version",
+]

@@ -1,0 +1,64 @@
+"""References to what the library owns, dropped when Python needs them no more."""
+
+import types
+from typing import Any, ClassVar, TypeVar
+
+from ._library import library
+
+Self = TypeVar("Self", bound="Handle")
+
+
+class Reference:
+    """One reference; stands for its handle in calls, which it outlives as their argument."""
+
+    __slots__ = ("_as_parameter_", "_release")
+
+    def __init__(self, handle: int, release: Any) -> None:
+        self._as_parameter_ = handle
+        self._release = release
+
+    def __del__(self) -> None:
+        self._release(self._as_parameter_)
+
+
+class Handle:
+    """Something of the library. Lives as long as it is used; `close()`, or `with`, ends its use earlier.
+
+    Closing drops this object's reference. A call of another thread that is under way, and arrays that were
+    lent, have references of their own, so closing never pulls anything from under them.
+    """
+
+    _release: ClassVar[str]
+    _reference: Reference | None = None
+
+    @classmethod
+    def _adopt(cls: type[Self], handle: int) -> Self:
+        """An object for a reference that is ours to release."""
+        self = cls.__new__(cls)
+        self._take(handle)
+        return self
+
+    def _take(self, handle: int) -> None:
+        self._reference = Reference(handle, getattr(library, self._release))
+
+    @property
+    def _handle(self) -> Reference:
+        reference = self._reference
+        if reference is None:
+            raise ValueError(f"this {type(self).__name__} is closed")
+        return reference
+
+    def close(self) -> None:
+        """Ends the use of this object. Again does no harm."""
+        self._reference = None
+
+    def __enter__(self: Self) -> Self:
+        return self
+
+    def __exit__(
+        self,
+        kind: type[BaseException] | None,
+        error: BaseException | None,
+        traceback: types.TracebackType | None,
+    ) -> None:
+        self.close()

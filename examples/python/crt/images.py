@@ -1,0 +1,122 @@
+"""Pictures."""
+
+import ctypes
+import os
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._handles import Handle, Reference
+from ._library import create, library
+from ._structs import Int, Struct, growable
+from .values import RenderStats, Settings
+
+
+@growable("crt_write_options")
+class _WriteOptions(Struct):
+    reproducible: Int
+
+
+class Image(Handle):
+    """A picture: linear RGBA floats, alpha premultiplied, rows from the top. Immutable."""
+
+    _release = "crt_image_release"
+
+    @classmethod
+    def from_pixels(cls, pixels: NDArray[Any]) -> "Image":
+        """A copy of height x width x 4 float32; the rows may lie apart."""
+        return cls._of_array("crt_image_create", pixels, np.dtype(np.float32))
+
+    @classmethod
+    def from_rgba8(cls, pixels: NDArray[Any]) -> "Image":
+        """A copy of height x width x 4 uint8 as displays want them: gamma applied, alpha straight."""
+        return cls._of_array("crt_image_from_rgba8", pixels, np.dtype(np.uint8))
+
+    @classmethod
+    def read(cls, path: str | os.PathLike[str]) -> "Image":
+        return cls._adopt(create("crt_image_read", path))
+
+    @classmethod
+    def decode(cls, content: bytes, name: str = "image") -> "Image":
+        """From a file's bytes; the name is for messages."""
+        return cls._adopt(create("crt_image_decode", content, len(content), name.encode()))
+
+    @classmethod
+    def _of_array(cls, function: str, pixels: NDArray[Any], dtype: np.dtype[Any]) -> "Image":
+        if pixels.dtype != dtype or pixels.ndim != 3 or pixels.shape[2] != 4:
+            raise TypeError(f"pixels are height x width x 4 {dtype}, not {pixels.shape} {pixels.dtype}")
+        height, width, channels = pixels.shape
+        row_bytes = width * channels * dtype.itemsize
+        if pixels.strides[1:] != (channels * dtype.itemsize, dtype.itemsize) or pixels.strides[0] < row_bytes:
+            raise TypeError(
+                "pixels of a row must follow one another, and rows must not overlap or run backwards"
+            )
+        return cls._adopt(create(function, width, height, pixels.ctypes.data, pixels.strides[0]))
+
+    @property
+    def width(self) -> int:
+        return int(library.crt_image_width(self._handle))
+
+    @property
+    def height(self) -> int:
+        return int(library.crt_image_height(self._handle))
+
+    @property
+    def pixels(self) -> NDArray[Any]:
+        """height x width x 4 float32, read-only: the library's own memory, which the array keeps."""
+        return np.asarray(_LentPixels(self._handle))
+
+    def to_rgba8(self) -> NDArray[Any]:
+        """height x width x 4 uint8, as a file gets them: gamma applied, alpha straight."""
+        reference = self._handle
+        shape = library.crt_image_height(reference), library.crt_image_width(reference), 4
+        pixels = np.empty(shape, np.uint8)
+        library.crt_image_to_rgba8(reference, pixels.ctypes.data, pixels.strides[0])
+        return pixels
+
+    def save(self, path: str | os.PathLike[str], *, reproducible: bool = False) -> None:
+        """Writes a file; its ending tells the format. `reproducible` leaves out how long the render took."""
+        options = _WriteOptions(reproducible=reproducible)
+        library.crt_image_write_with(self._handle, path, ctypes.byref(options))
+
+    def encode(self, format: str, *, reproducible: bool = False) -> bytes:
+        """The bytes of a file of this format: "png", "exr", ..."""
+        options = _WriteOptions(reproducible=reproducible)
+        handle = create("crt_image_encode", self._handle, format, ctypes.byref(options))
+        buffer = Reference(handle, library.crt_buffer_release)
+        return ctypes.string_at(library.crt_buffer_data(buffer), library.crt_buffer_size(buffer))
+
+    def _repr_png_(self) -> bytes:
+        """For notebooks."""
+        return self.encode("png")
+
+    @property
+    def stats(self) -> RenderStats:
+        return RenderStats._filled_by("crt_image_stats", self._handle)
+
+    @property
+    def settings(self) -> Settings:
+        """What it was rendered with."""
+        return Settings._filled_by("crt_image_settings", self._handle)
+
+    def with_settings(self, settings: Settings) -> "Image":
+        """The same pixels with another gamma, other texts, ..."""
+        return Image._adopt(create("crt_image_with_settings", self._handle, ctypes.byref(settings)))
+
+
+class _LentPixels:
+    """What NumPy makes an array of, which keeps this, which keeps the image."""
+
+    def __init__(self, reference: Reference) -> None:
+        self._reference = reference
+        row_stride = ctypes.c_size_t()
+        address = library.crt_image_pixels(reference, ctypes.byref(row_stride))
+        shape = library.crt_image_height(reference), library.crt_image_width(reference), 4
+        self.__array_interface__: dict[str, Any] = {
+            "version": 3,
+            "typestr": np.dtype(np.float32).str,
+            "shape": shape,
+            "strides": (row_stride.value, 16, 4),
+            "data": (address, True),  # read-only
+        }

@@ -1,0 +1,217 @@
+"""Scenes made ready, and what one does with them: pictures and ray queries."""
+
+import atexit
+import ctypes
+import threading
+import time
+import weakref
+from collections.abc import Callable
+from typing import Annotated, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._callbacks import LOG, PROGRESS, Guard
+from ._handles import Handle, Reference
+from ._library import create, library
+from ._structs import Int, Long, Pointer, Struct, growable
+from .images import Image
+from .rays import HIT, RAY, Batch
+
+Progress = Callable[[float], Any]
+Log = Callable[[str], Any]
+Region = tuple[int, int, int, int]
+
+
+class Prepared(Handle):
+    """A scene ready for rays. Immutable: any number of threads may use it at once."""
+
+    _release = "crt_prepared_release"
+
+    def render(
+        self,
+        *,
+        threads: int = 0,
+        region: Region | None = None,
+        seed: int = 0,
+        progress: Progress | None = None,
+        log: Log | None = None,
+    ) -> Image:
+        """Renders a picture.
+
+        `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
+        `seed` takes the place of the settings', unless it is 0. `progress` is told the share that is done,
+        `log` what there is to tell; they may be called from other threads, one at a time. What progress
+        raises cancels the render and comes out of here. So does Ctrl-C.
+        """
+        guard = Guard()
+        options = _options(guard, threads, region, seed, progress, log)
+        with guard.raising():
+            return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
+
+    def start(
+        self,
+        *,
+        threads: int = 0,
+        region: Region | None = None,
+        seed: int = 0,
+        progress: Progress | None = None,
+        log: Log | None = None,
+    ) -> "Job":
+        """Starts to render in the background; as render() otherwise."""
+        guard = Guard()
+        options = _options(guard, threads, region, seed, progress, log)
+        return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
+
+    def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
+        """The nearest hit of each ray; a miss has an infinite t.
+
+        `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if given,
+        has crt.HIT and as many items. Both are used in place.
+        """
+        questions = Batch(rays, RAY, "rays")
+        if out is None:
+            out = np.empty(questions.shape, HIT)
+        answers = Batch(out, HIT, "hits")
+        if answers.shape != questions.shape or not out.flags.writeable:
+            raise ValueError(f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}")
+        library.crt_intersect(
+            self._handle,
+            questions.address,
+            questions.stride,
+            questions.count,
+            answers.address,
+            answers.stride,
+        )
+        return out
+
+    def occluded(self, rays: NDArray[Any]) -> NDArray[Any]:
+        """Whether each ray hits anything at all."""
+        questions = Batch(rays, RAY, "rays")
+        out = np.empty(questions.shape, np.bool_)
+        library.crt_occluded(
+            self._handle, questions.address, questions.stride, questions.count, out.ctypes.data
+        )
+        return out
+
+    def crossings(self, ray: NDArray[Any]) -> NDArray[Any]:
+        """Every crossing along one ray, in order: the solid intervals that CSG leaves."""
+        record = np.asarray(ray)
+        question = Batch(record, RAY, "rays")
+        if question.count != 1:
+            raise ValueError("crossings are those of one ray")
+        count = ctypes.c_size_t(16)
+        while True:
+            hits = np.empty(count.value, HIT)
+            library.crt_crossings(
+                self._handle, question.address, hits.ctypes.data, len(hits), ctypes.byref(count)
+            )
+            if count.value <= len(hits):
+                return hits[: count.value]
+
+
+class Job(Handle):
+    """A render under way. Closing it, or dropping it, cancels it and waits for its threads."""
+
+    _release = "crt_job_release"
+
+    def __init__(self, handle: int, guard: Guard, options: "_RenderOptions") -> None:
+        self._guard = guard
+        self._reference = _JobReference(handle, guard, options)
+        _jobs.add(self)
+
+    @property
+    def progress(self) -> float:
+        """The share done, from 0 to 1."""
+        fraction = ctypes.c_double()
+        library.crt_job_progress(self._handle, ctypes.byref(fraction))
+        return fraction.value
+
+    @property
+    def is_finished(self) -> bool:
+        """Whether it has ended, in one way or another."""
+        return bool(library.crt_job_is_finished(self._handle))
+
+    def snapshot(self) -> Image:
+        """The image so far; what is not yet rendered is transparent black."""
+        return Image._adopt(create("crt_job_snapshot", self._handle))
+
+    def cancel(self) -> None:
+        """Asks the job to stop, and returns at once."""
+        library.crt_job_cancel(self._handle)
+
+    def wait(self) -> Image:
+        """The image, once it is there; or raises what went wrong, such as what the progress callback raised.
+
+        Ctrl-C in here cancels the job.
+        """
+        reference = self._handle
+        with self._guard.raising():
+            if threading.current_thread() is threading.main_thread():
+                while not library.crt_job_is_finished(reference):
+                    time.sleep(0.01)  # in which Python sees signals
+            return Image._adopt(create("crt_job_wait", reference))
+
+
+class _JobReference(Reference):
+    """Keeps the callbacks until the job's threads have ended."""
+
+    __slots__ = ("_guard", "_options")
+
+    def __init__(self, handle: int, guard: Guard, options: "_RenderOptions") -> None:
+        super().__init__(handle, library.crt_job_release)
+        self._guard = guard
+        self._options = options
+
+    def __del__(self) -> None:
+        if self._guard.is_inside():  # a callback drops its own job, whose thread then ends by itself, later
+            _still_needed.append(self._options)
+        super().__del__()
+
+
+_still_needed: list["_RenderOptions"] = []
+_jobs: weakref.WeakSet[Job] = weakref.WeakSet()
+
+
+@atexit.register
+def _end_jobs() -> None:
+    """No callback may come when Python is being taken apart."""
+    for job in list(_jobs):
+        if job._reference is not None:
+            job.cancel()
+            job.close()
+
+
+@growable("crt_render_options")
+class _RenderOptions(Struct):
+    threads: Int
+    region_x: Int
+    region_y: Int
+    region_width: Int
+    region_height: Int
+    seed: Long
+    progress: Annotated[Any, PROGRESS]
+    progress_user: Pointer
+    log: Annotated[Any, LOG]
+    log_user: Pointer
+
+
+def _options(
+    guard: Guard, threads: int, region: Region | None, seed: int, progress: Progress | None, log: Log | None
+) -> _RenderOptions:
+    def tell_progress(fraction: float) -> None:
+        if progress is not None:
+            progress(fraction)
+
+    def tell(line: bytes) -> None:
+        if log is not None:
+            log(line.decode())
+
+    options = _RenderOptions(threads=threads, seed=seed)
+    if region is not None:
+        x, y, width, height = region
+        options.set(region_x=x, region_y=y, region_width=width, region_height=height)
+    # There is always one, which sees Ctrl-C and what the other has raised.
+    options.progress = PROGRESS(lambda fraction, _user: guard.call(tell_progress, fraction))
+    options.log = LOG(lambda _level, line, _user: guard.call(tell, line))
+    return options

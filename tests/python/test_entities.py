@@ -1,0 +1,147 @@
+"""Entities: where they are, and what operators make of them."""
+
+import unittest
+
+import numpy as np
+from support import INFINITY, shell
+
+import crt
+
+
+def crossings(entity: crt.Entity, origin=(-5, 0, 0), direction=(1, 0, 0)) -> list[float]:
+    hits = crt.Scene([entity]).prepare().crossings(crt.ray(origin, direction, -INFINITY))
+    return [round(float(t), 9) for t in hits["t"]]
+
+
+class Primitives(unittest.TestCase):
+    def test_each_is_where_its_arguments_say(self):
+        x = 5  # the ray begins at x = -5
+        cases = [
+            (crt.Sphere((1, 0, 0), 1), [x, x + 2]),
+            (crt.Box((1, 1, 1), (-1, -1, -1)), [x - 1, x + 1]),
+            (crt.Plane((-1, 0, 0), (2, 0, 0)), [x + 2]),
+            (crt.HalfPlane((1, 0, 0), (2, -1, 0), (0, 1, 0)), [x + 2]),
+            (crt.HalfPlane((1, 0, 0), (2, 1, 0), (0, 1, 0)), []),
+            (crt.Cylinder((-2, 0, 0), (3, 0, 0), 1), [x - 2, x + 3]),
+            (crt.Cone((0, 0, 0), (4, 0, 0), 1), [x, x + 4]),
+            (crt.Cone((0, -1, 0), (0, 1, 0), 3, 1), [x - 2, x + 2]),
+            (crt.Torus((0, 0, 0), (0, 1, 0), 2, 0.5), [x - 2.5, x - 1.5, x + 1.5, x + 2.5]),
+            (crt.Disc((1, 0, 0), (1, 0, 0), 1), [x + 1]),
+            (crt.Triangle((1, -1, -1), (1, 2, -1), (1, 0, 2)), [x + 1]),
+            (crt.Mesh([[1, -1, -1], [1, 2, -1], [1, 0, 2]], [[0, 1, 2]]), [x + 1]),
+        ]
+        for entity, expected in cases:
+            self.assertEqual(crossings(entity), expected, type(entity).__name__)
+
+    def test_a_mesh_takes_whole_numbers_below_the_number_of_positions(self):
+        corners = np.eye(3)
+        for wrong in ([[0, 1, 3]], [[0, 1, -1]], [[0.0, 1.0, 2.0]], [0, 1, 2]):
+            with self.assertRaises(ValueError):
+                crt.Mesh(corners, wrong)
+
+    def test_what_cannot_be_is_an_error_that_says_so(self):
+        with self.assertRaisesRegex(crt.Error, "radius"):
+            crt.Sphere((0, 0, 0), -1)
+        with self.assertRaises(crt.Error):
+            crt.Sphere((0, 0, float("nan")), 1)
+
+
+class Operators(unittest.TestCase):
+    left, right = crt.Sphere((-0.5, 0, 0), 1), crt.Sphere((0.5, 0, 0), 1)
+
+    def test_sum_difference_and_intersection(self):
+        self.assertEqual(crossings(self.left + self.right), [3.5, 6.5])
+        self.assertEqual(crossings(self.left - self.right), [3.5, 4.5])
+        self.assertEqual(crossings(self.left ^ self.right), [4.5, 5.5])
+
+    def test_those_of_sets_are_the_same(self):
+        self.assertEqual(crossings(self.left | self.right), crossings(self.left + self.right))
+        self.assertEqual(crossings(self.left & self.right), crossings(self.left ^ self.right))
+
+    def test_they_leave_their_operands_as_they_are(self):
+        whole = self.left
+        whole -= self.right
+        self.assertEqual(crossings(self.left), [3.5, 5.5])
+        self.assertEqual(crossings(whole), [3.5, 4.5])
+
+    def test_functions_take_any_number(self):
+        parts = [crt.Sphere((x, 0, 0), 0.5) for x in (0, 2, 4)]
+        self.assertEqual(crossings(crt.union(part for part in parts)), [4.5, 5.5, 6.5, 7.5, 8.5, 9.5])
+        self.assertEqual(
+            crossings(crt.difference(crt.Box((0, -1, -1), (4, 1, 1)), parts)), [5.5, 6.5, 7.5, 8.5]
+        )
+        self.assertEqual(crt.union(parts).primitive_count, 3)
+
+    def test_surfaces_can_only_be_joined(self):
+        disc = crt.Disc((0, 0, 0), (1, 0, 0), 1)
+        self.assertFalse((disc + self.left).is_solid)
+        with self.assertRaises(crt.Error):
+            self.left - disc
+
+    def test_other_operands_are_type_errors(self):
+        with self.assertRaises(TypeError):
+            self.left + 1
+
+
+class Transforms(unittest.TestCase):
+    def test_moving_and_scaling(self):
+        self.assertEqual(crossings(crt.Sphere((0, 0, 0), 1).moved((2, 0, 0))), [6, 8])
+        self.assertEqual(crossings(crt.Sphere((1, 0, 0), 1).scaled(2)), [5, 9])
+        self.assertEqual(crossings(crt.Sphere((1, 0, 0), 1).scaled((3, 1, 1))), [5, 11])
+
+    def test_a_matrix_of_three_or_four_rows(self):
+        matrix = np.array([[1, 0, 0, 2], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]])
+        self.assertEqual(crossings(crt.Sphere((0, 0, 0), 1).transformed(matrix)), [6, 8])
+        self.assertEqual(crossings(crt.Sphere((0, 0, 0), 1).transformed(matrix[:3])), [6, 8])
+        with self.assertRaises(ValueError):
+            crt.Sphere((0, 0, 0), 1).transformed(np.eye(3))
+
+    def test_rotating_goes_the_way_that_it_does_in_scripts(self):
+        box = "Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 2, 3) }"
+        angles = 20.0, -50.0, 200.0
+        script = f"Scene {{ {box} <rotate vec3{angles}> }}"
+        there = crt.Scene.from_script(script).prepare()
+        here = crt.Scene([crt.Box((0, 0, 0), (1, 2, 3)).rotated(angles)]).prepare()
+        random = np.random.default_rng(1)
+        rays = crt.rays(2000)
+        rays["origin"] = random.normal(size=(2000, 3)) * 5
+        rays["direction"] = random.normal(size=(2000, 3)) - rays["origin"]
+        expected, found = there.intersect(rays)["t"], here.intersect(rays)["t"]
+        self.assertGreater(np.isfinite(expected).sum(), 500)
+        np.testing.assert_allclose(found, expected, rtol=1e-12)
+
+    def test_quarter_turns_are_exact(self):
+        box = crt.Box((0.1, 0.2, 0.3), (1.7, 1.3, 1.1))
+        turned = box.rotated((90, 0, 0)).rotated((270, 0, 0)).rotated((0, 0, -90)).rotated((0, 0, 90))
+        self.assertEqual(crossings(box - turned, (-5, 0.7, 0.7)), [])
+
+
+class Materials(unittest.TestCase):
+    def test_with_material_paints_what_has_none(self):
+        red, blue = crt.Material(color=(1, 0, 0)), crt.Material(color=(0, 0, 1))
+        pair = (crt.Sphere((-1, 0, 3), 0.5, material=red) + crt.Sphere((1, 0, 3), 0.5)).with_material(blue)
+        scene = crt.Scene(
+            [pair], [crt.Light.point(origin=(0, 0, 0))], crt.Camera(), None, crt.Settings(width=40, height=20)
+        )
+        pixels = scene.render().pixels
+        left, right = pixels[10, 14, :3], pixels[10, 25, :3]
+        self.assertGreater(left[0], 0.1)
+        self.assertGreater(right[2], 0.1)
+        self.assertEqual((left[2], right[0]), (0, 0))
+
+    def test_ids_are_reported(self):
+        prepared = crt.Scene([crt.Sphere((9, 0, 0), 1), crt.Sphere((0, 0, 0), 1, id=77), shell()]).prepare()
+        self.assertEqual(
+            list(prepared.crossings(crt.ray((-5, 0, 0), (1, 0, 0)))["entity_id"][[0, -1]]), [77, 0]
+        )
+
+
+class Lifetime(unittest.TestCase):
+    def test_a_closed_entity_cannot_be_used_but_what_is_made_of_it_can(self):
+        ball = crt.Sphere((0, 0, 0), 1)
+        with ball:
+            moved = ball.moved((1, 0, 0))
+        with self.assertRaisesRegex(ValueError, "this Sphere is closed"):
+            ball.moved((1, 0, 0))
+        ball.close()
+        self.assertEqual(crossings(moved), [5, 7])

@@ -1,0 +1,172 @@
+"""Ray queries on arrays in place."""
+
+import math
+import unittest
+
+import numpy as np
+from support import INFINITY, parallel_rays, prepared_shell, shell, small_scene
+
+import crt
+
+prepared = prepared_shell()
+
+
+def expected_t(rays: np.ndarray) -> np.ndarray:
+    """Where a ray along z from z = -5 meets the unit ball."""
+    rest = 1 - rays["origin"][..., 0] ** 2
+    return np.where(rest > 0, 5 - np.sqrt(np.maximum(rest, 0)), INFINITY)
+
+
+class Answers(unittest.TestCase):
+    def test_the_nearest_hit(self):
+        rays = parallel_rays(301)
+        hits = prepared.intersect(rays)
+        np.testing.assert_allclose(hits["t"], expected_t(rays), rtol=1e-14)
+        middle = hits[150]
+        np.testing.assert_allclose(middle["normal"], (0, 0, -1), atol=1e-15)
+        self.assertEqual(middle["flags"], crt.ENTERING)
+
+    def test_what_is_hit_at_all(self):
+        rays = parallel_rays(301)
+        occluded = prepared.occluded(rays)
+        self.assertEqual(occluded.dtype, np.bool_)
+        np.testing.assert_array_equal(occluded, np.isfinite(expected_t(rays)))
+
+    def test_every_crossing(self):
+        hits = prepared.crossings(crt.ray((0, 0, -5), (0, 0, 2)))
+        np.testing.assert_allclose(hits["t"], (2, 2.25, 2.75, 3), rtol=1e-15)
+        self.assertEqual([bool(flags & crt.ENTERING) for flags in hits["flags"]], [True, False, True, False])
+
+    def test_more_crossings_than_there_was_room_for(self):
+        row = crt.union(crt.Sphere((0, 0, 3 * i), 1) for i in range(100))
+        hits = crt.Scene([row]).prepare().crossings(crt.ray((0, 0, -5), (0, 0, 1)))
+        np.testing.assert_allclose(hits["t"], np.ravel([(3 * i + 4, 3 * i + 6) for i in range(100)]))
+
+    def test_a_range_of_t(self):
+        ray = crt.ray((0, 0, -5), (0, 0, 1), t_min=4.2, t_max=5.7)
+        self.assertEqual(list(prepared.crossings(ray)["t"]), [4.5, 5.5])
+
+
+class Memory(unittest.TestCase):
+    RECORD = np.dtype([("name", "S3"), ("ray", crt.RAY), ("count", "i4"), ("hit", crt.HIT), ("end", "u1")])
+
+    def records(self, count: int) -> np.ndarray:
+        records = np.zeros(count, self.RECORD)
+        records["ray"] = parallel_rays(count)
+        records["name"], records["count"], records["end"] = b"abc", -1, 0xEE
+        return records
+
+    def test_fields_of_larger_records_are_used_where_they_are(self):
+        records = self.records(101)
+        result = prepared.intersect(records["ray"], out=records["hit"])
+        self.assertTrue(np.shares_memory(result, records))
+        np.testing.assert_allclose(records["hit"]["t"], expected_t(records["ray"]), rtol=1e-14)
+        np.testing.assert_array_equal(records["ray"], parallel_rays(101))
+        self.assertTrue(
+            ((records["name"] == b"abc") & (records["count"] == -1) & (records["end"] == 0xEE)).all()
+        )
+
+    def test_every_third_ray(self):
+        rays = parallel_rays(301)
+        hits = np.zeros(202, crt.HIT)
+        prepared.intersect(rays[::3], out=hits[::2])
+        np.testing.assert_allclose(hits[::2]["t"], expected_t(rays[::3]), rtol=1e-14)
+        self.assertTrue((hits[1::2]["t"] == 0).all())
+
+    def test_rays_as_eight_columns_of_numbers(self):
+        rays = parallel_rays(301)
+        table = np.zeros((301, 11))
+        table[:, 2:10] = rays.view(np.float64).reshape(301, 8)
+        np.testing.assert_array_equal(prepared.intersect(table[:, 2:10]), prepared.intersect(rays))
+        np.testing.assert_array_equal(prepared.occluded(table[:, 2:10]), prepared.occluded(rays))
+
+    def test_hits_have_the_shape_of_the_rays(self):
+        rays = parallel_rays(300).reshape(3, 10, 10)
+        hits = prepared.intersect(rays)
+        self.assertEqual(hits.shape, (3, 10, 10))
+        np.testing.assert_array_equal(hits.ravel(), prepared.intersect(rays.ravel()))
+        np.testing.assert_array_equal(prepared.intersect(rays[:, :, 4]), hits[:, :, 4])
+        self.assertEqual(prepared.intersect(rays[1, 2, 3:4]).shape, (1,))
+
+    def test_no_rays(self):
+        self.assertEqual(prepared.intersect(crt.rays(0)).shape, (0,))
+        self.assertEqual(prepared.occluded(crt.rays((4, 0))).shape, (4, 0))
+
+    def test_another_dtype_is_refused_rather_than_copied(self):
+        for wrong in (
+            np.zeros((5, 8), np.float32),
+            np.zeros((5, 8), ">f8"),
+            np.zeros((5, 7)),
+            np.zeros(5, crt.HIT),
+        ):
+            with self.assertRaises(TypeError):
+                prepared.intersect(wrong)
+        with self.assertRaises(TypeError):
+            prepared.intersect(parallel_rays(5), out=np.zeros((5, 7)))
+        with self.assertRaises(TypeError):
+            prepared.intersect(np.zeros((8, 5)).T)  # the columns of a ray are apart
+
+    def test_what_no_stride_describes_is_refused(self):
+        rays = parallel_rays(20)
+        for wrong in (
+            rays[::-1],
+            np.broadcast_to(rays[:1], 20),
+            rays.reshape(4, 5)[:, :3],
+            rays.reshape(4, 5).T,
+        ):
+            with self.assertRaises(ValueError):
+                prepared.intersect(wrong)
+
+    def test_hits_that_do_not_fit_are_refused(self):
+        rays = parallel_rays(5)
+        read_only = np.zeros(5, crt.HIT)
+        read_only.flags.writeable = False
+        for wrong in (np.zeros(4, crt.HIT), np.zeros((5, 1), crt.HIT), read_only):
+            with self.assertRaises(ValueError):
+                prepared.intersect(rays, out=wrong)
+
+    def test_a_wrong_ray_is_named(self):
+        rays = parallel_rays(20)
+        rays["direction"][13] = 0
+        with self.assertRaisesRegex(crt.Error, r"rays\[13\]") as caught:
+            prepared.intersect(rays)
+        self.assertEqual(caught.exception.status, crt.Status.INVALID_ARGUMENT)
+
+    def test_crossings_are_those_of_one_ray(self):
+        with self.assertRaises(ValueError):
+            prepared.crossings(parallel_rays(2))
+        self.assertEqual(len(prepared.crossings(parallel_rays(3)[1])), 4)
+
+
+class CameraRays(unittest.TestCase):
+    def test_they_are_those_of_a_picture(self):
+        size = 64
+        cameras = [
+            crt.Camera(position=(2, 1, -4), pointing=(0.2, 0.1, 0), roll=0.7, fov=0.8),
+            crt.Camera(position=(0, 5, 0), pointing=(0, 0, 0), fov=0.5),
+        ]
+        part = shell() - crt.Box((0, 0.1, 0), (2, 2, -2)) - crt.Box((-2, -0.3, 0.2), (2, 0.4, 2))
+        for camera in cameras:
+            scene = crt.Scene([part], camera=camera, background=crt.Background(alpha=0))
+            scene.settings = crt.Settings(width=size, height=size * 3 // 4)
+            prepared = scene.prepare()
+            seen = prepared.render().pixels[..., 3] > 0
+            hit = prepared.occluded(crt.camera_rays(camera, size, size * 3 // 4))
+            self.assertGreater(hit.sum(), 300)
+            self.assertEqual((seen != hit).sum(), 0)
+
+    def test_t_is_the_depth_along_the_view(self):
+        camera = crt.Camera(position=(1, 2, 3), pointing=(1, 2, 9))
+        wall = crt.Scene([crt.Plane((0, 0, -1), (0, 0, 8))]).prepare()
+        np.testing.assert_allclose(wall.intersect(crt.camera_rays(camera, 7, 5))["t"], 5, rtol=1e-14)
+
+    def test_other_projections_are_refused(self):
+        camera = crt.Camera(projection=crt.Projection.ORTHOGRAPHIC)
+        with self.assertRaises(ValueError):
+            crt.camera_rays(camera, 4, 4)
+
+    def test_the_middle_ray_looks_straight_ahead(self):
+        scene = small_scene()
+        rays = crt.camera_rays(scene.camera, 5, 5)
+        np.testing.assert_allclose(rays[2, 2]["direction"], (0, 0, 1), atol=1e-15)
+        self.assertTrue(math.isinf(rays[0, 0]["t_max"]))

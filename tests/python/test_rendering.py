@@ -1,0 +1,237 @@
+"""Pictures, callbacks, jobs and images."""
+
+import gc
+import os
+import pathlib
+import signal
+import tempfile
+import threading
+import unittest
+import weakref
+
+import numpy as np
+from support import small_scene
+
+import crt
+
+
+class Interrupt(Exception):
+    pass
+
+
+class Rendering(unittest.TestCase):
+    def test_a_picture_has_the_size_and_content_of_the_scene(self):
+        image = small_scene(48).render()
+        self.assertEqual((image.width, image.height, image.pixels.shape), (48, 48, (48, 48, 4)))
+        self.assertEqual(tuple(image.pixels[0, 0]), (1, 1, 1, 1))
+        self.assertLess(image.pixels[24, 24, 0], 1)
+        self.assertEqual(image.stats.camera_rays, 48 * 48)
+        self.assertEqual(image.settings.width, 48)
+
+    def test_the_number_of_threads_changes_nothing(self):
+        prepared = small_scene(64, 2).prepare()
+        np.testing.assert_array_equal(prepared.render(threads=1).pixels, prepared.render(threads=3).pixels)
+
+    def test_a_region_has_the_pixels_of_the_whole(self):
+        prepared = small_scene(48).prepare()
+        part = prepared.render(region=(10, 20, 30, 8))
+        self.assertEqual((part.width, part.height), (30, 8))
+        np.testing.assert_array_equal(part.pixels, prepared.render().pixels[20:28, 10:40])
+
+    def test_wrong_options_are_errors(self):
+        with self.assertRaises(crt.Error):
+            small_scene().prepare().render(threads=-1)
+        with self.assertRaises(crt.Error):
+            small_scene().prepare().render(region=(40, 0, 20, 10))
+
+
+class Callbacks(unittest.TestCase):
+    def test_progress_goes_from_0_to_1(self):
+        told = []
+        small_scene(100).render(progress=told.append)
+        self.assertEqual((told[0], told[-1]), (0, 1))
+        self.assertEqual(told, sorted(told))
+
+    def test_what_progress_raises_cancels_and_comes_out(self):
+        calls = []
+
+        def fail(fraction):
+            calls.append(fraction)
+            raise Interrupt("enough")
+
+        with self.assertRaisesRegex(Interrupt, "enough"):
+            small_scene(200).render(progress=fail)
+        self.assertEqual(calls, [0])
+
+    def test_the_log_gets_lines(self):
+        lines = []
+        small_scene(48).render(log=lines.append)
+        self.assertIn("rendered 2304 pixels", lines[0])
+
+    def test_what_the_log_raises_comes_out(self):
+        def fail(line):
+            raise Interrupt(line)
+
+        with self.assertRaisesRegex(Interrupt, "rendered"):
+            small_scene(48).render(log=fail)
+
+    def test_control_c_cancels(self):
+        def press(fraction):
+            if fraction > 0.2:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        before = signal.getsignal(signal.SIGINT)
+        with self.assertRaises(KeyboardInterrupt):
+            small_scene(300).render(threads=1, progress=press)
+        self.assertIs(signal.getsignal(signal.SIGINT), before)
+
+    def test_what_a_callback_refers_to_is_let_go(self):
+        class Watcher:
+            def tell(self, fraction):
+                pass
+
+        watcher = Watcher()
+        reference = weakref.ref(watcher)
+        small_scene().render(progress=watcher.tell)
+        del watcher
+        gc.collect()
+        self.assertIsNone(reference())
+
+
+class Jobs(unittest.TestCase):
+    def test_a_job_gives_the_picture_that_a_render_gives(self):
+        prepared = small_scene(100).prepare()
+        with prepared.start() as job:
+            image = job.wait()
+            self.assertTrue(job.is_finished)
+            self.assertEqual(job.progress, 1)
+        np.testing.assert_array_equal(image.pixels, prepared.render().pixels)
+
+    def test_a_snapshot_of_a_job_that_was_cancelled_at_its_start_is_not_the_whole(self):
+        def cancel(fraction):
+            raise Interrupt
+
+        job = small_scene(200).prepare().start(progress=cancel)
+        with self.assertRaises(Interrupt):
+            job.wait()
+        with self.assertRaises(Interrupt):
+            job.wait()
+        self.assertTrue(job.is_finished)
+        self.assertEqual(job.snapshot().pixels[..., 3].min(), 0)
+
+    def test_cancelling_is_an_error_of_waiting(self):
+        job = small_scene(2000, 8).prepare().start(threads=1)
+        job.cancel()
+        with self.assertRaises(crt.Error) as caught:
+            job.wait()
+        self.assertEqual(caught.exception.status, crt.Status.CANCELLED)
+
+    def test_control_c_cancels_what_is_waited_for(self):
+        def press(fraction):
+            if fraction > 0.05:
+                os.kill(os.getpid(), signal.SIGINT)
+
+        job = small_scene(2000, 8).prepare().start(progress=press)
+        with self.assertRaises(KeyboardInterrupt):
+            job.wait()
+        self.assertTrue(job.is_finished)
+
+    def test_a_job_that_is_dropped_ends(self):
+        class Watcher:
+            def tell(self, fraction):
+                assert fraction < 1
+
+        watcher = Watcher()
+        reference = weakref.ref(watcher)
+        job = small_scene(2000, 8).prepare().start(progress=watcher.tell)
+        del watcher
+        self.assertIsNotNone(reference())
+        del job
+        gc.collect()
+        self.assertIsNone(reference())
+
+    def test_a_job_may_be_closed_by_its_own_callback(self):
+        jobs = []
+        closed = threading.Event()
+
+        def close(fraction):
+            if jobs:
+                jobs.pop().close()
+                closed.set()
+
+        jobs.append(small_scene(2000, 8).prepare().start(progress=close))
+        self.assertTrue(closed.wait(60))
+
+    def test_a_callback_that_refers_to_its_job_does_not_keep_it(self):
+        class Window:
+            def __init__(self):
+                self.job = small_scene(2000, 8).prepare().start(progress=self.tell)
+
+            def tell(self, fraction):
+                pass
+
+        reference = weakref.ref(Window())
+        gc.collect()
+        self.assertIsNone(reference())
+
+
+class Images(unittest.TestCase):
+    def test_pixels_are_the_librarys_memory_and_outlive_the_image(self):
+        image = crt.Image.from_pixels(np.arange(24, dtype=np.float32).reshape(2, 3, 4))
+        pixels = image.pixels
+        self.assertEqual(pixels.__array_interface__["data"][0], image.pixels.__array_interface__["data"][0])
+        self.assertFalse(pixels.flags.owndata)
+        with self.assertRaises(ValueError):
+            pixels[0, 0, 0] = 1
+        row = pixels[1]
+        image.close()
+        del image, pixels
+        gc.collect()
+        np.testing.assert_array_equal(row, np.arange(12, 24).reshape(3, 4))
+
+    def test_rows_that_lie_apart_are_taken_as_they_are(self):
+        whole = np.random.default_rng(2).random((8, 8, 4), np.float32)
+        np.testing.assert_array_equal(crt.Image.from_pixels(whole[::2, :5]).pixels, whole[::2, :5])
+        np.testing.assert_array_equal(crt.Image.from_pixels(whole[3:4, 2:5]).pixels, whole[3:4, 2:5])
+
+    def test_what_is_no_picture_is_refused(self):
+        whole = np.zeros((4, 4, 4), np.float32)
+        for wrong in (
+            whole.astype(np.float64),
+            whole[..., :3],
+            whole[0],
+            whole[::-1],
+            whole[:, ::2],
+            whole.transpose(1, 0, 2),
+        ):
+            with self.assertRaises(TypeError):
+                crt.Image.from_pixels(wrong)
+        with self.assertRaises(TypeError):
+            crt.Image.from_rgba8(whole)
+
+    def test_eight_bits_there_and_back(self):
+        pixels = np.random.default_rng(3).integers(0, 256, (5, 7, 4), np.uint8)
+        pixels[..., 3] = 255
+        np.testing.assert_array_equal(crt.Image.from_rgba8(pixels).to_rgba8(), pixels)
+
+    def test_a_file_has_the_picture_in_it(self):
+        image = small_scene().render()
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "Bild mit Größe.png"
+            image.save(path, reproducible=True)
+            self.assertEqual(path.read_bytes(), image.encode("png", reproducible=True))
+            np.testing.assert_array_equal(crt.Image.read(path).to_rgba8(), image.to_rgba8())
+            with self.assertRaisesRegex(crt.Error, "xyz"):
+                image.save(path.with_suffix(".xyz"))
+
+    def test_a_notebook_gets_a_png(self):
+        image = small_scene().render()
+        content = image._repr_png_()
+        self.assertEqual(content[:8], b"\x89PNG\r\n\x1a\n")
+        np.testing.assert_array_equal(crt.Image.decode(content).to_rgba8(), image.to_rgba8())
+
+    def test_other_settings_change_how_it_is_written(self):
+        image = small_scene().render()
+        brighter = image.with_settings(crt.Settings(gamma=2.2))
+        np.testing.assert_array_equal(brighter.pixels, image.pixels)
+        self.assertGreater(brighter.to_rgba8().mean(), image.to_rgba8().mean())

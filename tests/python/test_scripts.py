@@ -1,0 +1,129 @@
+"""Scenes from scripts."""
+
+import os
+import pathlib
+import signal
+import tempfile
+import unittest
+
+import numpy as np
+
+import crt
+from crt.expressions import to_expression
+
+WRONG = "a = 1\nScene { Sphere { center -> vec3(0, 0, 0) raduis -> a } }\n"
+
+
+class Scripts(unittest.TestCase):
+    def test_a_text_and_a_file_give_the_same(self):
+        text = "Scene { Sphere { center -> vec3(0, 0, 0) radius -> 1 } }"
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "ball.crt"
+            path.write_text(text)
+            self.assertEqual(len(crt.Scene.from_script(path).entities), 1)
+            self.assertEqual(len(crt.Scene.from_script(text).entities), 1)
+
+    def test_variables_and_settings_win_over_those_of_the_script(self):
+        lines = []
+        scene = crt.Scene.from_script(
+            'n = 2\nname = "none"\nplaces = []\nSettings { width -> 7 }\n'
+            "Scene { print(n, name, places, t)\n for (p in places) { Sphere { center -> p radius -> n } } }",
+            variables={"n": 3, "name": 'a "b"\n\\c', "places": [(0, 0, 0), (1.5, -2, 1e-20)]},
+            settings={"width": 9, "title": "new"},
+            t=4,
+            print=lines.append,
+        )
+        self.assertEqual((scene.settings.width, scene.settings.title, len(scene.entities)), (9, "new", 2))
+        self.assertEqual("\n".join(lines).split("[")[0], '3 a "b"\n\\c ')
+        self.assertTrue(lines[-1].endswith(" 4"), lines)
+
+    def test_expressions_mean_what_the_python_values_are(self):
+        cases = {
+            "true": True,
+            "-3": -3,
+            "0.1": 0.1,
+            "5": np.int64(5),
+            "vec3(1, 2.5, 3)": (1, 2.5, 3),
+            "[1, 2]": [1, 2],
+            "[0.0, 1.0, 2.0]": np.arange(3.0),
+            "rgb(1, 0, 0)": crt.Expression("rgb(1, 0, 0)"),
+            '"\\u0001"': "\x01",
+        }
+        for expected, value in cases.items():
+            self.assertEqual(to_expression(value), expected)
+        for wrong in (float("nan"), None, object()):
+            with self.assertRaises((TypeError, ValueError)):
+                to_expression(wrong)
+
+    def test_a_wrong_script_says_where(self):
+        with self.assertRaises(crt.ScriptError) as caught:
+            crt.Scene.from_script(WRONG, name="ring.crt")
+        error = caught.exception
+        self.assertEqual(error.status, crt.Status.SCRIPT)
+        self.assertIn("ring.crt:2:42: error: unknown attribute 'raduis'", str(error))
+        (diagnostic,) = error.diagnostics
+        self.assertTrue(diagnostic.is_error)
+        self.assertEqual((diagnostic.file, diagnostic.line, diagnostic.column), ("ring.crt", 2, 42))
+        self.assertEqual(diagnostic.source_line, WRONG.splitlines()[1])
+        self.assertIn("radius", diagnostic.message)
+
+    def test_calls_that_led_to_an_error_are_told(self):
+        with self.assertRaises(crt.ScriptError) as caught:
+            crt.Scene.from_script("f = Macro (x) { print(1 / x) }\nScene { f(0) }")
+        (call,) = caught.exception.diagnostics[0].calls
+        self.assertEqual((call.name, call.line), ("f", 2))
+
+    def test_warnings_come_with_the_scene(self):
+        scene = crt.Scene.from_script("Scene { 1 + 1 }")
+        self.assertEqual([d.is_error for d in scene.diagnostics], [False])
+        self.assertIn("not used", scene.diagnostics[0].message)
+
+    def test_a_missing_file_is_an_error_of_reading(self):
+        with self.assertRaises(crt.ScriptError) as caught:
+            crt.Scene.from_script(pathlib.Path("/nowhere/at all.crt"))
+        self.assertEqual(caught.exception.status, crt.Status.IO)
+
+    def test_limits_end_a_script(self):
+        with self.assertRaises(crt.ScriptError) as caught:
+            crt.Scene.from_script("while (true) { a = 1 }\nScene {}", max_steps=1000)
+        self.assertEqual(caught.exception.status, crt.Status.LIMIT)
+        with self.assertRaises(AttributeError):
+            crt.Scene.from_script("Scene {}", max_stepz=1)
+
+
+class Callbacks(unittest.TestCase):
+    def test_what_print_raises_comes_out(self):
+        def fail(line):
+            raise KeyError(line)
+
+        with self.assertRaisesRegex(KeyError, "hello"):
+            crt.Scene.from_script('print("hello")\nScene {}', print=fail)
+
+    def test_files_come_from_the_program_or_the_file_system(self):
+        asked = []
+
+        def open_file(path):
+            asked.append(os.path.basename(path))
+            return b"radius = 2" if path.endswith("sizes.crt") else None
+
+        text = 'import "sizes.crt"\nScene { Sphere { center -> vec3(0, 0, 0) radius -> radius } }'
+        prepared = crt.Scene.from_script(text, open_file=open_file).prepare()
+        self.assertEqual(asked, ["sizes.crt"])
+        self.assertEqual(prepared.intersect(crt.ray((0, 0, -5), (0, 0, 1)))["t"], 3)
+        with self.assertRaises(crt.ScriptError):
+            crt.Scene.from_script('import "others.crt"\nScene {}', open_file=open_file)
+
+    def test_what_open_file_raises_comes_out(self):
+        def fail(path):
+            raise PermissionError(path)
+
+        with self.assertRaises(PermissionError):
+            crt.Scene.from_script('import "sizes.crt"\nScene {}', open_file=fail)
+
+    def test_control_c_stops_a_script_that_does_not_end_by_itself(self):
+        def press(line):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        text = 'print("now")\nwhile (true) { a = 1 }\nScene {}'
+        with self.assertRaises(KeyboardInterrupt):
+            crt.Scene.from_script(text, print=press, max_steps=2**62)

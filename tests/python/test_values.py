@@ -1,0 +1,86 @@
+"""Materials, lights, cameras, backgrounds and settings."""
+
+import math
+import unittest
+
+import numpy as np
+
+import crt
+
+
+class Values(unittest.TestCase):
+    def test_what_is_not_given_has_the_librarys_default(self):
+        self.assertEqual(crt.Camera().fov, math.pi / 3)
+        self.assertEqual(crt.Settings().width, 640)
+        self.assertEqual(crt.Material().color, (0.5, 0.5, 0.5))
+        self.assertEqual(crt.Light.parallel().origin, (0, 1, 0))
+        self.assertNotEqual(crt.Pattern.wood().color_a, crt.Pattern.checker().color_a)
+
+    def test_keyword_arguments_and_attributes_change_fields(self):
+        camera = crt.Camera(position=np.array([1.0, 2.0, 3.0]), fov=1)
+        camera.roll = 0.5
+        self.assertEqual((camera.position, camera.fov, camera.roll), ((1, 2, 3), 1, 0.5))
+
+    def test_what_no_field_can_hold_is_refused(self):
+        with self.assertRaisesRegex(AttributeError, "has no 'colour'; it has .*color"):
+            crt.Material(colour=(1, 0, 0))
+        with self.assertRaises(AttributeError):
+            crt.Camera().fow = 1
+        with self.assertRaises(OverflowError):
+            crt.Settings(width=2**32 + 640)
+        with self.assertRaises(TypeError):
+            crt.Settings(width=640.5)
+        with self.assertRaises(ValueError):
+            crt.Camera(position=(1, 2))
+        with self.assertRaises(TypeError):
+            crt.Material(pattern="wood")
+        with self.assertRaises(ValueError):
+            crt.Settings(title="cut\0off")
+
+    def test_a_representation_says_what_is_in_it(self):
+        self.assertIn("fov=0.5", repr(crt.Camera(fov=0.5)))
+
+    def test_a_material_keeps_its_patterns_and_a_pattern_its_image(self):
+        image = crt.Image.from_pixels(np.full((2, 2, 4), 0.5, np.float32))
+        material = crt.Material(pattern=crt.Pattern.of_image(image), bump=crt.Pattern.noise())
+        del image
+        painted = crt.Sphere((0, 0, 3), 1, material=material)
+        self.assertIsInstance(material.pattern.image, crt.Image)
+        scene = crt.Scene([painted], [crt.Light.point(ambient=1)], settings=crt.Settings(width=9, height=9))
+        self.assertGreater(scene.render().pixels[4, 4, 0], 0)
+
+
+class SceneValues(unittest.TestCase):
+    def test_a_scene_gives_back_what_it_was_given(self):
+        scene = crt.Scene(
+            entities=[crt.Sphere((0, 0, 0), 1)],
+            lights=[crt.Light.spot(origin=(0, 3, 0), angle=0.5), crt.Light.cylinder(radius=0.25)],
+            camera=crt.Camera(position=(0, 0, -7), roll=0.25),
+            settings=crt.Settings(width=12, height=8, title="Größe", seed=2**64 - 1),
+        )
+        self.assertEqual(len(scene.entities), 1)
+        self.assertEqual([light.type for light in scene.lights], [crt.LightType.SPOT, crt.LightType.CYLINDER])
+        self.assertEqual((scene.lights[0].angle, scene.lights[1].radius), (0.5, 0.25))
+        self.assertEqual((scene.camera.position, scene.camera.roll), ((0, 0, -7), 0.25))
+        settings = scene.settings
+        scene.settings = crt.Settings()
+        self.assertEqual((settings.width, settings.title, settings.seed), (12, "Größe", 2**64 - 1))
+
+    def test_a_background_gives_back_its_image(self):
+        image = crt.Image.from_pixels(np.full((2, 4, 4), 0.25, np.float32))
+        scene = crt.Scene(background=crt.Background.panorama(image, angle=1))
+        background = scene.background
+        del image, scene
+        self.assertEqual((background.type, background.angle), (crt.BackgroundType.SPHERICAL, 1))
+        np.testing.assert_array_equal(background.image.pixels, np.full((2, 4, 4), 0.25))
+
+    def test_a_copy_goes_its_own_way(self):
+        scene = crt.Scene([crt.Sphere((0, 0, 0), 1)])
+        copy = scene.copy()
+        copy.add(crt.Sphere((3, 0, 0), 1))
+        self.assertEqual((len(scene.entities), len(copy.entities)), (1, 2))
+
+    def test_a_wrong_value_is_an_error_of_the_library(self):
+        with self.assertRaisesRegex(crt.Error, "fov") as caught:
+            crt.Scene(camera=crt.Camera(fov=4))
+        self.assertEqual(caught.exception.status, crt.Status.INVALID_ARGUMENT)
