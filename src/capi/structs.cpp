@@ -2,7 +2,7 @@
 #include "capi/structs.hpp"
 
 // A field missing here would be read and written with the next one; the test of the layout finds it.
-#define CRT_END(Struct, field) (offsetof(Struct, field) + sizeof(Struct::field))
+#define CRT_END(Struct, field) (offsetof(Struct, field) + sizeof(decltype(Struct::field)))
 
 namespace crt::capi {
 
