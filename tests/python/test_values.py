@@ -37,6 +37,29 @@ class Values(unittest.TestCase):
         with self.assertRaises(ValueError):
             crt.Settings(title="cut\0off")
 
+    def test_one_thing_is_not_taken_for_another(self):
+        ball = crt.Sphere((0, 0, 0), 1)
+        image = crt.Image.from_pixels(np.zeros((1, 1, 4), np.float32))
+        scene = crt.Scene()
+        mistakes = [
+            lambda: crt.Material(pattern=crt.Camera()),
+            lambda: crt.Material(bump=image),
+            lambda: crt.Pattern.of_image(ball),
+            lambda: crt.Background.panorama(crt.Pattern.wood()),
+            lambda: ball.with_material(crt.Pattern.wood()),
+            lambda: crt.union([ball, image]),
+            lambda: crt.difference(image, []),
+            lambda: scene.add(crt.Camera()),
+            lambda: scene.add(image),
+            lambda: setattr(scene, "camera", crt.Light.point()),
+            lambda: setattr(scene, "background", crt.Material()),
+            lambda: setattr(scene, "settings", crt.Camera()),
+            lambda: image.with_settings(crt.Camera()),
+        ]
+        for mistake in mistakes:
+            with self.assertRaises(TypeError):
+                mistake()
+
     def test_a_representation_says_what_is_in_it(self):
         self.assertIn("fov=0.5", repr(crt.Camera(fov=0.5)))
 

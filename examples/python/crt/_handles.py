@@ -28,7 +28,7 @@ class Handle:
     lent, have references of their own, so closing never pulls anything from under them.
     """
 
-    _release: ClassVar[str]
+    _name: ClassVar[str]  # of the type in crt.h
     _reference: Reference | None = None
 
     @classmethod
@@ -39,7 +39,7 @@ class Handle:
         return self
 
     def _take(self, handle: int) -> None:
-        self._reference = Reference(handle, getattr(library, self._release))
+        self._reference = Reference(handle, getattr(library, f"{self._name}_release"))
 
     @property
     def _handle(self) -> Reference:

@@ -22,6 +22,8 @@ Long = Annotated[int, ctypes.c_uint64]
 Vector = Annotated[Sequence[float], ctypes.c_double * 3]
 Text = Annotated[Any, ctypes.c_char_p]  # str or None
 Pointer = Annotated[Any, ctypes.c_void_p]
+PatternPointer = Annotated[Any, ctypes.c_void_p, "crt_pattern"]  # or None, as the next
+ImagePointer = Annotated[Any, ctypes.c_void_p, "crt_image"]
 
 Self = TypeVar("Self", bound="Struct")
 Class = TypeVar("Class", bound="type[Struct]")
@@ -38,8 +40,9 @@ class Struct(ctypes.Structure):
 
     _name: ClassVar[str]
     _kinds: ClassVar[dict[str, Any]]
+    _pointees: ClassVar[dict[str, str]]  # what pointers must point to, by the name of the field
     _has_init: ClassVar[bool]
-    _kept: dict[str, Any]  # what pointers point to, by the name of the field
+    _kept: dict[str, Any]  # and what they do point to
 
     def __init__(self, **fields: Any) -> None:
         super().__init__()
@@ -78,6 +81,8 @@ class Struct(ctypes.Structure):
         if kind is None:
             raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {', '.join(self._kinds)}")
         if kind is ctypes.c_void_p:
+            if value is not None and name in self._pointees:
+                require_type(value, self._pointees[name], name)
             self._kept[name] = value
         super().__setattr__(name, _to_c(kind, value))
 
@@ -97,14 +102,28 @@ def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
     """Makes fields of a class's annotations. `name` is the struct's; `has_init`: there is a crt_*_init()."""
 
     def finish(cls: Class) -> Class:
-        kinds = {field: kind.__metadata__[0] for field, kind in cls.__annotations__.items()}
+        notes = {field: annotation.__metadata__ for field, annotation in cls.__annotations__.items()}
+        kinds = {field: note[0] for field, note in notes.items()}
         cls._name = name
         cls._kinds = kinds
+        cls._pointees = {field: note[1] for field, note in notes.items() if len(note) > 1}
         cls._has_init = has_init
         cls._fields_ = [("struct_size", ctypes.c_uint32), *kinds.items()]
         return cls
 
     return finish
+
+
+def require_type(value: Any, name: str, argument: str) -> None:
+    """Refuses what is not of this type of crt.h: the library could only take it for one."""
+    if getattr(value, "_name", None) != name:
+        raise TypeError(f"{argument} must be a {name.removeprefix('crt_')}, not a {type(value).__name__}")
+
+
+def reference(value: Struct, name: str) -> Any:
+    """The address of a struct as an argument."""
+    require_type(value, name, name.removeprefix("crt_"))
+    return ctypes.byref(value)
 
 
 def _to_c(kind: Any, value: Any) -> Any:

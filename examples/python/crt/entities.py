@@ -15,7 +15,7 @@ from numpy.typing import ArrayLike, NDArray
 
 from ._handles import Handle, Reference
 from ._library import create, library
-from ._structs import vector
+from ._structs import reference, require_type, vector
 from .values import Material
 
 Point = Sequence[float]
@@ -24,20 +24,22 @@ Point = Sequence[float]
 class Entity(Handle):
     """Something in a scene. All that follow take `material=` and `id=`, as with_material and with_id do."""
 
-    _release = "crt_entity_release"
+    _name = "crt_entity"
 
     def _create(
         self, function: str, *arguments: Any, material: Material | None = None, id: int | None = None
     ) -> None:
         self._take(create(function, *arguments))
         if material is not None:
-            self._take(create("crt_entity_with_material", self._handle, ctypes.byref(material)))
+            self._take(create("crt_entity_with_material", self._handle, reference(material, "crt_material")))
         if id is not None:
             self._take(create("crt_entity_with_id", self._handle, id))
 
     def with_material(self, material: Material) -> "Entity":
         """With a material on every part that has none of its own."""
-        return Entity._adopt(create("crt_entity_with_material", self._handle, ctypes.byref(material)))
+        return Entity._adopt(
+            create("crt_entity_with_material", self._handle, reference(material, "crt_material"))
+        )
 
     def with_id(self, id: int) -> "Entity":
         """Under a number that hits report."""
@@ -103,6 +105,7 @@ def intersection(parts: Iterable[Entity]) -> Entity:
 
 def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
     """What is in the whole and in none of the cutters. A cut has its cutter's material."""
+    require_type(whole, "crt_entity", "the whole")
     return Entity._adopt(create("crt_difference_create", whole._handle, *_handles(cutters)))
 
 
@@ -183,7 +186,10 @@ class Mesh(Entity):
 
 def _handles(entities: Iterable[Entity]) -> tuple[Any, int]:
     """The array of pointers that the library wants, and its length."""
-    references: list[Reference] = [entity._handle for entity in entities]
+    parts = list(entities)
+    for part in parts:
+        require_type(part, "crt_entity", "a part")
+    references: list[Reference] = [part._handle for part in parts]
     array: Any = (ctypes.c_void_p * len(references))(*(reference._as_parameter_ for reference in references))
     array.references = references  # live as long as the array
     return array, len(references)

@@ -9,7 +9,7 @@ from numpy.typing import NDArray
 
 from ._handles import Handle, Reference
 from ._library import create, library
-from ._structs import Int, Struct, growable
+from ._structs import Int, Struct, growable, reference
 from .values import RenderStats, Settings
 
 
@@ -21,7 +21,7 @@ class _WriteOptions(Struct):
 class Image(Handle):
     """A picture: linear RGBA floats, alpha premultiplied, rows from the top. Immutable."""
 
-    _release = "crt_image_release"
+    _name = "crt_image"
 
     @classmethod
     def from_pixels(cls, pixels: NDArray[Any]) -> "Image":
@@ -102,7 +102,9 @@ class Image(Handle):
 
     def with_settings(self, settings: Settings) -> "Image":
         """The same pixels with another gamma, other texts, ..."""
-        return Image._adopt(create("crt_image_with_settings", self._handle, ctypes.byref(settings)))
+        return Image._adopt(
+            create("crt_image_with_settings", self._handle, reference(settings, "crt_settings"))
+        )
 
 
 class _LentPixels:

@@ -26,7 +26,7 @@ Region = tuple[int, int, int, int]
 class Prepared(Handle):
     """A scene ready for rays. Immutable: any number of threads may use it at once."""
 
-    _release = "crt_prepared_release"
+    _name = "crt_prepared"
 
     def render(
         self,
@@ -113,7 +113,7 @@ class Prepared(Handle):
 class Job(Handle):
     """A render under way. Closing it, or dropping it, cancels it and waits for its threads."""
 
-    _release = "crt_job_release"
+    _name = "crt_job"
 
     def __init__(self, handle: int, guard: Guard, options: "_RenderOptions") -> None:
         self._guard = guard

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from ._callbacks import OPEN_FILE, POLL, PRINT, Guard
 from ._handles import Handle
 from ._library import create, library, to_utf8
-from ._structs import Double, Int, Long, Pointer, Struct, growable
+from ._structs import Double, Int, Long, Pointer, Struct, growable, reference
 from .diagnostics import diagnostics_of
 from .entities import Entity
 from .errors import Diagnostic, Error, ScriptError
@@ -22,7 +22,7 @@ from .values import Background, Camera, Light, Settings
 class Scene(Handle):
     """The description of a picture. What `prepare()` makes of it, ready for rays, does not change with it."""
 
-    _release = "crt_scene_release"
+    _name = "crt_scene"
 
     def __init__(
         self,
@@ -110,7 +110,7 @@ class Scene(Handle):
                 if isinstance(thing, Entity):
                     library.crt_scene_add_entity(self._handle, thing._handle)
                 else:
-                    library.crt_scene_add_light(self._handle, ctypes.byref(thing))
+                    library.crt_scene_add_light(self._handle, reference(thing, "crt_light"))
 
     @property
     def entities(self) -> list[Entity]:
@@ -135,7 +135,7 @@ class Scene(Handle):
     @camera.setter
     def camera(self, camera: Camera) -> None:
         with self._lock:
-            library.crt_scene_set_camera(self._handle, ctypes.byref(camera))
+            library.crt_scene_set_camera(self._handle, reference(camera, "crt_camera"))
 
     @property
     def background(self) -> Background:
@@ -148,7 +148,7 @@ class Scene(Handle):
     @background.setter
     def background(self, background: Background) -> None:
         with self._lock:
-            library.crt_scene_set_background(self._handle, ctypes.byref(background))
+            library.crt_scene_set_background(self._handle, reference(background, "crt_background"))
 
     @property
     def settings(self) -> Settings:
@@ -158,7 +158,7 @@ class Scene(Handle):
     @settings.setter
     def settings(self, settings: Settings) -> None:
         with self._lock:
-            library.crt_scene_set_settings(self._handle, ctypes.byref(settings))
+            library.crt_scene_set_settings(self._handle, reference(settings, "crt_settings"))
 
     def copy(self) -> "Scene":
         """Another scene with the same content."""

@@ -8,7 +8,7 @@ be changed later; whoever takes a value copies it.
 import enum
 from typing import Any
 
-from ._structs import Double, Int, Long, Pointer, Struct, Text, Vector, growable
+from ._structs import Double, ImagePointer, Int, Long, PatternPointer, Struct, Text, Vector, growable
 
 
 class PatternType(enum.IntEnum):
@@ -36,7 +36,7 @@ class Pattern(Struct):
     turbulence: Double
     octaves: Int
     reserved: Int
-    image: Pointer
+    image: ImagePointer
     repeat_u: Double
     repeat_v: Double
 
@@ -83,7 +83,7 @@ class Material(Struct):
     reserved: Int
     color: Vector
     alpha: Double
-    pattern: Pointer
+    pattern: PatternPointer
     reflectivity: Double
     transparency: Double
     refractive_index: Double
@@ -91,7 +91,7 @@ class Material(Struct):
     specular: Double
     shininess: Double
     absorption: Vector
-    bump: Pointer
+    bump: PatternPointer
     bump_height: Double
 
 
@@ -189,7 +189,7 @@ class Background(Struct):
     horizon_alpha: Double
     sky: Vector
     sky_alpha: Double
-    image: Pointer
+    image: ImagePointer
     angle: Double
 
     @classmethod
