@@ -4,6 +4,8 @@ import gc
 import os
 import pathlib
 import signal
+import subprocess
+import sys
 import tempfile
 import threading
 import unittest
@@ -173,6 +175,15 @@ class Jobs(unittest.TestCase):
         reference = weakref.ref(Window())
         gc.collect()
         self.assertIsNone(reference())
+
+    def test_python_may_end_while_a_job_runs(self):
+        program = (
+            "from support import small_scene\n"
+            "job = small_scene(2000, 8).prepare().start(progress=lambda fraction: None)\n"
+            "image = job.snapshot()\n"
+        )
+        done = subprocess.run([sys.executable, "-c", program], capture_output=True, text=True)
+        self.assertEqual((done.returncode, done.stderr), (0, ""))
 
 
 class Images(unittest.TestCase):
