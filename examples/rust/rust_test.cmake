@@ -1,4 +1,5 @@
-# Builds SOURCE with libcrt from the folder LIBRARIES, and runs it as example_test.cmake does all examples.
+# Builds SOURCE with libcrt from the folder LIBRARIES, and runs it as example_test.cmake does all examples. PRELOAD: see
+# CrtPreload.cmake.
 find_program(RUSTC rustc PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(RUSTC rustc)
 if(NOT RUSTC)
@@ -6,12 +7,11 @@ if(NOT RUSTC)
   return()
 endif()
 
-set(PROGRAM ${FOLDER}.program)
-string(REPLACE "|" ";" arguments "${LINK_ARGUMENTS}")
-list(TRANSFORM arguments PREPEND -Clink-arg=)
-execute_process(COMMAND ${RUSTC} -D warnings -O ${SOURCE} -o ${PROGRAM} -L ${LIBRARIES}
-  -Clinker=${LINKER} ${arguments} RESULT_VARIABLE failure ERROR_VARIABLE said)
+set(built ${FOLDER}.program)
+execute_process(COMMAND ${RUSTC} -D warnings -O ${SOURCE} -o ${built} -L ${LIBRARIES}
+  RESULT_VARIABLE failure ERROR_VARIABLE said)
 if(NOT failure EQUAL 0)
   message(FATAL_ERROR "${SOURCE} could not be built:\n${said}")
 endif()
+set(PROGRAM ${CMAKE_COMMAND} -E env LD_LIBRARY_PATH=${LIBRARIES} LD_PRELOAD=${PRELOAD} ${built})
 include(${CMAKE_CURRENT_LIST_DIR}/../example_test.cmake)

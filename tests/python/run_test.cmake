@@ -1,5 +1,5 @@
 # Runs the unittest module TEST by a Python that has NumPy, with the package in PACKAGE and the libcrt LIBRARY.
-# PRELOAD is the runtime of a sanitizer, which COMPILER brings along.
+# PRELOAD: see CrtPreload.cmake.
 set(python)
 foreach(candidate /usr/bin/python3 python3)
   execute_process(COMMAND ${candidate} -c "import sys, numpy; sys.exit(sys.version_info < (3, 10))"
@@ -15,10 +15,8 @@ endif()
 
 set(environment CRT_LIBRARY=${LIBRARY} PYTHONPATH=${PACKAGE} PYTHONDONTWRITEBYTECODE=1)
 if(PRELOAD)
-  execute_process(COMMAND ${COMPILER} -print-file-name=${PRELOAD}
-    OUTPUT_VARIABLE runtime OUTPUT_STRIP_TRAILING_WHITESPACE)
   # Python itself leaves memory behind at its end.
-  list(APPEND environment LD_PRELOAD=${runtime} ASAN_OPTIONS=detect_leaks=0)
+  list(APPEND environment LD_PRELOAD=${PRELOAD} ASAN_OPTIONS=detect_leaks=0)
 endif()
 execute_process(COMMAND ${CMAKE_COMMAND} -E env ${environment} ${python} -m unittest -v ${TEST}
   RESULT_VARIABLE failure)
