@@ -646,8 +646,8 @@ CRT_API crt_status crt_render_options_init(crt_render_options* options, size_t s
 CRT_API crt_status crt_render(crt_prepared* prepared, const crt_render_options* options, crt_image** out);
 
 /**
- * Starts to render on a thread of the job's own, which counts as one of `threads`, in the arena of the
- * calling thread unless `threads` is set. The callbacks must be good to call until the job has ended.
+ * Starts to render on a thread of the job's own, which counts as one of `threads`; 0 means as many as the TBB
+ * arena of the calling thread has. The callbacks must be good to call until the job has ended.
  */
 CRT_API crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options, crt_job** out);
 /** How much is done, from 0 to 1. */

@@ -9,10 +9,10 @@ namespace crt {
 /// number of threads; moving and destroying are not.
 class RenderJob {
  public:
-  /// Starts at once, with a thread of the job's own that counts as one of `options.threads`; the others are
-  /// of the calling thread's TBB arena if that is 0. Callbacks come from the job's threads and must be good
-  /// to call until it has ended. Throws Error: invalid_argument (threads or region), out_of_memory, limit (no
-  /// thread to be had).
+  /// Starts at once, with a thread of the job's own that counts as one of `options.threads`; 0 means as many
+  /// as the calling thread's TBB arena has. Callbacks come from the job's threads and must be good to call
+  /// until it has ended. Throws Error: invalid_argument (threads or region), out_of_memory, limit (no thread
+  /// to be had).
   explicit RenderJob(const PreparedScene& scene, RenderOptions options = {});
 
   /// Cancels the job and waits for its threads; in one of its own callbacks it does not wait.

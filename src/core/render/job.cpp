@@ -17,16 +17,12 @@ namespace crt {
 class RenderJob::State {
  public:
   State(const PreparedScene& scene, RenderOptions options)
-      : scene_(scene),
-        own_threads_(options.threads != 0),
-        rendering_(scene_.data(), marked(std::move(options))) {}
+      : scene_(scene), rendering_(scene_.data(), adapted(std::move(options))) {}
 
   /// Starts the thread, which keeps `self` until its end.
   void start(const std::shared_ptr<State>& self) {
-    // Taken here, where the arena is the caller's.
-    core::Runner run = own_threads_ ? core::Runner([](const auto& work) { work(); }) : core::callers_arena();
     try {
-      thread_ = std::thread([self, run = std::move(run)] { self->work(run); });
+      thread_ = std::thread([self] { self->work(); });
     } catch (const std::system_error&) {
       throw Error(ErrorCode::limit, "the system gives no further thread to render on");
     }
@@ -77,8 +73,11 @@ class RenderJob::State {
     const State* before_;
   };
 
-  /// The options with callbacks that know whose they are.
-  RenderOptions marked(RenderOptions options) {
+  /// The options with callbacks that know whose they are, and as many threads as the arena of the calling
+  /// thread has if they do not say how many. (In that arena itself the place of the calling thread would stay
+  /// empty.)
+  RenderOptions adapted(RenderOptions options) {
+    options.threads = core::allowed_threads(options.threads);
     if (options.progress) {
       options.progress = [this, progress = std::move(options.progress)](double share) {
         const InCallback mark(this);
@@ -94,10 +93,10 @@ class RenderJob::State {
     return options;
   }
 
-  void work(const core::Runner& run) noexcept {
+  void work() noexcept {
     std::exception_ptr failure;
     try {
-      run([this] { rendering_.run(); });
+      rendering_.run();
     } catch (...) {
       failure = std::current_exception();
     }
@@ -108,7 +107,6 @@ class RenderJob::State {
   }
 
   PreparedScene scene_;
-  bool own_threads_;
   core::Rendering rendering_;
   std::thread thread_;
   mutable std::mutex mutex_;

@@ -17,8 +17,6 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
-
-#include <memory>
 #endif
 
 namespace crt::core {
@@ -126,17 +124,6 @@ int allowed_threads(int threads) {
   }
   return threads == 0 ? available_threads() : std::min(threads, most_threads());
 }
-
-#ifdef CRT_TASKS_THREADS
-Runner callers_arena() {
-  return [](const std::function<void()>& work) { work(); };
-}
-#else
-Runner callers_arena() {
-  const auto arena = std::make_shared<tbb::task_arena>(tbb::attach{});
-  return [arena](const std::function<void()>& work) { arena->execute(work); };
-}
-#endif
 
 void run_tasks(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
   if (allowed_threads(threads) == 1 || count <= 1) {

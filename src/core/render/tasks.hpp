@@ -17,10 +17,4 @@ int allowed_threads(int threads);
 /// first exception that a task throws stops what has not begun, and is rethrown here.
 void run_tasks(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
-/// Calls what it is given, and returns when that has returned (or thrown).
-using Runner = std::function<void(const std::function<void()>&)>;
-
-/// A runner that, on any thread, works within the arena that this thread is in now.
-Runner callers_arena();
-
 }  // namespace crt::core

@@ -71,6 +71,13 @@ std::int32_t threads_of(const crt_image* image) {
   return stats.threads;
 }
 
+#ifndef CRT_TASKS_THREADS
+/// What TBB may start in this process.
+std::size_t parallelism_allowed() {
+  return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+}
+#endif
+
 /// What of the process a library could change behind its host's back.
 struct ProcessState {
   std::string locale = std::setlocale(LC_ALL, nullptr);
@@ -306,18 +313,21 @@ TEST_CASE("rendering stays within the host's arena") {
   }
 }
 
-TEST_CASE("a job works in the arena that it was started from, even if its only place is taken") {
-  const SceneHandle scene = small_scene(100, 75);
+TEST_CASE("a job uses as many threads as the arena that it was started from has") {
+  const SceneHandle scene = small_scene(200, 150);
   const PreparedHandle prepared = prepare(scene.get());
   const std::vector<float> expected = pixels_of(render(prepared.get()).get());
   for (const int size : {1, 2}) {
     tbb::task_arena arena(size);
     arena.execute([&] {
+      Callers callers;
+      const crt_render_options options = options_with(callers, 0);
       const JobHandle job =
-          made<JobHandle>([&](crt_job** out) { return crt_render_start(prepared.get(), nullptr, out); });
+          made<JobHandle>([&](crt_job** out) { return crt_render_start(prepared.get(), &options, out); });
       const ImageHandle image =
           made<ImageHandle>([&](crt_image** out) { return crt_job_wait(job.get(), out); });
-      CHECK(threads_of(image.get()) == size);
+      CHECK(threads_of(image.get()) == std::min(size, static_cast<int>(parallelism_allowed())));
+      CHECK(callers.threads.size() <= static_cast<std::size_t>(size));
       CHECK(pixels_of(image.get()) == expected);
     });
   }
