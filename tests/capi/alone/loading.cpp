@@ -112,7 +112,11 @@ TEST_CASE("load, unload and load again leaks nothing") {
   // Less than a small block a cycle; and as many mappings and threads as before, give or take what the
   // allocator and TBB keep in reserve.
   CHECK(static_cast<double>(mallinfo2().uordblks) - static_cast<double>(heap) < cycles * 1024.0);
+#ifdef __SANITIZE_THREAD__
+  static_cast<void>(mappings);  // ThreadSanitizer maps memory of its own for each thread that there ever was
+#else
   CHECK(maps().size() < mappings + cycles);
+#endif
   CHECK(thread_count() <= threads + 2);
 }
 
