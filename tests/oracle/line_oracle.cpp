@@ -120,9 +120,10 @@ double gradient(const Frustum& c, std::size_t which, const IntervalVec& p) {
   const IntervalVec axis = exactly(c.to) - exactly(c.from);
   const double a = squared(axis).value();
   if (which > 0) return std::sqrt(a);
-  const double k = c.radius2 - c.radius;
-  const double h = dot(p - exactly(c.from), axis).value();
-  return 2 * a * std::abs(c.radius * a + k * h) * std::sqrt(1 + k * k / a);
+  const Interval growth = Interval(c.radius2) - Interval(c.radius);
+  const Interval radius = Interval(c.radius) * squared(axis) + growth * dot(p - exactly(c.from), axis);
+  const double k = growth.value();
+  return 2 * a * std::abs(radius.value()) * std::sqrt(1 + k * k / a);
 }
 double gradient(const Cylinder& c, std::size_t which, const IntervalVec& p) {
   return gradient(frustum_of(c), which, p);
@@ -180,11 +181,10 @@ double reach_at(const Primitive& primitive, const IntervalVec& p) {
 }
 
 template <class P>
-TrueLine solve(const P& primitive, const ExactLine& line) {
+TrueLine solve(const P& primitive, const ExactLine& line, bool anywhere) {
   TrueLine result;
   const std::vector<Polynomial> polynomials = equations(primitive, line);
-  const auto crossing_at = [&](const Interval& x, bool entering, const std::vector<std::size_t>& causes) {
-    TrueCrossing crossing{.t = x + Interval(line.shift), .entering = entering};
+  const auto approach_at = [&](const Interval& x, const std::vector<std::size_t>& causes) {
     const IntervalVec p = line.at(x);
     double approach = infinity;
     for (const std::size_t i : causes) {
@@ -192,22 +192,44 @@ TrueLine solve(const P& primitive, const ExactLine& line) {
       const double rate = std::abs(evaluate(derivative(polynomials[i]), x).value());
       if (size < infinity) approach = std::min(approach, size > 0 ? rate / size : 0.0);
     }
-    crossing.approach = approach < infinity ? approach : 0;
-    crossing.reach = reach_at(primitive, p);
-    return crossing;
+    return approach;
+  };
+  const auto crossing_at = [&](const Interval& x, bool entering, double approach) {
+    return TrueCrossing{.t = x + Interval(line.shift),
+                        .entering = entering,
+                        .approach = approach < infinity ? approach : 0,
+                        .reach = reach_at(primitive, line.at(x))};
   };
   if constexpr (is_surface<P>) {
     const Polynomial& plane = polynomials[0];
     if (plane[1].sign() == 0) return result;
-    if (!within_rim(primitive, meeting(plane, line, position_of(primitive)))) return result;
-    result.crossings.push_back(crossing_at(-plane[0] / plane[1], plane[1].sign() < 0, {0}));
+    if (!anywhere && !within_rim(primitive, meeting(plane, line, position_of(primitive)))) return result;
+    result.crossings.push_back(
+        crossing_at(-plane[0] / plane[1], plane[1].sign() < 0, approach_at(-plane[0] / plane[1], {0})));
   } else {
     const Primitive solid = primitive;
     const auto inside = [&](const Interval& x) { return is_inside(solid, polynomials, x); };
-    for (const Change& change : changes(polynomials, inside, result.inside_before))
-      result.crossings.push_back(crossing_at(change.x, change.entering, change.causes));
+    const std::vector<Change> places = places_of_roots(polynomials);
+    for (const Change& change : changes(places, inside, result.inside_before)) {
+      TrueCrossing crossing = crossing_at(change.x, change.entering, approach_at(change.x, change.causes));
+      for (const Change& place : places) {
+        const double gap = magnitude(place.x - change.x).value();
+        const double approach = approach_at(place.x, place.causes);
+        if (gap > 0 && gap * approach <= 8 * unit_of_rounding * crossing.reach)
+          crossing.approach = std::min(crossing.approach, approach);
+      }
+      result.crossings.push_back(std::move(crossing));
+    }
   }
   return result;
+}
+
+/// For surfaces `anywhere` means within the rim or not.
+TrueLine solve_any(const Primitive& primitive, const Vec3& origin, const Vec3& direction, bool anywhere) {
+  return until_certain([&] {
+    const ExactLine line(origin, direction, center_of(primitive));
+    return std::visit([&](const auto& p) { return solve(p, line, anywhere); }, primitive);
+  });
 }
 
 }  // namespace
@@ -221,8 +243,7 @@ IntervalVec ExactLine::at(const Interval& x) const {
   return point + x * direction;
 }
 
-std::vector<Change> changes(const std::vector<Polynomial>& polynomials, const Membership& inside,
-                            bool& inside_before) {
+std::vector<Change> places_of_roots(const std::vector<Polynomial>& polynomials) {
   std::vector<Change> places;
   for (std::size_t i = 0; i < polynomials.size(); ++i) {
     for (Interval& root : roots(polynomials[i])) places.push_back({std::move(root), false, {i}});
@@ -239,23 +260,27 @@ std::vector<Change> changes(const std::vector<Polynomial>& polynomials, const Me
     distinct.back().x = hull(distinct.back().x, place.x);
     distinct.back().causes.push_back(place.causes[0]);
   }
-  std::vector<Change> result;
-  const Interval far_before = distinct.empty()
-                                  ? Interval(0)
-                                  : distinct.front().x.lower() - magnitude(distinct.front().x) - Interval(1);
-  bool now = inside(far_before.middle());
+  return distinct;
+}
+
+std::vector<Change> changes(const std::vector<Change>& places, const Membership& inside,
+                            bool& inside_before) {
+  const auto beyond = [](const Interval& x) { return magnitude(x) + Interval(1); };
+  const Interval before =
+      places.empty() ? Interval(0) : (places.front().x.lower() - beyond(places.front().x)).middle();
+  bool now = inside(before);
   inside_before = now;
-  for (std::size_t i = 0; i < distinct.size(); ++i) {
-    const Interval& x = distinct[i].x;
-    const bool last = i + 1 == distinct.size();
-    const Interval after = last ? (x.upper() + magnitude(x) + Interval(1)).upper()
-                                : ((x.upper() + distinct[i + 1].x.lower()) / Interval(2)).middle();
+  std::vector<Change> result;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const Interval& x = places[i].x;
+    const Interval after = i + 1 == places.size()
+                               ? (x.upper() + beyond(x)).middle()
+                               : ((x.upper() + places[i + 1].x.lower()) / Interval(2)).middle();
     const bool next = inside(after);
     if (next == now) continue;
     now = next;
-    result.push_back(std::move(distinct[i]));
+    result.push_back(places[i]);
     result.back().entering = now;
-    // distinct[i].x is asked for no more: only later ones are.
   }
   return result;
 }
@@ -272,10 +297,11 @@ bool is_inside(const Primitive& solid, const std::vector<Polynomial>& polynomial
 }
 
 TrueLine true_crossings(const Primitive& primitive, const Vec3& origin, const Vec3& direction) {
-  return until_certain([&] {
-    const ExactLine line(origin, direction, center_of(primitive));
-    return std::visit([&](const auto& p) { return solve(p, line); }, primitive);
-  });
+  return solve_any(primitive, origin, direction, false);
+}
+
+TrueLine true_plane_crossings(const Primitive& surface, const Vec3& origin, const Vec3& direction) {
+  return solve_any(surface, origin, direction, true);
 }
 
 }  // namespace crt::test

@@ -30,8 +30,10 @@ struct ExactLine {
 struct TrueCrossing {
   Interval t;
   bool entering = false;
-  double approach = 0;  ///< |n . d| with d as given: t is conditioned by its inverse
-  double reach = 0;     ///< R + |x|: the primitive's size, and the distance from its centre
+  /// |n . d| with d as given: t is conditioned by its inverse. Where several faces meet within their bounds,
+  /// at an edge, the least of theirs.
+  double approach = 0;
+  double reach = 0;  ///< R + |x|: the primitive's size, and the distance from its centre
 };
 
 struct TrueLine {
@@ -41,6 +43,9 @@ struct TrueLine {
 
 /// What of the line is inside the primitive, or for a surface where it crosses.
 TrueLine true_crossings(const Primitive& primitive, const Vec3& origin, const Vec3& direction);
+
+/// Where the line meets the plane of a surface, within the rim or not.
+TrueLine true_plane_crossings(const Primitive& surface, const Vec3& origin, const Vec3& direction);
 
 /// How far the point at t is outside of the solid (negative: inside), in lengths. For a surface: how far
 /// the point where the line meets its plane is beyond its rim; t is of no matter there.
@@ -53,9 +58,12 @@ struct Change {
   bool entering = false;
   std::vector<std::size_t> causes;  ///< the polynomials that have a root there
 };
+
+inline constexpr double unit_of_rounding = 0x1p-53;  ///< u
 using Membership = std::function<bool(const Interval& x)>;
-std::vector<Change> changes(const std::vector<Polynomial>& polynomials, const Membership& inside,
-                            bool& inside_before);
+/// All places where polynomials have roots, in order.
+std::vector<Change> places_of_roots(const std::vector<Polynomial>& polynomials);
+std::vector<Change> changes(const std::vector<Change>& places, const Membership& inside, bool& inside_before);
 
 /// The polynomials in x of a primitive (a surface has its plane's), and whether the point at x (no root of
 /// them) is inside.

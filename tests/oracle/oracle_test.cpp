@@ -20,7 +20,8 @@ TEST_CASE("every primitive keeps its bounds, and decides right but for close cal
     const Record record = measure_all(kind, 0, ray_counts[kind], {standard_tier()})[0];
     MESSAGE(fmt::format("{}: rays {} hits {} close {} wrong {} ratio {} claim {} ulps max {} 99.9 {}", name,
                         record.rays, record.hits, record.close_calls, record.wrong, record.largest_ratio,
-                        record.largest_claim, record.ulps.largest(), record.ulps.quantile(0.999)));
+                        record.largest_claim, record.ulps_by_kind[0].largest(),
+                        record.ulps_by_kind[0].quantile(0.999)));
     for (const std::uint64_t number : record.failures) {
       FAIL_CHECK(fmt::format("ray {}: {}", number, description(make_ray(kind, number))));
     }
