@@ -102,10 +102,14 @@ double FrustumShape::approach(const SideEquation& side, double x) {
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                                 const Root& root) const {
   const Crossing crossing = side_crossing(line, side, root.x, root.number);
-  // Where a ray grazes more closely, a step could be longer than the roots are apart.
+  // Where a ray grazes more closely, the step could take it to the other root.
   constexpr double squarely = 0x1p-20;
+  constexpr double longest_step = 64 * unit_roundoff;
   const double rate = approach(side, root.x);
-  if (!(rate > squarely * std::sqrt(line.squared_speed)) || !std::isfinite(rate)) return crossing;
+  if (!std::isfinite(rate) || rate == 0) return crossing;
+  const double gap = std::sqrt(std::max(side.discriminant, 0.0)) / std::abs(side.a);
+  const bool apart = longest_step * (wide_radius_ + height_) < squarely * gap * rate;
+  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return crossing;
   if (!std::isfinite(crossing.t)) return crossing;
   NearLine at_root = line;
   at_root.move_to(ray, narrow_, line.to_precise_t(root.x));

@@ -25,7 +25,7 @@ PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
   // it is no more than the rounding of the measurement.
   Vec3 near = ray.from_center(position_, t.hi, t.lo);
   const double rest = accurate_dot(normal_, near).value();
-  constexpr double measurable = 4 * unit_roundoff;
+  constexpr double measurable = 12 * unit_roundoff;
   if (std::abs(rest) > measurable * largest_component(near)) {
     const double step = -rest / result.rate;
     const DoubleDouble moved = t + DoubleDouble(step);

@@ -1,8 +1,6 @@
 #include "core/geometry/stretch.hpp"
 
-#include <algorithm>
 #include <limits>
-#include <utility>
 
 namespace crt::core {
 
@@ -11,29 +9,25 @@ Stretch::Stretch(const RayStart& start, double shortest) : start_(start), shorte
   leave_.t = std::numeric_limits<double>::infinity();
 }
 
-// Next to an edge the other face may be the one that truly cuts: the error then covers it too.
-
 // A ray that starts on a face starts within what the other faces bound: where rounding says
 // otherwise (next to an edge), it is corrected to t = 0, and the face it starts on goes first.
 
 void Stretch::enter(const Crossing& crossing) {
   const bool is_start = crossing.face == start_.face;
   const double t = starts_on_face() ? std::min(crossing.t, 0.0) : crossing.t;
-  const bool later = t > enter_.t || (is_start && t == enter_.t);
-  Crossing other = crossing;
-  other.t = t;
-  if (later) std::swap(enter_, other);
-  enter_.error = std::max(enter_.error, other.error - (enter_.t - other.t));
+  if (t > enter_.t || (is_start && t == enter_.t)) {
+    enter_ = crossing;
+    enter_.t = t;
+  }
 }
 
 void Stretch::leave(const Crossing& crossing) {
   const bool is_start = crossing.face == start_.face;
   const double t = starts_on_face() ? std::max(crossing.t, 0.0) : crossing.t;
-  const bool earlier = t < leave_.t || (is_start && t == leave_.t);
-  Crossing other = crossing;
-  other.t = t;
-  if (earlier) std::swap(leave_, other);
-  leave_.error = std::max(leave_.error, other.error - (other.t - leave_.t));
+  if (t < leave_.t || (is_start && t == leave_.t)) {
+    leave_ = crossing;
+    leave_.t = t;
+  }
 }
 
 bool Stretch::finish(CrossingList& out) const {
