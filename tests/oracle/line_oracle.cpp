@@ -212,11 +212,13 @@ TrueLine solve(const P& primitive, const ExactLine& line, bool anywhere) {
     const std::vector<Change> places = places_of_roots(polynomials);
     for (const Change& change : changes(places, inside, result.inside_before)) {
       TrueCrossing crossing = crossing_at(change.x, change.entering, approach_at(change.x, change.causes));
+      crossing.at_edge = change.causes.size() > 1;
       for (const Change& place : places) {
         const double gap = magnitude(place.x - change.x).value();
         const double approach = approach_at(place.x, place.causes);
-        if (gap > 0 && gap * approach <= 8 * unit_of_rounding * crossing.reach)
-          crossing.approach = std::min(crossing.approach, approach);
+        if (gap == 0 || gap * approach > 8 * unit_of_rounding * crossing.reach) continue;
+        crossing.approach = std::min(crossing.approach, approach);
+        crossing.at_edge = true;
       }
       result.crossings.push_back(std::move(crossing));
     }

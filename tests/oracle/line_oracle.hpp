@@ -33,7 +33,8 @@ struct TrueCrossing {
   /// |n . d| with d as given: t is conditioned by its inverse. Where several faces meet within their bounds,
   /// at an edge, the least of theirs.
   double approach = 0;
-  double reach = 0;  ///< R + |x|: the primitive's size, and the distance from its centre
+  bool at_edge = false;  ///< whether several do
+  double reach = 0;      ///< R + |x|: the primitive's size, and the distance from its centre
 };
 
 struct TrueLine {

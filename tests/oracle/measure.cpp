@@ -91,7 +91,8 @@ void account(double t, double claimed, const TrueCrossing& crossing, const TestR
       record.ulps_by_decade[static_cast<std::size_t>(ray.decade - lowest_decade)].add(ulps);
   }
   record.largest_ratio = std::max(record.largest_ratio, error / bound_of(crossing));
-  if (has_error && error > 0) record.largest_claim = std::max(record.largest_claim, error / claimed);
+  if (has_error && error > 0 && !crossing.at_edge)
+    record.largest_claim = std::max(record.largest_claim, error / claimed);
 }
 
 }  // namespace

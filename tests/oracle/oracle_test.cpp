@@ -8,8 +8,9 @@ using namespace crt::test;
 
 namespace {
 
-constexpr std::array<std::uint64_t, primitive_kinds> ray_counts = {20'000, 20'000, 20'000, 20'000, 20'000,
-                                                                   20'000, 20'000, 20'000, 20'000};
+/// Rays of each primitive: about 20 s on two cores in all. Tori cost ten times what the others do.
+constexpr std::uint64_t rays = 40'000;
+constexpr std::uint64_t torus_rays = 10'000;
 
 }  // namespace
 
@@ -17,11 +18,9 @@ TEST_CASE("every primitive keeps its bounds, and decides right but for close cal
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
     const std::string name(name_of_primitive(kind));
     CAPTURE(name);
-    const Record record = measure_all(kind, 0, ray_counts[kind], {standard_tier()})[0];
-    MESSAGE(fmt::format("{}: rays {} hits {} close {} wrong {} ratio {} claim {} ulps max {} 99.9 {}", name,
-                        record.rays, record.hits, record.close_calls, record.wrong, record.largest_ratio,
-                        record.largest_claim, record.ulps_by_kind[0].largest(),
-                        record.ulps_by_kind[0].quantile(0.999)));
+    const std::uint64_t count = name == "torus" ? torus_rays : rays;
+    const Record record = measure_all(kind, 0, count, {standard_tier()})[0];
+    CHECK(record.hits > count / 3);
     for (const std::uint64_t number : record.failures) {
       FAIL_CHECK(fmt::format("ray {}: {}", number, description(make_ray(kind, number))));
     }
