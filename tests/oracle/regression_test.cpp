@@ -38,16 +38,32 @@ TEST_CASE("a line that is parallel to a cylinder's caps to rounding passes beyon
 }
 
 TEST_CASE("a cone is left where it is by a line nearly along its axis") {
-  const TestRay ray = make_ray(5, 765);
-  CHECK(holds(ray.primitive, ray.origin, ray.direction));
+  const Cone cone{.from = {-0x1.065ff98ccb147p+24, -0x1.d32557d311218p+22, -0x1.46b9557835d09p+24},
+                  .to = {-0x1.05ed83d6d95eep+24, -0x1.d69ca4c6600c2p+22, -0x1.46a3e02c8b136p+24},
+                  .radius = 0x1.daf5d664aa4e7p+16};
+  CHECK(holds(cone, {-0x1.866bb09416ba2p+38, 0x1.7a4d5224a98ddp+39, -0x1.24d787939f8f6p+36},
+              {0x1.8667982ec3644p+38, -0x1.7a4e3bd12c20dp+39, 0x1.24c31ea423e91p+36}));
 }
 
 TEST_CASE("a cone's apex is met from afar no worse than the rest of it") {
-  const TestRay ray = make_ray(5, 11460);
-  CHECK(holds(ray.primitive, ray.origin, ray.direction));
+  const Cone cone{.from = {0x1.96840205468b8p-28, -0x1.4943ac4cfdd95p-25, -0x1.fe43d86889c07p-23},
+                  .to = {0x1.03791fe4435a6p+21, -0x1.052252ce08a68p+23, 0x1.5905d4c4bd655p+22},
+                  .radius = 0x1.02d7fa8354e51p+25};
+  CHECK(holds(cone, {0x1.03791fe4435a6p+21, -0x1.052252ce08a68p+23, 0x1.2204568a72bdap+41}, {0, 0, -1}));
+}
+
+TEST_CASE("a line that is parallel to a cylinder's axis to rounding stays within it") {
+  const Cylinder cylinder{.from = {-0x1.3931771d9440fp+29, 0, 0},
+                          .to = {-0x1.3931771d9440fp+29, 0x1.1947de971bcecp-28, -0x1.35b4f3084aff7p-27},
+                          .radius = 0x1.26cdda7f2b8e4p-24};
+  CHECK(holds(cylinder, {-0x1.3931771d9440fp+29, -0x1.503ca3af0151cp-8, 0x1.7238e43b1be3bp-7},
+              {0, 0x1.503d9ee226e76p-8, -0x1.723895265c9aap-7}));
 }
 
 TEST_CASE("a triangle is not hit by lines in its plane but for rounding that pass it") {
-  const TestRay ray = make_ray(8, 64516);
-  CHECK(holds(ray.primitive, ray.origin, ray.direction));
+  const Triangle triangle{.a = {-0x1.2be50114a5ebap-14, -0x1.43dd991aa04bbp-13, -0x1.9f87fc576b2bbp-3},
+                          .b = {-0x1.e2057cc9b1febp-15, -0x1.37ed19504e16p-13, -0x1.9f9f132dadf0fp-3},
+                          .c = {-0x1.81c8bf1a62da1p-14, -0x1.3956d94c506dep-14, -0x1.9f6b3fce8b3c4p-3}};
+  CHECK(holds(triangle, {-0x1.bb8ef40a8a274p-12, -0x1.d6efa755989bp-13, -0x1.9d863451b8d58p-3},
+              {0x1.4a35762203f2bp-12, 0x1.0bd0f6a48f4d8p-13, -0x1.02f599f2b678p-10}));
 }

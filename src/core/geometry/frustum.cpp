@@ -108,7 +108,8 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   const double rate = approach(side, root.x);
   if (!std::isfinite(rate) || rate == 0) return crossing;
   const double gap = std::sqrt(std::max(side.discriminant, 0.0)) / std::abs(side.a);
-  const bool apart = longest_step * (wide_radius_ + height_) < squarely * gap * rate;
+  const double reach = wide_radius_ + 2 * largest_component(line.at(root.x));
+  const bool apart = longest_step * reach < squarely * gap * rate;
   if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return crossing;
   if (!std::isfinite(crossing.t)) return crossing;
   NearLine at_root = line;
