@@ -106,12 +106,15 @@ class Interval {
   /// -1, 0 or 1. An interval around 0 that is more than 0 throws; with the highest precision it is 0.
   int sign() const {
     const int certain = certain_sign();
-    if (certain != 0 || (mpfr_zero_p(lower_) && mpfr_zero_p(upper_))) return certain;
+    if (certain != 0 || is_zero()) return certain;
     if (Precision::bits < Precision::highest) throw Undecided{};
     return 0;
   }
   /// 0 also where it is not known.
   int certain_sign() const { return mpfr_sgn(lower_) > 0 ? 1 : (mpfr_sgn(upper_) < 0 ? -1 : 0); }
+
+  /// 0 for certain.
+  bool is_zero() const { return mpfr_zero_p(lower_) != 0 && mpfr_zero_p(upper_) != 0; }
 
   bool surely_below(const Interval& other) const { return mpfr_less_p(upper_, other.lower_) != 0; }
 

@@ -245,6 +245,20 @@ IntervalVec ExactLine::at(const Interval& x) const {
   return point + x * direction;
 }
 
+namespace {
+
+/// Whether two polynomials have the same roots, as they are one but for a factor: known at once where
+/// faces coincide, and where lines meet the edge of two planes.
+bool are_proportional(const Polynomial& a, const Polynomial& b) {
+  if (a.size() != b.size()) return false;
+  for (std::size_t i = 0; i + 1 < a.size(); ++i) {
+    if (!(a[i] * b.back() - b[i] * a.back()).is_zero()) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
 std::vector<Change> places_of_roots(const std::vector<Polynomial>& polynomials) {
   std::vector<Change> places;
   for (std::size_t i = 0; i < polynomials.size(); ++i) {
@@ -258,7 +272,8 @@ std::vector<Change> places_of_roots(const std::vector<Polynomial>& polynomials) 
       distinct.push_back(std::move(place));
       continue;
     }
-    if (Precision::bits < Precision::highest) throw Undecided{};
+    const bool same = are_proportional(polynomials[distinct.back().causes[0]], polynomials[place.causes[0]]);
+    if (!same && Precision::bits < Precision::highest) throw Undecided{};
     distinct.back().x = hull(distinct.back().x, place.x);
     distinct.back().causes.push_back(place.causes[0]);
   }
