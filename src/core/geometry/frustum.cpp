@@ -60,6 +60,9 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (speed > std::numeric_limits<double>::min()) {
     t = line.to_t(-glm::dot(accurate_cross(line.point, axis_), across) / speed);
   }
+  // Nearly along the axis that is far away; the solid is within a ball, and between the caps.
+  const double ball = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_speed));
+  t = std::clamp(t, line.to_t(0) - ball, line.to_t(0) + ball);
   if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
   if (!std::isfinite(t)) return false;
   line.move_to(ray, narrow_, t);
@@ -99,13 +102,18 @@ double FrustumShape::approach(const SideEquation& side, double x) {
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                                 const Root& root) const {
   const Crossing crossing = side_crossing(line, side, root.x, root.number);
-  // Where a ray grazes more closely, a step could be longer than the roots are apart.
+  // Where a ray grazes more closely, the step could take it to the other root.
   constexpr double squarely = 0x1p-20;
+  constexpr double longest_step = 64 * unit_roundoff;
   const double rate = approach(side, root.x);
-  if (!(rate > squarely * std::sqrt(line.squared_speed)) || !std::isfinite(rate)) return crossing;
+  if (!std::isfinite(rate) || rate == 0) return crossing;
+  const double gap = std::sqrt(std::max(side.discriminant, 0.0)) / std::abs(side.a);
+  const double reach = wide_radius_ + 2 * largest_component(line.at(root.x));
+  const bool apart = longest_step * reach < squarely * gap * rate;
+  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return crossing;
   if (!std::isfinite(crossing.t)) return crossing;
   NearLine at_root = line;
-  at_root.move_to(ray, narrow_, crossing.t);
+  at_root.move_to(ray, narrow_, line.to_precise_t(root.x));
   const Vec3& p = at_root.point;
   const double distance = cosine_ * (glm::length(accurate_cross(p, axis_)) - narrow_radius_) -
                           sine_ * accurate_dot(p, axis_).value();
@@ -129,8 +137,22 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
           .root = root};
 }
 
-void FrustumShape::clip_side(const ObjectRay& ray, const NearLine& line, Stretch& stretch) const {
-  const SideEquation side = side_equation(line);
+/// Where the line grazes, the discriminant is what is left of large numbers. From halfway between the roots
+/// it is a c with b nearly 0, and c the distance from the side there.
+void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const {
+  constexpr double nearly = 0x1p-20;
+  const double radius = side.radius - side.radius_rate * (side.b / side.a);
+  const double grazing = nearly * nearly * line.squared_speed * radius * radius;
+  const bool middle_is_near = side.a > nearly * line.squared_speed;
+  if (!middle_is_near || std::abs(side.discriminant) > grazing) return;
+  line.move_to(ray, narrow_, line.to_precise_t(-side.b / side.a));
+  side = side_equation(line);
+  side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
+}
+
+void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const {
+  SideEquation side = side_equation(line);
+  center_on_grazing(ray, line, side);
   const double s1 = side.radius_rate;
   const auto crossing_at = [&](double x, bool entering, std::uint8_t number) {
     return polished(ray, line, side, {x, entering, number});

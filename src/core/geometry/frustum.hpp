@@ -57,7 +57,8 @@ class FrustumShape : public Shape {
   Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                     const Root& root) const;
   Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
-  void clip_side(const ObjectRay& ray, const NearLine& line, Stretch& stretch) const;
+  void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
+  void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
   static void clip_side_from_other_nappe(const SideEquation& side, Crossing other, Stretch& stretch);
   SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing) const;

@@ -40,14 +40,17 @@ struct NearLine {
   }
 
   /// Moves `point` to where the ray is at t.
-  void move_to(const ObjectRay& ray, const Vec3& center, double t) {
-    shift_ = t;
-    shift_low_ = 0;
-    point = ray.from_center(center, t) * inverse_unit_;
+  void move_to(const ObjectRay& ray, const Vec3& center, const DoubleDouble& t) {
+    shift_ = t.hi;
+    shift_low_ = t.lo;
+    point = ray.from_center(center, t.hi, t.lo) * inverse_unit_;
   }
 
   /// The ray's t at x.
   double to_t(double x) const { return shift_ + (shift_low_ + to_t_length(x)); }
+
+  /// The same before its last rounding.
+  DoubleDouble to_precise_t(double x) const { return two_sum(shift_, shift_low_ + to_t_length(x)); }
 
   /// A difference of x as a difference of t.
   double to_t_length(double x) const { return x * unit_ * direction_scale_; }

@@ -13,27 +13,32 @@ PlaneFace::PlaneFace(const Vec3& normal, const Vec3& position)
 PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
   if (axis_ >= 0) return meet_axis_plane(ray);
   Meeting result;
-  result.rate = accurate_dot(normal_, ray.direction).value() + glm::dot(normal_, ray.direction_low);
+  const DoubleDouble rate = accurate_dot(normal_, ray.direction) + glm::dot(normal_, ray.direction_low);
+  result.rate = rate.value();
   if (result.rate == 0) return result;
 
-  // Twice the shift of docs/numerics.md: the first t is off by the rounding of the whole way, the second by
-  // that of what was left, and what remains to be solved is near the position.
-  double shift = 0;
-  Vec3 near = ray.from_center(position_, 0);
-  constexpr int shifts = 2;
-  for (int i = 0; i < shifts; ++i) {
-    shift -= accurate_dot(normal_, near).value() / result.rate;
-    if (!std::isfinite(shift)) return result;
-    near = ray.from_center(position_, shift);
-  }
-  const double rest = -accurate_dot(normal_, near).value() / result.rate;
-  const DoubleDouble t = two_sum(shift, rest);
+  // In double-double, as from afar or nearly along the plane the rounding of any point on the way would be
+  // larger than what decides.
+  DoubleDouble t = -(height_at_origin(ray) / rate);
   if (!std::isfinite(t.hi)) return result;
+  // For a position next to the line's point even that leaves something, which is measured there; unless
+  // it is no more than the rounding of the measurement.
+  Vec3 near = ray.from_center(position_, t.hi, t.lo);
+  const double rest = accurate_dot(normal_, near).value();
+  constexpr double measurable = 12 * unit_roundoff;
+  if (std::abs(rest) > measurable * largest_component(near)) {
+    const double step = -rest / result.rate;
+    const DoubleDouble moved = t + DoubleDouble(step);
+    if (std::isfinite(moved.hi)) {
+      t = moved;
+      near += step * ray.direction;
+    }
+  }
   result.found = true;
   result.t = t.hi;
   result.t_low = t.lo;
   constexpr double roundings = 8;
-  const double reach = glm::length(near + rest * ray.direction);
+  const double reach = glm::length(near);
   result.error =
       rounding_of(t.hi) + roundings * unit_roundoff * reach * glm::length(normal_) / std::abs(result.rate);
   return result;
@@ -64,14 +69,14 @@ Vec3 PlaneFace::point(const ObjectRay& ray, const Meeting& meeting) const {
   return onto_plane(ray.from_center(position_, meeting.t, meeting.t_low));
 }
 
-bool PlaneFace::behind(const ObjectRay& ray) const {
+DoubleDouble PlaneFace::height_at_origin(const ObjectRay& ray) const {
   DoubleDouble height;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble offset = two_sum(ray.origin[axis], -position_[axis]);
     height = height + two_product(normal_[axis], offset.hi) +
              DoubleDouble(normal_[axis] * (offset.lo + ray.origin_low[axis]));
   }
-  return height.hi < 0;
+  return height;
 }
 
 void PlaneFace::clip(const ObjectRay& ray, std::uint32_t face, Stretch& stretch) const {

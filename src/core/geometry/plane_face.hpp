@@ -27,7 +27,7 @@ class PlaneFace {
   Vec3 point(const ObjectRay& ray, const Meeting& meeting) const;
 
   /// Whether the point at t = 0 is behind the plane (for parallel lines), neither on it nor before.
-  bool behind(const ObjectRay& ray) const;
+  bool behind(const ObjectRay& ray) const { return height_at_origin(ray).hi < 0; }
 
   /// Cuts away what of the line is before the plane; obeys ray.start if it is this face's number.
   void clip(const ObjectRay& ray, std::uint32_t face, Stretch& stretch) const;
@@ -61,6 +61,8 @@ class PlaneFace {
 
  private:
   Meeting meet_axis_plane(const ObjectRay& ray) const;
+  /// How far before the plane the point at t = 0 is, times the normal's length.
+  DoubleDouble height_at_origin(const ObjectRay& ray) const;
 
   Vec3 normal_;
   Vec3 unit_normal_;

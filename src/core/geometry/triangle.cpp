@@ -44,7 +44,7 @@ Vec3 normal_of(const Triangle& triangle) {
 }
 
 /// Along which side of the edge from `from` to `to` the line passes: the sign of from . (edge x d),
-/// seen from a point of the line; 0 if it is closer to the edge than can be told.
+/// seen from the line's point at t; 0 if it is closer to the edge than can be told.
 int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double t) {
   const Vec3 d = scaled_to_one(ray.direction);
   const Vec3 edge = to - from;
@@ -85,7 +85,12 @@ Bounds TriangleShape::bounds() const {
   return result;
 }
 
-bool TriangleShape::passes_edges(const ObjectRay& ray, double t) const {
+bool TriangleShape::passes_edges(const ObjectRay& ray) const {
+  // Seen from a point of the line next to the triangle: where a line nearly in its plane meets that plane
+  // may be so far away that no side could be told.
+  const double scale = inverse_length_scale(ray.direction);
+  const Vec3 d = ray.direction * scale;
+  const double t = -glm::dot(ray.from_center(corners_[0], 0), d) / glm::dot(d, d) * scale;
   bool left = false;
   bool right = false;
   for (std::size_t i = 0; i < 3; ++i) {
@@ -99,7 +104,7 @@ bool TriangleShape::passes_edges(const ObjectRay& ray, double t) const {
 bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
   if (!meeting.found) return false;
-  if (PlaneFace::starts_here(ray) || passes_edges(ray, meeting.t)) PlaneFace::emit(meeting, out);
+  if (PlaneFace::starts_here(ray) || passes_edges(ray)) PlaneFace::emit(meeting, out);
   return false;
 }
 

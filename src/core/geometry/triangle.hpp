@@ -30,7 +30,7 @@ class TriangleShape final : public Shape {
   Surface surface(std::uint32_t) const override { return face_.surface(); }
 
  private:
-  bool passes_edges(const ObjectRay& ray, double t) const;
+  bool passes_edges(const ObjectRay& ray) const;
 
   std::array<Vec3, 3> corners_;
   PlaneFace face_;

@@ -1,0 +1,217 @@
+// Interval arithmetic on MPFR: what every number of the oracle is.
+//
+// An interval holds the true value for certain, as every operation rounds outwards. A number that fits
+// the precision stays a point, so the sign of a dyadic expression is known exactly once the precision
+// is large enough. Where a sign is open, `Undecided` is thrown and the caller tries again with more bits.
+#pragma once
+
+#include <mpfr.h>
+
+#include <utility>
+
+namespace crt::test {
+
+/// The sign of an interval that holds 0, and more.
+struct Undecided {};
+
+/// The precision of what this thread computes, in bits.
+struct Precision {
+  static constexpr mpfr_prec_t lowest = 256;
+  static constexpr mpfr_prec_t highest = 4096;
+  static constexpr mpfr_prec_t factor = 4;
+
+  static inline thread_local mpfr_prec_t bits = lowest;
+};
+
+class Interval {
+ public:
+  Interval() : Interval(0.0) {}
+  Interval(double value) {  // NOLINT(google-explicit-constructor): exact
+    initialise(Precision::bits);
+    mpfr_set_d(lower_, value, MPFR_RNDN);
+    mpfr_set_d(upper_, value, MPFR_RNDN);
+  }
+  Interval(const Interval& other) {
+    initialise(mpfr_get_prec(other.lower_));
+    mpfr_set(lower_, other.lower_, MPFR_RNDD);
+    mpfr_set(upper_, other.upper_, MPFR_RNDU);
+  }
+  Interval(Interval&& other) noexcept : Interval(Empty{}) { swap(other); }
+  Interval& operator=(Interval other) noexcept {
+    swap(other);
+    return *this;
+  }
+  ~Interval() {
+    if (lower_->_mpfr_d == nullptr) return;
+    mpfr_clear(lower_);
+    mpfr_clear(upper_);
+  }
+
+  friend Interval operator+(const Interval& a, const Interval& b) {
+    Interval result(Blank{});
+    mpfr_add(result.lower_, a.lower_, b.lower_, MPFR_RNDD);
+    mpfr_add(result.upper_, a.upper_, b.upper_, MPFR_RNDU);
+    return result;
+  }
+  friend Interval operator-(const Interval& a, const Interval& b) {
+    Interval result(Blank{});
+    mpfr_sub(result.lower_, a.lower_, b.upper_, MPFR_RNDD);
+    mpfr_sub(result.upper_, a.upper_, b.lower_, MPFR_RNDU);
+    return result;
+  }
+  friend Interval operator-(const Interval& a) { return Interval(0.0) - a; }
+  friend Interval operator*(const Interval& a, const Interval& b) {
+    const int sign_a = a.certain_sign();
+    const int sign_b = b.certain_sign();
+    if (sign_a == 0 || sign_b == 0) return hull_of_products(a, b);
+    Interval result(Blank{});
+    mpfr_mul(result.lower_, sign_b > 0 ? a.lower_ : a.upper_, sign_a > 0 ? b.lower_ : b.upper_, MPFR_RNDD);
+    mpfr_mul(result.upper_, sign_b > 0 ? a.upper_ : a.lower_, sign_a > 0 ? b.upper_ : b.lower_, MPFR_RNDU);
+    return result;
+  }
+  /// b must not hold 0.
+  friend Interval operator/(const Interval& a, const Interval& b) {
+    if (b.certain_sign() == 0) throw Undecided{};
+    const bool positive = b.certain_sign() > 0;
+    const mpfr_t& low = positive ? a.lower_ : a.upper_;
+    const mpfr_t& high = positive ? a.upper_ : a.lower_;
+    Interval result(Blank{});
+    mpfr_div(result.lower_, low, (mpfr_sgn(low) >= 0) == positive ? b.upper_ : b.lower_, MPFR_RNDD);
+    mpfr_div(result.upper_, high, (mpfr_sgn(high) >= 0) == positive ? b.lower_ : b.upper_, MPFR_RNDU);
+    return result;
+  }
+  friend Interval square(const Interval& a) {
+    if (a.certain_sign() != 0) return a * a;
+    Interval result = hull_of_products(a, a);
+    if (mpfr_sgn(result.lower_) < 0) mpfr_set_zero(result.lower_, 1);
+    return result;
+  }
+  /// The root of what is known not to be negative.
+  friend Interval sqrt(const Interval& a) {
+    Interval result(Blank{});
+    if (mpfr_sgn(a.lower_) > 0) {
+      mpfr_sqrt(result.lower_, a.lower_, MPFR_RNDD);
+    } else {
+      mpfr_set_zero(result.lower_, 1);
+    }
+    mpfr_sqrt(result.upper_, mpfr_sgn(a.upper_) > 0 ? a.upper_ : result.lower_, MPFR_RNDU);
+    return result;
+  }
+  friend Interval magnitude(const Interval& a) {
+    if (mpfr_sgn(a.lower_) >= 0) return a;
+    if (mpfr_sgn(a.upper_) <= 0) return -a;
+    return sqrt(square(a));
+  }
+
+  /// -1, 0 or 1. An interval around 0 that is more than 0 throws; with the highest precision it is 0.
+  int sign() const {
+    const int certain = certain_sign();
+    if (certain != 0 || is_zero()) return certain;
+    if (Precision::bits < Precision::highest) throw Undecided{};
+    return 0;
+  }
+  /// 0 also where it is not known.
+  int certain_sign() const { return mpfr_sgn(lower_) > 0 ? 1 : (mpfr_sgn(upper_) < 0 ? -1 : 0); }
+
+  /// 0 for certain.
+  bool is_zero() const { return mpfr_zero_p(lower_) != 0 && mpfr_zero_p(upper_) != 0; }
+
+  bool surely_below(const Interval& other) const { return mpfr_less_p(upper_, other.lower_) != 0; }
+
+  /// A point within.
+  Interval middle() const {
+    Interval result(Blank{});
+    mpfr_add(result.lower_, lower_, upper_, MPFR_RNDN);
+    mpfr_div_2ui(result.lower_, result.lower_, 1, MPFR_RNDN);
+    mpfr_set(result.upper_, result.lower_, MPFR_RNDN);
+    return result;
+  }
+  Interval lower() const { return point(lower_); }
+  Interval upper() const { return point(upper_); }
+  /// The smallest interval that holds both.
+  friend Interval hull(const Interval& a, const Interval& b) {
+    Interval result(Blank{});
+    mpfr_min(result.lower_, a.lower_, b.lower_, MPFR_RNDD);
+    mpfr_max(result.upper_, a.upper_, b.upper_, MPFR_RNDU);
+    return result;
+  }
+  /// Near the middle.
+  double value() const { return mpfr_get_d(middle().lower_, MPFR_RNDN); }
+  /// The exponent e of the middle, 2^(e-1) <= |middle| < 2^e; very small for 0.
+  long exponent() const {
+    const Interval m = middle();
+    return mpfr_zero_p(m.lower_) ? -1'000'000 : static_cast<long>(mpfr_get_exp(m.lower_));
+  }
+  /// A power of two, as a point.
+  static Interval power_of_two(long exponent) {
+    Interval result(Blank{});
+    mpfr_set_ui_2exp(result.lower_, 1, exponent, MPFR_RNDN);
+    mpfr_set(result.upper_, result.lower_, MPFR_RNDN);
+    return result;
+  }
+
+ private:
+  struct Blank {};
+  struct Empty {};
+
+  explicit Interval(Blank) { initialise(Precision::bits); }
+  explicit Interval(Empty) noexcept {
+    lower_->_mpfr_d = nullptr;
+    upper_->_mpfr_d = nullptr;
+  }
+  void initialise(mpfr_prec_t bits) {
+    mpfr_init2(lower_, bits);
+    mpfr_init2(upper_, bits);
+  }
+  void swap(Interval& other) noexcept {
+    std::swap(lower_[0], other.lower_[0]);
+    std::swap(upper_[0], other.upper_[0]);
+  }
+  static Interval point(const mpfr_t& value) {
+    Interval result(Blank{});
+    mpfr_set(result.lower_, value, MPFR_RNDN);
+    mpfr_set(result.upper_, value, MPFR_RNDN);
+    return result;
+  }
+  static Interval hull_of_products(const Interval& a, const Interval& b) {
+    Interval result(Blank{});
+    Interval other(Blank{});
+    mpfr_mul(result.lower_, a.lower_, b.upper_, MPFR_RNDD);
+    mpfr_mul(other.lower_, a.upper_, b.lower_, MPFR_RNDD);
+    mpfr_min(result.lower_, result.lower_, other.lower_, MPFR_RNDD);
+    mpfr_mul(other.lower_, a.lower_, b.lower_, MPFR_RNDD);
+    mpfr_min(result.lower_, result.lower_, other.lower_, MPFR_RNDD);
+    mpfr_mul(other.lower_, a.upper_, b.upper_, MPFR_RNDD);
+    mpfr_min(result.lower_, result.lower_, other.lower_, MPFR_RNDD);
+    mpfr_mul(result.upper_, a.lower_, b.lower_, MPFR_RNDU);
+    mpfr_mul(other.upper_, a.upper_, b.upper_, MPFR_RNDU);
+    mpfr_max(result.upper_, result.upper_, other.upper_, MPFR_RNDU);
+    mpfr_mul(other.upper_, a.lower_, b.upper_, MPFR_RNDU);
+    mpfr_max(result.upper_, result.upper_, other.upper_, MPFR_RNDU);
+    mpfr_mul(other.upper_, a.upper_, b.lower_, MPFR_RNDU);
+    mpfr_max(result.upper_, result.upper_, other.upper_, MPFR_RNDU);
+    return result;
+  }
+
+  mpfr_t lower_ = {};
+  mpfr_t upper_ = {};
+};
+
+/// Runs `compute` with more and more bits until it is certain.
+template <class Compute>
+auto until_certain(const Compute& compute) {
+  struct Restore {
+    ~Restore() { Precision::bits = Precision::lowest; }
+  } restore;
+  Precision::bits = Precision::lowest;
+  while (true) {
+    try {
+      return compute();
+    } catch (const Undecided&) {
+      if (Precision::bits >= Precision::highest) throw;
+      Precision::bits *= Precision::factor;
+    }
+  }
+}
+
+}  // namespace crt::test

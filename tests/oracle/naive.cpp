@@ -1,0 +1,195 @@
+#include "oracle/naive.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <complex>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <utility>
+
+namespace crt::test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// What of a line is between two parameters.
+struct Span {
+  double enter = -infinity;
+  double leave = infinity;
+
+  void cut(double a, double b) {
+    enter = std::max(enter, std::min(a, b));
+    leave = std::min(leave, std::max(a, b));
+  }
+};
+
+bool emit(const Span& span, core::CrossingList& out) {
+  if (!(span.enter < span.leave)) return false;
+  if (span.enter > -infinity) out.push_back({.t = span.enter, .entering = true});
+  if (span.leave < infinity) out.push_back({.t = span.leave, .entering = false});
+  return span.enter == -infinity;
+}
+
+bool meet(const Sphere& s, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const Vec3 f = o - s.center;
+  const double a = glm::dot(d, d);
+  const double b = 2 * glm::dot(f, d);
+  const double c = glm::dot(f, f) - s.radius * s.radius;
+  const double discriminant = b * b - 4 * a * c;
+  if (discriminant <= 0) return false;
+  const double root = std::sqrt(discriminant);
+  return emit({(-b - root) / (2 * a), (-b + root) / (2 * a)}, out);
+}
+
+bool meet(const Box& box, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  Span span;
+  for (int axis = 0; axis < 3; ++axis) {
+    const double inverse = 1 / d[axis];
+    span.cut((box.corner_a[axis] - o[axis]) * inverse, (box.corner_b[axis] - o[axis]) * inverse);
+  }
+  return emit(span, out);
+}
+
+double plane_t(const Vec3& normal, const Vec3& position, const Vec3& o, const Vec3& d) {
+  return glm::dot(normal, position - o) / glm::dot(normal, d);
+}
+
+void emit_surface(const Vec3& normal, const Vec3& d, double t, core::CrossingList& out) {
+  if (std::isfinite(t)) out.push_back({.t = t, .entering = glm::dot(normal, d) < 0});
+}
+
+bool meet(const Plane& p, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const double rate = glm::dot(p.normal, d);
+  if (rate == 0) return glm::dot(p.normal, o - p.position) < 0;
+  emit_surface(p.normal, d, plane_t(p.normal, p.position, o, d), out);
+  return rate > 0;
+}
+
+bool meet(const HalfPlane& h, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const double t = plane_t(h.normal, h.position, o, d);
+  if (glm::dot(o + t * d - h.position, h.direction) >= 0) emit_surface(h.normal, d, t, out);
+  return false;
+}
+
+bool meet(const Disc& disc, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const double t = plane_t(disc.normal, disc.center, o, d);
+  if (glm::length(o + t * d - disc.center) <= disc.radius) emit_surface(disc.normal, d, t, out);
+  return false;
+}
+
+/// Moeller, Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
+bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const Vec3 ab = triangle.b - triangle.a;
+  const Vec3 ac = triangle.c - triangle.a;
+  const Vec3 p = glm::cross(d, ac);
+  const double determinant = glm::dot(ab, p);
+  const Vec3 from_a = o - triangle.a;
+  const double u = glm::dot(from_a, p) / determinant;
+  const Vec3 q = glm::cross(from_a, ab);
+  const double v = glm::dot(d, q) / determinant;
+  if (u >= 0 && v >= 0 && u + v <= 1) emit_surface(glm::cross(ab, ac), d, glm::dot(ac, q) / determinant, out);
+  return false;
+}
+
+/// The quadratic of the side with a unit axis, and the caps as slabs.
+bool meet_frustum(const Vec3& from, const Vec3& to, double radius, double radius2, const Vec3& o,
+                  const Vec3& d, core::CrossingList& out) {
+  const double height = glm::length(to - from);
+  const Vec3 w = (to - from) / height;
+  const double k = (radius2 - radius) / height;
+  const Vec3 f = o - from;
+  const double fw = glm::dot(f, w);
+  const double dw = glm::dot(d, w);
+  const double r = radius + k * fw;
+  const double a = glm::dot(d, d) - dw * dw - k * k * dw * dw;
+  const double b = 2 * (glm::dot(f, d) - fw * dw - k * dw * r);
+  const double c = glm::dot(f, f) - fw * fw - r * r;
+  const double discriminant = b * b - 4 * a * c;
+  Span span;
+  span.cut(-fw / dw, (height - fw) / dw);
+  if (discriminant < 0) {
+    if (a >= 0) return false;
+    return emit(span, out);
+  }
+  const double root = std::sqrt(discriminant);
+  const double first = (-b - root) / (2 * a);
+  const double second = (-b + root) / (2 * a);
+  if (a > 0) {
+    span.cut(first, second);
+  } else if (dw * k > 0) {
+    span.enter = std::max(span.enter, std::max(first, second));
+  } else {
+    span.leave = std::min(span.leave, std::min(first, second));
+  }
+  return emit(span, out);
+}
+bool meet(const Cylinder& c, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  return meet_frustum(c.from, c.to, c.radius, c.radius, o, d, out);
+}
+bool meet(const Cone& c, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  return meet_frustum(c.from, c.to, c.radius, c.radius2, o, d, out);
+}
+
+using Complex = std::complex<double>;
+
+/// Ferrari's formula for x^4 + b x^3 + c x^2 + d x + e.
+std::array<Complex, 4> quartic_roots(double b, double c, double d, double e) {
+  const double p = c - 3 * b * b / 8;
+  const double q = b * b * b / 8 - b * c / 2 + d;
+  const double r = -3 * b * b * b * b / 256 + b * b * c / 16 - b * d / 4 + e;
+  const Complex u = -p * p / 12 - r;
+  const Complex v = -p * p * p / 108 + p * r / 3 - q * q / 8;
+  const Complex w = std::pow(-v / 2.0 + std::sqrt(v * v / 4.0 + u * u * u / 27.0), 1.0 / 3);
+  const Complex y = -5 * p / 6 + (std::abs(w) > 0 ? w - u / (3.0 * w) : -std::pow(v, 1.0 / 3));
+  const Complex z = std::sqrt(p + 2.0 * y);
+  const Complex plus = std::sqrt(-(3 * p + 2.0 * y + 2 * q / z));
+  const Complex minus = std::sqrt(-(3 * p + 2.0 * y - 2 * q / z));
+  return {-b / 4 + (z + plus) / 2.0, -b / 4 + (z - plus) / 2.0, -b / 4 + (-z + minus) / 2.0,
+          -b / 4 + (-z - minus) / 2.0};
+}
+
+bool meet(const Torus& torus, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const double speed = glm::length(d);
+  const Vec3 v = d / speed;
+  const Vec3 w = glm::normalize(torus.axis);
+  const Vec3 f = o - torus.center;
+  const double ring = torus.radius * torus.radius;
+  const double fd = glm::dot(f, v);
+  const double fw = glm::dot(f, w);
+  const double vw = glm::dot(v, w);
+  const double k = glm::dot(f, f) + ring - torus.thickness * torus.thickness;
+  const auto all =
+      quartic_roots(4 * fd, 4 * fd * fd + 2 * k - 4 * ring * (1 - vw * vw),
+                    4 * fd * k - 8 * ring * (fd - fw * vw), k * k - 4 * ring * (glm::dot(f, f) - fw * fw));
+  constexpr double real = 1e-6;
+  std::array<double, 4> t{};
+  t.fill(infinity);
+  std::size_t count = 0;
+  for (const Complex& root : all) {
+    if (std::abs(root.imag()) < real * torus.radius && std::isfinite(root.real()))
+      t[count++] = root.real() / speed;
+  }
+  if (count == 3) count = 2;
+  std::sort(t.begin(), t.end());
+  // The inner lemon of a spindle is no boundary.
+  if (torus.thickness > torus.radius && count == 4) {
+    t[1] = t[3];
+    count = 2;
+  }
+  for (std::size_t i = 0; i + 1 < count; i += 2) {
+    if (!(t[i] < t[i + 1])) continue;
+    out.push_back({.t = t[i], .entering = true});
+    out.push_back({.t = t[i + 1], .entering = false});
+  }
+  return false;
+}
+
+}  // namespace
+
+bool naive_crossings(const Primitive& primitive, const Vec3& origin, const Vec3& direction,
+                     core::CrossingList& out) {
+  return std::visit([&](const auto& p) { return meet(p, origin, direction, out); }, primitive);
+}
+
+}  // namespace crt::test

@@ -1,0 +1,13 @@
+// The textbook's intersections in plain double precision: the yardstick that accuracy is compared with.
+#pragma once
+
+#include "core/geometry/shape.hpp"
+#include "crt/primitives.hpp"
+
+namespace crt::test {
+
+/// As Shape::crossings, by the formulas that everyone writes first.
+bool naive_crossings(const Primitive& primitive, const Vec3& origin, const Vec3& direction,
+                     core::CrossingList& out);
+
+}  // namespace crt::test

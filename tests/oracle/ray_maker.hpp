@@ -1,0 +1,60 @@
+// Random primitives and rays over many orders of size and distance, each a function of its number.
+//
+// Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3 to
+// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "core/math/random.hpp"
+#include "crt/primitives.hpp"
+
+namespace crt::test {
+
+enum class RayKind : std::uint8_t {
+  plain,
+  grazing,        ///< along a tangent, moved in or out by 10^-16 to 0.1 sizes
+  axis_parallel,  ///< along a coordinate axis
+  edge,           ///< aimed at an edge, a corner, a rim
+  on_surface,     ///< from a point on the surface, as near as doubles have it
+  near_parallel,  ///< 10^-16 to 0.1 off parallel to a face or an axis
+};
+inline constexpr std::size_t ray_kinds = 6;
+std::string_view name_of(RayKind kind);
+
+/// The primitives by their place in the variant `Primitive`.
+inline constexpr std::size_t primitive_kinds = std::variant_size_v<Primitive>;
+std::string_view name_of_primitive(std::size_t kind);
+
+struct TestRay {
+  Primitive primitive;
+  RayKind kind = RayKind::plain;
+  int decade = 0;  ///< distance is 10^decade to 10^(decade + 1) sizes
+  Vec3 origin{0};
+  Vec3 direction{0};
+};
+inline constexpr int lowest_decade = -3;
+inline constexpr int highest_decade = 11;
+
+/// Random numbers that depend on a seed, a number and how many were drawn before.
+class Counted {
+ public:
+  Counted(std::uint64_t seed, std::uint64_t number) : seed_(seed), number_(number) {}
+
+  double uniform(double low, double high);
+  int integer(int low, int high);  ///< both included
+  double power_of_ten(double low, double high);
+  double sign() { return integer(0, 1) == 0 ? -1 : 1; }
+  Vec3 in_cube();
+  Vec3 direction();  ///< unit length to rounding; one in four is a coordinate axis
+
+ private:
+  std::uint64_t seed_;
+  std::uint64_t number_;
+  std::uint32_t drawn_ = 0;
+};
+
+TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
+
+}  // namespace crt::test

@@ -1,0 +1,69 @@
+// Rays that the oracle found to be answered wrong, by name.
+#include <doctest/doctest.h>
+
+#include "oracle/measure.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+/// Whether the ray's answer is right, and within its bound.
+bool holds(const Primitive& primitive, const Vec3& origin, const Vec3& direction) {
+  Record record;
+  return measure(truth_of({.primitive = primitive, .origin = origin, .direction = direction}),
+                 standard_tier(), 0, record);
+}
+
+}  // namespace
+
+TEST_CASE("a plane seen from afar at a grazing angle is met where it is") {
+  const Plane plane{.normal = {0x1.4bb8389b04732p-1, 0x1.84ed32eaf6d2ep+0, 0x1.8e92be912bbc9p-1},
+                    .position = {0x1.1fdac6d7c3d49p+8, -0x1.376fdaa9e5289p+10, -0x1.38655ebc3fbbcp+9}};
+  CHECK(holds(plane, {-0x1.603a5289347bdp+38, 0x1.bfc77a65ee94ap+38, -0x1.225e21a165416p+39},
+              {0x1.603a528db440dp+38, -0x1.bfc77a7965b22p+38, 0x1.225e219c83a59p+39}));
+}
+
+TEST_CASE("a line that is parallel to a cylinder's caps to rounding passes beyond them or between them") {
+  const Cylinder beyond{.from = {-0x1.6caa3f4779539p-3, -0x1.59fa5946585c7p-3, 0x1.ad93919a2882ep-6},
+                        .to = {0x1.beccf05c88723p+11, -0x1.5941c4da1e7cp+12, -0x1.9e2c484555c55p+10},
+                        .radius = 0x1.9c442d0ba4135p+12};
+  CHECK(holds(beyond, {0x1.33a64ee273487p+45, 0x1.38f5f350233c8p+45, -0x1.7bb382d8e338bp+45},
+              {-0x1.33a64ee277bd7p+45, -0x1.38f5f34ff3bccp+45, 0x1.7bb382d849fd3p+45}));
+  const Cylinder between{.from = {0x1.8c8f71f3563d3p+7, -0x1.0b5529a925bd9p+8, 0x1.19b71bf6decdp+6},
+                         .to = {0x1.4fc762129fcbcp+17, -0x1.d73fdac1dcac1p+17, 0x1.7af67850778b1p+17},
+                         .radius = 0x1.d838442abbd62p+17};
+  CHECK(holds(between, {0x1.7ce05c90532d5p+31, 0x1.1366c6e4efab6p+32, 0x1.5b389886402fp+31},
+              {-0x1.7ce11c9de4d9cp+31, -0x1.1365d58e5e382p+32, -0x1.5b350250019e4p+31}));
+}
+
+TEST_CASE("a cone is left where it is by a line nearly along its axis") {
+  const Cone cone{.from = {-0x1.065ff98ccb147p+24, -0x1.d32557d311218p+22, -0x1.46b9557835d09p+24},
+                  .to = {-0x1.05ed83d6d95eep+24, -0x1.d69ca4c6600c2p+22, -0x1.46a3e02c8b136p+24},
+                  .radius = 0x1.daf5d664aa4e7p+16};
+  CHECK(holds(cone, {-0x1.866bb09416ba2p+38, 0x1.7a4d5224a98ddp+39, -0x1.24d787939f8f6p+36},
+              {0x1.8667982ec3644p+38, -0x1.7a4e3bd12c20dp+39, 0x1.24c31ea423e91p+36}));
+}
+
+TEST_CASE("a cone's apex is met from afar no worse than the rest of it") {
+  const Cone cone{.from = {0x1.96840205468b8p-28, -0x1.4943ac4cfdd95p-25, -0x1.fe43d86889c07p-23},
+                  .to = {0x1.03791fe4435a6p+21, -0x1.052252ce08a68p+23, 0x1.5905d4c4bd655p+22},
+                  .radius = 0x1.02d7fa8354e51p+25};
+  CHECK(holds(cone, {0x1.03791fe4435a6p+21, -0x1.052252ce08a68p+23, 0x1.2204568a72bdap+41}, {0, 0, -1}));
+}
+
+TEST_CASE("a line that is parallel to a cylinder's axis to rounding stays within it") {
+  const Cylinder cylinder{.from = {-0x1.3931771d9440fp+29, 0, 0},
+                          .to = {-0x1.3931771d9440fp+29, 0x1.1947de971bcecp-28, -0x1.35b4f3084aff7p-27},
+                          .radius = 0x1.26cdda7f2b8e4p-24};
+  CHECK(holds(cylinder, {-0x1.3931771d9440fp+29, -0x1.503ca3af0151cp-8, 0x1.7238e43b1be3bp-7},
+              {0, 0x1.503d9ee226e76p-8, -0x1.723895265c9aap-7}));
+}
+
+TEST_CASE("a triangle is not hit by lines in its plane but for rounding that pass it") {
+  const Triangle triangle{.a = {-0x1.2be50114a5ebap-14, -0x1.43dd991aa04bbp-13, -0x1.9f87fc576b2bbp-3},
+                          .b = {-0x1.e2057cc9b1febp-15, -0x1.37ed19504e16p-13, -0x1.9f9f132dadf0fp-3},
+                          .c = {-0x1.81c8bf1a62da1p-14, -0x1.3956d94c506dep-14, -0x1.9f6b3fce8b3c4p-3}};
+  CHECK(holds(triangle, {-0x1.bb8ef40a8a274p-12, -0x1.d6efa755989bp-13, -0x1.9d863451b8d58p-3},
+              {0x1.4a35762203f2bp-12, 0x1.0bd0f6a48f4d8p-13, -0x1.02f599f2b678p-10}));
+}

@@ -1,0 +1,140 @@
+// How far a point is from a primitive's surface, and where primitives are: by their definitions.
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "oracle/line_oracle.hpp"
+
+namespace crt::test {
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// How far a point, relative to the position, is beyond the rim.
+double beyond_rim(const Disc& d, const IntervalVec& p) {
+  return (length(p) - Interval(d.radius)).value();
+}
+double beyond_rim(const HalfPlane& h, const IntervalVec& p) {
+  const IntervalVec normal = exactly(h.normal);
+  const Interval across = length(cross(normal, exactly(h.direction))) / length(normal);
+  return -(dot(exactly(h.direction), p) / across).value();
+}
+double beyond_rim(const Triangle& t, const IntervalVec& p) {
+  const IntervalVec normal = normal_of(t);
+  const std::array<Vec3, 3> corners = {t.a, t.b, t.c};
+  double result = -infinity;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const IntervalVec corner = exactly(corners[i]);
+    const IntervalVec edge = exactly(corners[(i + 1) % 3]) - corner;
+    const Interval height = dot(normal, cross(edge, p - (corner - exactly(t.a))));
+    result = std::max(result, -(height / (length(normal) * length(edge))).value());
+  }
+  return result;
+}
+
+double outside(const Sphere& s, const IntervalVec& p) {
+  return (length(p - exactly(s.center)) - Interval(s.radius)).value();
+}
+double outside(const Box& b, const IntervalVec& p) {
+  double result = -infinity;
+  const IntervalVec lower = exactly(glm::min(b.corner_a, b.corner_b));
+  const IntervalVec upper = exactly(glm::max(b.corner_a, b.corner_b));
+  for (std::size_t i = 0; i < 3; ++i)
+    result = std::max({result, (lower[i] - p[i]).value(), (p[i] - upper[i]).value()});
+  return result;
+}
+double outside(const Plane& plane, const IntervalVec& p) {
+  const IntervalVec normal = exactly(plane.normal);
+  return (dot(normal, p - exactly(plane.position)) / length(normal)).value();
+}
+double outside(const Frustum& c, const IntervalVec& p) {
+  const IntervalVec axis = exactly(c.to) - exactly(c.from);
+  const IntervalVec w = p - exactly(c.from);
+  const Interval height = length(axis);
+  const Interval h = dot(w, axis) / height;
+  const Interval growth = Interval(c.radius2) - Interval(c.radius);
+  const Interval radial = length(cross(w, axis)) / height;
+  const Interval side =
+      (radial - Interval(c.radius) - growth * (h / height)) * height / sqrt(square(height) + square(growth));
+  return std::max({side.value(), -h.value(), (h - height).value()});
+}
+double outside(const Cylinder& c, const IntervalVec& p) {
+  return outside(frustum_of(c), p);
+}
+double outside(const Cone& c, const IntervalVec& p) {
+  return outside(frustum_of(c), p);
+}
+double outside(const Torus& torus, const IntervalVec& p) {
+  const IntervalVec axis = exactly(torus.axis);
+  const IntervalVec w = p - exactly(torus.center);
+  const Interval height = dot(w, axis) / length(axis);
+  const Interval outwards = length(cross(w, axis)) / length(axis) - Interval(torus.radius);
+  return (sqrt(square(outwards) + square(height)) - Interval(torus.thickness)).value();
+}
+
+Vec3 middle(const Vec3& a, const Vec3& b) {
+  return a / 2.0 + b / 2.0;
+}
+
+struct Ball {
+  Vec3 center;
+  double radius;
+};
+Ball ball_of(const Sphere& s) {
+  return {s.center, s.radius};
+}
+Ball ball_of(const Box& b) {
+  return {middle(b.corner_a, b.corner_b), glm::length(b.corner_a - b.corner_b) / 2};
+}
+Ball ball_of(const Plane& p) {
+  return {p.position, 0};
+}
+Ball ball_of(const HalfPlane& h) {
+  return {h.position, 0};
+}
+Ball ball_of(const Cylinder& c) {
+  return {middle(c.from, c.to), std::hypot(c.radius, glm::length(c.to - c.from) / 2)};
+}
+Ball ball_of(const Cone& c) {
+  return {middle(c.from, c.to), std::hypot(std::max(c.radius, c.radius2), glm::length(c.to - c.from) / 2)};
+}
+Ball ball_of(const Torus& t) {
+  return {t.center, t.radius + t.thickness};
+}
+Ball ball_of(const Disc& d) {
+  return {d.center, d.radius};
+}
+Ball ball_of(const Triangle& t) {
+  const Vec3 center = t.a / 3.0 + t.b / 3.0 + t.c / 3.0;
+  return {center,
+          std::max({glm::length(t.a - center), glm::length(t.b - center), glm::length(t.c - center)})};
+}
+
+}  // namespace
+
+double true_distance(const Primitive& primitive, const Vec3& origin, const Vec3& direction, double t) {
+  const ExactLine line(origin, direction, center_of(primitive));
+  return std::visit(
+      [&]<class P>(const P& p) {
+        if constexpr (is_surface<P>) {
+          const Polynomial plane = polynomials_of(primitive, line)[0];
+          if (plane[1].certain_sign() == 0) return plane[0].certain_sign() == 0 ? 0.0 : infinity;
+          const IntervalVec at = line.at(-plane[0] / plane[1]);
+          return beyond_rim(p, at - exactly(position_of(p)));
+        } else {
+          return outside(p, line.at(Interval(t) - Interval(line.shift)));
+        }
+      },
+      primitive);
+}
+
+Vec3 center_of(const Primitive& primitive) {
+  return std::visit([](const auto& p) { return ball_of(p).center; }, primitive);
+}
+
+double size_of(const Primitive& primitive) {
+  return std::visit([](const auto& p) { return ball_of(p).radius; }, primitive);
+}
+
+}  // namespace crt::test
