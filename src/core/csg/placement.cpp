@@ -82,10 +82,7 @@ ObjectRay Placement::to_object(const Vec3& origin, const Vec3& direction) const 
 }
 
 ExactRay Placement::to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const {
-  ExactRay exact;
-  exact.near = ray;
-  exact.world_origin = origin;
-  exact.world_direction = direction;
+  ExactRay exact{.near = ray, .world_origin = origin, .world_direction = direction};
   if (kind_ == Kind::identity) return exact;
   exact.to_world = &to_world_;
   if (kind_ == Kind::affine) {

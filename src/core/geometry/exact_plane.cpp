@@ -80,15 +80,14 @@ ExactPlane::Meeting ExactPlane::estimate_across_axis(const ExactRay& ray) const 
 }
 
 ExactPlane::Rate ExactPlane::rate(const ExactRay& ray) const {
-  const ObjectRay& near = ray.near;
-  DoubleDouble rate;
+  PreciseVec3 direction;
   double size = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const DoubleDouble& n = normal_[static_cast<std::size_t>(axis)];
-    rate = rate + n * DoubleDouble(near.direction[axis], near.direction_low[axis]);
-    size += std::abs(n.hi * near.direction[axis]);
+    const auto i = static_cast<std::size_t>(axis);
+    direction[i] = {ray.near.direction[axis], ray.near.direction_low[axis]};
+    size += std::abs(normal_[i].hi * direction[i].hi);
   }
-  return {rate, precise_roundoff * size + normal_size * ray.direction_error};
+  return {precise_dot(normal_, direction), precise_roundoff * size + normal_size * ray.direction_error};
 }
 
 int ExactPlane::side(const ExactRay& ray) const {
@@ -102,14 +101,15 @@ ExactPlane::Meeting ExactPlane::estimate(const ExactRay& ray) const {
   const Rate rate = this->rate(ray);
   Meeting result;
   if (!rate.certain()) return result;
-  DoubleDouble height;
+  PreciseVec3 offset;
   double size = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const DoubleDouble& n = normal_[static_cast<std::size_t>(axis)];
-    const DoubleDouble offset = two_sum(near.origin[axis], -position_[axis]) + near.origin_low[axis];
-    height = height + n * offset;
-    size += std::abs(n.hi) * (std::abs(near.origin[axis]) + std::abs(position_[axis]));
+    const auto i = static_cast<std::size_t>(axis);
+    const DoubleDouble high = two_sum(near.origin[axis], -position_[axis]);
+    offset[i] = two_sum(high.hi, high.lo + near.origin_low[axis]);
+    size += std::abs(normal_[i].hi) * (std::abs(near.origin[axis]) + std::abs(position_[axis]));
   }
+  const DoubleDouble height = precise_dot(normal_, offset);
   result.side = rate.sign();
   result.t = -height / rate.value;
   const double height_error = precise_roundoff * size + normal_size * ray.origin_error;

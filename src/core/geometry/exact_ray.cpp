@@ -62,14 +62,15 @@ double ExactRay::point_error(const Vec3& center, double t) const {
          origin_error + std::abs(t) * direction_error;
 }
 
-std::array<DoubleDouble, 3> precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t) {
-  std::array<DoubleDouble, 3> result;
+PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t) {
+  PreciseVec3 result;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble offset = two_sum(ray.origin[axis], -center[axis]);
     const DoubleDouble way = two_product(t.hi, ray.direction[axis]);
+    const DoubleDouble sum = two_sum(offset.hi, way.hi);
     const double low =
         ray.origin_low[axis] + std::fma(t.hi, ray.direction_low[axis], t.lo * ray.direction[axis]);
-    result[static_cast<std::size_t>(axis)] = (offset + way) + DoubleDouble(low);
+    result[static_cast<std::size_t>(axis)] = two_sum(sum.hi, sum.lo + (offset.lo + way.lo + low));
   }
   return result;
 }

@@ -5,6 +5,7 @@
 
 #include "core/geometry/object_ray.hpp"
 #include "core/math/dyadic.hpp"
+#include "core/math/precise_transform.hpp"
 #include "crt/transform.hpp"
 
 namespace crt::core {
@@ -21,8 +22,8 @@ struct ExactLine {
 inline constexpr double last_bit_tolerance = 0x1p-60;
 
 struct ExactRay {
-  /// In object space, to about 100 bits.
-  ObjectRay near;
+  /// In object space, to about 100 bits; must outlive this.
+  const ObjectRay& near;
   /// What each component of origin and direction may be off by at most.
   double origin_error = 0;
   double direction_error = 0;
@@ -51,7 +52,20 @@ struct ExactRay {
 };
 
 /// p(t + t_low) - center to about 100 bits.
-std::array<DoubleDouble, 3> precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t);
+PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t);
+
+/// a . b to about 100 bits of the largest product.
+/// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2), for factors of two doubles each.
+inline DoubleDouble precise_dot(const PreciseVec3& a, const PreciseVec3& b) {
+  const DoubleDouble x = two_product(a[0].hi, b[0].hi);
+  const DoubleDouble y = two_product(a[1].hi, b[1].hi);
+  const DoubleDouble z = two_product(a[2].hi, b[2].hi);
+  const DoubleDouble xy = two_sum(x.hi, y.hi);
+  const DoubleDouble xyz = two_sum(xy.hi, z.hi);
+  double low = xyz.lo + xy.lo + (x.lo + y.lo + z.lo);
+  for (std::size_t i = 0; i < 3; ++i) low += std::fma(a[i].hi, b[i].lo, a[i].lo * b[i].hi);
+  return two_sum(xyz.hi, low);
+}
 
 /// What double-double arithmetic leaves as an error of its result: a few of its roundings of 2^-105.
 inline constexpr double precise_roundoff = 0x1p-100;

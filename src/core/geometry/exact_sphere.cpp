@@ -10,10 +10,6 @@
 namespace crt::core {
 namespace {
 
-DoubleDouble dot(const PreciseVec3& a, const PreciseVec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
 double sum_of_sizes(const PreciseVec3& v) {
   return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
 }
@@ -56,7 +52,7 @@ class ExactSphereShape final : public ExactShape {
     constexpr int most_steps = 3;
     for (int step = 0; step < most_steps; ++step) {
       const PreciseVec3 p = precise_from_center(ray.near, center_, t);
-      const DoubleDouble height = dot(p, p) - two_product(radius_, radius_);
+      const DoubleDouble height = precise_dot(p, p) - two_product(radius_, radius_);
       const double slope = p[0].hi * d.x + p[1].hi * d.y + p[2].hi * d.z;
       if ((slope < 0) != crossing.entering || slope == 0) return false;
       const double change = height.value() / (2 * slope);
@@ -112,8 +108,8 @@ class ExactSphereShape final : public ExactShape {
       d[static_cast<std::size_t>(axis)] = {near.direction[axis], near.direction_low[axis]};
     }
     const PreciseVec3 p = precise_from_center(near, center_, 0.0);
-    const DoubleDouble a = dot(d, d);
-    const DoubleDouble half = -dot(p, d) / a;
+    const DoubleDouble a = precise_dot(d, d);
+    const DoubleDouble half = -precise_dot(p, d) / a;
     DoubleDouble t{2 * half.hi, 2 * half.lo};
     const double size = sum_of_sizes(p);
     double error =
