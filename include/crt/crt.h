@@ -313,6 +313,12 @@ typedef enum crt_falloff_model {
   CRT_FALLOFF_LIGHT     /**< D is the way from the lit point to the light */
 } crt_falloff_model;
 
+/** How close a call the geometry settles. Both answer the same question. */
+typedef enum crt_precision {
+  CRT_PRECISION_STANDARD = 0, /**< right at a silhouette the last bit is left to rounding */
+  CRT_PRECISION_EXACT /**< whether a line hits is always right, and t within 0.51 ulp; a little slower */
+} crt_precision;
+
 /** How a scene is rendered. */
 typedef struct crt_settings {
   uint32_t struct_size;
@@ -330,6 +336,8 @@ typedef struct crt_settings {
   const char* author;
   const char* date;
   const char* notes;
+  int32_t precision; /**< a crt_precision; default CRT_PRECISION_STANDARD */
+  int32_t reserved;  /**< must be 0 */
 } crt_settings;
 
 /** As a checker, with all values that other types need at sensible defaults too. */
@@ -684,6 +692,7 @@ typedef struct crt_render_stats {
   uint64_t lens_samples;
   double prepare_seconds; /**< by the clock on the wall, as the next */
   double trace_seconds;
+  uint64_t escalations; /**< questions of CRT_PRECISION_EXACT that only exact arithmetic answered */
 } crt_render_stats;
 
 /** @} */

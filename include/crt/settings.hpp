@@ -11,6 +11,12 @@ enum class FalloffModel {
   light,  ///< from the lit point to the light
 };
 
+/// How close a call the geometry settles: see docs/numerics.md. Both answer the same question.
+enum class Precision {
+  standard,  ///< t within some roundings; the last bit is left to rounding right at a silhouette
+  exact,     ///< whether a line hits is always right, and t within 0.51 ulp; a little slower
+};
+
 /// How a scene is rendered; everything that is neither geometry, light nor camera.
 struct Settings {
   // What the picture's file says of it.
@@ -37,6 +43,7 @@ struct Settings {
   bool show_clip = false;
   /// Of the random numbers: another seed, another noise.
   std::uint64_t seed = 0;
+  Precision precision = Precision::standard;
 };
 
 }  // namespace crt

@@ -23,6 +23,10 @@ struct RenderStats {
   std::uint64_t intersection_tests = 0;  ///< rays against primitives or CSG objects
   std::uint64_t interval_events = 0;     ///< crossings sorted and flipped inside CSG objects
 
+  /// How often Precision::exact had to go on from bounded rounding to exact arithmetic; 0 in the standard
+  /// one.
+  std::uint64_t escalations = 0;
+
   /// How often the solids around a point were looked up, and media entered or left.
   std::uint64_t media_lookups = 0;
   std::uint64_t media_changes = 0;

@@ -28,6 +28,7 @@ crt_settings to_c(const Settings& settings) {
   out.author = settings.author.c_str();
   out.date = settings.date.c_str();
   out.notes = settings.notes.c_str();
+  out.precision = static_cast<std::int32_t>(settings.precision);
   return out;
 }
 
@@ -40,6 +41,8 @@ crt_settings defaults<crt_settings>() {
 
 static_assert(static_cast<int>(FalloffModel::path) == CRT_FALLOFF_PATH);
 static_assert(static_cast<int>(FalloffModel::light) == CRT_FALLOFF_LIGHT);
+static_assert(static_cast<int>(Precision::standard) == CRT_PRECISION_STANDARD);
+static_assert(static_cast<int>(Precision::exact) == CRT_PRECISION_EXACT);
 
 Settings to_settings(const crt_settings* settings) {
   const auto given = taken(settings, "settings");
@@ -59,6 +62,7 @@ Settings to_settings(const crt_settings* settings) {
   result.author = text_or_empty(given.author);
   result.date = text_or_empty(given.date);
   result.notes = text_or_empty(given.notes);
+  result.precision = to_enum(given.precision, Precision::exact, "settings.precision", "crt_precision");
   return result;
 }
 
@@ -82,6 +86,7 @@ crt_render_stats to_c(const RenderStats& stats) {
   out.lens_samples = stats.lens_samples;
   out.prepare_seconds = stats.prepare_seconds;
   out.trace_seconds = stats.trace_seconds;
+  out.escalations = stats.escalations;
   return out;
 }
 

@@ -60,20 +60,13 @@ std::span<const std::size_t> field_ends<crt_background>() {
 template <>
 std::span<const std::size_t> field_ends<crt_settings>() {
   using S = crt_settings;
-  static constexpr std::array ends = {CRT_END(S, width),
-                                      CRT_END(S, height),
-                                      CRT_END(S, supersampling),
-                                      CRT_END(S, dof_samples),
-                                      CRT_END(S, recursion_depth),
-                                      CRT_END(S, gamma),
-                                      CRT_END(S, min_weight),
-                                      CRT_END(S, falloff_model),
-                                      CRT_END(S, show_clip),
-                                      CRT_END(S, seed),
-                                      CRT_END(S, title),
-                                      CRT_END(S, author),
-                                      CRT_END(S, date),
-                                      CRT_END(S, notes)};
+  static constexpr std::array ends = {
+      CRT_END(S, width),       CRT_END(S, height),          CRT_END(S, supersampling),
+      CRT_END(S, dof_samples), CRT_END(S, recursion_depth), CRT_END(S, gamma),
+      CRT_END(S, min_weight),  CRT_END(S, falloff_model),   CRT_END(S, show_clip),
+      CRT_END(S, seed),        CRT_END(S, title),           CRT_END(S, author),
+      CRT_END(S, date),        CRT_END(S, notes),           CRT_END(S, precision),
+      CRT_END(S, reserved)};
   return ends;
 }
 
@@ -153,7 +146,8 @@ std::span<const std::size_t> field_ends<crt_render_stats>() {
                                       CRT_END(S, pattern_lookups),
                                       CRT_END(S, lens_samples),
                                       CRT_END(S, prepare_seconds),
-                                      CRT_END(S, trace_seconds)};
+                                      CRT_END(S, trace_seconds),
+                                      CRT_END(S, escalations)};
   return ends;
 }
 

@@ -108,6 +108,7 @@ constexpr SettingOption setting_options[] = {
     {"falloffmodel", SettingKind::text, "distance that dims a light: path or light"},
     {"showclip", SettingKind::flag, "marks pixels brighter than white in red; --showclip=false does not"},
     {"seed", SettingKind::integer, "another seed, another noise"},
+    {"precision", SettingKind::text, "standard, or exact: whether a line hits is always right"},
     {"projection", SettingKind::text, "pinhole, spherical, cylindrical or orthographic"},
     {"title", SettingKind::text, "of the picture, kept in its file"},
     {"author", SettingKind::text, "likewise"},

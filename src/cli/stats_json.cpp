@@ -109,6 +109,10 @@ std::string name_of(FalloffModel model) {
   return model == FalloffModel::path ? "path" : "light";
 }
 
+std::string name_of(Precision precision) {
+  return precision == Precision::exact ? "exact" : "standard";
+}
+
 std::string settings_json(const Settings& settings, Projection projection, int level) {
   return ObjectWriter(level)
       .add("title", settings.title)
@@ -125,6 +129,7 @@ std::string settings_json(const Settings& settings, Projection projection, int l
       .add("falloffmodel", name_of(settings.falloff_model))
       .add("showclip", settings.show_clip)
       .add("seed", settings.seed)
+      .add("precision", name_of(settings.precision))
       .add("projection", name_of(projection))
       .text();
 }
@@ -154,6 +159,7 @@ std::string counters_json(const RenderStats& stats, int level) {
       .add("samples_over_ray_bound", stats.samples_over_ray_bound)
       .add("intersection_tests", stats.intersection_tests)
       .add("interval_events", stats.interval_events)
+      .add("escalations", stats.escalations)
       .add("media_lookups", stats.media_lookups)
       .add("media_changes", stats.media_changes)
       .add("pattern_lookups", stats.pattern_lookups)

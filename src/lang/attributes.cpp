@@ -159,6 +159,12 @@ void convert(const Given& given, Context&, FalloffModel& field) {
   choose(given, std::array{Choice{"path", path}, Choice{"light", light}}, field);
 }
 
+void convert(const Given& given, Context&, Precision& field) {
+  using enum Precision;
+  using Choice = std::pair<std::string_view, Precision>;
+  choose(given, std::array{Choice{"standard", standard}, Choice{"exact", exact}}, field);
+}
+
 void convert(const Given& given, Context&, Camera& field) {
   field = *get<std::shared_ptr<const Camera>>(given);
 }

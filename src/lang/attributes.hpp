@@ -35,6 +35,7 @@ void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
 void convert(const Given& given, Context& context, FalloffModel& field);
+void convert(const Given& given, Context& context, Precision& field);
 void convert(const Given& given, Context& context, Camera& field);
 void convert(const Given& given, Context& context, std::vector<Light>& field);
 void convert(const Given& given, Context& context, Background& field);
@@ -92,6 +93,9 @@ constexpr std::string_view type_text(const ApertureShape*) {
   return "String";
 }
 constexpr std::string_view type_text(const FalloffModel*) {
+  return "String";
+}
+constexpr std::string_view type_text(const Precision*) {
   return "String";
 }
 constexpr std::string_view type_text(const Camera*) {

@@ -35,6 +35,7 @@ ObjectType make_settings_type() {
                      setting("falloffmodel", &Settings::falloff_model, "\"path\""),
                      setting("showclip", &Settings::show_clip, "false"),
                      setting("seed", &Settings::seed, "0"),
+                     setting("precision", &Settings::precision, "\"standard\""),
                      attribute("projection", &Fields::projection, "\"pinhole\""),
                      attribute("camera", &Fields::camera, "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"),
                      attribute("lights", &Fields::lights, "[]"),

@@ -82,7 +82,7 @@ AT(crt_background, sky_alpha, 96);
 AT(crt_background, image, 104);
 AT(crt_background, angle, 112);
 
-SIZE(crt_settings, 88);
+SIZE(crt_settings, 96);
 AT(crt_settings, struct_size, 0);
 AT(crt_settings, width, 4);
 AT(crt_settings, height, 8);
@@ -98,6 +98,8 @@ AT(crt_settings, title, 56);
 AT(crt_settings, author, 64);
 AT(crt_settings, date, 72);
 AT(crt_settings, notes, 80);
+AT(crt_settings, precision, 88);
+AT(crt_settings, reserved, 92);
 
 SIZE(crt_script_options, 192);
 AT(crt_script_options, struct_size, 0);
@@ -159,7 +161,7 @@ AT(crt_render_options, progress_user, 40);
 AT(crt_render_options, log, 48);
 AT(crt_render_options, log_user, 56);
 
-SIZE(crt_render_stats, 136);
+SIZE(crt_render_stats, 144);
 AT(crt_render_stats, struct_size, 0);
 AT(crt_render_stats, threads, 4);
 AT(crt_render_stats, pixels, 8);
@@ -178,6 +180,7 @@ AT(crt_render_stats, pattern_lookups, 104);
 AT(crt_render_stats, lens_samples, 112);
 AT(crt_render_stats, prepare_seconds, 120);
 AT(crt_render_stats, trace_seconds, 128);
+AT(crt_render_stats, escalations, 136);
 
 SIZE(crt_write_options, 8);
 AT(crt_write_options, struct_size, 0);

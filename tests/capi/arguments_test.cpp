@@ -263,6 +263,9 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
     crt_settings settings;
     crt_settings_init(&settings, sizeof settings);
     settings.falloff_model = bad;
+    crt_settings precise;
+    crt_settings_init(&precise, sizeof precise);
+    precise.precision = bad;
     crt_pattern pattern;
     crt_pattern_init(&pattern, sizeof pattern);
     pattern.type = bad;
@@ -279,6 +282,7 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
         {"aperture_shape", [&] { return crt_scene_set_camera(scene.get(), &aperture); }},
         {"type", [&] { return crt_scene_set_background(scene.get(), &background); }},
         {"falloff_model", [&] { return crt_scene_set_settings(scene.get(), &settings); }},
+        {"precision", [&] { return crt_scene_set_settings(scene.get(), &precise); }},
         {"type", [&] { return crt_entity_with_material(ball.get(), &material, &out); }},
         {"type", [&] { return crt_entity_with_material(ball.get(), &bumpy, &out); }},
         {"type", [&] { return crt_light_init_type(&light, sizeof light, bad); }},

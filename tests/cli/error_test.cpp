@@ -42,6 +42,7 @@ TEST_CASE_FIXTURE(Fixture, "a wrong script ends with 1, tells the place and writ
 TEST_CASE_FIXTURE(Fixture, "a setting out of range on the command line is an error, too") {
   CHECK(run_crt(folder, {"render", "ball.crt", "--width", "0"}).exit_code == script_error);
   CHECK(run_crt(folder, {"render", "ball.crt", "--falloffmodel", "none"}).exit_code == script_error);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--precision", "half"}).exit_code == script_error);
   CHECK_FALSE(folder.has("ball.png"));
 }
 

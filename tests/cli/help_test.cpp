@@ -30,7 +30,7 @@ TEST_CASE("the help of render lists every setting by its script name") {
   const std::string help = run_crt(folder, {"render", "--help"}).out;
   for (const char* name : {"--width", "--height", "--gamma", "--supersampling", "--dofsamples",
                            "--recursiondepth", "--minweight", "--falloffmodel", "--showclip", "--seed",
-                           "--projection", "--title", "--author", "--date", "--notes"}) {
+                           "--precision", "--projection", "--title", "--author", "--date", "--notes"}) {
     CHECK_MESSAGE(help.find(name) != std::string::npos, name);
   }
 }

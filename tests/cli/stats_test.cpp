@@ -32,6 +32,8 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
   CHECK(stats["settings"]["supersampling"].number == 3);
   CHECK(stats["settings"]["title"].string == "A ball");
   CHECK(stats["settings"]["falloffmodel"].string == "path");
+  CHECK(stats["settings"]["precision"].string == "standard");
+  CHECK(stats["counters"]["escalations"].number == 0);
   CHECK(stats["script"].string == "ball.crt");
   CHECK(stats["output"].string == "ball.png");
   for (const char* stage : {"parse", "prepare", "trace", "write"}) {

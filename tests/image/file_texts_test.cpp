@@ -50,6 +50,7 @@ Image described_picture() {
   settings.min_weight = 0.125;
   settings.falloff_model = FalloffModel::light;
   settings.seed = 18446744073709551615u;
+  settings.precision = Precision::exact;
   image.set_settings(settings);
   image.stats().camera_rays = 576;
   image.stats().prepare_seconds = 0.25;
@@ -75,6 +76,7 @@ TEST_CASE("a PNG tells title, author, date, notes, software, settings and what t
                                                        {"crt:falloffmodel", "light"},
                                                        {"crt:showclip", "false"},
                                                        {"crt:seed", "18446744073709551615"},
+                                                       {"crt:precision", "exact"},
                                                        {"crt:camerarays", "576"},
                                                        {"crt:renderseconds", "1.750"}};
   CHECK(png_texts(file_text(directory / "a.png")) == expected);

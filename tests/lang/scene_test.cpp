@@ -36,7 +36,7 @@ TEST_CASE("all settings arrive") {
   const crt::Scene scene = scene_of(R"(Settings {
     title -> "T" author -> "A" date -> "D" notes -> "N" width -> 12 height -> 34 gamma -> 2.5
     supersampling -> 3 dofsamples -> 4 recursiondepth -> 5 minweight -> 0.25 falloffmodel -> "light"
-    showclip -> true seed -> 77 projection -> "cylindrical"
+    showclip -> true seed -> 77 precision -> "exact" projection -> "cylindrical"
   } Scene { })");
   const crt::Settings& settings = scene.settings;
   CHECK(settings.title == "T");
@@ -53,6 +53,7 @@ TEST_CASE("all settings arrive") {
   CHECK(settings.falloff_model == crt::FalloffModel::light);
   CHECK(settings.show_clip);
   CHECK(settings.seed == 77);
+  CHECK(settings.precision == crt::Precision::exact);
   CHECK(scene.camera.projection == crt::Projection::cylindrical);
 }
 

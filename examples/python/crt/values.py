@@ -222,6 +222,8 @@ class Settings(Struct):
     author: Text
     date: Text
     notes: Text
+    precision: Int
+    reserved: Int
 
 
 @growable("crt_render_stats", has_init=False)
@@ -245,3 +247,4 @@ class RenderStats(Struct):
     lens_samples: Long
     prepare_seconds: Double
     trace_seconds: Double
+    escalations: Long

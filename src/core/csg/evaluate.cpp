@@ -22,6 +22,15 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
   return {};
 }
 
+bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
+                    std::uint64_t& escalations) {
+  if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
+  ExactRay exact = leaf.placement->to_object_exactly(ray.origin, ray.direction, object_ray);
+  exact.start_error = ray.start.t_error;
+  exact.escalations = &escalations;
+  return leaf.exact->crossings(exact, out);
+}
+
 LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
   constexpr double inf = std::numeric_limits<double>::infinity();
   // Two roundings go into each t: of the difference and of the quotient.
@@ -82,23 +91,31 @@ void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
     }
     object_ray.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces, ray_.start);
     work_.leaf_crossings_.clear();
-    if (leaf.shape->crossings(object_ray, work_.leaf_crossings_)) flip_leaf(index);
+    if (leaf_crossings(leaf, ray_, object_ray, work_.leaf_crossings_, work_.escalations)) flip_leaf(index);
     for (const Crossing& crossing : work_.leaf_crossings_) {
       const std::uint32_t surface = face_surfaces[leaf.first_face + crossing.face].surface;
       double t = crossing.t;
+      double t_low = crossing.t_low;
       // What coincides with the start but is another surface: rounding alone says on which side.
       if (surface != ray_.start.surface && t > ray_.t_min &&
           t - crossing.error <= ray_.t_min + ray_.start.t_error) {
         t = ray_.t_min;
+        t_low = 0;
       }
-      work_.crossings_.push_back(
-          {t, crossing.error, index, crossing.face, surface, crossing.root, crossing.entering});
+      work_.crossings_.push_back({.t = t,
+                                  .error = crossing.error,
+                                  .t_low = t_low,
+                                  .leaf = index,
+                                  .face = crossing.face,
+                                  .surface = surface,
+                                  .root = crossing.root,
+                                  .entering = crossing.entering});
     }
   }
   work_.events += work_.crossings_.size();
   if (program_.coincident_faces) unify_coincident();
   std::sort(work_.crossings_.begin(), work_.crossings_.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
-    return std::tie(a.t, a.leaf, a.entering) < std::tie(b.t, b.leaf, b.entering);
+    return std::tie(a.t, a.t_low, a.leaf, a.entering) < std::tie(b.t, b.t_low, b.leaf, b.entering);
   });
 }
 
@@ -112,6 +129,7 @@ void CsgEvaluation::unify_coincident() {
     if (crossings[i].surface != first.surface || crossings[i].root != first.root) continue;
     crossings[i].t = first.t;
     crossings[i].error = first.error;
+    crossings[i].t_low = first.t_low;
   }
 }
 
@@ -119,7 +137,11 @@ std::size_t CsgEvaluation::cluster_end(std::size_t begin) const {
   const auto& crossings = work_.crossings_;
   const CsgCrossing& first = crossings[begin];
   std::size_t end = begin + 1;
-  while (end < crossings.size() && crossings[end].t - first.t <= first.error + crossings[end].error) ++end;
+  const auto way_from_first = [&](const CsgCrossing& crossing) {
+    return (crossing.t - first.t) + (crossing.t_low - first.t_low);
+  };
+  while (end < crossings.size() && way_from_first(crossings[end]) <= first.error + crossings[end].error)
+    ++end;
   return end;
 }
 
@@ -177,6 +199,7 @@ CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
   if (cause == nullptr) cause = &work_.crossings_[begin];
   return {.t = work_.crossings_[begin].t,
           .error = cause->error,
+          .t_low = work_.crossings_[begin].t_low,
           .leaf = cause->leaf,
           .face = cause->face,
           .entering = value(0)};

@@ -16,6 +16,7 @@ inline constexpr std::uint32_t nothing = 0xffffffffu;
 struct CsgCrossing {
   double t = 0;
   double error = 0;
+  double t_low = 0;        ///< as in Crossing
   std::uint32_t leaf = 0;  ///< within the object
   std::uint32_t face = 0;
   std::uint32_t surface = 0;
@@ -27,6 +28,7 @@ struct CsgCrossing {
 struct CsgHit {
   double t = 0;
   double error = 0;
+  double t_low = 0;
   std::uint32_t leaf = 0;  ///< within the object: whose face it is, and so whose material
   std::uint32_t face = 0;
   bool entering = false;  ///< the object
@@ -57,6 +59,8 @@ class CsgWorkspace {
  public:
   /// Crossings handled since it was made.
   std::uint64_t events = 0;
+  /// Questions of the exact tier that only exact arithmetic answered.
+  std::uint64_t escalations = 0;
 
  private:
   friend class CsgEvaluation;
@@ -77,6 +81,11 @@ class CsgWorkspace {
 /// on, as the leaf's own ray needs to know it; none if there is no such face.
 RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const FaceSurface> face_surfaces,
                        const StartPoint& start);
+
+/// The crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's space, by the leaf's
+/// tier.
+bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
+                    std::uint64_t& escalations);
 
 /// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
 struct LineSpan {

@@ -26,6 +26,36 @@ Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.roun
   if (to_world_ == Transform{}) return;
   kind_ = to_world_ == unmoved ? Kind::translation : Kind::affine;
   to_object_ = inverse(PreciseTransform(to_world_));
+  if (kind_ == Kind::affine) vector_error_ = inverse_error();
+}
+
+/// With B the computed inverse of A, A^-1 - B = A^-1 (I - A B), which is at most |B| e / (1 - e) where e
+/// bounds |I - A B| and the rounding of computing that. All norms are the largest sum of sizes in a row.
+double Placement::inverse_error() const {
+  const PreciseTransform forth(to_world_);
+  double residual = 0;
+  double inverse_size = 0;
+  for (std::size_t i = 0; i < 3; ++i) {
+    double row_residual = 0;
+    double row_size = 0;
+    for (std::size_t j = 0; j < 3; ++j) {
+      DoubleDouble sum = i == j ? -1.0 : 0.0;
+      double size = 1;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const DoubleDouble product = forth.rows[i][k] * to_object_.rows[k][j];
+        sum = sum + product;
+        size += std::abs(product.hi);
+      }
+      row_residual += std::abs(sum.hi) + precise_roundoff * size;
+      row_size += std::abs(to_object_.rows[i][j].hi);
+    }
+    residual = std::max(residual, row_residual);
+    inverse_size = std::max(inverse_size, row_size);
+  }
+  constexpr double largest_residual = 0.5;  // beyond it nothing is known, and every answer is found exactly
+  if (!(residual < largest_residual)) return std::numeric_limits<double>::infinity();
+  // And the roundings of the product with the vector itself.
+  return inverse_size * (2 * residual + precise_roundoff);
 }
 
 ObjectRay Placement::to_object(const Vec3& origin, const Vec3& direction) const {
@@ -49,6 +79,18 @@ ObjectRay Placement::to_object(const Vec3& origin, const Vec3& direction) const 
     ray.direction_low[axis] = along.lo;
   }
   return ray;
+}
+
+ExactRay Placement::to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const {
+  ExactRay exact{.near = ray, .world_origin = origin, .world_direction = direction};
+  if (kind_ == Kind::identity) return exact;
+  exact.to_world = &to_world_;
+  if (kind_ == Kind::affine) {
+    exact.origin_error =
+        vector_error_ * (largest_component(origin) + largest_component(to_world_.translation));
+    exact.direction_error = vector_error_ * largest_component(direction);
+  }
+  return exact;
 }
 
 Vec3 Placement::point_to_object(const Vec3& world) const {

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/geometry/bounds.hpp"
+#include "core/geometry/exact_ray.hpp"
 #include "core/geometry/object_ray.hpp"
 #include "core/math/precise_transform.hpp"
 #include "crt/transform.hpp"
@@ -23,6 +24,9 @@ class Placement {
   /// The ray origin + t * direction in object space, with the same t.
   ObjectRay to_object(const Vec3& origin, const Vec3& direction) const;
 
+  /// The same as the exact tier takes it; `ray` is what to_object() says, and where it starts.
+  ExactRay to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const;
+
   Vec3 point_to_object(const Vec3& world) const;
   Vec3 point_to_world(const Vec3& object) const;
 
@@ -41,11 +45,16 @@ class Placement {
                       DoubleDouble& world_offset) const;
 
  private:
+  double inverse_error() const;
+
   enum class Kind { identity, translation, affine };
 
   Kind kind_ = Kind::identity;
   Transform to_world_;
   PreciseTransform to_object_;
+  /// Of a vector taken to object space: each component is off by at most this times the largest of the
+  /// vector.
+  double vector_error_ = 0;
 };
 
 }  // namespace crt::core

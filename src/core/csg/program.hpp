@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/csg/placement.hpp"
+#include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
@@ -24,8 +25,9 @@ struct FaceSurface {
 /// A primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
-  const Placement* placement = nullptr;  ///< shared by leaves that are placed alike; the scene owns it
-  Bounds bounds;                         ///< in the world, of what can matter of it
+  std::unique_ptr<const ExactShape> exact;  ///< the same in the exact tier; none in the standard one
+  const Placement* placement = nullptr;     ///< shared by leaves that are placed alike; the scene owns it
+  Bounds bounds;                            ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces

@@ -23,6 +23,8 @@ struct Crossing {
   double t = 0;
   /// |t - true t| is at most this: the standard tier's bound of docs/numerics.md, in units of t.
   double error = 0;
+  /// In the exact tier t + t_low is the crossing to about 100 bits, and `error` that of the sum.
+  double t_low = 0;
   std::uint32_t face = 0;
   /// The how-manieth meeting of this ray with this face's surface (the whole plane, the whole
   /// quadric), in order of t from 0, counted over the whole line. Two primitives with an equal

@@ -124,6 +124,10 @@ void Rendering::tell(const RenderStats& stats) const {
   if (!options_.log) return;
   log(LogLevel::info, fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
                                   stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
+  if (settings_.precision == Precision::exact) {
+    log(LogLevel::info,
+        fmt::format("exact: {} questions were too close for rounded arithmetic", stats.escalations));
+  }
   if (options_.threads > stats.threads) {
     log(LogLevel::warning, fmt::format("asked for {} threads, but this process may use {} at most",
                                        options_.threads, stats.threads));

@@ -15,6 +15,7 @@ void add_counts(RenderStats& total, const Workspace& workspace) {
   }
   total.intersection_tests += workspace.rays.intersection_tests;
   total.interval_events += workspace.rays.interval_events();
+  total.escalations += workspace.rays.escalations();
 }
 
 }  // namespace

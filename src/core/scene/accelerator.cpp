@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <tuple>
 
 #include "core/scene/embree_tree.hpp"
 
@@ -62,7 +63,7 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
   const ObjectRay object_ray = accelerator_.object_ray(object.first_leaf, ray_);
   CrossingList& crossings = work_.crossings;
   crossings.clear();
-  bool inside = leaf.shape->crossings(object_ray, crossings);
+  bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations);
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = object_ray.start.face != no_face;
   const double start = ray_.t_min + ray_.start.t_error;
@@ -78,6 +79,7 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
     inside = crossing.entering;
     const RayHit hit{.t = crossing.t,
                      .error = crossing.error,
+                     .t_low = crossing.t_low,
                      .object = object_index,
                      .leaf = object.first_leaf,
                      .face = crossing.face,
@@ -102,6 +104,7 @@ void Accelerator::Query::test_csg(std::uint32_t object_index, const SceneObject&
       leaf = program.first_leaf + found.leaf;
       const RayHit hit{.t = found.t,
                        .error = found.error,
+                       .t_low = found.t_low,
                        .object = object_index,
                        .leaf = leaf,
                        .face = found.face,
@@ -160,7 +163,8 @@ RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
 
    private:
     bool take(const RayHit& hit) override {
-      if (hit.t < ray().t_max && (hit.t < best.t || (hit.t == best.t && hit.object < best.object))) {
+      if (hit.t < ray().t_max &&
+          std::tie(hit.t, hit.t_low, hit.object) < std::tie(best.t, best.t_low, best.object)) {
         best = hit;
         set_limit(hit.t);
       }

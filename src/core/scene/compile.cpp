@@ -16,6 +16,7 @@ constexpr std::uint64_t most_primitives = std::uint64_t{1} << 25;
 
 class Compiler {
  public:
+  explicit Compiler(Precision precision) : precision_(precision) {}
   CompiledScene compile(std::span<const Entity> entities);
 
  private:
@@ -37,6 +38,7 @@ class Compiler {
   const Placement* place(const PreciseTransform& to_world);
   std::uint32_t material_number(const Part& part);
 
+  Precision precision_;
   CompiledScene result_;
   SurfaceTable surfaces_;
   std::unordered_map<const Material*, std::uint32_t> material_numbers_;
@@ -210,6 +212,7 @@ void Compiler::add_leaf(const Part& part, bool complemented) {
   const auto& primitive = std::get<Primitive>(part.node->content);
   Leaf leaf;
   leaf.shape = make_shape(primitive);
+  if (precision_ == Precision::exact) leaf.exact = make_exact_shape(primitive);
   leaf.placement = place(part.to_world);
   leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
   leaf.material = material_number(part);
@@ -249,8 +252,8 @@ std::uint32_t Compiler::material_number(const Part& part) {
 
 }  // namespace
 
-CompiledScene compile(std::span<const Entity> entities) {
-  return Compiler().compile(entities);
+CompiledScene compile(std::span<const Entity> entities, Precision precision) {
+  return Compiler(precision).compile(entities);
 }
 
 }  // namespace crt::core

@@ -9,6 +9,7 @@
 
 #include "core/csg/program.hpp"
 #include "crt/entity.hpp"
+#include "crt/settings.hpp"
 
 namespace crt::core {
 
@@ -34,6 +35,6 @@ struct CompiledScene {
 /// Flattens entities: unions at the top become objects of their own as far as their parts keep
 /// apart, transforms are composed once, materials and ids are resolved, faces that coincide get one
 /// surface. Throws Error (limit) if there are more than 2^25 primitives.
-CompiledScene compile(std::span<const Entity> entities);
+CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard);
 
 }  // namespace crt::core

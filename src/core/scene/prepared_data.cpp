@@ -34,7 +34,7 @@ PreparedData::PreparedData(const Scene& scene) {
   scene_ = scene;
   scene_.entities.clear();
 
-  CompiledScene compiled = compile(scene.entities);
+  CompiledScene compiled = compile(scene.entities, scene.settings.precision);
   TexturePool textures(scene.settings.gamma);
   for (const SharedMaterial& material : compiled.materials) materials_.emplace_back(material, textures);
   for (const PreparedMaterial& material : materials_) opaque_.push_back(material.opaque);
@@ -62,7 +62,7 @@ bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vect
   if (!accelerator_->all(ray, stop_at_opaque ? &opaque_ : nullptr, out, work)) return false;
   // Where two solids touch, one is left before the other is entered.
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
-    return std::tie(a.t, a.entering, a.object) < std::tie(b.t, b.entering, b.object);
+    return std::tie(a.t, a.t_low, a.entering, a.object) < std::tie(b.t, b.t_low, b.entering, b.object);
   });
   return true;
 }

@@ -23,6 +23,7 @@ class Accelerator;
 struct RayHit {
   double t = std::numeric_limits<double>::infinity();
   double error = 0;
+  double t_low = 0;                ///< t + t_low is what the exact tier knows of t
   std::uint32_t object = nothing;  ///< what Embree knows: a lone primitive or a CSG object
   std::uint32_t leaf = nothing;    ///< the primitive that the face belongs to
   std::uint32_t face = no_face;
@@ -52,10 +53,13 @@ struct HitPoint {
 /// Memory and counters that one thread reuses from ray to ray.
 struct RayWorkspace {
   std::uint64_t intersection_tests = 0;  ///< rays against objects
+  std::uint64_t leaf_escalations = 0;    ///< of lone primitives: see escalations()
   CsgWorkspace csg;                      ///< counts its events itself
   CrossingList crossings;
 
   std::uint64_t interval_events() const { return csg.events; }
+  /// Questions of the exact tier that only exact arithmetic answered.
+  std::uint64_t escalations() const { return leaf_escalations + csg.escalations; }
 };
 
 /// Immutable after prepare(); every member function is safe from any number of threads.

@@ -1,0 +1,98 @@
+// The box of the exact tier: the last of three faces that are entered against the first of three that are
+// left.
+#include <array>
+
+#include "core/geometry/exact_plane.hpp"
+#include "core/geometry/exact_shape.hpp"
+#include "core/geometry/stretch.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+namespace {
+
+class ExactBoxShape final : public ExactShape {
+ public:
+  explicit ExactBoxShape(const Box& box)
+      : size_(largest_component(box.corner_a - box.corner_b)),
+        faces_{ExactPlane({-1, 0, 0}, glm::min(box.corner_a, box.corner_b)),
+               ExactPlane({1, 0, 0}, glm::max(box.corner_a, box.corner_b)),
+               ExactPlane({0, -1, 0}, glm::min(box.corner_a, box.corner_b)),
+               ExactPlane({0, 1, 0}, glm::max(box.corner_a, box.corner_b)),
+               ExactPlane({0, 0, -1}, glm::min(box.corner_a, box.corner_b)),
+               ExactPlane({0, 0, 1}, glm::max(box.corner_a, box.corner_b))} {}
+
+  bool crossings(const ExactRay& ray, CrossingList& out) const override {
+    if (ray.near.start.face != no_face) return crossings_from_face(ray, out);
+    End enter;
+    End leave;
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) {
+      const ExactPlane::Meeting meeting = faces_[face].meet(ray);
+      if (!meeting.found()) {
+        if (!meeting.behind) return false;
+        continue;
+      }
+      End& end = meeting.side < 0 ? enter : leave;
+      if (end.face == no_face || is_nearer(ray, meeting, face, end)) end = {meeting, face};
+      if (surely_passed(enter, leave)) return false;
+    }
+    if (enter.face == no_face || leave.face == no_face) return false;
+    if (order(ray, faces_[enter.face], enter.meeting, faces_[leave.face], leave.meeting) >= 0) return false;
+    out.push_back(enter.meeting.crossing(enter.face));
+    out.push_back(leave.meeting.crossing(leave.face));
+    return false;
+  }
+
+ private:
+  /// Where the line enters or leaves what is between the faces seen so far.
+  struct End {
+    ExactPlane::Meeting meeting;
+    std::uint32_t face = no_face;
+  };
+
+  bool is_nearer(const ExactRay& ray, const ExactPlane::Meeting& meeting, std::uint32_t face,
+                 const End& end) const {
+    const int later = order(ray, faces_[face], meeting, faces_[end.face], end.meeting);
+    return meeting.side < 0 ? later > 0 : later < 0;
+  }
+
+  static bool surely_passed(const End& enter, const End& leave) {
+    return enter.face != no_face && leave.face != no_face &&
+           enter.meeting.t.hi - leave.meeting.t.hi > enter.meeting.error + leave.meeting.error;
+  }
+
+  /// The start is on its face by identity; only where the line meets the others is left to tell.
+  bool crossings_from_face(const ExactRay& ray, CrossingList& out) const {
+    Stretch stretch(ray.near.start, unit_roundoff * (size_ / largest_component(ray.near.direction)));
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) {
+      ExactPlane::Meeting meeting;
+      if (face == ray.near.start.face) {
+        meeting.side = faces_[face].side(ray);
+        if (meeting.side <= 0 && ray.near.start.side == Side::outside) stretch.clear();
+        if (meeting.side == 0) continue;
+      } else {
+        meeting = faces_[face].meet(ray);
+      }
+      if (!meeting.found()) {
+        if (!meeting.behind) stretch.clear();
+        continue;
+      }
+      if (meeting.side > 0) {
+        stretch.leave(meeting.crossing(face));
+      } else {
+        stretch.enter(meeting.crossing(face));
+      }
+    }
+    return stretch.finish(out);
+  }
+
+  double size_;
+  std::array<ExactPlane, 6> faces_;
+};
+
+}  // namespace
+
+std::unique_ptr<const ExactShape> make_exact_shape(const Box& box) {
+  return std::make_unique<ExactBoxShape>(box);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,83 @@
+// A plane of the exact tier: what flat primitives and faces have in common.
+#pragma once
+
+#include "core/geometry/exact_ray.hpp"
+#include "core/geometry/shape.hpp"
+#include "core/math/precise_transform.hpp"
+
+namespace crt::core {
+
+class ExactPlane {
+ public:
+  /// Through `position`, across `normal`.
+  ExactPlane(const Vec3& normal, const Vec3& position);
+  /// Through `position`, across to - from as it is without rounding.
+  static ExactPlane across_way(const Vec3& from, const Vec3& to, const Vec3& position);
+  /// Through three points.
+  static ExactPlane through(const Vec3& a, const Vec3& b, const Vec3& c);
+
+  /// Where a line meets the plane.
+  struct Meeting {
+    int side = 0;    ///< the sign of n . d: 1 if the line leaves the half-space behind the plane
+    DoubleDouble t;  ///< if the line is not parallel
+    double error = 0;
+    bool behind = false;  ///< of parallel lines: whether they are behind the plane, and not on it
+
+    /// False if the line is parallel, or so nearly that t has no finite value.
+    bool found() const { return side != 0; }
+    Crossing crossing(std::uint32_t face = 0) const {
+      return {.t = t.hi, .error = error, .t_low = t.lo, .face = face, .entering = side < 0};
+    }
+  };
+  Meeting meet(const ExactRay& ray) const;
+
+  /// Only the sign of n . d.
+  int side(const ExactRay& ray) const;
+
+  /// As meet(); if the ray starts on this plane, exactly 0 and to the side it is said to leave.
+  Meeting meet_surface(const ExactRay& ray) const;
+
+  /// t without rounding: numerator / denominator, with denominator >= 0 (0 for parallel lines, of which the
+  /// numerator has the sign of the way to the plane along the normal).
+  struct Fraction {
+    Dyadic numerator;
+    Dyadic denominator;
+    int side = 0;
+  };
+  Fraction meet_exactly(const ExactLine& line) const;
+
+  const Vec3& position() const { return position_; }
+
+ private:
+  ExactPlane() = default;
+  /// n . d up to a positive factor, and what it may be off by.
+  struct Rate {
+    DoubleDouble value;
+    double error;
+    bool certain() const { return std::abs(value.hi) > error; }
+    int sign() const { return value.hi > 0 ? 1 : -1; }
+  };
+  Rate rate(const ExactRay& ray) const;
+  Meeting estimate(const ExactRay& ray) const;
+  Meeting estimate_across_axis(const ExactRay& ray) const;
+  Meeting settled(const ExactRay& ray, const Meeting& estimate) const;
+  void take_normal(const std::array<Dyadic, 3>& normal);
+
+  int axis_ = -1;                      ///< the coordinate axis of the normal, or -1
+  PreciseVec3 normal_{0.0, 0.0, 0.0};  ///< to 100 bits of each component, the largest about 1
+  std::array<Dyadic, 3> exact_normal_;
+  Vec3 position_{0, 0, 0};
+};
+
+/// The sign of t of the first less t of the second meeting of a ray with two planes.
+int order(const ExactRay& ray, const ExactPlane& first_plane, const ExactPlane::Meeting& first,
+          const ExactPlane& second_plane, const ExactPlane::Meeting& second);
+
+/// A point of a line relative to a center, without rounding: offset / weight, with weight > 0.
+struct ExactPoint {
+  std::array<Dyadic, 3> offset;
+  Dyadic weight;
+};
+ExactPoint exact_point(const ExactLine& line, const ExactPlane::Fraction& t, const Vec3& center);
+
+}  // namespace crt::core

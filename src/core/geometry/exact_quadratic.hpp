@@ -1,0 +1,22 @@
+// Roots of quadratics whose coefficients are known without rounding.
+#pragma once
+
+#include <array>
+
+#include "core/math/dyadic.hpp"
+
+namespace crt::core {
+
+/// a t^2 + 2 b t + c, exactly.
+struct ExactQuadratic {
+  Dyadic a;
+  Dyadic b;
+  Dyadic c;
+
+  Dyadic discriminant() const { return square(b) - a * c; }
+
+  /// Both roots in ascending order, each to about 100 bits. a must not be 0, the discriminant not negative.
+  std::array<DoubleDouble, 2> roots() const;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,73 @@
+// A ray as the exact tier takes it: nearly exact at once, and exactly where that is not enough.
+#pragma once
+
+#include <array>
+
+#include "core/geometry/object_ray.hpp"
+#include "core/math/dyadic.hpp"
+#include "core/math/precise_transform.hpp"
+#include "crt/transform.hpp"
+
+namespace crt::core {
+
+/// A line in object space without any rounding: (origin + t direction) / weight, with weight > 0. The
+/// division that the inverse of a transform needs is never carried out.
+struct ExactLine {
+  std::array<Dyadic, 3> origin;
+  std::array<Dyadic, 3> direction;
+  Dyadic weight = 1;
+};
+
+/// How exactly t must be known for its rounding to be within 0.51 ulp.
+inline constexpr double last_bit_tolerance = 0x1p-60;
+
+struct ExactRay {
+  /// In object space, to about 100 bits; must outlive this.
+  const ObjectRay& near;
+  /// What each component of origin and direction may be off by at most.
+  double origin_error = 0;
+  double direction_error = 0;
+  // The same in the world, and the map from object space (none for the identity).
+  Vec3 world_origin{0, 0, 0};
+  Vec3 world_direction{0, 0, 1};
+  const Transform* to_world = nullptr;
+  /// A ray that starts on a surface has a rounded origin: what it meets at |t| below this is at the start for
+  /// all that is known.
+  double start_error = 0;
+  /// Counts how often exact() is asked.
+  std::uint64_t* escalations = nullptr;
+
+  ExactLine exact() const;
+
+  /// Whether a t that may be off by `error` is known well enough: its last bit, or of what is at the start
+  /// for all that is known the side.
+  bool is_settled(double t, double error) const {
+    constexpr double at_start_tolerance = 0x1p-20;
+    const double size = std::abs(t);
+    return error <= last_bit_tolerance * size || (size < start_error && error <= at_start_tolerance * size);
+  }
+
+  /// What each component of a point p(t) - center is off by at most, where it is computed in double-double.
+  double point_error(const Vec3& center, double t) const;
+};
+
+/// p(t + t_low) - center to about 100 bits.
+PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t);
+
+/// a . b to about 100 bits of the largest product.
+/// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2), for factors of two doubles each.
+inline DoubleDouble precise_dot(const PreciseVec3& a, const PreciseVec3& b) {
+  const DoubleDouble x = two_product(a[0].hi, b[0].hi);
+  const DoubleDouble y = two_product(a[1].hi, b[1].hi);
+  const DoubleDouble z = two_product(a[2].hi, b[2].hi);
+  const DoubleDouble xy = two_sum(x.hi, y.hi);
+  const DoubleDouble xyz = two_sum(xy.hi, z.hi);
+  double low = xyz.lo + xy.lo + (x.lo + y.lo + z.lo);
+  for (std::size_t i = 0; i < 3; ++i) low += std::fma(a[i].hi, b[i].lo, a[i].lo * b[i].hi);
+  return two_sum(xyz.hi, low);
+}
+
+/// What double-double arithmetic leaves as an error of its result: a few of its roundings of 2^-105.
+inline constexpr double precise_roundoff = 0x1p-100;
+
+}  // namespace crt::core

@@ -1,0 +1,147 @@
+// The sphere of the exact tier. Doubles tell the lines that clearly miss or hit; those that hit get their t
+// by Newton's iteration on |p(t)|^2 - r^2 in double-double. The few that all but touch get both from the
+// quadratic without rounding.
+#include "core/geometry/exact_quadratic.hpp"
+#include "core/geometry/exact_shape.hpp"
+#include "core/geometry/near_line.hpp"
+#include "core/geometry/stretch.hpp"
+#include "core/math/precise_transform.hpp"
+
+namespace crt::core {
+namespace {
+
+double sum_of_sizes(const PreciseVec3& v) {
+  return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
+}
+
+class ExactSphereShape final : public ExactShape {
+ public:
+  explicit ExactSphereShape(const Sphere& sphere)
+      : center_(sphere.center), radius_(sphere.radius), unit_(power_of_two_below(sphere.radius)) {}
+
+  bool crossings(const ExactRay& ray, CrossingList& out) const override {
+    if (ray.near.start.face == 0) return crossings_from_surface(ray, out);
+    const NearLine line = NearLine::at_closest(ray.near, center_, unit_);
+    const double r = radius_ / unit_;
+    const double closest = line.closest();
+    const double distance = glm::length(line.at(closest));
+    // Some tens of roundings of numbers of the line's size near the sphere, and what the ray itself is off
+    // by.
+    constexpr double filter_rounding = 0x1p9 * unit_roundoff;
+    constexpr double largest_rest = 4;  // of NearLine::at_closest
+    const double open = filter_rounding * (distance + r + largest_rest) +
+                        2 * ray.point_error(center_, line.to_t(closest)) / unit_;
+    if (distance - r > open) return false;
+    if (!(r - distance > open)) return exact_crossings(ray, out);
+
+    const double a = line.squared_speed;
+    const double half_chord = std::sqrt(a * (r + distance) * (r - distance)) / a;
+    Crossing enter{.t = line.to_t(closest - half_chord), .root = 0, .entering = true};
+    Crossing leave{.t = line.to_t(closest + half_chord), .root = 1, .entering = false};
+    if (!polish(ray, enter) || !polish(ray, leave)) return exact_crossings(ray, out);
+    out.push_back(enter);
+    out.push_back(leave);
+    return false;
+  }
+
+ private:
+  /// Newton's iteration until t is certain to the last bit; false if that fails.
+  bool polish(const ExactRay& ray, Crossing& crossing) const {
+    const Vec3& d = ray.near.direction;
+    DoubleDouble t = crossing.t;
+    constexpr int most_steps = 3;
+    for (int step = 0; step < most_steps; ++step) {
+      const PreciseVec3 p = precise_from_center(ray.near, center_, t);
+      const DoubleDouble height = precise_dot(p, p) - two_product(radius_, radius_);
+      const double slope = p[0].hi * d.x + p[1].hi * d.y + p[2].hi * d.z;
+      if ((slope < 0) != crossing.entering || slope == 0) return false;
+      const double change = height.value() / (2 * slope);
+      t = t + DoubleDouble(-change);
+
+      const double size = sum_of_sizes(p);
+      const double height_error =
+          2 * size * ray.point_error(center_, t.hi) + precise_roundoff * (size * size + radius_ * radius_);
+      // The slope and the change are rounded, too; and the iteration leaves the square of the change.
+      constexpr double change_rounding = 0x1p-48;
+      const double inaccuracy =
+          change_rounding * size * largest_component(d) + glm::dot(d, d) * std::abs(change);
+      crossing.error = (height_error + std::abs(change) * inaccuracy) / std::abs(slope) +
+                       precise_roundoff * std::abs(t.hi);
+      if (ray.is_settled(t.hi, crossing.error)) {
+        crossing.t = t.hi;
+        crossing.t_low = t.lo;
+        return true;
+      }
+    }
+    return false;
+  }
+
+  ExactQuadratic quadratic(const ExactLine& line) const {
+    ExactQuadratic result;
+    result.c = -square(line.weight * Dyadic(radius_));
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      const Dyadic offset = line.origin[i] - line.weight * Dyadic(center_[axis]);
+      result.a = result.a + square(line.direction[i]);
+      result.b = result.b + line.direction[i] * offset;
+      result.c = result.c + square(offset);
+    }
+    return result;
+  }
+
+  bool exact_crossings(const ExactRay& ray, CrossingList& out) const {
+    const ExactQuadratic equation = quadratic(ray.exact());
+    if (equation.discriminant().sign() <= 0) return false;
+    const auto [enter, leave] = equation.roots();
+    if (!std::isfinite(enter.hi) || !std::isfinite(leave.hi)) return false;
+    const auto error = [](const DoubleDouble& t) { return precise_roundoff * std::abs(t.hi); };
+    out.push_back({.t = enter.hi, .error = error(enter), .t_low = enter.lo, .root = 0, .entering = true});
+    out.push_back({.t = leave.hi, .error = error(leave), .t_low = leave.lo, .root = 1, .entering = false});
+    return false;
+  }
+
+  /// As the standard tier has it: c is 0 by identity, and the other root -2 b / a.
+  bool crossings_from_surface(const ExactRay& ray, CrossingList& out) const {
+    const ObjectRay& near = ray.near;
+    PreciseVec3 d;
+    for (int axis = 0; axis < 3; ++axis) {
+      d[static_cast<std::size_t>(axis)] = {near.direction[axis], near.direction_low[axis]};
+    }
+    const PreciseVec3 p = precise_from_center(near, center_, 0.0);
+    const DoubleDouble a = precise_dot(d, d);
+    const DoubleDouble half = -precise_dot(p, d) / a;
+    DoubleDouble t{2 * half.hi, 2 * half.lo};
+    const double size = sum_of_sizes(p);
+    double error =
+        2 *
+            (sum_of_sizes(d) * ray.point_error(center_, 0) + size * ray.direction_error +
+             precise_roundoff * size * largest_component(near.direction)) /
+            a.hi +
+        (precise_roundoff + 4 * ray.direction_error / largest_component(near.direction)) * std::abs(t.hi);
+    if (!ray.is_settled(t.hi, error)) {
+      const ExactQuadratic equation = quadratic(ray.exact());
+      t = (-(equation.b + equation.b).rounded() / equation.a.rounded()).unscaled();
+      error = precise_roundoff * std::abs(t.hi);
+    }
+    Stretch stretch(near.start, unit_roundoff * (radius_ / largest_component(near.direction)));
+    const bool outside = near.start.side == Side::outside;
+    const Crossing other{
+        .t = t.hi, .error = error, .t_low = t.lo, .root = static_cast<std::uint8_t>(!outside)};
+    const Crossing start{.root = static_cast<std::uint8_t>(outside)};
+    stretch.enter(outside ? other : start);
+    stretch.leave(outside ? start : other);
+    return stretch.finish(out);
+  }
+
+  Vec3 center_;
+  double radius_;
+  double unit_;  ///< a power of two near the radius
+};
+
+}  // namespace
+
+std::unique_ptr<const ExactShape> make_exact_shape(const Sphere& sphere) {
+  return std::make_unique<ExactSphereShape>(sphere);
+}
+
+}  // namespace crt::core
