@@ -2,12 +2,6 @@
 
 namespace crt::core {
 
-std::unique_ptr<const ExactShape> make_exact_shape(const Cone&) {
-  return nullptr;
-}
-std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder&) {
-  return nullptr;
-}
 std::unique_ptr<const ExactShape> make_exact_shape(const Torus&) {
   return nullptr;
 }

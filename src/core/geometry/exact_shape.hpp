@@ -29,6 +29,8 @@ std::unique_ptr<const ExactShape> make_exact_shape(const Disc& disc);
 std::unique_ptr<const ExactShape> make_exact_shape(const Triangle& triangle);
 std::unique_ptr<const ExactShape> make_exact_shape(const Box& box);
 std::unique_ptr<const ExactShape> make_exact_shape(const Sphere& sphere);
+std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder);
+std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone);
 
 /// None for a primitive that has no exact tier and is computed by the standard one.
 std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive);

@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/geometry/disc.hpp"
+#include "core/geometry/frustum_start.hpp"
 
 namespace crt::core {
 
@@ -200,34 +201,12 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
     other = side_crossing(line, side, x, 0);
     other.error += line.to_t_length(start_error(side.c, side.a, side.b));
   }
-  if (side.radius < 0) return clip_side_from_other_nappe(side, other, stretch);
-  if (side.a > 0) {
-    const bool leaving = side.b >= 0;
-    other.root = leaving ? 0 : 1;
-    const Crossing start{.face = side_face, .root = static_cast<std::uint8_t>(leaving ? 1 : 0)};
-    if (!leaving && ray.start.side == Side::outside) return stretch.clear();
-    stretch.enter(leaving ? other : start);
-    stretch.leave(leaving ? start : other);
-    return;
-  }
-  // Steeper than the side: on the way to the wider end the ray enters for good.
-  if (side.radius_rate < 0) return stretch.leave({.face = side_face});
-  if (ray.start.side == Side::outside) return stretch.clear();
-  if (side.radius_rate > 0) {
-    stretch.enter({.face = side_face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
-  }
-}
-
-/// A ray that starts on the cone's other nappe, on some other primitive. It meets this one, from within
-/// the other, once or never.
-void FrustumShape::clip_side_from_other_nappe(const SideEquation& side, Crossing other, Stretch& stretch) {
-  if (!(side.a < 0)) return stretch.clear();
-  if (side.radius_rate > 0) {
-    other.root = 1;
-    stretch.enter(other);
-  } else {
-    stretch.leave(other);
-  }
+  core::clip_side_from_surface({.a = sign_of(side.a),
+                                .b = sign_of(side.b),
+                                .radius = sign_of(side.radius),
+                                .radius_rate = sign_of(side.radius_rate),
+                                .other = other},
+                               ray.start, stretch);
 }
 
 SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {

@@ -60,7 +60,6 @@ class FrustumShape : public Shape {
   void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
-  static void clip_side_from_other_nappe(const SideEquation& side, Crossing other, Stretch& stretch);
   SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing) const;
 
   Vec3 from_;

@@ -1,0 +1,205 @@
+#include "core/geometry/exact_frustum.hpp"
+
+#include "core/geometry/exact_quadratic.hpp"
+#include "core/geometry/exact_shape.hpp"
+#include "core/geometry/frustum.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+namespace {
+
+/// g along a line as it is. Every question has an answer.
+class ExactSide {
+ public:
+  ExactSide(const ExactFrustum& frustum, const ExactRay& ray) : line_(ray.exact()) {
+    std::array<Dyadic, 3> way;
+    std::array<Dyadic, 3> offset;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      way[i] = Dyadic(frustum.wide[axis]) - Dyadic(frustum.narrow[axis]);
+      offset[i] = line_.origin[i] - line_.weight * Dyadic(frustum.narrow[axis]);
+    }
+    const Dyadic growth = Dyadic(frustum.wide_radius) - Dyadic(frustum.radius);
+    const Dyadic squared_length = dot(way, way);
+    const std::array<Dyadic, 3> across = cross(offset, way);
+    const std::array<Dyadic, 3> turning = cross(line_.direction, way);
+    radius_ = Dyadic(frustum.radius) * line_.weight * squared_length + growth * dot(offset, way);
+    radius_rate_ = growth * dot(line_.direction, way);
+    g_ = {squared_length * dot(turning, turning) - square(radius_rate_),
+          squared_length * dot(across, turning) - radius_ * radius_rate_,
+          squared_length * dot(across, across) - square(radius_)};
+  }
+
+  std::optional<int> sign_at(const CapMeeting& end) const {
+    if (!end.found()) return 1;
+    if (end.within_rim) return -1;
+    if (end.at_start) return g_.c.sign();
+    const ExactPlane::Fraction t = end.plane->meet_exactly(line_);
+    const Dyadic cross_term = g_.b * t.numerator * t.denominator;
+    return (g_.a * square(t.numerator) + cross_term + cross_term + g_.c * square(t.denominator)).sign();
+  }
+
+  std::optional<bool> dips_between(const CapMeeting& enter, const CapMeeting& leave) const {
+    if (g_.a.sign() <= 0 || g_.discriminant().sign() <= 0) return false;
+    return side_of_vertex(enter) < 0 && side_of_vertex(leave) > 0;
+  }
+
+  std::optional<Crossing> root(bool entering, const CapMeeting& /*enter*/,
+                               const CapMeeting& /*leave*/) const {
+    Crossing crossing{.face = FrustumShape::side_face, .entering = entering};
+    DoubleDouble t;
+    if (g_.a.sign() == 0) {
+      t = (-g_.c.rounded() / (g_.b + g_.b).rounded()).unscaled();
+    } else {
+      crossing.root = (g_.a.sign() > 0) == entering ? 0 : 1;
+      t = g_.roots()[crossing.root];
+    }
+    crossing.t = t.hi;
+    crossing.t_low = t.lo;
+    crossing.error = precise_roundoff * std::abs(t.hi);
+    return crossing;
+  }
+
+  /// What a line that starts on the side is decided by.
+  SideStart start() const {
+    SideStart result{.a = g_.a.sign(),
+                     .b = g_.b.sign(),
+                     .radius = radius_.sign(),
+                     .radius_rate = radius_rate_.sign(),
+                     .other = {.face = FrustumShape::side_face}};
+    if (result.a == 0) return result;
+    const DoubleDouble t = (-(g_.b + g_.b).rounded() / g_.a.rounded()).unscaled();
+    result.other.t = t.hi;
+    result.other.t_low = t.lo;
+    result.other.error = precise_roundoff * std::abs(t.hi);
+    return result;
+  }
+
+ private:
+  static Dyadic dot(const std::array<Dyadic, 3>& a, const std::array<Dyadic, 3>& b) {
+    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+  }
+  static std::array<Dyadic, 3> cross(const std::array<Dyadic, 3>& a, const std::array<Dyadic, 3>& b) {
+    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+  }
+
+  /// The sign of the end's t less that of the vertex of g, which opens upwards.
+  int side_of_vertex(const CapMeeting& end) const {
+    if (!end.found()) return end.meeting.side;
+    if (end.at_start) return g_.b.sign();
+    const ExactPlane::Fraction t = end.plane->meet_exactly(line_);
+    return (g_.a * t.numerator + g_.b * t.denominator).sign();
+  }
+
+  ExactLine line_;
+  ExactQuadratic g_;
+  Dyadic radius_;  ///< r |W|^2 + D p . W at the origin
+  Dyadic radius_rate_;
+};
+
+class ExactFrustumShape final : public ExactShape {
+ public:
+  ExactFrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius)
+      : frustum_(from, to, from_radius, to_radius),
+        caps_{ExactPlane::across_way(to, from, from), ExactPlane::across_way(from, to, to)},
+        shortest_(unit_roundoff * std::min(frustum_.wide_radius, largest_component(to - from))) {}
+
+  bool crossings(const ExactRay& ray, CrossingList& out) const override {
+    const RayStart& start = ray.near.start;
+    if (start.face == FrustumShape::side_face) return crossings_from_side(ray, out);
+    CapMeeting enter;
+    CapMeeting leave;
+    enter.meeting.side = -1;
+    leave.meeting.side = 1;
+    for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
+      CapMeeting end;
+      end.plane = &caps_[cap];
+      end.face = cap + 1;
+      if (start.face == end.face) {
+        end.at_start = true;
+        end.within_rim = start.on_face;
+        end.meeting.side = caps_[cap].side(ray);
+        if (end.meeting.side <= 0 && start.side == Side::outside) return false;
+      } else {
+        end.meeting = caps_[cap].meet(ray);
+        if (!end.meeting.found() && !end.meeting.behind) return false;
+      }
+      if (end.meeting.found()) (end.meeting.side < 0 ? enter : leave) = end;
+    }
+    Piece piece;
+    FilteredSide filtered(frustum_, ray);
+    std::optional<bool> hit = cut(filtered, enter, leave, piece);
+    if (!hit) {
+      ExactSide exact(frustum_, ray);
+      hit = cut(exact, enter, leave, piece);
+    }
+    if (!*hit || !std::isfinite(piece.enter.t) || !std::isfinite(piece.leave.t)) return false;
+    if (start.face == no_face) {
+      out.push_back(piece.enter);
+      out.push_back(piece.leave);
+      return false;
+    }
+    Stretch stretch(start, shortest_ / largest_component(ray.near.direction));
+    stretch.enter(piece.enter);
+    stretch.leave(piece.leave);
+    return stretch.finish(out);
+  }
+
+ private:
+  struct Piece {
+    Crossing enter;
+    Crossing leave;
+  };
+
+  /// What the line cuts out of the solid; unknown if the side cannot tell.
+  template <typename Side>
+  static std::optional<bool> cut(Side& side, const CapMeeting& enter, const CapMeeting& leave, Piece& piece) {
+    const std::optional<int> at_enter = side.sign_at(enter);
+    const std::optional<int> at_leave = side.sign_at(leave);
+    if (!at_enter || !at_leave) return std::nullopt;
+    if (*at_enter >= 0 && *at_leave >= 0) {
+      const std::optional<bool> dips = side.dips_between(enter, leave);
+      if (!dips || !*dips) return dips;
+    }
+    const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
+    const auto last = *at_leave < 0 ? leave.crossing() : side.root(false, enter, leave);
+    if (!first || !last) return std::nullopt;
+    piece = {*first, *last};
+    return true;
+  }
+
+  bool crossings_from_side(const ExactRay& ray, CrossingList& out) const {
+    const RayStart& start = ray.near.start;
+    Stretch stretch(start, shortest_ / largest_component(ray.near.direction));
+    for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
+      const ExactPlane::Meeting meeting = caps_[cap].meet(ray);
+      if (!meeting.found()) {
+        if (!meeting.behind) stretch.clear();
+      } else if (meeting.side < 0) {
+        stretch.enter(meeting.crossing(cap + 1));
+      } else {
+        stretch.leave(meeting.crossing(cap + 1));
+      }
+    }
+    std::optional<SideStart> side = FilteredSide(frustum_, ray).start();
+    if (!side) side = ExactSide(frustum_, ray).start();
+    clip_side_from_surface(*side, start, stretch);
+    return stretch.finish(out);
+  }
+
+  ExactFrustum frustum_;
+  std::array<ExactPlane, 2> caps_;  ///< at from and to
+  double shortest_;                 ///< what a ray that starts inwards has before it at least, for |d| = 1
+};
+
+}  // namespace
+
+std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder) {
+  return std::make_unique<ExactFrustumShape>(cylinder.from, cylinder.to, cylinder.radius, cylinder.radius);
+}
+
+std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone) {
+  return std::make_unique<ExactFrustumShape>(cone.from, cone.to, cone.radius, cone.radius2);
+}
+
+}  // namespace crt::core
