@@ -113,8 +113,6 @@ class FilteredSide {
 
   Precise precise_at(DoubleDouble t, double off) const;
 
-  static PreciseVec3 precise_cross(const PreciseVec3& a, const PreciseVec3& b);
-
   /// The line from where g is lowest between the ends, or nearly.
   void find_middle(const CapMeeting& enter, const CapMeeting& leave);
 

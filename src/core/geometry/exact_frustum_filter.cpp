@@ -15,10 +15,6 @@ constexpr double filter_rounding = 0x1p8 * unit_roundoff;
 constexpr double largest_of_way = 2;
 constexpr double sum_of_way = 6;
 
-double sum_of_sizes(const PreciseVec3& v) {
-  return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
-}
-
 }  // namespace
 
 ExactFrustum::ExactFrustum(const Vec3& from, const Vec3& to, double from_radius, double to_radius)
@@ -172,18 +168,6 @@ FilteredSide::Precise FilteredSide::precise_at(DoubleDouble t, double off) const
       rate_rounding * (ll.hi * at.across_size * way_size + std::abs(at.radius.hi) * growth * way_size);
   result.half_curvature = ll.hi * glm::dot(turning, turning) + widening * widening;
   return result;
-}
-
-PreciseVec3 FilteredSide::precise_cross(const PreciseVec3& a, const PreciseVec3& b) {
-  const auto component = [&](std::size_t i, std::size_t j) {
-    const DoubleDouble x = two_product(a[i].hi, b[j].hi);
-    const DoubleDouble y = two_product(a[j].hi, b[i].hi);
-    const double low =
-        std::fma(a[i].hi, b[j].lo, a[i].lo * b[j].hi) - std::fma(a[j].hi, b[i].lo, a[j].lo * b[i].hi);
-    const DoubleDouble difference = two_sum(x.hi, -y.hi);
-    return two_sum(difference.hi, difference.lo + (x.lo - y.lo) + low);
-  };
-  return {component(1, 2), component(2, 0), component(0, 1)};
 }
 
 void FilteredSide::find_middle(const CapMeeting& enter, const CapMeeting& leave) {

@@ -67,6 +67,23 @@ inline DoubleDouble precise_dot(const PreciseVec3& a, const PreciseVec3& b) {
   return two_sum(xyz.hi, low);
 }
 
+/// a x b, each component to about 100 bits of the larger product.
+inline PreciseVec3 precise_cross(const PreciseVec3& a, const PreciseVec3& b) {
+  const auto component = [&](std::size_t i, std::size_t j) {
+    const DoubleDouble x = two_product(a[i].hi, b[j].hi);
+    const DoubleDouble y = two_product(a[j].hi, b[i].hi);
+    const double low =
+        std::fma(a[i].hi, b[j].lo, a[i].lo * b[j].hi) - std::fma(a[j].hi, b[i].lo, a[j].lo * b[i].hi);
+    const DoubleDouble difference = two_sum(x.hi, -y.hi);
+    return two_sum(difference.hi, difference.lo + (x.lo - y.lo) + low);
+  };
+  return {component(1, 2), component(2, 0), component(0, 1)};
+}
+
+inline double sum_of_sizes(const PreciseVec3& v) {
+  return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
+}
+
 /// What double-double arithmetic leaves as an error of its result: a few of its roundings of 2^-105.
 inline constexpr double precise_roundoff = 0x1p-100;
 

@@ -2,10 +2,6 @@
 
 namespace crt::core {
 
-std::unique_ptr<const ExactShape> make_exact_shape(const Torus&) {
-  return nullptr;
-}
-
 std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive) {
   return std::visit([](const auto& description) { return make_exact_shape(description); }, primitive);
 }

@@ -31,6 +31,7 @@ std::unique_ptr<const ExactShape> make_exact_shape(const Box& box);
 std::unique_ptr<const ExactShape> make_exact_shape(const Sphere& sphere);
 std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder);
 std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone);
+std::unique_ptr<const ExactShape> make_exact_shape(const Torus& torus);
 
 /// None for a primitive that has no exact tier and is computed by the standard one.
 std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive);

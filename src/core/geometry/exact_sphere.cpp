@@ -10,10 +10,6 @@
 namespace crt::core {
 namespace {
 
-double sum_of_sizes(const PreciseVec3& v) {
-  return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
-}
-
 class ExactSphereShape final : public ExactShape {
  public:
   explicit ExactSphereShape(const Sphere& sphere)

@@ -8,44 +8,6 @@
 #include "core/geometry/torus_line.hpp"
 
 namespace crt::core {
-namespace {
-
-/// Makes the stretches agree with a start to `side`, where the direction is at odds with it or grazes
-/// so closely that rounding decides. `bulging` tells that the surface turns away from the line.
-void obey_side(Side side, bool bulging, double shortest, TorusLine::Dips& dips) {
-  std::size_t here = 0;  // the first stretch that goes on after the start
-  while (here < dips.count && !(dips.dip[here].leave > 0)) ++here;
-  TorusLine::Dip& next = dips.dip[std::min(here, dips.dip.size() - 1)];
-  const bool inside = here < dips.count && next.enter <= 0;
-  if (inside == (side == Side::inside)) return;
-
-  if (side == Side::inside) {
-    const bool leaves_at_start = here > 0 && dips.dip[here - 1].leave == 0;
-    if (!bulging && here < dips.count) {
-      const TorusLine::Dip onwards{0, next.leave};
-      if (leaves_at_start) --dips.count;
-      dips.dip[leaves_at_start ? here - 1 : here] = onwards;
-      return;
-    }
-    if (leaves_at_start) {
-      dips.dip[here - 1] = {0, shortest};
-    } else if (dips.count < dips.dip.size()) {
-      if (here < dips.count) dips.dip[here + 1] = next;
-      dips.dip[here] = {0, shortest};
-      ++dips.count;
-    }
-    return;
-  }
-  if (bulging && next.enter == 0) {
-    if (here + 1 < dips.count) next = dips.dip[here + 1];
-    --dips.count;
-  } else {
-    next.enter = std::min(shortest, next.leave / 2);
-  }
-}
-
-}  // namespace
-
 TorusShape::TorusShape(const Torus& torus)
     : center_(torus.center),
       frame_(frame_about(torus.axis)),
@@ -68,7 +30,7 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const auto in_frame = [&](const Vec3& v) {
     return Vec3(glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along));
   };
-  const TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
+  TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
   TorusLine::Dips dips = torus.dips();
   if (on_surface) {
     obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);

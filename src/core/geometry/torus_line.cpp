@@ -51,14 +51,14 @@ double TorusLine::half_curvature(double x) const {
 /// so that both ends are outside whatever the rounding.
 std::optional<TorusLine::Range> TorusLine::range() const {
   constexpr double margin = 1 + 0x1p-40;
-  const double ball = (ring_ + tube_) * margin;
+  const double ball = (ring_ + tube_) * margin + off_;
   const double closest = -glm::dot(point_, direction_) / squared_speed_;
   const double distance = glm::length(point_ + closest * direction_);
   if (!(distance < ball)) return std::nullopt;
   const double half = std::sqrt((ball - distance) * (ball + distance) / squared_speed_);
   Range result{closest - half, closest + half};
 
-  const double slab = tube_ * margin;
+  const double slab = tube_ * margin + off_;
   if (direction_.z != 0) {
     const double a = (-slab - point_.z) / direction_.z;
     const double b = (slab - point_.z) / direction_.z;
@@ -91,26 +91,65 @@ TorusLine::Range TorusLine::concave_part(const Range& range) const {
   return {std::clamp(middle - half, range.low, range.high), std::clamp(middle + half, range.low, range.high)};
 }
 
+/// The gradient of G is twice the distance from the ring.
+double TorusLine::value_error(double x) const {
+  if (off_ == 0) return 0;
+  const Vec3 p = point_ + x * direction_;
+  const double outward = std::sqrt(p.x * p.x + p.y * p.y) - ring_;
+  return 2 * off_ * (std::abs(outward) + std::abs(p.z) + tube_ + off_);
+}
+
+double TorusLine::slope_error() const {
+  return 4 * off_ * std::sqrt(squared_speed_);
+}
+
+/// Where G turns from convex to concave is known only so well, and between there and where it is taken to
+/// turn it may lie below its tangents: by the change of slope times the way. The slope of rho changes by no
+/// more than twice the lateral speed, and next to the point of inflection by its third derivative times the
+/// way squared.
+double TorusLine::inflection_error(const Range& concave) const {
+  const double lateral_speed = direction_.x * direction_.x + direction_.y * direction_.y;
+  if (off_ == 0 || !(lateral_speed > 0)) return 0;
+  const double speed = std::sqrt(lateral_speed);
+  const double size = ring_ + tube_;
+  const double passing_error = off_ * (speed + size * std::sqrt(squared_speed_));
+  const double largest_passing = passing_ + passing_error;
+  const double inflection = std::cbrt(ring_ * largest_passing * largest_passing / squared_speed_);
+  const double inflection_off = inflection * std::min(1.0, passing_error / largest_passing);
+  const double passing_distance = largest_passing / speed;
+  const double square_off =
+      2 * (inflection * inflection_off + passing_distance * passing_error / speed) / lateral_speed;
+  const double half = (concave.high - concave.low) / 2;
+  const double half_off = std::min(std::sqrt(square_off), square_off / half);
+  const double way = speed * half_off + 2 * off_ * (1 + size);
+  const double bend = 6 * way / (passing_ / speed);
+  return ring_ * way * std::min(4.0, bend * bend);
+}
+
 /// In a part where sign * G is convex: a point where it is negative, if there is one. Newton's
 /// iteration for the minimum, kept between bounds; it stops when the tangents show that all is positive.
-std::optional<double> TorusLine::find_sign(double low, double high, double sign) const {
-  if (sign * value(low) < 0) return low;
-  if (sign * value(high) < 0) return high;
+TorusLine::Search TorusLine::find_sign(double low, double high, double sign) const {
+  if (sign * value(low) < -value_error(low)) return {low};
+  if (sign * value(high) < -value_error(high)) return {high};
+  if (!(low < high)) return {std::nullopt, sign * value(low) > value_error(low)};
   constexpr int most_steps = 200;
   double x = low + (high - low) / 2;
   for (int step = 0; step < most_steps && low < x && x < high; ++step) {
     const double height = sign * value(x);
-    if (height < 0) return x;
+    const double error = value_error(x);
+    if (height < -error) return {x};
     const double slope = 2 * sign * half_slope(x);
-    if (slope == 0) return std::nullopt;
-    if (height - std::abs(slope) * (slope > 0 ? x - low : high - x) > 0) return std::nullopt;
+    const double farthest = slope > 0 ? x - low : high - x;
+    const double open = off_ > 0 ? error + slope_error() * (high - low) + inflection_error_ : 0;
+    if (slope == 0) return {std::nullopt, height > open};
+    if (height - std::abs(slope) * farthest > open) return {};
     (slope > 0 ? high : low) = x;
     const double curvature = 2 * sign * half_curvature(x);
     const double next = x - slope / curvature;
     const bool shrinks = step % 4 != 3;  // now and then halve, so that the bounds close in from both sides
     x = shrinks && curvature > 0 && low < next && next < high ? next : low + (high - low) / 2;
   }
-  return std::nullopt;
+  return {std::nullopt, false};
 }
 
 /// The one root between two points of different sign: Newton, and bisection where it would leave
@@ -139,31 +178,68 @@ double TorusLine::root_between(double negative, double positive) const {
   return x;
 }
 
-TorusLine::Dips TorusLine::dips() const {
+TorusLine::Dips TorusLine::dips() {
   Dips result;
   const std::optional<Range> whole = range();
   if (!whole) return result;
   const Range concave = concave_part(*whole);
-  const std::optional<double> first = find_sign(whole->low, concave.low, 1);
-  const std::optional<double> second = find_sign(concave.high, whole->high, 1);
+  inflection_error_ = inflection_error(concave);
+  const Search first = find_sign(whole->low, concave.low, 1);
+  const Search second = find_sign(concave.high, whole->high, 1);
+  // Nothing is hidden at the ends of the whole range, which are outside.
+  result.certain =
+      (first.certain || concave.low == whole->low) && (second.certain || concave.high == whole->high);
   const auto add = [&](double outside_before, double first_inside, double last_inside, double outside_after) {
     result.dip[result.count++] = {root_between(first_inside, outside_before),
                                   root_between(last_inside, outside_after)};
   };
-  if (first && second) {
-    const std::optional<double> rise = find_sign(concave.low, concave.high, -1);
-    if (rise) {
-      add(whole->low, *first, *first, *rise);
-      add(*rise, *second, *second, whole->high);
+  if (first.x && second.x) {
+    const Search rise = find_sign(concave.low, concave.high, -1);
+    result.certain = result.certain && rise.certain;
+    if (rise.x) {
+      add(whole->low, *first.x, *first.x, *rise.x);
+      add(*rise.x, *second.x, *second.x, whole->high);
     } else {
-      add(whole->low, *first, *second, whole->high);
+      add(whole->low, *first.x, *second.x, whole->high);
     }
-  } else if (first) {
-    add(whole->low, *first, *first, concave.high);
-  } else if (second) {
-    add(concave.low, *second, *second, whole->high);
+  } else if (first.x) {
+    add(whole->low, *first.x, *first.x, concave.high);
+  } else if (second.x) {
+    add(concave.low, *second.x, *second.x, whole->high);
   }
   return result;
+}
+
+void obey_side(Side side, bool bulging, double shortest, TorusLine::Dips& dips) {
+  std::size_t here = 0;  // the first stretch that goes on after the start
+  while (here < dips.count && !(dips.dip[here].leave > 0)) ++here;
+  TorusLine::Dip& next = dips.dip[std::min(here, dips.dip.size() - 1)];
+  const bool inside = here < dips.count && next.enter <= 0;
+  if (inside == (side == Side::inside)) return;
+
+  if (side == Side::inside) {
+    const bool leaves_at_start = here > 0 && dips.dip[here - 1].leave == 0;
+    if (!bulging && here < dips.count) {
+      const TorusLine::Dip onwards{0, next.leave};
+      if (leaves_at_start) --dips.count;
+      dips.dip[leaves_at_start ? here - 1 : here] = onwards;
+      return;
+    }
+    if (leaves_at_start) {
+      dips.dip[here - 1] = {0, shortest};
+    } else if (dips.count < dips.dip.size()) {
+      if (here < dips.count) dips.dip[here + 1] = next;
+      dips.dip[here] = {0, shortest};
+      ++dips.count;
+    }
+    return;
+  }
+  if (bulging && next.enter == 0) {
+    if (here + 1 < dips.count) next = dips.dip[here + 1];
+    --dips.count;
+  } else {
+    next.enter = std::min(shortest, next.leave / 2);
+  }
 }
 
 }  // namespace crt::core

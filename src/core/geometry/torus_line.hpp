@@ -4,6 +4,7 @@
 #include <array>
 #include <optional>
 
+#include "core/geometry/object_ray.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
@@ -14,6 +15,10 @@ class TorusLine {
   /// `on_surface` the point is on the torus by definition, and x = 0 a root.
   TorusLine(const Vec3& point, const Vec3& direction, double ring, double tube, bool on_surface);
 
+  /// From now on tells in Dips::certain whether rounding could have changed how many dips there are. `off`
+  /// is what each component of a point near the torus may be off by, rounding included.
+  void take_care(double off) { off_ = off; }
+
   /// A stretch of the line inside the torus.
   struct Dip {
     double enter;
@@ -22,9 +27,10 @@ class TorusLine {
   struct Dips {
     std::array<Dip, 2> dip;
     std::size_t count = 0;
+    bool certain = true;
   };
   /// In ascending order. Ends at x = 0 are exactly 0 if the point is on the surface.
-  Dips dips() const;
+  Dips dips();
 
   double value(double x) const;  ///< G; less what it is at x = 0, if the point is on the surface
   double level_at_start() const { return level(point_); }  ///< what G is at x = 0 all the same, by rounding
@@ -39,7 +45,15 @@ class TorusLine {
   double level(const Vec3& p) const;
   std::optional<Range> range() const;
   Range concave_part(const Range& range) const;
-  std::optional<double> find_sign(double low, double high, double sign) const;
+  /// A point where a sign was found, and whether rounding cannot have hidden one.
+  struct Search {
+    std::optional<double> x = {};
+    bool certain = true;
+  };
+  Search find_sign(double low, double high, double sign) const;
+  double value_error(double x) const;
+  double slope_error() const;
+  double inflection_error(const Range& concave) const;
   double root_between(double negative, double positive) const;
 
   Vec3 point_;
@@ -49,6 +63,13 @@ class TorusLine {
   double squared_speed_;
   double passing_;  ///< sqrt(D): the line's angular momentum about the axis
   bool on_surface_;
+  double off_ = 0;
+  double inflection_error_ = 0;
 };
+
+/// Makes the dips of a ray that starts on the torus agree with the side it leaves to, where the direction is
+/// at odds with it or grazes so closely that rounding decides. `bulging` tells that the surface turns away
+/// from the line, `shortest` what is left of a dip that rounding would have end at once.
+void obey_side(Side side, bool bulging, double shortest, TorusLine::Dips& dips);
 
 }  // namespace crt::core

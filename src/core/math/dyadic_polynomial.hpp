@@ -1,0 +1,64 @@
+// Polynomials without rounding, and their real roots told apart.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/math/dyadic.hpp"
+
+namespace crt::core {
+
+class DyadicPolynomial {
+ public:
+  DyadicPolynomial() = default;  ///< 0
+  /// The coefficient of x^0 first.
+  explicit DyadicPolynomial(std::vector<Dyadic> coefficients);
+
+  /// -1 for the polynomial 0.
+  int degree() const { return static_cast<int>(coefficients_.size()) - 1; }
+  /// Of the highest power; the polynomial must not be 0.
+  const Dyadic& leading() const { return coefficients_.back(); }
+  Dyadic value(const Dyadic& x) const;
+  DyadicPolynomial derivative() const;
+
+  friend DyadicPolynomial operator+(const DyadicPolynomial& a, const DyadicPolynomial& b);
+  friend DyadicPolynomial operator-(const DyadicPolynomial& a, const DyadicPolynomial& b);
+  friend DyadicPolynomial operator*(const DyadicPolynomial& a, const DyadicPolynomial& b);
+  friend DyadicPolynomial operator*(const Dyadic& s, const DyadicPolynomial& p);
+
+  /// The remainder of a / b times some negative number. b must not be 0.
+  friend DyadicPolynomial negative_remainder(const DyadicPolynomial& a, const DyadicPolynomial& b);
+
+ private:
+  void trim();
+
+  std::vector<Dyadic> coefficients_;  ///< the last is not 0
+};
+
+/// Counts real roots, each once whatever its multiplicity.
+/// Source: Sturm's theorem, as in Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry, 2006, 2.2.2.
+class SturmChain {
+ public:
+  /// The polynomial must not be 0.
+  explicit SturmChain(const DyadicPolynomial& polynomial);
+
+  /// All real roots.
+  int count() const;
+  /// Roots between two points that are no roots.
+  int count(const Dyadic& low, const Dyadic& high) const { return changes_at(low) - changes_at(high); }
+
+ private:
+  int changes_at(const Dyadic& x) const;
+  std::vector<DyadicPolynomial> chain_;
+};
+
+/// Points between each two of which one real root lies, in ascending order; none if there is no root. The
+/// polynomial must not be 0. Roots that are closer than 2^-400 of the largest stay together.
+std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial);
+
+/// The root between low and high, where `is_beyond` changes from false to true, until root + offset is known
+/// to more than 100 bits.
+Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high, const Dyadic& offset,
+                    const std::function<bool(const Dyadic& x)>& is_beyond);
+
+}  // namespace crt::core
