@@ -39,9 +39,11 @@ class Image {
   /// The same from a file's content in memory; `name` is for messages.
   static Image decode(std::span<const std::byte> content, const std::string& name);
 
-  /// From 8-bit RGBA with straight alpha, as displays want it: 4 * width * height bytes, rows from the top.
+  /// From 8-bit RGBA with straight alpha, as displays want it: 4 bytes a pixel, rows from the top, each
+  /// starting `row_stride` bytes after the one before (0: 4 * width). The bytes end with the last row.
   /// The image is display_encoded(). Throws Error (invalid_argument) for a wrong size or number of bytes.
-  static Image from_rgba8(int width, int height, std::span<const std::uint8_t> rgba);
+  static Image from_rgba8(int width, int height, std::span<const std::uint8_t> rgba,
+                          std::size_t row_stride = 0);
 
   /// Writes a file whose format its ending says: png, tif, jpg, bmp and ppm get 8-bit integers with
   /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some pixel is

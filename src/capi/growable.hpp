@@ -3,8 +3,6 @@
 // written. A field that it cuts in two counts as not there.
 #pragma once
 
-#include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>

@@ -4,7 +4,6 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <string_view>
 
 namespace crt::capi {
 
@@ -36,6 +35,12 @@ void keep_message(const char* text) noexcept {
   message[length] = 0;
 }
 
+crt_status status_of(ErrorCode code, const char* message) noexcept {
+  keep_message(message);
+  if (code != ErrorCode::cancelled) set_cancel_value(0);
+  return to_status(code);
+}
+
 }  // namespace
 
 crt_status to_status(ErrorCode code) noexcept {
@@ -58,12 +63,6 @@ crt_status to_status(ErrorCode code) noexcept {
       break;
   }
   return CRT_ERROR_INTERNAL;
-}
-
-crt_status status_of(ErrorCode code, const char* message) noexcept {
-  keep_message(message);
-  if (code != ErrorCode::cancelled) set_cancel_value(0);
-  return to_status(code);
 }
 
 void set_cancel_value(int value) noexcept {

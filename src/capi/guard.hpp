@@ -1,10 +1,8 @@
 // The border that no exception crosses: every function of the C interface runs inside guarded().
 #pragma once
 
-#include <cstddef>
 #include <cstdint>
 #include <string>
-#include <utility>
 
 #include "crt/crt.h"
 #include "crt/error.hpp"
@@ -18,9 +16,6 @@ struct CancelledByCallback {
 
 /// Turns the exception that is being handled into a status, and keeps its message for crt_error_message().
 crt_status status_of_exception() noexcept;
-
-/// The same for an error that is at hand.
-crt_status status_of(ErrorCode code, const char* message) noexcept;
 
 /// The ABI's number for a kind of error.
 crt_status to_status(ErrorCode code) noexcept;

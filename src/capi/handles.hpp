@@ -4,7 +4,6 @@
 #include <atomic>
 #include <cstdint>
 #include <memory>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -34,26 +33,16 @@ void release(Handle* handle) noexcept {
   if (handle != nullptr && handle->references.fetch_sub(1, std::memory_order_acq_rel) == 1) delete handle;
 }
 
+struct Release {
+  template <class Handle>
+  void operator()(Handle* handle) const noexcept {
+    release(handle);
+  }
+};
+
 /// A reference that the library holds itself.
 template <class Handle>
-class Reference {
- public:
-  Reference() = default;
-  /// Takes over the reference that the caller has.
-  explicit Reference(Handle* handle) noexcept : handle_(handle) {}
-  Reference(const Reference& other) noexcept : handle_(retain(other.handle_)) {}
-  Reference(Reference&& other) noexcept : handle_(std::exchange(other.handle_, nullptr)) {}
-  Reference& operator=(Reference other) noexcept {
-    std::swap(handle_, other.handle_);
-    return *this;
-  }
-  ~Reference() { release(handle_); }
-
-  Handle* get() const noexcept { return handle_; }
-
- private:
-  Handle* handle_ = nullptr;
-};
+using Reference = std::unique_ptr<Handle, Release>;
 
 /// The number with which a progress callback stopped a render; callbacks come from any thread.
 using CancelValue = std::shared_ptr<std::atomic<int>>;

@@ -75,13 +75,10 @@ crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* 
     require(out, "out");
     const int columns = to_side(width, "width");
     const int rows = to_side(height, "height");
-    const crt::Image size_is_possible(columns, rows);
     const std::size_t row_bytes = std::size_t{4} * width;
     const std::size_t stride = stride_or_default(row_stride, row_bytes, height);
-    std::vector<std::uint8_t> bytes(row_bytes * height);
-    for (std::size_t y = 0; y < height; ++y)
-      std::memcpy(&bytes[y * row_bytes], pixels + y * stride, row_bytes);
-    *out = new crt_image(crt::Image::from_rgba8(columns, rows, bytes));
+    const std::size_t count = height == 0 ? 0 : (height - 1) * stride + row_bytes;
+    *out = new crt_image(crt::Image::from_rgba8(columns, rows, {pixels, count}, stride));
   });
 }
 

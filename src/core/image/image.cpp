@@ -43,20 +43,29 @@ Image::Image(int width, int height) : width_(width), height_(height) {
   for (std::size_t i = 3; i < pixels_.size(); i += 4) pixels_[i] = 1;
 }
 
-Image Image::from_rgba8(int width, int height, std::span<const std::uint8_t> rgba) {
+Image Image::from_rgba8(int width, int height, std::span<const std::uint8_t> rgba, std::size_t row_stride) {
   Image image(width, height);
-  if (rgba.size() != image.pixels_.size()) {
+  const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
+  const std::size_t stride = row_stride == 0 ? row_bytes : row_stride;
+  const auto more_rows = static_cast<std::size_t>(height) - 1;
+  if (stride < row_bytes || rgba.size() < row_bytes || (rgba.size() - row_bytes) / stride < more_rows ||
+      rgba.size() != more_rows * stride + row_bytes) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} bytes are not a picture of {} x {} pixels", rgba.size(), width, height),
+                fmt::format("{} bytes in rows of {} are not a picture of {} x {} pixels", rgba.size(), stride,
+                            width, height),
                 "rgba");
   }
   constexpr float full = 255;
-  for (std::size_t i = 0; i < rgba.size(); i += 4) {
-    const float alpha = static_cast<float>(rgba[i + 3]) / full;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      image.pixels_[i + channel] = static_cast<float>(rgba[i + channel]) / full * alpha;
+  auto to = image.pixels_.begin();
+  for (std::size_t y = 0; y <= more_rows; ++y) {
+    const std::span<const std::uint8_t> row = rgba.subspan(y * stride, row_bytes);
+    for (std::size_t i = 0; i < row_bytes; i += 4) {
+      const float alpha = static_cast<float>(row[i + 3]) / full;
+      for (std::size_t channel = 0; channel < 3; ++channel) {
+        *to++ = static_cast<float>(row[i + channel]) / full * alpha;
+      }
+      *to++ = alpha;
     }
-    image.pixels_[i + 3] = alpha;
   }
   image.set_display_encoded(true);
   return image;

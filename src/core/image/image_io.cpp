@@ -136,6 +136,17 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
   return content;
 }
 
+/// The bytes of a file of a format; `name` is for messages.
+std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* format,
+                                  const WriteOptions& options, const std::string& name) {
+  if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
+  if (format == nullptr) {
+    fail(ErrorCode::unsupported, "write", name, "the name must end in one of " + writable_endings());
+  }
+  const FileTexts texts = file_texts(image, options.reproducible);
+  return encode(image, *format, format->free_texts ? texts : gathered_texts(texts), name);
+}
+
 }  // namespace
 
 Image Image::decode(std::span<const std::byte> content, const std::string& name) {
@@ -153,21 +164,6 @@ Image Image::read(const std::filesystem::path& path) {
     fail(ErrorCode::out_of_memory, "read", path.string(), "out of memory");
   }
 }
-
-namespace {
-
-/// The bytes of a file of a format; `name` is for messages.
-std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* format,
-                                  const WriteOptions& options, const std::string& name) {
-  if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
-  if (format == nullptr) {
-    fail(ErrorCode::unsupported, "write", name, "the name must end in one of " + writable_endings());
-  }
-  const FileTexts texts = file_texts(image, options.reproducible);
-  return encode(image, *format, format->free_texts ? texts : gathered_texts(texts), name);
-}
-
-}  // namespace
 
 void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
   const std::string name = path.string();
