@@ -5,26 +5,10 @@
 #   CC, CXX   the compilers that CRT was built with
 #   SANITIZE  what the build is instrumented with, if so
 # shellcheck shell=bash
-set -euo pipefail
-export LC_ALL=C
+# shellcheck source=tests/support/shell.sh
+source "$SOURCE/tests/support/shell.sh"
 
 header=$SOURCE/include/crt/crt.h
-readonly skipped=77 # CTest's SKIP_RETURN_CODE
-
-skip() {
-  echo "SKIPPED: $*"
-  exit "$skipped"
-}
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-
-# need TOOL PACKAGE: skips where the tool is missing.
-need() {
-  command -v "$1" >/dev/null || skip "no $1 here; it is in Debian's package $2"
-}
 
 # exported_functions: the names, sorted.
 exported_functions() {

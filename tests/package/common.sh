@@ -6,27 +6,11 @@
 #   BUILD_TYPE     such as Release
 #   UNFIT          why this build cannot be installed and used by others, if so
 # shellcheck shell=bash
-set -euo pipefail
-export LC_ALL=C
+# shellcheck source=tests/support/shell.sh
+source "$SOURCE/tests/support/shell.sh"
 
 moved=$WORK/moved             # the installed tree, not where it was installed to
 static_only=$WORK/static_only # the same as a build without libcrt.so installs it
-skipped=77                    # CTest's SKIP_RETURN_CODE
-
-skip() {
-  echo "SKIPPED: $*"
-  exit "$skipped"
-}
-
-fail() {
-  echo "FAILED: $*" >&2
-  exit 1
-}
-
-# need TOOL PACKAGE: skips where the tool is missing.
-need() {
-  command -v "$1" >/dev/null || skip "no $1 here; it is in Debian's package $2"
-}
 
 expect_png() {
   [[ $(od -An -tx1 -N8 "$1" | tr -d ' ') == 89504e470d0a1a0a ]] || fail "$1 is no PNG file"
