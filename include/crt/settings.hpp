@@ -14,7 +14,7 @@ enum class FalloffModel {
 /// How close a call the geometry settles: see docs/numerics.md. Both answer the same question.
 enum class Precision {
   standard,  ///< t within some roundings; the last bit is left to rounding right at a silhouette
-  exact,     ///< hits are right, t within 0.51 ulp; but cylinders, cones, tori as in standard
+  exact,     ///< hits are right, t within 0.51 ulp (tori: 1)
 };
 
 /// How a scene is rendered; everything that is neither geometry, light nor camera.

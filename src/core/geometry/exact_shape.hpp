@@ -1,4 +1,5 @@
-// The primitives of the exact tier (docs/numerics.md): hit or miss is right, and t is within 0.51 ulp.
+// The primitives of the exact tier (docs/numerics.md): hit or miss is right, and t is within
+// 0.51 ulp.
 //
 // Each first computes as the standard tier does, in doubles or double-doubles with a bound on the error. Only
 // where the bound leaves a sign open it asks for the ray without rounding (ExactRay::exact) and finds the
@@ -33,7 +34,7 @@ std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder);
 std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone);
 std::unique_ptr<const ExactShape> make_exact_shape(const Torus& torus);
 
-/// None for a primitive that has no exact tier and is computed by the standard one.
+/// Makes the exact shape of a (valid) primitive.
 std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive);
 
 }  // namespace crt::core
