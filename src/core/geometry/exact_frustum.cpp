@@ -1,5 +1,7 @@
 #include "core/geometry/exact_frustum.hpp"
 
+#include <limits>
+
 #include "core/geometry/exact_quadratic.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/frustum.hpp"
@@ -126,17 +128,19 @@ class ExactFrustumShape final : public ExactShape {
       }
       if (end.meeting.found()) (end.meeting.side < 0 ? enter : leave) = end;
     }
+    const double first_above =
+        start.face == no_face ? ray.first_above : std::numeric_limits<double>::infinity();
     Piece piece;
     FilteredSide filtered(frustum_, ray);
-    std::optional<bool> hit = cut(filtered, enter, leave, piece);
+    std::optional<bool> hit = cut(filtered, enter, leave, first_above, piece);
     if (!hit) {
       ExactSide exact(frustum_, ray);
-      hit = cut(exact, enter, leave, piece);
+      hit = cut(exact, enter, leave, first_above, piece);
     }
     if (!*hit || !std::isfinite(piece.enter.t) || !std::isfinite(piece.leave.t)) return false;
     if (start.face == no_face) {
       out.push_back(piece.enter);
-      out.push_back(piece.leave);
+      if (piece.leave.face != no_face) out.push_back(piece.leave);
       return false;
     }
     Stretch stretch(start, shortest_ / largest_component(ray.near.direction));
@@ -148,12 +152,13 @@ class ExactFrustumShape final : public ExactShape {
  private:
   struct Piece {
     Crossing enter;
-    Crossing leave;
+    Crossing leave{.face = no_face};  ///< left out, if it is not asked for
   };
 
   /// What the line cuts out of the solid; unknown if the side cannot tell.
   template <typename Side>
-  static std::optional<bool> cut(Side& side, const CapMeeting& enter, const CapMeeting& leave, Piece& piece) {
+  static std::optional<bool> cut(Side& side, const CapMeeting& enter, const CapMeeting& leave,
+                                 double first_above, Piece& piece) {
     const std::optional<int> at_enter = side.sign_at(enter);
     const std::optional<int> at_leave = side.sign_at(leave);
     if (!at_enter || !at_leave) return std::nullopt;
@@ -162,6 +167,10 @@ class ExactFrustumShape final : public ExactShape {
       if (!dips || !*dips) return dips;
     }
     const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
+    if (first && first->t > first_above) {
+      piece.enter = *first;
+      return true;
+    }
     const auto last = *at_leave < 0 ? leave.crossing() : side.root(false, enter, leave);
     if (!first || !last) return std::nullopt;
     piece = {*first, *last};

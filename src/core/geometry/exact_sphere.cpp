@@ -34,9 +34,11 @@ class ExactSphereShape final : public ExactShape {
     const double half_chord = std::sqrt(a * (r + distance) * (r - distance)) / a;
     Crossing enter{.t = line.to_t(closest - half_chord), .root = 0, .entering = true};
     Crossing leave{.t = line.to_t(closest + half_chord), .root = 1, .entering = false};
-    if (!polish(ray, enter) || !polish(ray, leave)) return exact_crossings(ray, out);
+    if (!polish(ray, enter)) return exact_crossings(ray, out);
+    const bool is_enough = enter.t > ray.first_above;
+    if (!is_enough && !polish(ray, leave)) return exact_crossings(ray, out);
     out.push_back(enter);
-    out.push_back(leave);
+    if (!is_enough) out.push_back(leave);
     return false;
   }
 

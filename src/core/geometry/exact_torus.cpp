@@ -67,6 +67,7 @@ class ExactTorusShape final : public ExactShape {
         const double x = entering ? dips.dip[i].enter : dips.dip[i].leave;
         if (!polish(ray, line.to_precise_t(x), {}, crossing)) return false;
         out.push_back(crossing);
+        if (crossing.t > ray.first_above) return true;
       }
     }
     return true;

@@ -48,6 +48,9 @@ class Accelerator::Query {
 
   void set_limit(double limit) { limit_ = limit; }
 
+  /// Whether take() never asks for more of an object than its first crossing.
+  bool takes_one_ = false;
+
  private:
   void test_leaf(std::uint32_t object_index, const SceneObject& object);
   void test_csg(std::uint32_t object_index, const SceneObject& object);
@@ -63,10 +66,12 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
   const ObjectRay object_ray = accelerator_.object_ray(object.first_leaf, ray_);
   CrossingList& crossings = work_.crossings;
   crossings.clear();
-  bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations);
+  const double start = ray_.t_min + ray_.start.t_error;
+  // A crossing above that is also more than its error above it: to the last bit or so.
+  const double first_above = takes_one_ && leaf.exact ? std::nextafter(start, infinity) : infinity;
+  bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations, first_above);
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = object_ray.start.face != no_face;
-  const double start = ray_.t_min + ray_.start.t_error;
   std::size_t index = 0;
   for (; index < crossings.size(); ++index) {
     const Crossing& crossing = crossings[index];
@@ -158,7 +163,10 @@ void Accelerator::traverse(Query& query) const {
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   class Nearest final : public Query {
    public:
-    using Query::Query;
+    Nearest(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace)
+        : Query(accelerator, world_ray, workspace) {
+      takes_one_ = true;
+    }
     RayHit best;
 
    private:
@@ -179,7 +187,10 @@ RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
 bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
   class Any final : public Query {
    public:
-    using Query::Query;
+    Any(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace)
+        : Query(accelerator, world_ray, workspace) {
+      takes_one_ = true;
+    }
     bool found = false;
 
    private:
