@@ -203,6 +203,8 @@ CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
           .t_low = work_.crossings_[begin].t_low,
           .leaf = cause->leaf,
           .face = cause->face,
+          .surface = cause->surface,
+          .root = cause->root,
           .entering = value(0)};
 }
 

@@ -31,6 +31,8 @@ struct CsgHit {
   double t_low = 0;
   std::uint32_t leaf = 0;  ///< within the object: whose face it is, and so whose material
   std::uint32_t face = 0;
+  std::uint32_t surface = 0;
+  std::uint8_t root = 0;  ///< as in Crossing
   bool entering = false;  ///< the object
 };
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <span>
 #include <tuple>
 
+#include "core/math/vector.hpp"
 #include "core/scene/embree_tree.hpp"
 
 namespace crt::core {
@@ -12,6 +14,33 @@ namespace crt::core {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// How far along the ray from a hit other crossings may be and yet be at its place, or at the start of a ray
+/// that goes on from it, whose origin is rounded. Wide, as the next ray may meet at right angles what
+/// this one grazes: it only decides where to look.
+double company_width(const WorldRay& ray, const RayHit& hit) {
+  constexpr double error_factor = 4;
+  constexpr double relative_width = 0x1p-40;
+  const double farthest =
+      std::fma(std::abs(hit.t), largest_component(ray.direction), largest_component(ray.origin));
+  return error_factor * hit.error + relative_width * farthest;
+}
+
+bool any_surface_is_shared(const CompiledScene& scene) {
+  std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const SceneObject& solid = scene.objects[object];
+    const std::uint32_t count = solid.is_csg() ? scene.programs[solid.program].leaf_count() : 1;
+    for (const Leaf& leaf : std::span(scene.leaves).subspan(solid.first_leaf, count)) {
+      for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
+        std::uint32_t& owner = owners[scene.face_surfaces[leaf.first_face + face].surface];
+        if (owner != nothing && owner != object) return true;
+        owner = object;
+      }
+    }
+  }
+  return false;
+}
 
 }  // namespace
 
@@ -88,6 +117,8 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
                      .object = object_index,
                      .leaf = object.first_leaf,
                      .face = crossing.face,
+                     .surface = accelerator_.face_surface(leaf, crossing.face).surface,
+                     .root = crossing.root,
                      .entering = crossing.entering};
     if (!take(hit)) return;
   }
@@ -113,6 +144,8 @@ void Accelerator::Query::test_csg(std::uint32_t object_index, const SceneObject&
                        .object = object_index,
                        .leaf = leaf,
                        .face = found.face,
+                       .surface = found.surface,
+                       .root = found.root,
                        .entering = found.entering};
       if (!take(hit)) return;
     }
@@ -120,7 +153,8 @@ void Accelerator::Query::test_csg(std::uint32_t object_index, const SceneObject&
   }
 }
 
-Accelerator::Accelerator(CompiledScene compiled) : compiled_(std::move(compiled)) {
+Accelerator::Accelerator(CompiledScene compiled)
+    : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
   for (std::uint32_t i = 0; i < compiled_.objects.size(); ++i) {
     const Bounds& bounds = compiled_.objects[i].bounds;
@@ -171,17 +205,43 @@ RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
 
    private:
     bool take(const RayHit& hit) override {
-      if (hit.t < ray().t_max &&
-          std::tie(hit.t, hit.t_low, hit.object) < std::tie(best.t, best.t_low, best.object)) {
+      if (!(hit.t < ray().t_max)) return false;
+      if (std::tie(hit.t, hit.t_low, hit.object) < std::tie(best.t, best.t_low, best.object)) {
+        const double reach = hit.t + company_width(ray(), hit);
+        const bool has_company = best.t <= reach;
         best = hit;
-        set_limit(hit.t);
+        best.has_company = has_company;
+        set_limit(reach);
+      } else {
+        best.has_company = true;
       }
       return false;
     }
   };
   Nearest query(*this, ray, work);
   traverse(query);
-  return query.best;
+  return query.best.has_company ? gather_company(ray, query.best, work) : query.best;
+}
+
+RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const {
+  WorldRay piece = ray;
+  piece.t_max = std::min(ray.t_max, std::nextafter(nearest.t + company_width(ray, nearest), infinity));
+  std::vector<RayHit>& here = work.here;
+  std::vector<RayHit>& near = work.near;
+  here.clear();
+  near.clear();
+  all(piece, nullptr, near, work);
+  std::sort(near.begin(), near.end(), [](const RayHit& a, const RayHit& b) {
+    return std::tie(a.object, a.t, a.t_low) < std::tie(b.object, b.t, b.t_low);
+  });
+  const auto split = std::stable_partition(
+      near.begin(), near.end(), [&](const RayHit& crossing) { return same_place(crossing, nearest); });
+  here.assign(near.begin(), split);
+  near.erase(near.begin(), split);
+  if (here.empty()) return nearest;
+  RayHit first = here.front();
+  first.has_company = here.size() + near.size() > 1;
+  return first;
 }
 
 bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
@@ -238,6 +298,27 @@ bool Accelerator::all(const WorldRay& ray, const std::vector<bool>* is_opaque, s
   All query(*this, ray, work, is_opaque, out);
   traverse(query);
   return !query.stopped;
+}
+
+Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
+  class Stayed final : public Query {
+   public:
+    using Query::Query;
+    Stay result;
+
+   private:
+    bool begin(std::uint32_t /*object*/, bool starts_inside) override {
+      result.inside = starts_inside;
+      return starts_inside;
+    }
+    bool take(const RayHit& hit) override {
+      result.exit = hit;
+      return false;
+    }
+  };
+  Stayed query(*this, ray, work);
+  query.test(object);
+  return query.result;
 }
 
 void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {

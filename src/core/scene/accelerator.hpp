@@ -29,6 +29,11 @@ class Accelerator {
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the ray
   /// never leaves counts as left at infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+  /// The same for one solid object.
+  Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
+
+  /// Whether some surface has faces of several objects on it.
+  bool objects_share_surfaces() const { return objects_share_surfaces_; }
 
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
@@ -42,11 +47,14 @@ class Accelerator {
   class Query;
 
   void traverse(Query& query) const;
+  /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
+  RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
   CompiledScene compiled_;
   std::vector<std::uint32_t> unbounded_;    ///< objects
   std::vector<std::uint32_t> bounded_;      ///< objects, in the order in which Embree numbers them
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
+  bool objects_share_surfaces_ = false;
 };
 
 }  // namespace crt::core

@@ -26,6 +26,20 @@ Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
 
+/// Gives crossings of one surface one t, whosever they are.
+void unify_coincident(std::vector<RayHit>& crossings) {
+  std::sort(crossings.begin(), crossings.end(), [](const RayHit& a, const RayHit& b) {
+    return std::tie(a.surface, a.root, a.object) < std::tie(b.surface, b.root, b.object);
+  });
+  for (std::size_t i = 1; i < crossings.size(); ++i) {
+    const RayHit& first = crossings[i - 1];
+    if (crossings[i].surface != first.surface || crossings[i].root != first.root) continue;
+    crossings[i].t = first.t;
+    crossings[i].error = first.error;
+    crossings[i].t_low = first.t_low;
+  }
+}
+
 }  // namespace
 
 PreparedData::PreparedData(const Scene& scene) {
@@ -60,6 +74,7 @@ bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vect
                              RayWorkspace& work) const {
   out.clear();
   if (!accelerator_->all(ray, stop_at_opaque ? &opaque_ : nullptr, out, work)) return false;
+  if (accelerator_->objects_share_surfaces()) unify_coincident(out);
   // Where two solids touch, one is left before the other is entered.
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.t, a.t_low, a.entering, a.object) < std::tie(b.t, b.t_low, b.entering, b.object);
@@ -73,6 +88,10 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, Ra
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
     return std::make_tuple(-a.t, a.object) < std::make_tuple(-b.t, b.object);
   });
+}
+
+Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
+  return accelerator_->stay(ray, object, work);
 }
 
 HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {

@@ -1,0 +1,52 @@
+// What the tests of extremes share: random directions, rotations, and cameras of one pixel.
+#pragma once
+
+#include <crt/query.hpp>
+#include <crt/render.hpp>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+
+#include "render/pictures.hpp"
+
+namespace crt::test {
+
+class Random {
+ public:
+  explicit Random(unsigned seed) : engine_(seed) {}
+
+  double between(double low, double high) { return low + (high - low) * unit_(engine_); }
+  int integer(int low, int high) {
+    return low + static_cast<int>((high - low + 1) * unit_(engine_) * 0.999999);
+  }
+
+  /// Evenly over the sphere.
+  Vec3 direction() {
+    while (true) {
+      const Vec3 v(between(-1, 1), between(-1, 1), between(-1, 1));
+      const double length = glm::length(v);
+      if (length > 0.01 && length <= 1) return v / length;
+    }
+  }
+
+ private:
+  std::mt19937_64 engine_;
+  std::uniform_real_distribution<double> unit_;
+};
+
+inline Vec3 apply(const Transform& map, const Vec3& p) {
+  return Vec3(glm::dot(map.row_x, p), glm::dot(map.row_y, p), glm::dot(map.row_z, p)) + map.translation;
+}
+
+/// The same for a direction.
+inline Vec3 turn(const Transform& map, const Vec3& v) {
+  return {glm::dot(map.row_x, v), glm::dot(map.row_y, v), glm::dot(map.row_z, v)};
+}
+
+/// A unit vector across `v`, which must have length 1.
+inline Vec3 across(const Vec3& v) {
+  return glm::normalize(std::abs(v.x) < 0.6 ? glm::cross(v, Vec3(1, 0, 0)) : glm::cross(v, Vec3(0, 1, 0)));
+}
+
+}  // namespace crt::test
