@@ -44,6 +44,19 @@ inline Vec3 turn(const Transform& map, const Vec3& v) {
   return {glm::dot(map.row_x, v), glm::dot(map.row_y, v), glm::dot(map.row_z, v)};
 }
 
+/// The ray through the middle of a pixel of a pinhole camera without roll, as docs/image.md has it.
+inline Ray pixel_ray(const Scene& scene, int x, int y) {
+  const Vec3 forward = glm::normalize(scene.camera.pointing - scene.camera.position);
+  const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), forward));
+  const Vec3 up = glm::cross(forward, right);
+  const double half_up = std::tan(scene.camera.fov / 2);
+  const double half_across = half_up * scene.settings.width / scene.settings.height;
+  const double nx = 2 * (x + 0.5) / scene.settings.width - 1;
+  const double ny = 1 - 2 * (y + 0.5) / scene.settings.height;
+  return {.origin = scene.camera.position,
+          .direction = glm::normalize(forward + nx * half_across * right + ny * half_up * up)};
+}
+
 /// A unit vector across `v`, which must have length 1.
 inline Vec3 across(const Vec3& v) {
   return glm::normalize(std::abs(v.x) < 0.6 ? glm::cross(v, Vec3(1, 0, 0)) : glm::cross(v, Vec3(0, 1, 0)));
