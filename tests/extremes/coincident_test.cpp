@@ -140,28 +140,6 @@ Image taken(std::vector<Entity> entities, const Transform& placed, int side, Pre
   return render(prepare(scene), {.threads = 1});
 }
 
-double difference(const Color& a, const Color& b) {
-  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
-}
-
-/// Pixels that differ where neither picture has an edge next to them in the reference.
-int speckles(const Image& image, const Image& reference) {
-  constexpr double smooth = 0.05;
-  constexpr double alike = 0.01;
-  int count = 0;
-  for (int y = 1; y + 1 < image.height(); ++y) {
-    for (int x = 1; x + 1 < image.width(); ++x) {
-      const Color middle = reference.at(x, y);
-      bool at_edge = false;
-      for (int i = 0; i < 9; ++i) {
-        at_edge = at_edge || difference(middle, reference.at(x + i % 3 - 1, y + i / 3 - 1)) > smooth;
-      }
-      if (!at_edge && difference(middle, image.at(x, y)) > alike) ++count;
-    }
-  }
-  return count;
-}
-
 std::vector<Transform> placements() {
   Transform far = rotate({33, 5, 67});
   far.translation = {30, -70, 20};

@@ -4,6 +4,7 @@
 #include <crt/query.hpp>
 #include <crt/render.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <random>
@@ -55,6 +56,27 @@ inline Ray pixel_ray(const Scene& scene, int x, int y) {
   const double ny = 1 - 2 * (y + 0.5) / scene.settings.height;
   return {.origin = scene.camera.position,
           .direction = glm::normalize(forward + nx * half_across * right + ny * half_up * up)};
+}
+
+inline double difference(const Color& a, const Color& b) {
+  return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
+}
+
+/// Pixels that differ by more than `alike` where the reference has no edge next to them.
+inline int speckles(const Image& image, const Image& reference, double alike = 0.01) {
+  constexpr double smooth = 0.05;
+  int count = 0;
+  for (int y = 1; y + 1 < image.height(); ++y) {
+    for (int x = 1; x + 1 < image.width(); ++x) {
+      const Color middle = reference.at(x, y);
+      bool at_edge = false;
+      for (int i = 0; i < 9; ++i) {
+        at_edge = at_edge || difference(middle, reference.at(x + i % 3 - 1, y + i / 3 - 1)) > smooth;
+      }
+      if (!at_edge && difference(middle, image.at(x, y)) > alike) ++count;
+    }
+  }
+  return count;
 }
 
 /// A unit vector across `v`, which must have length 1.
