@@ -1,6 +1,7 @@
 #include "core/render/tracer.hpp"
 
 #include <algorithm>
+#include <limits>
 #include <optional>
 
 #include "core/render/media_order.hpp"
@@ -188,13 +189,16 @@ bool Tracer::push(const PathRay& path) {
 }
 
 RayHit Tracer::seen_of(const PathRay& path, const RayHit& hit) {
+  RayHit seen = hit;
+  double least = std::numeric_limits<double>::infinity();
   for (const RayHit& crossing : work_.rays.here) {
-    if (crossing_filter(data_, path.ray, crossing, work_.stats).transparency > 0) continue;
-    RayHit seen = crossing;
-    seen.has_company = true;
-    return seen;
+    const double transparency = crossing_filter(data_, path.ray, crossing, work_.stats).transparency;
+    if (!(transparency < least)) continue;
+    least = transparency;
+    seen = crossing;
   }
-  return hit;
+  seen.has_company = true;
+  return seen;
 }
 
 Tracer::Passage Tracer::passage(const SurfaceHit& surface, const PathRay& path, const RayHit& hit,

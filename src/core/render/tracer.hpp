@@ -36,8 +36,8 @@ class Tracer {
   /// Whether the path was worth it.
   bool push(const PathRay& path);
 
-  /// Of the surfaces at a hit's place the one that is seen: the first, in the order in which the objects were
-  /// written, that lets nothing through, or the first of all.
+  /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
+  /// several the one whose object was written first.
   RayHit seen_of(const PathRay& path, const RayHit& hit);
 
   /// What a ray that goes on through a hit's place finds.
