@@ -54,6 +54,9 @@ struct WorldRay {
   double t_min = 0;
   double t_max = std::numeric_limits<double>::infinity();
   StartPoint start{};
+  /// If what the ray ends at may be on a surface: how far from that surface rounding may have put it. Where
+  /// asked what is on the way there, surfaces through the end are not.
+  double end_error = 0;
 };
 
 /// Memory that one thread reuses from ray to ray.

@@ -1,9 +1,10 @@
 #include "core/render/tracer.hpp"
 
-#include <algorithm>
+#include <cmath>
 #include <limits>
 #include <optional>
 
+#include "core/math/vector.hpp"
 #include "core/render/media_order.hpp"
 #include "core/render/shadow.hpp"
 #include "core/shading/fresnel.hpp"
@@ -24,6 +25,14 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   MediaLists::List list = MediaLists::empty;
   for (const Medium& medium : outermost_first) list = lists.entered(list, medium);
   return list;
+}
+
+/// How far rounding may put a lamp from a surface that it is meant to be on.
+double lamp_error(const Vec3& point, const LightSample& sample) {
+  if (std::isinf(sample.distance)) return 0;
+  constexpr double roundings = 16;
+  return roundings * unit_roundoff *
+         std::fma(sample.distance, largest_component(sample.direction), largest_component(point));
 }
 
 /// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
@@ -125,7 +134,8 @@ Rgb Tracer::direct_light_at(const SurfaceHit& surface, const PathRay& path, cons
     const WorldRay shadow_ray = {.origin = surface.point.position,
                                  .direction = sample->direction,
                                  .t_max = sample->distance,
-                                 .start = *start};
+                                 .start = *start,
+                                 .end_error = lamp_error(surface.point.position, *sample)};
     tick();
     light += unhidden * light_share(data_, shadow_ray, path.media, work_);
   }

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <span>
 #include <tuple>
@@ -26,6 +27,14 @@ double company_width(const WorldRay& ray, const RayHit& hit) {
   return error_factor * hit.error + relative_width * farthest;
 }
 
+/// How far before the end of a ray the crossing of a surface through that end may be; the flatter the ray,
+/// the farther. Within it is_at_end() looks closely.
+double end_width(const WorldRay& ray) {
+  constexpr double relative_width = 0x1p-26;
+  return relative_width *
+         std::fma(ray.t_max, largest_component(ray.direction), largest_component(ray.origin));
+}
+
 bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
@@ -48,7 +57,9 @@ bool any_surface_is_shared(const CompiledScene& scene) {
 class Accelerator::Query {
  public:
   Query(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
-      : accelerator_(accelerator), ray_(ray), work_(work), limit_(ray.t_max) {}
+      : accelerator_(accelerator), ray_(ray), work_(work), limit_(ray.t_max), near_end_(ray.t_max) {
+    if (ray.end_error > 0) near_end_ -= end_width(ray);
+  }
   virtual ~Query() = default;
   Query(const Query&) = delete;
   Query& operator=(const Query&) = delete;
@@ -80,6 +91,11 @@ class Accelerator::Query {
   /// Whether take() never asks for more of an object than its first crossing.
   bool takes_one_ = false;
 
+  /// Whether a crossing is before the ray's end and not at it.
+  bool is_on_way(const RayHit& hit) const {
+    return hit.t < near_end_ || (hit.t < ray_.t_max && !accelerator_.is_at_end(ray_, hit));
+  }
+
  private:
   void test_leaf(std::uint32_t object_index, const SceneObject& object);
   void test_csg(std::uint32_t object_index, const SceneObject& object);
@@ -88,6 +104,7 @@ class Accelerator::Query {
   const WorldRay& ray_;
   RayWorkspace& work_;
   double limit_;
+  double near_end_;
 };
 
 void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject& object) {
@@ -181,6 +198,23 @@ ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) cons
   return result;
 }
 
+SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit) const {
+  const Leaf& leaf = compiled_.leaves[hit.leaf];
+  const Crossing crossing{.t = hit.t,
+                          .error = hit.error,
+                          .face = hit.face,
+                          .root = 0,
+                          .entering = hit.entering != leaf.complemented};
+  return leaf.shape->surface_point(object_ray(hit.leaf, ray), crossing);
+}
+
+bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
+  if (!(ray.end_error > 0)) return false;
+  const Vec3 normal = compiled_.leaves[hit.leaf].placement->normal_to_world(surface_point(ray, hit).normal);
+  const double slope = std::abs(glm::dot(normal, ray.direction));
+  return (ray.t_max - hit.t - hit.error) * slope <= ray.end_error;
+}
+
 void Accelerator::traverse(Query& query) const {
   for (const std::uint32_t object : unbounded_) {
     if (query.limit() <= query.ray().t_min) return;
@@ -255,7 +289,7 @@ bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
 
    private:
     bool take(const RayHit& hit) override {
-      if (hit.t < ray().t_max) {
+      if (is_on_way(hit)) {
         found = true;
         set_limit(-infinity);
       }
@@ -281,7 +315,7 @@ bool Accelerator::all(const WorldRay& ray, const std::vector<bool>* is_opaque, s
 
    private:
     bool take(const RayHit& hit) override {
-      if (!(hit.t < ray().t_max)) return false;
+      if (!is_on_way(hit)) return false;
       if (is_opaque_ != nullptr && (*is_opaque_)[accelerator_.leaf(hit.leaf).material]) {
         stopped = true;
         set_limit(-infinity);

@@ -40,6 +40,8 @@ class Accelerator {
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
     return compiled_.face_surfaces[leaf.first_face + face];
   }
+  /// The point of a hit that `ray` found, in the space of its leaf.
+  SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
 
@@ -47,6 +49,8 @@ class Accelerator {
   class Query;
 
   void traverse(Query& query) const;
+  /// Whether a crossing near the ray's end is of a surface through that end.
+  bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 

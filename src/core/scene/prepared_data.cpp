@@ -96,13 +96,7 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
 
 HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const ObjectRay object_ray = accelerator_->object_ray(hit.leaf, ray);
-  const Crossing crossing{.t = hit.t,
-                          .error = hit.error,
-                          .face = hit.face,
-                          .root = 0,
-                          .entering = hit.entering != leaf.complemented};
-  const SurfacePoint surface = leaf.shape->surface_point(object_ray, crossing);
+  const SurfacePoint surface = accelerator_->surface_point(ray, hit);
   HitPoint point;
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);

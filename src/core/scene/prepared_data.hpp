@@ -94,7 +94,7 @@ class PreparedData {
   /// The nearest crossing; of those at one place that of the object that comes first in the scene.
   RayHit intersect(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// Whether there is any crossing at all.
+  /// Whether there is any crossing at all before the ray's end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
 
   /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
