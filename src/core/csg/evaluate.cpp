@@ -1,6 +1,8 @@
 #include "core/csg/evaluate.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <tuple>
 
@@ -30,6 +32,17 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
   exact.first_above = first_above;
   exact.escalations = &escalations;
   return leaf.exact->crossings(exact, out);
+}
+
+bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                 const Crossing& crossing) {
+  const double way = crossing.t - ray.t_min - crossing.error;
+  if (crossing.t <= ray.t_min || way <= ray.start.t_error) return true;
+  // The flatter the ray meets a surface, the farther from the start it may do so.
+  constexpr double flattest = 0x1p24;
+  if (way > flattest * ray.start.t_error) return false;
+  const Vec3 normal = leaf.placement->normal_to_world(leaf.shape->surface_point(object_ray, crossing).normal);
+  return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }
 
 LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
@@ -97,9 +110,7 @@ void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
       const std::uint32_t surface = face_surfaces[leaf.first_face + crossing.face].surface;
       double t = crossing.t;
       double t_low = crossing.t_low;
-      // What coincides with the start but is another surface: rounding alone says on which side.
-      if (surface != ray_.start.surface && t > ray_.t_min &&
-          t - crossing.error <= ray_.t_min + ray_.start.t_error) {
+      if (surface != ray_.start.surface && t > ray_.t_min && is_at_start(leaf, ray_, object_ray, crossing)) {
         t = ray_.t_min;
         t_low = 0;
       }

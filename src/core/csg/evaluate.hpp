@@ -43,9 +43,13 @@ struct StartPoint {
   std::uint32_t face = no_face;
   std::uint32_t surface = nothing;
   Side side = Side::outside;  ///< of that surface, by its canonical orientation
-  /// Crossings of *other* surfaces up to this t are at the start too (rounding of the start point).
+  /// How far rounding may have put the start from *other* surfaces that are there too: see is_at_start().
   double t_error = 0;
 };
+
+/// What rounding makes of a point that was meant to be on several surfaces: it is this far from them at most,
+/// as a multiple of its largest coordinate.
+inline constexpr double start_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 /// A ray in the world: origin + t * direction, t_min < t < t_max.
 struct WorldRay {
@@ -91,6 +95,11 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
 /// tier. Of the crossings with t above `first_above` those behind the first may be left out.
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
                     std::uint64_t& escalations, double first_above = std::numeric_limits<double>::infinity());
+
+/// Whether a crossing of another surface than the one that the ray starts on is at the start, or before it:
+/// whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
+bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                 const Crossing& crossing);
 
 /// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
 struct LineSpan {

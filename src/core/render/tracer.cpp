@@ -69,8 +69,7 @@ Tracer::Sample Tracer::trace(const CameraRay& camera_ray) {
 
 PathRay Tracer::first_path(const CameraRay& camera_ray) {
   PathRay path;
-  path.ray.origin = camera_ray.origin;
-  path.ray.direction = camera_ray.direction;
+  path.ray = Frame::eye_ray(camera_ray);
   path.media = camera_media_;
   if (frame_.features().transparency && !frame_.one_viewpoint()) {
     find_surrounding_media(data_, path.ray, work_.surrounding, work_);

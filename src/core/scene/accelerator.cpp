@@ -121,7 +121,7 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
   std::size_t index = 0;
   for (; index < crossings.size(); ++index) {
     const Crossing& crossing = crossings[index];
-    if (crossing.t > ray_.t_min && (starts_here || crossing.t - crossing.error > start)) break;
+    if (crossing.t > ray_.t_min && (starts_here || !is_at_start(leaf, ray_, object_ray, crossing))) break;
     inside = crossing.entering;
   }
   if (!begin(object_index, inside && object.solid)) return;

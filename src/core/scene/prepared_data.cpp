@@ -133,12 +133,11 @@ StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Sid
   for (int axis = 0; axis < 3; ++axis) {
     farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
   }
-  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   return {.leaf = hit.leaf,
           .face = hit.face,
           .surface = face.surface,
           .side = side,
-          .t_error = rounding * farthest};
+          .t_error = start_rounding * farthest};
 }
 
 const Leaf& PreparedData::leaf(const HitPoint& point) const {
