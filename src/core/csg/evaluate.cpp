@@ -38,9 +38,7 @@ bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_
                  const Crossing& crossing) {
   const double way = crossing.t - ray.t_min - crossing.error;
   if (crossing.t <= ray.t_min || way <= ray.start.t_error) return true;
-  // The flatter the ray meets a surface, the farther from the start it may do so.
-  constexpr double flattest = 0x1p24;
-  if (way > flattest * ray.start.t_error) return false;
+  if (way > flattest_start * ray.start.t_error) return false;
   const Vec3 normal = leaf.placement->normal_to_world(leaf.shape->surface_point(object_ray, crossing).normal);
   return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }

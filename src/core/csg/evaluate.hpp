@@ -96,6 +96,10 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
                     std::uint64_t& escalations, double first_above = std::numeric_limits<double>::infinity());
 
+/// The flatter a ray meets a surface, the farther from its start it may do so if that is on the surface: up
+/// to this many times the rounding of the start.
+inline constexpr double flattest_start = 0x1p24;
+
 /// Whether a crossing of another surface than the one that the ray starts on is at the start, or before it:
 /// whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
 bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,

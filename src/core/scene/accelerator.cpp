@@ -112,8 +112,8 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
   const ObjectRay object_ray = accelerator_.object_ray(object.first_leaf, ray_);
   CrossingList& crossings = work_.crossings;
   crossings.clear();
-  const double start = ray_.t_min + ray_.start.t_error;
-  // A crossing above that is also more than its error above it: to the last bit or so.
+  // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
+  const double start = ray_.t_min + flattest_start * ray_.start.t_error;
   const double first_above = takes_one_ && leaf.exact ? std::nextafter(start, infinity) : infinity;
   bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations, first_above);
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
