@@ -65,14 +65,14 @@ int leaks(const Room& room, Precision precision, int rays, unsigned seed) {
   return leaked;
 }
 
+/// The exact tier gets a fifth of the rays: those at the tips of tori take it a millisecond each.
 void check_all_rooms(int rays) {
   unsigned seed = 0;
   for (const Room& room : placed_rooms()) {
-    for (const Precision precision : {Precision::standard, Precision::exact}) {
-      CAPTURE(room.name);
-      CAPTURE(seed);
-      CHECK(leaks(room, precision, rays, ++seed) == 0);
-    }
+    CAPTURE(room.name);
+    CAPTURE(seed);
+    CHECK(leaks(room, Precision::standard, rays, ++seed) == 0);
+    CHECK(leaks(room, Precision::exact, rays / 5, ++seed) == 0);
   }
 }
 
@@ -105,7 +105,7 @@ TEST_CASE("no ray gets out of a closed room") {
 }
 
 TEST_CASE("no ray of ten million gets out of a closed room" * doctest::skip()) {
-  check_all_rooms(60'000);
+  check_all_rooms(100'000);
 }
 
 TEST_CASE("light between mirrors on all sides never gets out") {
