@@ -140,3 +140,41 @@ TEST_CASE("glass on tables, water in glasses and labels have no speckles") {
     }
   }
 }
+
+TEST_CASE("glass in glass has the same bytes for any number of threads") {
+  Scene scene;
+  scene.settings.width = 40;
+  scene.settings.height = 40;
+  scene.background = GradientBackground{};
+  scene.lights = {PointLight{.origin = {3, 5, -4}}};
+  scene.entities = {table(), filling(0), tumbler(), label(0)};
+  for (Entity& entity : scene.entities) entity = entity.transformed(rotate({10, 20, 30}));
+  scene.camera = {.position = {0.3, 1.5, -4}, .pointing = {0, 0.5, 0}, .fov = 0.6};
+  const PreparedScene prepared = prepare(scene);
+  const Image reference = render(prepared, {.threads = 1});
+  for (const int threads : {2, 7}) {
+    const Image image = render(prepared, {.threads = threads});
+    CHECK(same_pixels(image, reference));
+    CHECK(image.stats().refraction_rays == reference.stats().refraction_rays);
+    CHECK(image.stats().media_changes == reference.stats().media_changes);
+  }
+}
+
+TEST_CASE("thousands of solids at one place are seen, and seen through, in the end") {
+  Scene scene = dark_scene();
+  scene.settings.width = 6;
+  scene.settings.height = 6;
+  scene.settings.recursion_depth = 8;
+  scene.background = SolidBackground{{1, 1, 1}};
+  scene.lights = {PointLight{.origin = {3, 5, -4}}};
+  Material fog = glass(1);
+  fog.absorption = grey(0.1);
+  for (int i = 0; i < 3000; ++i) scene.entities.emplace_back(Sphere{.material = fog});
+  scene.entities.emplace_back(Sphere{.center = {0, -2, 0}, .radius = 0.5, .material = wood()});
+  // Seen from outside and from within.
+  for (const Vec3& eye : {Vec3(0, 0, -3), Vec3(0, 0, 0)}) {
+    const double length = eye.z < 0 ? 2 : 1;
+    CHECK(seen(scene, eye, {0, 0, 1}).r == doctest::Approx(std::exp(-0.1 * length)).epsilon(1e-6));
+  }
+  CHECK(seen(scene, {0.3, -1.8, -2}, {0, -2, 0}).r > 0.05);
+}

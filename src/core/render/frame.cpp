@@ -88,6 +88,7 @@ void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::
   std::vector<RayHit>& exits = work.crossings;
   data.surrounding(ray, exits, work.rays);
   std::erase_if(exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
+  if (exits.size() > most_media_at_once) exits.resize(most_media_at_once);
   if (exits.size() > 1) sort_by_entry(data, ray, exits, work);
   // Each goes where it would be if the ray had come from outside of all.
   for (const RayHit& exit : exits) {

@@ -5,6 +5,7 @@
 // the ray runs. The innermost decides.
 #pragma once
 
+#include <cstddef>
 #include <utility>
 #include <vector>
 
@@ -12,6 +13,10 @@
 #include "core/scene/prepared_data.hpp"
 
 namespace crt::core {
+
+/// Of more solids than this around one point, or entered at one place, the rest is left out: what many of
+/// them cost grows with the square of their number.
+inline constexpr std::size_t most_media_at_once = 256;
 
 /// Whether crossings are at one place, be it at infinity.
 inline bool same_end(const RayHit& a, const RayHit& b) {

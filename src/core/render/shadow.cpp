@@ -47,7 +47,7 @@ class AbsorbedShare {
       const RayHit& crossing = work_.crossings[i];
       if (!data_.is_solid(crossing)) continue;
       if (crossing.entering) {
-        entered.push_back(crossing);
+        if (entered.size() < most_media_at_once) entered.push_back(crossing);
       } else {
         media_ = work_.media.left(media_, crossing.object);
       }

@@ -242,7 +242,8 @@ void Tracer::pass_company(const WorldRay& behind, const PathRay& path, const Ray
     }
     if (!solid) return;
     if (crossing.entering) {
-      if (!work_.media.holds(path.media, crossing.object)) entered.push_back(crossing);
+      const bool is_new = !work_.media.holds(path.media, crossing.object);
+      if (is_new && entered.size() < most_media_at_once) entered.push_back(crossing);
     } else {
       passage.media = work_.media.left(passage.media, crossing.object);
     }
