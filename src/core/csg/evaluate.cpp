@@ -34,12 +34,10 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
   return leaf.exact->crossings(exact, out);
 }
 
-bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                 const Crossing& crossing) {
-  const double way = crossing.t - ray.t_min - crossing.error;
-  if (crossing.t <= ray.t_min || way <= ray.start.t_error) return true;
-  if (way > flattest_start * ray.start.t_error) return false;
+bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                      const Crossing& crossing) {
   const Vec3 normal = leaf.placement->normal_to_world(leaf.shape->surface_point(object_ray, crossing).normal);
+  const double way = crossing.t - ray.t_min - crossing.error;
   return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }
 

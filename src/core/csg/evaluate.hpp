@@ -100,10 +100,18 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
 /// to this many times the rounding of the start.
 inline constexpr double flattest_start = 0x1p24;
 
+/// Whether a crossing near the start is of a surface through it.
+bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                      const Crossing& crossing);
+
 /// Whether a crossing of another surface than the one that the ray starts on is at the start, or before it:
 /// whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
-bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
-                 const Crossing& crossing);
+inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                        const Crossing& crossing) {
+  const double way = crossing.t - ray.t_min - crossing.error;
+  if (way > flattest_start * ray.start.t_error) return false;
+  return way <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
+}
 
 /// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
 struct LineSpan {
