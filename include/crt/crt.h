@@ -316,7 +316,7 @@ typedef enum crt_falloff_model {
 /** How close a call the geometry settles. Both answer the same question. */
 typedef enum crt_precision {
   CRT_PRECISION_STANDARD = 0, /**< right at a silhouette the last bit is left to rounding */
-  CRT_PRECISION_EXACT /**< hits are right, t within 0.51 ulp (tori: 1) */
+  CRT_PRECISION_EXACT         /**< hits are right, t within 0.51 ulp (tori: 1) */
 } crt_precision;
 
 /** How a scene is rendered. */
