@@ -11,7 +11,8 @@
 #include <oneapi/tbb/task_arena.h>
 #endif
 
-#include "core/csg/evaluate.hpp"
+#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/object_ray.hpp"
 #include "core/scene/embree_compat.hpp"
 #include "crt/error.hpp"
 
@@ -161,7 +162,7 @@ EmbreeTree::~EmbreeTree() = default;
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                           const Visit& visit) const {
   // A distant origin is moved up to the scene first, where floats are fine enough.
-  const LineSpan span = span_in_box(total_, origin, direction);
+  const LineSpan span = RaySlabs(origin, direction).span(total_);
   const double t_start = std::max(t_min, span.enter);
   const double t_end = std::min(t_max, span.leave);
   if (t_start > t_end) return;
