@@ -34,6 +34,9 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
 
 namespace {
 
+/// Of a line with one surface, a torus.
+constexpr std::size_t most_roots = 4;
+
 /// For heaps that have the nearest on top.
 constexpr auto is_later = [](const CsgCrossing& a, const CsgCrossing& b) {
   return std::tie(a.t, a.t_low, a.leaf, a.entering) > std::tie(b.t, b.t_low, b.leaf, b.entering);
@@ -61,6 +64,9 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       first_stamp_(++workspace.stamp_) {
   if (work_.nodes_.size() < program.nodes.size()) work_.nodes_.resize(program.nodes.size());
   if (work_.leaves_.size() < program.leaf_count()) work_.leaves_.resize(program.leaf_count());
+  if (work_.shared_.size() < most_roots * program.shared_surfaces) {
+    work_.shared_.resize(most_roots * program.shared_surfaces);
+  }
   work_.openings_.clear();
   work_.crossings_.clear();
   for (const std::uint32_t leaf : program.tree.unbounded()) {
@@ -154,6 +160,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
       met.t = ray_.t_min;
       met.t_low = 0;
     }
+    if (met.shared != FaceSurface::not_shared) ++shared_state(met).to_come;
     work_.crossings_.push_back(met);
     std::push_heap(work_.crossings_.begin(), work_.crossings_.end(), is_later);
   }
@@ -166,31 +173,41 @@ void CsgEvaluation::gather_cluster() {
   auto& crossings = work_.crossings_;
   auto& cluster = work_.cluster_;
   cluster.clear();
-  bool shared = false;
+  ++work_.stamp_;
   do {
-    cluster.push_back(crossings.front());
-    shared = shared || crossings.front().shared;
+    add_to_cluster(crossings.front());
     std::pop_heap(crossings.begin(), crossings.end(), is_later);
     crossings.pop_back();
   } while (!crossings.empty() && coincides(cluster.front(), crossings.front()));
-  if (shared && !crossings.empty()) gather_shared();
+  const bool some_to_come = std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing& crossing) {
+    return crossing.shared != FaceSurface::not_shared && shared_state(crossing).to_come > 0;
+  });
+  if (some_to_come) gather_shared();
+}
+
+void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
+  work_.cluster_.push_back(crossing);
+  if (crossing.shared == FaceSurface::not_shared) return;
+  SharedState& shared = shared_state(crossing);
+  --shared.to_come;
+  shared.cluster = work_.stamp_;
 }
 
 void CsgEvaluation::gather_shared() {
   auto& crossings = work_.crossings_;
-  const auto is_in_cluster = [&](const CsgCrossing& crossing) {
-    return crossing.shared &&
-           std::any_of(work_.cluster_.begin(), work_.cluster_.end(), [&](const CsgCrossing& member) {
-             return member.surface == crossing.surface && member.root == crossing.root;
-           });
-  };
-  const auto others =
-      std::stable_partition(crossings.begin(), crossings.end(),
-                            [&](const CsgCrossing& crossing) { return !is_in_cluster(crossing); });
-  if (others == crossings.end()) return;
-  work_.cluster_.insert(work_.cluster_.end(), others, crossings.end());
+  const auto others = std::partition(crossings.begin(), crossings.end(), [&](const CsgCrossing& crossing) {
+    return crossing.shared == FaceSurface::not_shared || shared_state(crossing).cluster != work_.stamp_;
+  });
+  for (auto other = others; other != crossings.end(); ++other) add_to_cluster(*other);
   crossings.erase(others, crossings.end());
   std::make_heap(crossings.begin(), crossings.end(), is_later);
+}
+
+CsgEvaluation::SharedState& CsgEvaluation::shared_state(const CsgCrossing& crossing) {
+  const std::size_t index = most_roots * crossing.shared + crossing.root;
+  SharedState& state = work_.shared_[index];
+  if (state.stamp < first_stamp_) state = {.stamp = first_stamp_};
+  return state;
 }
 
 CsgEvaluation::NodeState& CsgEvaluation::state(std::uint32_t node) {
@@ -209,7 +226,6 @@ bool CsgEvaluation::leaf_inside(std::uint32_t leaf) const {
 
 bool CsgEvaluation::flip_cluster() {
   const bool before = value(0);
-  ++work_.stamp_;
   for (const CsgCrossing& crossing : work_.cluster_) flip_leaf(crossing.leaf);
   return value(0) != before;
 }

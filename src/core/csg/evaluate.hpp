@@ -22,8 +22,8 @@ struct CsgCrossing {
   std::uint32_t face = 0;
   std::uint32_t surface = 0;
   std::uint8_t root = 0;
-  bool entering = false;  ///< the primitive, whether or not it is complemented
-  bool shared = false;    ///< its surface is another leaf's, too
+  bool entering = false;                           ///< the primitive, whether or not it is complemented
+  std::uint32_t shared = FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
 };
 
 /// A crossing of the object's own boundary.
@@ -77,6 +77,12 @@ class CsgWorkspace {
     std::uint64_t stamp = 0;
     bool inside = false;
   };
+  /// Of a shared surface and a root: how many crossings are to come, and the last cluster that has one.
+  struct SharedState {
+    std::uint64_t stamp = 0;
+    std::uint32_t to_come = 0;
+    std::uint64_t cluster = 0;
+  };
   /// A box that the line enters at `enter`.
   struct Opening {
     double enter = 0;
@@ -90,6 +96,7 @@ class CsgWorkspace {
   std::vector<CsgCrossing> cluster_;
   std::vector<NodeState> nodes_;
   std::vector<LeafState> leaves_;
+  std::vector<SharedState> shared_;
 };
 
 /// A face of `leaf` (which has the number `index` in the scene) that lies on the surface a ray starts
@@ -129,6 +136,7 @@ class CsgEvaluation {
 
  private:
   using NodeState = CsgWorkspace::NodeState;
+  using SharedState = CsgWorkspace::SharedState;
 
   void meet(LeafTree::Child child, double enter, double leave);
   /// Opens all boxes that are entered up to t.
@@ -139,11 +147,14 @@ class CsgEvaluation {
   void open_leaf(std::uint32_t index, double enter);
   /// Takes what coincides with the next crossing from those to come.
   void gather_cluster();
+  void add_to_cluster(const CsgCrossing& crossing);
   void gather_shared();
   /// Flips the leaves of the cluster and returns whether the root changed.
   bool flip_cluster();
   void flip_leaf(std::uint32_t leaf);
   NodeState& state(std::uint32_t node);
+  /// Of a crossing whose surface is shared.
+  SharedState& shared_state(const CsgCrossing& crossing);
   bool value(std::uint32_t node);
   bool leaf_inside(std::uint32_t leaf) const;
   CsgHit blame();

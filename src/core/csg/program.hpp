@@ -21,8 +21,10 @@ namespace crt::core {
 struct FaceSurface {
   std::uint32_t surface = 0;
   bool flipped = false;
-  /// Another face of the same object lies on it, too.
-  bool shared = false;
+  /// Where other faces of the same object lie on it, too: a number among such surfaces of the object.
+  std::uint32_t shared = not_shared;
+
+  static constexpr std::uint32_t not_shared = 0xffffffffu;
 };
 
 /// A primitive in its place.
@@ -52,6 +54,7 @@ struct CsgProgram {
   /// Leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
   LeafTree tree;  ///< over what of each leaf's box matters
+  std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }
 };

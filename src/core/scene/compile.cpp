@@ -166,15 +166,18 @@ void Compiler::finish_program(CsgProgram& program) {
     }
   }
   std::sort(numbers.begin(), numbers.end());
-  const auto is_shared = [&](std::uint32_t number) {
-    const auto [first, last] = std::equal_range(numbers.begin(), numbers.end(), number);
-    return last - first > 1;
-  };
+  std::unordered_map<std::uint32_t, std::uint32_t> shared;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] == numbers[i - 1])
+      shared.try_emplace(numbers[i], static_cast<std::uint32_t>(shared.size()));
+  }
+  program.shared_surfaces = static_cast<std::uint32_t>(shared.size());
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
     const Leaf& leaf = result_.leaves[program.first_leaf + i];
     for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
       FaceSurface& surface = result_.face_surfaces[leaf.first_face + face];
-      surface.shared = is_shared(surface.surface);
+      const auto found = shared.find(surface.surface);
+      if (found != shared.end()) surface.shared = found->second;
     }
   }
 }
