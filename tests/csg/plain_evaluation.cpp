@@ -73,8 +73,8 @@ class Plain {
         met.t = met.enter;
         met.t_low = 0;
       }
-      const bool may_be_at_start = std::max(met.t - met.error, met.enter) <= ray_.t_min + ray_.start.t_error;
-      if (met.surface != ray_.start.surface && met.t > ray_.t_min && may_be_at_start) {
+      if (met.surface != ray_.start.surface && met.t > ray_.t_min &&
+          met.enter <= core::farthest_start(ray_) && core::is_at_start(leaf, ray_, object_ray, crossing)) {
         met.t = ray_.t_min;
         met.t_low = 0;
       }

@@ -1,6 +1,8 @@
 #include "core/csg/evaluate.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 #include <tuple>
 
@@ -30,6 +32,13 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
   exact.first_above = first_above;
   exact.escalations = &escalations;
   return leaf.exact->crossings(exact, out);
+}
+
+bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                      const Crossing& crossing) {
+  const Vec3 normal = leaf.placement->normal_to_world(leaf.shape->surface_point(object_ray, crossing).normal);
+  const double way = crossing.t - ray.t_min - crossing.error;
+  return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }
 
 namespace {
@@ -74,7 +83,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     if (!span.empty()) meet(LeafTree::Child::leaf(leaf), span.enter, span.leave);
   }
   if (program.tree.has_root()) program.tree.visit(0, slabs_, [&](auto... met) { meet(met...); });
-  open_up_to(ray_.t_min + ray_.start.t_error);
+  open_up_to(farthest_start(ray_));
   while (!work_.crossings_.empty() && work_.crossings_.front().t <= ray_.t_min) {
     open_what_may_coincide();
     gather_cluster();
@@ -154,9 +163,8 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
       met.t = enter;
       met.t_low = 0;
     }
-    // What coincides with the start but is another surface: rounding alone says on which side.
-    if (met.surface != ray_.start.surface && met.t > ray_.t_min &&
-        std::max(met.t - met.error, enter) <= ray_.t_min + ray_.start.t_error) {
+    if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
+        is_at_start(leaf, ray_, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
     }
@@ -277,6 +285,8 @@ CsgHit CsgEvaluation::blame() {
           .t_low = first.t_low,
           .leaf = cause->leaf,
           .face = cause->face,
+          .surface = cause->surface,
+          .root = cause->root,
           .entering = value(0)};
 }
 

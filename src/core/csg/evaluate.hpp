@@ -33,6 +33,8 @@ struct CsgHit {
   double t_low = 0;
   std::uint32_t leaf = 0;  ///< within the object: whose face it is, and so whose material
   std::uint32_t face = 0;
+  std::uint32_t surface = 0;
+  std::uint8_t root = 0;  ///< as in Crossing
   bool entering = false;  ///< the object
 };
 
@@ -43,9 +45,13 @@ struct StartPoint {
   std::uint32_t face = no_face;
   std::uint32_t surface = nothing;
   Side side = Side::outside;  ///< of that surface, by its canonical orientation
-  /// Crossings of *other* surfaces up to this t are at the start too (rounding of the start point).
+  /// How far rounding may have put the start from *other* surfaces that are there too: see is_at_start().
   double t_error = 0;
 };
+
+/// What rounding makes of a point that was meant to be on several surfaces: it is this far from them at most,
+/// as a multiple of its largest coordinate.
+inline constexpr double start_rounding = 8 * std::numeric_limits<double>::epsilon();
 
 /// A ray in the world: origin + t * direction, t_min < t < t_max.
 struct WorldRay {
@@ -54,6 +60,9 @@ struct WorldRay {
   double t_min = 0;
   double t_max = std::numeric_limits<double>::infinity();
   StartPoint start{};
+  /// If what the ray ends at may be on a surface: how far from that surface rounding may have put it. Where
+  /// asked what is on the way there, surfaces through the end are not.
+  double end_error = 0;
 };
 
 /// Memory that one thread reuses from ray to ray.
@@ -108,6 +117,28 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
 /// tier. Of the crossings with t above `first_above` those behind the first may be left out.
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
                     std::uint64_t& escalations, double first_above = std::numeric_limits<double>::infinity());
+
+/// The flatter a ray meets a surface, the farther from its start it may do so if that is on the surface: up
+/// to this many times the rounding of the start.
+inline constexpr double flattest_start = 0x1p24;
+
+/// Up to where surfaces through the start may be met.
+inline double farthest_start(const WorldRay& ray) {
+  return ray.t_min + flattest_start * ray.start.t_error;
+}
+
+/// Whether a crossing near the start is of a surface through it.
+bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                      const Crossing& crossing);
+
+/// Whether a crossing of another surface than the one that the ray starts on is at the start, or before it:
+/// whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
+inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                        const Crossing& crossing) {
+  const double way = crossing.t - ray.t_min - crossing.error;
+  if (way > flattest_start * ray.start.t_error) return false;
+  return way <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
+}
 
 /// Walks along a ray through one CSG object, from one crossing of its boundary to the next.
 ///

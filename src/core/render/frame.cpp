@@ -1,6 +1,65 @@
 #include "core/render/frame.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <limits>
+
+#include "core/math/vector.hpp"
+#include "core/render/media_order.hpp"
+
 namespace crt::core {
+
+namespace {
+
+/// Brings the solids around a ray's start, given by their exits, into the order in which the ray's line
+/// enters them; those that it enters at one place from the last one left to the first.
+void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<RayHit>& exits,
+                   Workspace& work) {
+  WorldRay back = ray;
+  back.direction = -ray.direction;
+  struct Around {
+    RayHit exit;
+    RayHit entry;
+  };
+  std::vector<Around> solids;
+  solids.reserve(exits.size());
+  for (const RayHit& exit : exits) {
+    // Backwards the ray may start outside already, if it starts on the solid's surface.
+    const Stay stay = data.stay(back, exit.object, work.rays);
+    solids.push_back({exit, stay.inside ? stay.exit : RayHit{.t = 0}});
+  }
+  const auto comes_first = [](const Around& a, const Around& b) {
+    if (!same_end(a.entry, b.entry)) return a.entry.t > b.entry.t;
+    return same_end(a.exit, b.exit) ? a.exit.object < b.exit.object : a.exit.t > b.exit.t;
+  };
+  // By insertion, as in media_order.hpp.
+  for (std::size_t i = 1; i < solids.size(); ++i) {
+    for (std::size_t k = i; k > 0 && comes_first(solids[k], solids[k - 1]); --k) {
+      std::swap(solids[k], solids[k - 1]);
+    }
+  }
+  for (std::size_t i = 0; i < solids.size(); ++i) exits[i] = solids[i].exit;
+}
+
+/// Whether there is a surface at a point, or so near that rounding may decide. It is looked for along three
+/// axes across each other, as a line along a surface does not meet it.
+bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work) {
+  constexpr double relative_width = 0x1p-26;
+  const double width = relative_width * largest_component(point);
+  for (int axis = 0; axis < 3; ++axis) {
+    WorldRay line = {.origin = point, .direction = Vec3(0)};
+    line.direction[axis] = 1;
+    line.t_min = -std::numeric_limits<double>::max();
+    data.crossings(line, false, work.crossings, work.rays);
+    for (const RayHit& hit : work.crossings) {
+      if (std::abs(hit.t) <= hit.error + width) return true;
+    }
+  }
+  return false;
+}
+
+}  // namespace
 
 Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work)
     : data_(data), settings_(settings), camera_(data.scene().camera, settings.width, settings.height) {
@@ -9,25 +68,38 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
     lights_.emplace_back(light, settings.falloff_model);
     ambient_ += lights_.back().ambient();
   }
-  if (features().transparency && one_viewpoint()) {
-    const CameraRay middle = camera_.ray(0.5 * settings.width, 0.5 * settings.height);
-    find_surrounding_media(data, {.origin = middle.origin, .direction = middle.direction}, camera_media_,
-                           work);
-  }
+  if (!features().transparency || features().lens) return;
+  if (data.scene().camera.projection == Projection::orthographic) return;
+  const WorldRay middle = eye_ray(camera_.ray(0.5 * settings.width, 0.5 * settings.height));
+  one_viewpoint_ = !is_on_surface(data, middle.origin, work);
+  if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
 }
 
-bool Frame::one_viewpoint() const {
-  return data_.scene().camera.projection != Projection::orthographic && !features().lens;
+WorldRay Frame::eye_ray(const CameraRay& camera_ray) {
+  return {.origin = camera_ray.origin,
+          .direction = camera_ray.direction,
+          .start = {.t_error = start_rounding * largest_component(camera_ray.origin)}};
 }
 
 void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::vector<Medium>& out,
                             Workspace& work) {
   ++work.stats.media_lookups;
   out.clear();
-  data.surrounding(ray, work.crossings, work.rays);
-  for (const RayHit& exit : work.crossings) {
-    const std::uint32_t material = data.hit_material(exit);
-    if (!data.materials()[material].opaque) out.push_back({exit.object, material});
+  std::vector<RayHit>& exits = work.crossings;
+  data.surrounding(ray, exits, work.rays);
+  std::erase_if(exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
+  if (exits.size() > most_media_at_once) exits.resize(most_media_at_once);
+  if (exits.size() > 1) sort_by_entry(data, ray, exits, work);
+  // Each goes where it would be if the ray had come from outside of all.
+  for (const RayHit& exit : exits) {
+    auto place = out.end();
+    const auto is_inside_of = [&](const Medium& around) {
+      if (exit.object > around.object) return true;
+      const RayHit other = data.stay(ray, around.object, work.rays).exit;
+      return exit.t < other.t || same_end(exit, other);
+    };
+    while (place != out.begin() && !is_inside_of(*std::prev(place))) --place;
+    out.insert(place, {exit.object, data.hit_material(exit)});
   }
 }
 

@@ -23,9 +23,13 @@ class Frame {
   /// What all lights together give every point.
   const Rgb& ambient() const { return ambient_; }
 
-  /// Whether all camera rays start at one point, so that the same solids surround them all; those
-  /// are then camera_media(), the outermost first.
-  bool one_viewpoint() const;
+  /// A camera's ray in the world. What is at its very start, to rounding, is passed: an eye on a surface sees
+  /// what is before it, or from within what is behind it.
+  static WorldRay eye_ray(const CameraRay& camera_ray);
+
+  /// Whether all camera rays start at one point off all surfaces, so that the same solids surround them all;
+  /// those are then camera_media(), the outermost first.
+  bool one_viewpoint() const { return one_viewpoint_; }
   const std::vector<Medium>& camera_media() const { return camera_media_; }
 
  private:
@@ -34,6 +38,7 @@ class Frame {
   CameraRays camera_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
+  bool one_viewpoint_ = false;
   std::vector<Medium> camera_media_;
 };
 

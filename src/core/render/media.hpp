@@ -13,20 +13,27 @@ struct Medium {
 };
 
 /// Lists of nested media, innermost first, that share their tails: a ray's list is one number, and a
-/// ray that goes on has a list of its own without a copy.
-///
-/// The innermost medium is the one entered last. Leaving a solid takes it out wherever it is in the
-/// list, so that solids which merely overlap work too.
+/// ray that goes on has a list of its own without a copy. Leaving a solid takes it out wherever it is in the
+/// list; media_order.hpp says where it goes when it is entered.
 class MediaLists {
  public:
   using List = std::uint32_t;
   static constexpr List empty = 0xffffffffu;
 
-  /// `list` with one more medium around the ray. A solid is never in a list twice.
-  List entered(List list, const Medium& medium) {
-    nodes_.push_back({medium, left(list, medium.object)});
-    return static_cast<List>(nodes_.size() - 1);
+  /// `list` with one more medium around the ray, outside of the innermost ones of which
+  /// `is_inside_of(object)` is false. A solid is never in a list twice.
+  template <class IsInsideOf>
+  List entered(List list, const Medium& medium, const IsInsideOf& is_inside_of) {
+    List outer = left(list, medium.object);
+    inner_.clear();
+    for (; outer != empty && !is_inside_of(nodes_[outer].medium.object); outer = nodes_[outer].around) {
+      inner_.push_back(nodes_[outer].medium);
+    }
+    return with_inner(with(outer, medium));
   }
+
+  /// The same with the new medium the innermost of all.
+  List entered(List list, const Medium& medium) { return with(left(list, medium.object), medium); }
 
   /// `list` without a solid; the same list if it is not in there.
   List left(List list, std::uint32_t object) {
@@ -36,13 +43,12 @@ class MediaLists {
       inner_.push_back(nodes_[found].medium);
       found = nodes_[found].around;
     }
-    if (found == empty) return list;
-    List result = nodes_[found].around;
-    for (std::size_t i = inner_.size(); i > 0; --i) {
-      nodes_.push_back({inner_[i - 1], result});
-      result = static_cast<List>(nodes_.size() - 1);
-    }
-    return result;
+    return found == empty ? list : with_inner(nodes_[found].around);
+  }
+
+  bool holds(List list, std::uint32_t object) const {
+    while (list != empty && nodes_[list].medium.object != object) list = nodes_[list].around;
+    return list != empty;
   }
 
   /// The innermost medium of a list that is not empty, and the list of those around it.
@@ -54,6 +60,17 @@ class MediaLists {
   void release(std::uint32_t mark) { nodes_.resize(mark); }
 
  private:
+  List with(List list, const Medium& medium) {
+    nodes_.push_back({medium, list});
+    return static_cast<List>(nodes_.size() - 1);
+  }
+
+  /// `list` with the media of inner_ inside of it.
+  List with_inner(List list) {
+    for (std::size_t i = inner_.size(); i > 0; --i) list = with(list, inner_[i - 1]);
+    return list;
+  }
+
   struct Node {
     Medium medium;
     List around = empty;

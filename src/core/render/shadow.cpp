@@ -1,5 +1,9 @@
 #include "core/render/shadow.hpp"
 
+#include <cmath>
+#include <limits>
+
+#include "core/render/media_order.hpp"
 #include "core/render/surface_hit.hpp"
 
 namespace crt::core {
@@ -7,26 +11,75 @@ namespace crt::core {
 namespace {
 
 /// What the media along the ray absorb, between the crossings in work.crossings.
-Rgb absorbed_share(const PreparedData& data, const WorldRay& ray, MediaLists::List media, Workspace& work) {
-  const std::uint32_t mark = work.media.mark();
-  Rgb share(1);
-  double reached = 0;
-  const auto go_on_to = [&](double t) {
-    if (media != MediaLists::empty) {
-      share *= transmittance(data.materials()[work.media.innermost(media).material], t - reached);
+class AbsorbedShare {
+ public:
+  AbsorbedShare(const PreparedData& data, const WorldRay& ray, MediaLists::List media, Workspace& work)
+      : data_(data), ray_(ray), media_(media), work_(work) {}
+
+  Rgb share() {
+    const std::uint32_t mark = work_.media.mark();
+    const std::vector<RayHit>& crossings = work_.crossings;
+    for (std::size_t begin = 0; begin < crossings.size();) {
+      std::size_t end = begin + 1;
+      while (end < crossings.size() && same_place(crossings[begin], crossings[end])) ++end;
+      go_on_to(crossings[begin].t);
+      pass(begin, end);
+      begin = end;
     }
-    reached = t;
-  };
-  for (const RayHit& crossing : work.crossings) {
-    go_on_to(crossing.t);
-    if (!data.is_solid(crossing)) continue;
-    media = crossing.entering ? work.media.entered(media, {crossing.object, data.hit_material(crossing)})
-                              : work.media.left(media, crossing.object);
+    go_on_to(ray_.t_max);
+    work_.media.release(mark);
+    return share_;
   }
-  go_on_to(ray.t_max);
-  work.media.release(mark);
-  return share;
-}
+
+ private:
+  void go_on_to(double t) {
+    if (media_ != MediaLists::empty) {
+      share_ *= transmittance(data_.materials()[work_.media.innermost(media_).material], t - reached_);
+    }
+    reached_ = t;
+  }
+
+  /// Leaves and then enters whatever is at one place.
+  void pass(std::size_t begin, std::size_t end) {
+    std::vector<RayHit>& entered = work_.entered;
+    entered.clear();
+    for (std::size_t i = begin; i < end; ++i) {
+      const RayHit& crossing = work_.crossings[i];
+      if (!data_.is_solid(crossing)) continue;
+      if (crossing.entering) {
+        if (entered.size() < most_media_at_once) entered.push_back(crossing);
+      } else {
+        media_ = work_.media.left(media_, crossing.object);
+      }
+    }
+    const auto exit_of = [&](std::uint32_t object) { return exit_after(end, object); };
+    sort_outermost_first(entered, exit_of);
+    for (const RayHit& crossing : entered) {
+      const Medium medium{crossing.object, data_.hit_material(crossing)};
+      media_ = entered_in_order(work_.media, media_, medium, exit_of);
+    }
+  }
+
+  /// Where the ray's line leaves a solid, from a crossing on.
+  RayHit exit_after(std::size_t index, std::uint32_t object) const {
+    for (; index < work_.crossings.size(); ++index) {
+      const RayHit& crossing = work_.crossings[index];
+      if (crossing.object == object && !crossing.entering) return crossing;
+    }
+    if (std::isinf(ray_.t_max)) return {};
+    WorldRay beyond = ray_;
+    beyond.t_min = ray_.t_max;
+    beyond.t_max = std::numeric_limits<double>::infinity();
+    return data_.stay(beyond, object, work_.rays).exit;
+  }
+
+  const PreparedData& data_;
+  const WorldRay& ray_;
+  MediaLists::List media_;
+  Workspace& work_;
+  Rgb share_{1, 1, 1};
+  double reached_ = 0;
+};
 
 }  // namespace
 
@@ -37,10 +90,11 @@ Rgb light_share(const PreparedData& data, const WorldRay& ray, MediaLists::List 
 
   Rgb share(1);
   for (const RayHit& crossing : work.crossings) {
-    share *= crossing_tint(data, ray, crossing, work.stats);
+    const CrossingFilter filter = crossing_filter(data, ray, crossing, work.stats);
+    share *= filter.transparency * filter.color;
     if (is_black(share)) return share;
   }
-  if (data.features().absorption) share *= absorbed_share(data, ray, media, work);
+  if (data.features().absorption) share *= AbsorbedShare(data, ray, media, work).share();
   return share;
 }
 

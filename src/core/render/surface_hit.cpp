@@ -58,11 +58,12 @@ SurfaceHit surface_hit(const PreparedData& data, const WorldRay& ray, const RayH
   return surface;
 }
 
-Rgb crossing_tint(const PreparedData& data, const WorldRay& ray, const RayHit& crossing, RenderStats& stats) {
+CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
+                               RenderStats& stats) {
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
   const Color color =
       material.pattern ? material_color(material, data.hit_point(ray, crossing), stats) : material.color;
-  return material.transparency(color.a) * rgb(color);
+  return {.transparency = material.transparency(color.a), .color = rgb(color)};
 }
 
 Rgb transmittance(const PreparedMaterial& medium, double length) {

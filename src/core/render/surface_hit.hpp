@@ -18,8 +18,13 @@ struct SurfaceHit {
 /// Looks up the material's colour and bumps where `ray` hits.
 SurfaceHit surface_hit(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work);
 
-/// The share of light, by channel, that passes a crossing straight: transparency times colour.
-Rgb crossing_tint(const PreparedData& data, const WorldRay& ray, const RayHit& crossing, RenderStats& stats);
+/// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
+struct CrossingFilter {
+  double transparency = 0;
+  Rgb color{0, 0, 0};
+};
+CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
+                               RenderStats& stats);
 
 /// The share of light that is left after a way through a medium (Beer-Lambert).
 Rgb transmittance(const PreparedMaterial& medium, double length);

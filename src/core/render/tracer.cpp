@@ -1,8 +1,11 @@
 #include "core/render/tracer.hpp"
 
-#include <algorithm>
+#include <cmath>
+#include <limits>
 #include <optional>
 
+#include "core/math/vector.hpp"
+#include "core/render/media_order.hpp"
 #include "core/render/shadow.hpp"
 #include "core/shading/fresnel.hpp"
 #include "core/shading/phong.hpp"
@@ -22,6 +25,14 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   MediaLists::List list = MediaLists::empty;
   for (const Medium& medium : outermost_first) list = lists.entered(list, medium);
   return list;
+}
+
+/// How far rounding may put a lamp from a surface that it is meant to be on.
+double lamp_error(const Vec3& point, const LightSample& sample) {
+  if (std::isinf(sample.distance)) return 0;
+  constexpr double roundings = 16;
+  return roundings * unit_roundoff *
+         std::fma(sample.distance, largest_component(sample.direction), largest_component(point));
 }
 
 /// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
@@ -58,8 +69,7 @@ Tracer::Sample Tracer::trace(const CameraRay& camera_ray) {
 
 PathRay Tracer::first_path(const CameraRay& camera_ray) {
   PathRay path;
-  path.ray.origin = camera_ray.origin;
-  path.ray.direction = camera_ray.direction;
+  path.ray = Frame::eye_ray(camera_ray);
   path.media = camera_media_;
   if (frame_.features().transparency && !frame_.one_viewpoint()) {
     find_surrounding_media(data_, path.ray, work_.surrounding, work_);
@@ -76,7 +86,8 @@ void Tracer::follow(const PathRay& path, Sample& sample) {
                                         : stats.refraction_rays);
   tick();
 
-  const RayHit hit = data_.intersect(path.ray, work_.rays);
+  RayHit hit = data_.intersect(path.ray, work_.rays);
+  if (hit.has_company && frame_.features().transparency) hit = seen_of(path, hit);
   Rgb weight = path.weight;
   if (frame_.features().absorption && path.media != MediaLists::empty) {
     weight *= transmittance(data_.materials()[work_.media.innermost(path.media).material], hit.t);
@@ -122,7 +133,8 @@ Rgb Tracer::direct_light_at(const SurfaceHit& surface, const PathRay& path, cons
     const WorldRay shadow_ray = {.origin = surface.point.position,
                                  .direction = sample->direction,
                                  .t_max = sample->distance,
-                                 .start = *start};
+                                 .start = *start,
+                                 .end_error = lamp_error(surface.point.position, *sample)};
     tick();
     light += unhidden * light_share(data_, shadow_ray, path.media, work_);
   }
@@ -145,12 +157,15 @@ void Tracer::split(const SurfaceHit& surface, const PathRay& path, const RayHit&
   PathRay through = next;
   through.weight = Rgb(0);
   if (surface.transparency > 0) {
-    through.media = surface.point.solid ? media_behind(surface, path.media) : path.media;
+    const Side far_side = surface.viewer_side == Side::outside ? Side::inside : Side::outside;
+    through.ray.start = data_.start_point(path.ray, hit, far_side);
+    const Passage open = passage(surface, path, hit, through.ray.start);
+    through.media = open.media;
     through.media_mark = work_.media.mark();
     const Refraction refraction = refract(path.ray.direction, surface.normal, refractive_index(path.media),
                                           refractive_index(through.media));
-    mirror_share += surface.transparency * refraction.reflectance;
-    through.weight = surface.transparency * (1 - refraction.reflectance) * weight * surface.color;
+    mirror_share += open.transparency * refraction.reflectance;
+    through.weight = open.transparency * (1 - refraction.reflectance) * weight * open.color;
     through.ray.direction = kept_on_side(refraction.direction, -surface.face_normal);
   }
 
@@ -163,9 +178,7 @@ void Tracer::split(const SurfaceHit& surface, const PathRay& path, const RayHit&
     push(mirror);
   }
   if (!is_black(through.weight)) {
-    const Side far_side = surface.viewer_side == Side::outside ? Side::inside : Side::outside;
     through.kind = RayKind::refraction;
-    through.ray.start = data_.start_point(path.ray, hit, far_side);
     if (push(through) && surface.point.solid) ++work_.stats.media_changes;
   }
 }
@@ -184,10 +197,66 @@ bool Tracer::push(const PathRay& path) {
   return true;
 }
 
-MediaLists::List Tracer::media_behind(const SurfaceHit& surface, MediaLists::List media) {
-  const HitPoint& point = surface.point;
-  return point.entering ? work_.media.entered(media, {point.object, point.material})
-                        : work_.media.left(media, point.object);
+RayHit Tracer::seen_of(const PathRay& path, const RayHit& hit) {
+  RayHit seen = hit;
+  double least = std::numeric_limits<double>::infinity();
+  for (const RayHit& crossing : work_.rays.here) {
+    const double transparency = crossing_filter(data_, path.ray, crossing, work_.stats).transparency;
+    if (!(transparency < least)) continue;
+    least = transparency;
+    seen = crossing;
+  }
+  seen.has_company = true;
+  return seen;
+}
+
+Tracer::Passage Tracer::passage(const SurfaceHit& surface, const PathRay& path, const RayHit& hit,
+                                const StartPoint& behind) {
+  Passage passage{.transparency = surface.transparency, .color = surface.color, .media = path.media};
+  const WorldRay ray = {.origin = surface.point.position, .direction = path.ray.direction, .start = behind};
+  if (hit.has_company) {
+    pass_company(ray, path, hit, passage);
+  } else if (surface.point.solid) {
+    const auto exit_of = [&](std::uint32_t object) { return data_.stay(ray, object, work_.rays).exit; };
+    const Medium medium{surface.point.object, surface.point.material};
+    passage.media = surface.point.entering ? entered_in_order(work_.media, path.media, medium, exit_of)
+                                           : work_.media.left(path.media, medium.object);
+  }
+  return passage;
+}
+
+// A ray that starts at the hit finds some crossings next to it behind itself, whatever rounding makes of
+// their order: which of them it has passed is told by what it starts inside of.
+void Tracer::pass_company(const WorldRay& behind, const PathRay& path, const RayHit& hit, Passage& passage) {
+  std::vector<RayHit>& entered = work_.entered;
+  entered.clear();
+  const auto pass = [&](const RayHit& crossing, bool at_place) {
+    const bool solid = data_.is_solid(crossing);
+    const bool passed = solid ? data_.stay(behind, crossing.object, work_.rays).inside == crossing.entering
+                              : at_place || crossing.t - hit.t <= behind.start.t_error;
+    if (!passed) return;
+    if (crossing.leaf != hit.leaf || crossing.face != hit.face || crossing.root != hit.root) {
+      const CrossingFilter filter = crossing_filter(data_, path.ray, crossing, work_.stats);
+      passage.transparency *= filter.transparency;
+      passage.color *= filter.color;
+    }
+    if (!solid) return;
+    if (crossing.entering) {
+      const bool is_new = !work_.media.holds(path.media, crossing.object);
+      if (is_new && entered.size() < most_media_at_once) entered.push_back(crossing);
+    } else {
+      passage.media = work_.media.left(passage.media, crossing.object);
+    }
+  };
+  for (const RayHit& crossing : work_.rays.here) pass(crossing, true);
+  for (const RayHit& crossing : work_.rays.near) pass(crossing, false);
+
+  const auto exit_of = [&](std::uint32_t object) { return data_.stay(behind, object, work_.rays).exit; };
+  sort_outermost_first(entered, exit_of);
+  for (const RayHit& crossing : entered) {
+    const Medium medium{crossing.object, data_.hit_material(crossing)};
+    passage.media = entered_in_order(work_.media, passage.media, medium, exit_of);
+  }
 }
 
 double Tracer::refractive_index(MediaLists::List media) const {

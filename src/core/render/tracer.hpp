@@ -36,8 +36,20 @@ class Tracer {
   /// Whether the path was worth it.
   bool push(const PathRay& path);
 
-  /// The media behind a surface that a ray passes through.
-  MediaLists::List media_behind(const SurfaceHit& surface, MediaLists::List media);
+  /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
+  /// several the one whose object was written first.
+  RayHit seen_of(const PathRay& path, const RayHit& hit);
+
+  /// What a ray that goes on through a hit's place finds.
+  struct Passage {
+    double transparency = 0;  ///< of all surfaces there together
+    Rgb color{1, 1, 1};
+    MediaLists::List media = MediaLists::empty;  ///< behind them
+  };
+  Passage passage(const SurfaceHit& surface, const PathRay& path, const RayHit& hit,
+                  const StartPoint& behind);
+  /// Adds what other objects at the place do.
+  void pass_company(const WorldRay& behind, const PathRay& path, const RayHit& hit, Passage& passage);
   double refractive_index(MediaLists::List media) const;
 
   /// Counts a ray; lets the progress speak now and then.

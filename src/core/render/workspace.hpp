@@ -31,6 +31,7 @@ struct Workspace {
   MediaLists media;
   std::vector<PathRay> pending;
   std::vector<RayHit> crossings;
+  std::vector<RayHit> entered;
   std::vector<Medium> surrounding;
   CrossingList scratch;
 };

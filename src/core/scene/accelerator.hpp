@@ -29,12 +29,19 @@ class Accelerator {
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the ray
   /// never leaves counts as left at infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+  /// The same for one solid object.
+  Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
+
+  /// Whether some surface has faces of several objects on it.
+  bool objects_share_surfaces() const { return objects_share_surfaces_; }
 
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
     return compiled_.face_surfaces[leaf.first_face + face];
   }
+  /// The point of a hit that `ray` found, in the space of its leaf.
+  SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
 
@@ -42,11 +49,16 @@ class Accelerator {
   class Query;
 
   void traverse(Query& query) const;
+  /// Whether a crossing near the ray's end is of a surface through that end.
+  bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
+  /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
+  RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
   CompiledScene compiled_;
   std::vector<std::uint32_t> unbounded_;    ///< objects
   std::vector<std::uint32_t> bounded_;      ///< objects, in the order in which Embree numbers them
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
+  bool objects_share_surfaces_ = false;
 };
 
 }  // namespace crt::core

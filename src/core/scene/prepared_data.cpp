@@ -26,6 +26,20 @@ Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
 
+/// Gives crossings of one surface one t, whosever they are.
+void unify_coincident(std::vector<RayHit>& crossings) {
+  std::sort(crossings.begin(), crossings.end(), [](const RayHit& a, const RayHit& b) {
+    return std::tie(a.surface, a.root, a.object) < std::tie(b.surface, b.root, b.object);
+  });
+  for (std::size_t i = 1; i < crossings.size(); ++i) {
+    const RayHit& first = crossings[i - 1];
+    if (crossings[i].surface != first.surface || crossings[i].root != first.root) continue;
+    crossings[i].t = first.t;
+    crossings[i].error = first.error;
+    crossings[i].t_low = first.t_low;
+  }
+}
+
 }  // namespace
 
 PreparedData::PreparedData(const Scene& scene) {
@@ -60,6 +74,7 @@ bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vect
                              RayWorkspace& work) const {
   out.clear();
   if (!accelerator_->all(ray, stop_at_opaque ? &opaque_ : nullptr, out, work)) return false;
+  if (accelerator_->objects_share_surfaces()) unify_coincident(out);
   // Where two solids touch, one is left before the other is entered.
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.t, a.t_low, a.entering, a.object) < std::tie(b.t, b.t_low, b.entering, b.object);
@@ -75,15 +90,13 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, Ra
   });
 }
 
+Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
+  return accelerator_->stay(ray, object, work);
+}
+
 HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const ObjectRay object_ray = accelerator_->object_ray(hit.leaf, ray);
-  const Crossing crossing{.t = hit.t,
-                          .error = hit.error,
-                          .face = hit.face,
-                          .root = 0,
-                          .entering = hit.entering != leaf.complemented};
-  const SurfacePoint surface = leaf.shape->surface_point(object_ray, crossing);
+  const SurfacePoint surface = accelerator_->surface_point(ray, hit);
   HitPoint point;
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);
@@ -120,12 +133,11 @@ StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Sid
   for (int axis = 0; axis < 3; ++axis) {
     farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
   }
-  constexpr double rounding = 8 * std::numeric_limits<double>::epsilon();
   return {.leaf = hit.leaf,
           .face = hit.face,
           .surface = face.surface,
           .side = side,
-          .t_error = rounding * farthest};
+          .t_error = start_rounding * farthest};
 }
 
 const Leaf& PreparedData::leaf(const HitPoint& point) const {

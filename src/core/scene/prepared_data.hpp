@@ -1,6 +1,7 @@
 // The inside of a PreparedScene: what the renderer and the ray queries see of it.
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <limits>
 #include <memory>
@@ -27,9 +28,25 @@ struct RayHit {
   std::uint32_t object = nothing;  ///< what Embree knows: a lone primitive or a CSG object
   std::uint32_t leaf = nothing;    ///< the primitive that the face belongs to
   std::uint32_t face = no_face;
+  std::uint32_t surface = nothing;  ///< the whole surface that the face is a piece of
+  std::uint8_t root = 0;            ///< as in Crossing
   bool entering = false;
+  bool has_company = false;  ///< other objects have crossings there: RayWorkspace::here and near
 
   bool found() const { return object != nothing; }
+};
+
+/// Whether two crossings of one ray count as being at one place: of one surface by identity, of others where
+/// their error bounds cannot tell them apart.
+inline bool same_place(const RayHit& a, const RayHit& b) {
+  if (a.surface == b.surface && a.surface != nothing) return a.root == b.root;
+  return std::abs((a.t - b.t) + (a.t_low - b.t_low)) <= a.error + b.error;
+}
+
+/// A solid that a ray is inside of when it starts, and where the ray leaves it (at infinity: never).
+struct Stay {
+  bool inside = false;
+  RayHit exit;
 };
 
 /// Everything about a hit that shading may ask for.
@@ -56,6 +73,10 @@ struct RayWorkspace {
   std::uint64_t leaf_escalations = 0;    ///< of lone primitives: see escalations()
   CsgWorkspace csg;                      ///< counts its events itself
   CrossingList crossings;
+  /// Of the last hit that has company: the crossings at its place in the order in which their objects were
+  /// written, and those so near that rounding may put a ray which starts there on either side of them.
+  std::vector<RayHit> here;
+  std::vector<RayHit> near;
 
   std::uint64_t interval_events() const { return csg.events; }
   /// Questions of the exact tier that only exact arithmetic answered.
@@ -70,13 +91,14 @@ class PreparedData {
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;
 
-  /// The nearest crossing; equal t goes to the object that comes first in the scene.
+  /// The nearest crossing; of those at one place that of the object that comes first in the scene.
   RayHit intersect(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// Whether there is any crossing at all.
+  /// Whether there is any crossing at all before the ray's end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// Every crossing in ascending t. With `stop_at_opaque`, returns false as soon as one of an opaque
+  /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
+  /// others are entered. With `stop_at_opaque`, returns false as soon as one of an opaque
   /// material is found (the list is then of no use); otherwise true.
   bool crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
                  RayWorkspace& work) const;
@@ -85,6 +107,9 @@ class PreparedData {
   /// surface), the crossing at which the ray leaves it, the farthest first: outermost to innermost
   /// for nested solids. A solid that the ray never leaves has t = infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+
+  /// Whether the ray starts inside a solid object (just after its start, as above), and where it leaves it.
+  Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
   /// What shading needs of a hit that `ray` found.
   HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const;

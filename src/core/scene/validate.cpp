@@ -188,7 +188,8 @@ void validate(const Material& material) {
   if (material.diffuse) require_between("diffuse", *material.diffuse, 0, largest_factor);
   require_between("specular", material.specular, 0, largest_factor);
   require_between("shininess", material.shininess, 0, largest_factor);
-  require_color("absorption", material.absorption, largest_factor);
+  // Absorption goes with the inverse of a length.
+  require_color("absorption", material.absorption, largest_coordinate);
   if (material.bump) validate(*material.bump);
   require_between("bump_height", material.bump_height, -largest_coordinate, largest_coordinate);
 }

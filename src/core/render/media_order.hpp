@@ -1,0 +1,55 @@
+// Which of the solids around a ray decides.
+//
+// Of two solids the inner one is that whose stretch of the ray's line lies within the other's stretch; if the
+// stretches are equal or merely overlap, the one written later is. That does not depend on the sense in which
+// the ray runs. The innermost decides.
+#pragma once
+
+#include <cstddef>
+#include <utility>
+#include <vector>
+
+#include "core/render/media.hpp"
+#include "core/scene/prepared_data.hpp"
+
+namespace crt::core {
+
+/// Of more solids than this around one point, or entered at one place, the rest is left out: what many of
+/// them cost grows with the square of their number.
+inline constexpr std::size_t most_media_at_once = 256;
+
+/// Whether crossings are at one place, be it at infinity.
+inline bool same_end(const RayHit& a, const RayHit& b) {
+  return a.t == b.t || same_place(a, b);
+}
+
+/// `list` once the ray has entered `medium`. `exit_of(object)` says where the ray's line leaves a solid; it
+/// is asked only if need be.
+template <class ExitOf>
+MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, const Medium& medium,
+                                  const ExitOf& exit_of) {
+  return media.entered(list, medium, [&](std::uint32_t around) {
+    if (medium.object > around) return true;
+    const RayHit own = exit_of(medium.object);
+    const RayHit other = exit_of(around);
+    return own.t < other.t || same_end(own, other);
+  });
+}
+
+/// Brings solids that are entered at one place into the order in which to enter them.
+template <class ExitOf>
+void sort_outermost_first(std::vector<RayHit>& entered, const ExitOf& exit_of) {
+  const auto is_outer = [&](const RayHit& a, const RayHit& b) {
+    const RayHit exit_a = exit_of(a.object);
+    const RayHit exit_b = exit_of(b.object);
+    return same_end(exit_a, exit_b) ? a.object < b.object : exit_a.t > exit_b.t;
+  };
+  // By insertion: two exits that both are at one place with a third need not be so themselves.
+  for (std::size_t i = 1; i < entered.size(); ++i) {
+    for (std::size_t k = i; k > 0 && is_outer(entered[k], entered[k - 1]); --k) {
+      std::swap(entered[k], entered[k - 1]);
+    }
+  }
+}
+
+}  // namespace crt::core

@@ -1,0 +1,174 @@
+// Random glass, most of whose faces coincide, overlap or touch: light that has gone through is in no medium
+// any more, and has been in each as docs/image.md says.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "extremes/support.hpp"
+#include "support/solids.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+bool has_end(const Solid& solid) {
+  if (solid.kind == Solid::Kind::half_space) return false;
+  return std::all_of(solid.parts.begin(), solid.parts.end(), has_end);
+}
+
+Entity random_solid(SolidMaker& maker) {
+  while (true) {
+    const Solid solid = maker.tree(maker.integer(0, 2));
+    if (has_end(solid)) return solid.entity();
+  }
+}
+
+Transform random_placement(Random& random, int round) {
+  Transform placed =
+      round % 3 == 0 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+  placed.translation = random.between(0, 20) * random.direction();
+  return placed;
+}
+
+struct Stretch {
+  double enter;
+  double leave;
+};
+
+/// Where the line is inside of the solid, ascending.
+std::vector<Stretch> stretches(const Entity& solid, const Ray& line) {
+  Scene alone;
+  alone.entities = {solid};
+  std::vector<Stretch> result;
+  for (const Hit& hit : crossings(prepare(alone), line)) {
+    if (hit.entering)
+      result.push_back({hit.t, hit.t});
+    else if (!result.empty())
+      result.back().leave = hit.t;
+  }
+  return result;
+}
+
+/// The optical depth of a line through solids of the given absorptions; nothing where the rule goes in
+/// circles or something is too short to call.
+std::optional<double> optical_depth(const std::vector<Entity>& solids, const std::vector<double>& absorption,
+                                    const Ray& line) {
+  constexpr double same = 1e-8;
+  std::vector<std::vector<Stretch>> all;
+  std::vector<double> cuts;
+  for (const Entity& solid : solids) {
+    all.push_back(stretches(solid, line));
+    for (const Stretch& stretch : all.back()) {
+      if (stretch.leave - stretch.enter < same) return std::nullopt;
+      cuts.push_back(stretch.enter);
+      cuts.push_back(stretch.leave);
+    }
+  }
+  std::sort(cuts.begin(), cuts.end());
+  double depth = 0;
+  for (std::size_t i = 0; i + 1 < cuts.size(); ++i) {
+    if (cuts[i + 1] - cuts[i] < same) continue;
+    const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
+    struct Around {
+      std::size_t solid;
+      Stretch stretch;
+    };
+    std::vector<Around> around;
+    for (std::size_t k = 0; k < all.size(); ++k) {
+      for (const Stretch& stretch : all[k]) {
+        if (stretch.enter < middle && middle < stretch.leave) around.push_back({k, stretch});
+      }
+    }
+    const auto is_inner = [&](const Around& a, const Around& b) {
+      const auto lies_in = [](const Stretch& x, const Stretch& y) {
+        return x.enter > y.enter - same && x.leave < y.leave + same;
+      };
+      const bool in_b = lies_in(a.stretch, b.stretch);
+      return in_b != lies_in(b.stretch, a.stretch) ? in_b : a.solid >= b.solid;
+    };
+    if (around.empty()) continue;
+    const auto innermost = std::find_if(around.begin(), around.end(), [&](const Around& a) {
+      return std::all_of(around.begin(), around.end(), [&](const Around& b) { return is_inner(a, b); });
+    });
+    if (innermost == around.end()) return std::nullopt;
+    depth += absorption[innermost->solid] * (cuts[i + 1] - cuts[i]);
+  }
+  return depth;
+}
+
+}  // namespace
+
+TEST_CASE("light that has gone through random glass is back in the open") {
+  // Whoever thinks that it is still in a medium on its endless way to the background loses all of it.
+  constexpr double faint = 1e-12;
+  SolidMaker maker(30);
+  Random random(30);
+  for (int round = 0; round < 60; ++round) {
+    Scene scene;
+    scene.background = GradientBackground{};
+    scene.settings.width = 20;
+    scene.settings.height = 20;
+    scene.settings.recursion_depth = 8;
+    scene.settings.precision = round % 2 == 0 ? Precision::standard : Precision::exact;
+    const Transform placed = random_placement(random, round);
+    std::vector<Entity> solids;
+    std::vector<double> indices;
+    for (int i = 0; i < 3; ++i) {
+      solids.push_back(random_solid(maker).transformed(placed));
+      indices.push_back(random.between(1, 1.8));
+    }
+    scene.camera = {.position = apply(placed, 12.0 * random.direction()), .pointing = placed.translation};
+    Image pictures[2];
+    for (int i = 0; i < 2; ++i) {
+      scene.entities.clear();
+      for (std::size_t k = 0; k < solids.size(); ++k) {
+        Material material = glass(indices[k]);
+        material.absorption = grey(i * faint);
+        scene.entities.push_back(solids[k].with_material(material));
+      }
+      pictures[i] = render(prepare(scene), {.threads = 1});
+    }
+    int different = 0;
+    for (int y = 0; y < 20; ++y) {
+      for (int x = 0; x < 20; ++x)
+        different += difference(pictures[0].at(x, y), pictures[1].at(x, y)) > 1e-5 ? 1 : 0;
+    }
+    CAPTURE(round);
+    CHECK(different == 0);
+  }
+}
+
+TEST_CASE("straight light through random fogs is absorbed by the innermost, whichever way it goes") {
+  SolidMaker maker(31);
+  Random random(31);
+  int compared = 0;
+  for (int round = 0; round < 3000; ++round) {
+    Scene scene = dark_scene();
+    scene.settings.recursion_depth = 256;
+    scene.settings.precision = round % 2 == 0 ? Precision::standard : Precision::exact;
+    scene.background = SolidBackground{{1, 1, 1}};
+    const Transform placed = random_placement(random, round);
+    std::vector<Entity> solids;
+    std::vector<double> absorption;
+    for (int i = 0; i < 3; ++i) {
+      Material material = glass(1);
+      absorption.push_back(random.between(0.02, 0.5));
+      material.absorption = grey(absorption.back());
+      solids.push_back(random_solid(maker).with_material(material).transformed(placed));
+    }
+    scene.entities = solids;
+    const Vec3 middle = apply(placed, random.between(0, 3) * random.direction());
+    const Vec3 half_way = 25.0 * random.direction();
+    const Ray line{.origin = middle - half_way, .direction = glm::normalize(half_way)};
+    const std::optional<double> depth = optical_depth(solids, absorption, line);
+    if (!depth) continue;
+    ++compared;
+    const double expected = std::exp(-*depth);
+    CAPTURE(round);
+    CHECK(seen(scene, middle - half_way, middle + half_way).r == doctest::Approx(expected).epsilon(1e-6));
+    CHECK(seen(scene, middle + half_way, middle - half_way).r == doctest::Approx(expected).epsilon(1e-6));
+  }
+  CHECK(compared > 2500);
+}
