@@ -10,7 +10,8 @@
 #include "core/geometry/shape.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "crt/entity.hpp"
-#include "oracle/line_oracle.hpp"
+#include "oracle/equations.hpp"
+#include "oracle/places.hpp"
 #include "oracle/ray_maker.hpp"
 
 using namespace crt;
@@ -81,16 +82,20 @@ void collect_leaves(const Tree& tree, std::vector<Primitive>& leaves) {
   for (const Tree& part : tree.parts) collect_leaves(part, leaves);
 }
 
-/// Whether the point at x is inside, leaf by leaf in the order of collect_leaves.
-bool contains(const Tree& tree, const std::vector<std::vector<Polynomial>>& polynomials, const Interval& x,
+/// Whether a point is inside, by the signs of all equations there, leaf by leaf in the order of
+/// collect_leaves.
+bool contains(const Tree& tree, const std::vector<std::size_t>& first_equation, const std::vector<int>& signs,
               std::size_t& leaf) {
-  if (tree.kind == Tree::Kind::leaf) return is_inside(tree.primitive, polynomials[leaf++], x);
+  if (tree.kind == Tree::Kind::leaf) {
+    const std::size_t first = first_equation[leaf++];
+    return is_inside(tree.primitive, std::span(signs).subspan(first, first_equation[leaf] - first));
+  }
   bool all = true;
   bool any = false;
   bool any_later = false;
   bool first = false;
   for (std::size_t i = 0; i < tree.parts.size(); ++i) {
-    const bool inside = contains(tree.parts[i], polynomials, x, leaf);
+    const bool inside = contains(tree.parts[i], first_equation, signs, leaf);
     all = all && inside;
     any = any || inside;
     if (i == 0) first = inside;
@@ -103,21 +108,23 @@ bool contains(const Tree& tree, const std::vector<std::vector<Polynomial>>& poly
 
 std::vector<double> true_flips(const Tree& tree, const std::vector<Primitive>& leaves, const Vec3& origin,
                                const Vec3& direction, bool& inside_before) {
-  return until_certain([&] {
-    const ExactLine line(origin, direction, Vec3(0));
-    std::vector<std::vector<Polynomial>> polynomials;
-    std::vector<Polynomial> all;
+  return until_certain([&]<class Number>(Using<Number>) {
+    const ExactLine<Number> line(origin, direction, Transform{}, Vec3(0));
+    std::vector<Polynomial<Number>> all;
+    std::vector<std::size_t> first_equation = {0};
     for (const Primitive& leaf : leaves) {
-      polynomials.push_back(polynomials_of(leaf, line));
-      all.insert(all.end(), polynomials.back().begin(), polynomials.back().end());
+      const Equations<Number> of_leaf = equations(leaf, line);
+      all.insert(all.end(), of_leaf.begin(), of_leaf.end());
+      first_equation.push_back(all.size());
     }
-    const auto inside = [&](const Interval& x) {
+    const auto inside = [&](const std::vector<int>& signs) {
       std::size_t leaf = 0;
-      return contains(tree, polynomials, x, leaf);
+      return contains(tree, first_equation, signs, leaf);
     };
     std::vector<double> result;
-    for (const Change& change : changes(places_of_roots(all), inside, inside_before))
-      result.push_back((change.x + Interval(line.shift)).value());
+    inside_before = follow(Places<Number>(all), inside, [&](const Place<Number>& place, bool) {
+      result.push_back((place.x + Number(line.shift)).value());
+    });
     return result;
   });
 }

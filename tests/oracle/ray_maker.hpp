@@ -9,6 +9,7 @@
 
 #include "core/math/random.hpp"
 #include "crt/primitives.hpp"
+#include "crt/transform.hpp"
 
 namespace crt::test {
 
@@ -33,6 +34,7 @@ struct TestRay {
   int decade = 0;  ///< distance is 10^decade to 10^(decade + 1) sizes
   Vec3 origin{0};
   Vec3 direction{0};
+  Transform to_world{};  ///< where the primitive is
 };
 inline constexpr int lowest_decade = -3;
 inline constexpr int highest_decade = 11;
