@@ -86,8 +86,9 @@ bool agree(const TrueLine& a, const TrueLine& b) {
 
 }  // namespace
 
-TEST_CASE("sums of two and of four doubles hold what MPFR computes") {
+TEST_CASE("sums of a few doubles hold what MPFR computes") {
   check_arithmetic<2>();
+  check_arithmetic<3>();
   check_arithmetic<4>();
 }
 

@@ -99,6 +99,13 @@ struct Relative {
     return {squared(point), Number(2) * dot(point, direction), squared(direction)};
   }
 
+  /// From the axis through the origin; times the length of `axis`, squared.
+  Polynomial<Number> squared_distance_from_axis(const NumberVec<Number>& axis) const {
+    const NumberVec<Number> p = cross(point, axis);
+    const NumberVec<Number> d = cross(direction, axis);
+    return {squared(p), Number(2) * dot(p, d), squared(d)};
+  }
+
   NumberVec<Number> point;
   const NumberVec<Number>& direction;
 };
@@ -111,7 +118,7 @@ using Equations = Few<Polynomial<Number>, most_equations>;
 // A solid is where its polynomials are negative: all of them, but for the torus.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
-// h = w . axis: F = |w|^2 A^2 - h^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
+// h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
 template <class Number>
 Equations<Number> equations(const Frustum& c, const ExactLine<Number>& line) {
   const Relative relative(line, c.from);
@@ -120,8 +127,7 @@ Equations<Number> equations(const Frustum& c, const ExactLine<Number>& line) {
   const Polynomial<Number> h = relative.along(axis);
   const Number growth = Number(c.radius2) - Number(c.radius);
   const Polynomial<Number> radius = Polynomial<Number>{Number(c.radius) * a} + growth * h;
-  return {square(a) * relative.squared_distance() - a * square(h) - square(radius), -h,
-          h - Polynomial<Number>{a}};
+  return {a * relative.squared_distance_from_axis(axis) - square(radius), -h, h - Polynomial<Number>{a}};
 }
 template <class Number>
 Equations<Number> equations(const Cylinder& c, const ExactLine<Number>& line) {
@@ -160,12 +166,11 @@ template <class Number>
 Equations<Number> equations(const Torus& torus, const ExactLine<Number>& line) {
   const Relative relative(line, torus.center);
   const NumberVec<Number> axis = exactly<Number>(torus.axis);
-  const Polynomial<Number> distance = relative.squared_distance();
-  const Polynomial<Number> height = relative.along(axis);
   const Number ring = square(Number(torus.radius));
-  const Polynomial<Number> s = distance + Polynomial<Number>{ring - square(Number(torus.thickness))};
+  const Polynomial<Number> s =
+      relative.squared_distance() + Polynomial<Number>{ring - square(Number(torus.thickness))};
   const Number a = squared(axis);
-  return {a * square(s) - (Number(4) * ring) * (a * distance - square(height)), s};
+  return {a * square(s) - (Number(4) * ring) * relative.squared_distance_from_axis(axis), s};
 }
 
 /// Of a surface, its plane's.

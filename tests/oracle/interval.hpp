@@ -202,7 +202,7 @@ class Interval {
 };
 
 /// The numbers that the oracle tries, the fastest first; Interval comes after them.
-enum class FirstTry { two_doubles, four_doubles, mpfr };
+enum class FirstTry { two_doubles, three_doubles, mpfr };
 
 /// The number that `compute`, a function of a value of a number type, works with.
 template <class Number>
@@ -218,7 +218,7 @@ auto until_certain(const Compute& compute, FirstTry first = FirstTry::two_double
   } catch (const Undecided&) {
   }
   try {
-    if (first <= FirstTry::four_doubles) return compute(Using<Ball<4>>());
+    if (first <= FirstTry::three_doubles) return compute(Using<Ball<3>>());
   } catch (const Undecided&) {
   }
   struct Restore {

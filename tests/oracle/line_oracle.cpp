@@ -109,9 +109,6 @@ Ball<4> as_ball(const Number& number) {
     return Ball<4>(number);
   }
 }
-Ball<4> as_ball(const Ball<4>& number) {
-  return number;
-}
 
 /// Solves for one primitive and line.
 template <class Number, class P>
@@ -136,13 +133,16 @@ class Solution {
     TrueLine result;
     const auto inside = [&](const std::vector<int>& signs) { return is_inside(any_, signs); };
     result.inside_before = follow(places, inside, [&](const Place<Number>& place, bool entering) {
-      TrueCrossing crossing = crossing_at(place.x, place.flips[0].polynomial, entering, approach_at(place));
+      const double own_approach = approach_at(place);
+      TrueCrossing crossing = crossing_at(place.x, place.flips[0].polynomial, entering, own_approach);
       crossing.at_edge = place.flips.size() > 1;
       for (const Place<Number>& other : places.places()) {
         if (&other == &place) continue;
         const double gap = std::abs((other.x - place.x).value());
         const double approach = approach_at(other);
-        if (gap * approach > 8 * unit_of_rounding * crossing.reach) continue;
+        // Within the bounds of both, rounding may take one for the other.
+        const double bounds = 8 * unit_of_rounding * crossing.reach * (1 / approach + 1 / own_approach);
+        if (gap > bounds) continue;
         crossing.approach = std::min(crossing.approach, approach);
         crossing.at_edge = true;
       }

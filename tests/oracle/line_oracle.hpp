@@ -2,7 +2,7 @@
 // o + t d of exactly the doubles given, by the roots of polynomials in t whose coefficients are exact
 // (equations.hpp). Nothing here is shared with src/core/geometry.
 //
-// Sums of two doubles with a bound on their error do for most lines, sums of four for nearly all others, and
+// Sums of two doubles with a bound on their error do for most lines, sums of three for nearly all others, and
 // MPFR for the rest: signs, tangencies, and roots that coincide are decided. Two roots that 4096 bits cannot
 // tell apart are taken as one.
 #pragma once

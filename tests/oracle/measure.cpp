@@ -37,8 +37,15 @@ double error_of(double t, const TrueCrossing& crossing) {
   return std::abs((crossing.t - Ball<4>(t)).value());
 }
 
+/// The distance of the doubles around it.
+double ulp(const Ball<4>& t) {
+  const double size = std::abs(t.value());
+  const bool below = t.part(1) != 0 && (t.part(1) < 0) == (t.value() > 0);
+  return below ? size - std::nextafter(size, 0) : ulp(size);
+}
+
 double bound_of(const TrueCrossing& crossing, const TestRay& ray, Promise promise) {
-  const double last_place = ulp(crossing.t.value());
+  const double last_place = ulp(crossing.t);
   if (promise == Promise::exact)
     return (std::holds_alternative<Torus>(ray.primitive) ? 1 : 0.51) * last_place;
   return last_place / 2 + 8 * u * crossing.reach / crossing.approach;
@@ -94,7 +101,7 @@ void account(const Crossing& found, const TrueCrossing& crossing, const TestRay&
   // Where a ray starts on a surface t is nothing but rounding, and has no last place of its own.
   constexpr double start = 0x1p-40;
   if (std::abs(true_t) * glm::length(ray.direction) > start * crossing.reach) {
-    const double ulps = error / ulp(true_t);
+    const double ulps = error / ulp(crossing.t);
     record.ulps_by_kind[static_cast<std::size_t>(ray.kind)].add(ulps);
     if (ray.kind == RayKind::plain)
       record.ulps_by_decade[static_cast<std::size_t>(ray.decade - lowest_decade)].add(ulps);
@@ -224,7 +231,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
 }
 
 std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first, std::uint64_t last,
-                                const std::vector<Contestant>& contestants) {
+                                const std::vector<Contestant>& contestants, RayMaker maker) {
   constexpr std::uint64_t batch = 256;
   const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::vector<Record>> parts(threads, std::vector<Record>(contestants.size()));
@@ -236,8 +243,8 @@ std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first,
       for (std::uint64_t number = begin; number < std::min(begin + batch, last); ++number) {
         // Now and then with more bits, for what the exact tier claims of t_low.
         constexpr std::uint64_t finer = 16;
-        const FirstTry first_try = number % finer == 0 ? FirstTry::four_doubles : FirstTry::two_doubles;
-        const Truth truth = truth_of(make_ray(primitive_kind, number), first_try);
+        const FirstTry first_try = number % finer == 0 ? FirstTry::three_doubles : FirstTry::two_doubles;
+        const Truth truth = truth_of(maker(primitive_kind, number), first_try);
         for (std::size_t i = 0; i < contestants.size(); ++i)
           measure(truth, contestants[i], number, records[i]);
       }
@@ -276,9 +283,14 @@ std::string description(const TestRay& ray) {
     else
       return fmt::format("triangle {} {} {}", text(p.a), text(p.b), text(p.c));
   };
-  return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}",
+  const std::string placed =
+      ray.to_world == Transform{}
+          ? ""
+          : fmt::format(", rows {} {} {} translation {}", text(ray.to_world.row_x), text(ray.to_world.row_y),
+                        text(ray.to_world.row_z), text(ray.to_world.translation));
+  return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}{}",
                      std::visit(primitive, ray.primitive), name_of(ray.kind), ray.decade, text(ray.origin),
-                     text(ray.direction));
+                     text(ray.direction), placed);
 }
 
 }  // namespace crt::test

@@ -92,7 +92,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
 
 /// Measures rays first to last (not included) of a primitive on all cores.
 std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first, std::uint64_t last,
-                                const std::vector<Contestant>& contestants);
+                                const std::vector<Contestant>& contestants, RayMaker maker = make_ray);
 
 /// A ray in full, to repeat it.
 std::string description(const TestRay& ray);

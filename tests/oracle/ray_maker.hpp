@@ -59,4 +59,10 @@ class Counted {
 
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
 
+/// The same with the primitive and the ray moved by a transform: rotated, scaled by factors that differ by up
+/// to 10^8, rotated again and shifted; or turned and scaled so that nothing is rounded.
+TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number);
+
+using RayMaker = TestRay (*)(std::size_t primitive_kind, std::uint64_t number);
+
 }  // namespace crt::test
