@@ -52,6 +52,15 @@ TEST_CASE("a cone's apex is met from afar no worse than the rest of it") {
   CHECK(holds(cone, {0x1.03791fe4435a6p+21, -0x1.052252ce08a68p+23, 0x1.2204568a72bdap+41}, {0, 0, -1}));
 }
 
+TEST_CASE("a cone is met where it is by a line that grazes it next to a ruling") {
+  const Cone cone{.from = {-0x1.db94b90343c75p-6, 0, 0},
+                  .to = {0x1.5a353b94e2f65p+10, -0x1.19358edd08722p+14, 0x1.d8bc64adf9c7ep+11},
+                  .radius = 0x1.48e8186279c44p+14,
+                  .radius2 = 0x1.25d18c671d123p+13};
+  CHECK(holds(cone, {0x1.4d0a6e95d27e6p+26, -0x1.bd0e51c47431dp+26, 0x1.a2dc59bfeeabep+25},
+              {-0x1.4d12d46a6bb59p+26, 0x1.bcfd0c06f7469p+26, -0x1.a2dcad20945f3p+25}));
+}
+
 TEST_CASE("a line that is parallel to a cylinder's axis to rounding stays within it") {
   const Cylinder cylinder{.from = {-0x1.3931771d9440fp+29, 0, 0},
                           .to = {-0x1.3931771d9440fp+29, 0x1.1947de971bcecp-28, -0x1.35b4f3084aff7p-27},
