@@ -31,7 +31,7 @@ bool holds(const Ball<parts>& ball, const Interval& truth) {
 template <int parts>
 void check_arithmetic() {
   constexpr std::uint64_t rounds = 20'000;
-  Precision::bits = 2048;
+  Bits::now = 2048;
   for (std::uint64_t number = 0; number < rounds; ++number) {
     Counted random(200 + parts, number);
     Ball<parts> ball(random_double(random));
@@ -69,7 +69,7 @@ void check_arithmetic() {
       if (ball.certain_sign() != 0) REQUIRE(ball.certain_sign() == truth.certain_sign());
     }
   }
-  Precision::bits = Precision::lowest;
+  Bits::now = Bits::lowest;
 }
 
 bool agree(const TrueLine& a, const TrueLine& b) {

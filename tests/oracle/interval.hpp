@@ -17,12 +17,12 @@
 namespace crt::test {
 
 /// The precision of what this thread computes, in bits.
-struct Precision {
+struct Bits {
   static constexpr mpfr_prec_t lowest = 256;
   static constexpr mpfr_prec_t highest = 4096;
   static constexpr mpfr_prec_t factor = 4;
 
-  static inline thread_local mpfr_prec_t bits = lowest;
+  static inline thread_local mpfr_prec_t now = lowest;
 };
 
 class Interval {
@@ -30,7 +30,7 @@ class Interval {
   /// No number at all: only to be assigned to.
   Interval() noexcept : Interval(Empty{}) {}
   Interval(double value) {  // NOLINT(google-explicit-constructor): exact
-    initialise(Precision::bits);
+    initialise(Bits::now);
     mpfr_set_d(lower_, value, MPFR_RNDN);
     mpfr_set_d(upper_, value, MPFR_RNDN);
   }
@@ -111,7 +111,7 @@ class Interval {
   int sign() const {
     const int certain = certain_sign();
     if (certain != 0 || is_zero()) return certain;
-    if (Precision::bits < Precision::highest) throw Undecided{};
+    if (Bits::now < Bits::highest) throw Undecided{};
     return 0;
   }
   /// 0 also where it is not known.
@@ -142,7 +142,7 @@ class Interval {
     return mpfr_less_p(a.middle().lower_, b.middle().lower_) != 0;
   }
   /// In bits.
-  static int precision() { return static_cast<int>(Precision::bits); }
+  static int precision() { return static_cast<int>(Bits::now); }
   /// Near the middle.
   double value() const { return mpfr_get_d(middle().lower_, MPFR_RNDN); }
   /// No number of the interval is larger, in size.
@@ -164,7 +164,7 @@ class Interval {
   struct Blank {};
   struct Empty {};
 
-  explicit Interval(Blank) { initialise(Precision::bits); }
+  explicit Interval(Blank) { initialise(Bits::now); }
   explicit Interval(Empty) noexcept {
     lower_->_mpfr_d = nullptr;
     upper_->_mpfr_d = nullptr;
@@ -222,22 +222,22 @@ auto until_certain(const Compute& compute, FirstTry first = FirstTry::two_double
   } catch (const Undecided&) {
   }
   struct Restore {
-    ~Restore() { Precision::bits = Precision::lowest; }
+    ~Restore() { Bits::now = Bits::lowest; }
   } restore;
-  Precision::bits = Precision::lowest;
+  Bits::now = Bits::lowest;
   while (true) {
     try {
       return compute(Using<Interval>());
     } catch (const Undecided&) {
-      if (Precision::bits >= Precision::highest) throw;
-      Precision::bits *= Precision::factor;
+      if (Bits::now >= Bits::highest) throw;
+      Bits::now *= Bits::factor;
     }
   }
 }
 
 /// Whether more bits could be had.
 inline bool is_last_try() {
-  return Precision::bits >= Precision::highest;
+  return Bits::now >= Bits::highest;
 }
 
 }  // namespace crt::test

@@ -101,15 +101,6 @@ bool within_rim(const Triangle& t, const Meeting<Number>& m) {
   return true;
 }
 
-template <class Number>
-Ball<4> as_ball(const Number& number) {
-  if constexpr (std::is_same_v<Number, Interval>) {
-    return number.ball();
-  } else {
-    return Ball<4>(number);
-  }
-}
-
 /// Solves for one primitive and line.
 template <class Number, class P>
 class Solution {

@@ -7,6 +7,8 @@
 // tell apart are taken as one.
 #pragma once
 
+#include <cmath>
+#include <limits>
 #include <vector>
 
 #include "crt/primitives.hpp"
@@ -44,12 +46,24 @@ TrueLine true_crossings(const Question& question, FirstTry first = FirstTry::two
 /// Where the line meets the plane of a surface, within the rim or not.
 TrueLine true_plane_crossings(const Question& question);
 
-/// How far the point at t is outside of the solid (negative: inside), in lengths. For a surface: how far
-/// the point where the line meets its plane is beyond its rim; t is of no matter there. Of primitives that
-/// are not transformed.
+/// How far the point at t is outside of the solid (negative: inside), in lengths of the primitive's space.
+/// For a surface: how far the point where the line meets its plane is beyond its rim; t is of no matter
+/// there.
 double true_distance(const Question& question, double t);
 
+/// The point at t in the primitive's space, rounded, and the length of the direction there.
+struct PointAndSpeed {
+  Vec3 point;
+  double speed = 0;
+};
+PointAndSpeed point_and_speed(const Question& question, double t);
+
 inline constexpr double unit_of_rounding = 0x1p-53;  ///< u
+
+/// The distance to the next double, away from 0.
+inline double ulp(double t) {
+  return std::nextafter(std::abs(t), std::numeric_limits<double>::infinity()) - std::abs(t);
+}
 
 /// The centre and the size (the radius of a ball that holds it, 0 if there is none) of a primitive.
 Vec3 center_of(const Primitive& primitive);

@@ -25,10 +25,6 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr double tolerance = 1 + 0x1p-20;
 constexpr std::size_t most_failures = 20;
 
-double ulp(double t) {
-  return std::nextafter(std::abs(t), infinity) - std::abs(t);
-}
-
 Question question_of(const TestRay& ray) {
   return {ray.primitive, ray.origin, ray.direction, ray.to_world};
 }
@@ -38,14 +34,14 @@ double error_of(double t, const TrueCrossing& crossing) {
 }
 
 /// The distance of the doubles around it.
-double ulp(const Ball<4>& t) {
+double spacing_at(const Ball<4>& t) {
   const double size = std::abs(t.value());
   const bool below = t.part(1) != 0 && (t.part(1) < 0) == (t.value() > 0);
-  return below ? size - std::nextafter(size, 0) : ulp(size);
+  return below ? size - std::nextafter(size, 0) : test::ulp(size);
 }
 
 double bound_of(const TrueCrossing& crossing, const TestRay& ray, Promise promise) {
-  const double last_place = ulp(crossing.t);
+  const double last_place = spacing_at(crossing.t);
   if (promise == Promise::exact)
     return (std::holds_alternative<Torus>(ray.primitive) ? 1 : 0.51) * last_place;
   return last_place / 2 + 8 * u * crossing.reach / crossing.approach;
@@ -101,7 +97,7 @@ void account(const Crossing& found, const TrueCrossing& crossing, const TestRay&
   // Where a ray starts on a surface t is nothing but rounding, and has no last place of its own.
   constexpr double start = 0x1p-40;
   if (std::abs(true_t) * glm::length(ray.direction) > start * crossing.reach) {
-    const double ulps = error / ulp(crossing.t);
+    const double ulps = error / spacing_at(crossing.t);
     record.ulps_by_kind[static_cast<std::size_t>(ray.kind)].add(ulps);
     if (ray.kind == RayKind::plain)
       record.ulps_by_decade[static_cast<std::size_t>(ray.decade - lowest_decade)].add(ulps);

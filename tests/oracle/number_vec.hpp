@@ -45,6 +45,15 @@ template <class Number>
 NumberVec<Number> cross(const NumberVec<Number>& a, const NumberVec<Number>& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
+template <class Number>
+Ball<4> as_ball(const Number& number) {
+  if constexpr (std::is_same_v<Number, Interval>) {
+    return number.ball();
+  } else {
+    return Ball<4>(number);
+  }
+}
+
 /// In doubles, for what need not be exact.
 template <class Number>
 Vec3 rounded(const NumberVec<Number>& v) {

@@ -31,6 +31,27 @@ bool are_proportional(const Polynomial<Number>& a, const Polynomial<Number>& b) 
   return true;
 }
 
+/// Whether a polynomial has a root where the quotient a / b has it: q b^degree, by Horner's rule.
+template <class Number>
+bool is_root(const Polynomial<Number>& q, const Number& a, const Number& b) {
+  Number value = q.back();
+  Number power = b;
+  for (std::size_t i = q.size() - 1; i-- > 0; power = power * b) value = value * a + q[i] * power;
+  return value.is_zero();
+}
+
+/// Whether two polynomials are known to have a root in common. False where it is not.
+template <class Number>
+bool share_root(const Polynomial<Number>& p, const Polynomial<Number>& q) {
+  if (are_proportional(p, q)) return true;
+  if (p.size() == 2) return is_root(q, -p[0], p[1]);
+  if (q.size() == 2) return is_root(p, -q[0], q[1]);
+  if (p.size() != 3 || q.size() != 3 || p[2].is_zero() || q[2].is_zero()) return false;
+  // The resultant of two quadratics.
+  const Number outer = p[2] * q[0] - p[0] * q[2];
+  return (square(outer) - (p[2] * q[1] - p[1] * q[2]) * (p[1] * q[0] - p[0] * q[1])).is_zero();
+}
+
 /// All places along a line in order.
 template <class Number>
 class Places {
@@ -61,7 +82,7 @@ class Places {
     std::size_t end = begin + 1;
     for (; end < flips_.size() && !x.surely_below(flips_[end].x); ++end) {
       const bool same =
-          are_proportional(polynomials_[flips_[begin].polynomial], polynomials_[flips_[end].polynomial]);
+          share_root(polynomials_[flips_[begin].polynomial], polynomials_[flips_[end].polynomial]);
       if (!same && !is_last_try()) throw Undecided{};
       x = hull(x, flips_[end].x);
     }

@@ -120,7 +120,7 @@ Ball ball_of(const Triangle& t) {
 }  // namespace
 
 double true_distance(const Question& question, double t) {
-  const ExactLine<Interval> line(question.origin, question.direction, Transform{},
+  const ExactLine<Interval> line(question.origin, question.direction, question.to_world,
                                  center_of(question.primitive));
   return std::visit(
       [&]<class P>(const P& p) {
@@ -134,6 +134,11 @@ double true_distance(const Question& question, double t) {
         }
       },
       question.primitive);
+}
+
+PointAndSpeed point_and_speed(const Question& question, double t) {
+  const ExactLine<Interval> line(question.origin, question.direction, question.to_world, Vec3(0));
+  return {rounded(line.at(Interval(t) - Interval(line.shift))), glm::length(rounded(line.direction))};
 }
 
 Vec3 center_of(const Primitive& primitive) {
