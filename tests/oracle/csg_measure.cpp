@@ -7,53 +7,12 @@
 #include <glm/geometric.hpp>
 #include <thread>
 
-#include "core/scene/prepared_data.hpp"
-#include "oracle/solid_tree.hpp"
+#include "oracle/prepared_tree.hpp"
 
 namespace crt::test {
 namespace {
 
-constexpr double infinity = std::numeric_limits<double>::infinity();
 constexpr std::size_t most_failures = 20;
-
-struct FoundFlip {
-  double t = 0;
-  bool entering = false;
-};
-struct FoundFlips {
-  bool inside_before = false;
-  std::vector<FoundFlip> flips;
-};
-
-/// One tree in one tier.
-class TierOfTree {
- public:
-  TierOfTree(const Entity& tree, Precision precision) : scene_(description(tree, precision)) {}
-
-  FoundFlips flips(const GridRay& ray) {
-    const core::WorldRay line{
-        .origin = ray.origin, .direction = ray.direction, .t_min = -infinity, .t_max = infinity, .start = {}};
-    FoundFlips result;
-    scene_.surrounding(line, hits_, work_);
-    result.inside_before = !hits_.empty();
-    scene_.crossings(line, false, hits_, work_);
-    for (const core::RayHit& hit : hits_) result.flips.push_back({hit.t, hit.entering});
-    return result;
-  }
-  std::uint64_t escalations() const { return work_.escalations(); }
-
- private:
-  static Scene description(const Entity& tree, Precision precision) {
-    Scene scene;
-    scene.entities.push_back(tree);
-    scene.settings.precision = precision;
-    return scene;
-  }
-
-  core::PreparedData scene_;
-  core::RayWorkspace work_;
-  std::vector<core::RayHit> hits_;
-};
 
 /// Whether the flips alternate, and so make sense at all.
 bool alternates(const FoundFlips& found) {
@@ -127,8 +86,8 @@ void measure_tree(std::uint64_t number, std::uint64_t rays, CsgRecord& record) {
   const SolidTree tree = random_tree(number);
   const TreeOracle oracle(tree);
   const Entity entity = tree.entity();
-  TierOfTree standard(entity, Precision::standard);
-  TierOfTree exact(entity, Precision::exact);
+  PreparedTree standard(entity, Precision::standard);
+  PreparedTree exact(entity, Precision::exact);
   ++record.trees;
   record.faces += static_cast<std::uint64_t>(oracle.faces());
   record.coincident_faces += static_cast<std::uint64_t>(oracle.coincident_faces());
