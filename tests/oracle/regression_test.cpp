@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "oracle/measure.hpp"
+#include "oracle/prepared_tree.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -75,4 +76,22 @@ TEST_CASE("a triangle is not hit by lines in its plane but for rounding that pas
                           .c = {-0x1.81c8bf1a62da1p-14, -0x1.3956d94c506dep-14, -0x1.9f6b3fce8b3c4p-3}};
   CHECK(holds(triangle, {-0x1.bb8ef40a8a274p-12, -0x1.d6efa755989bp-13, -0x1.9d863451b8d58p-3},
               {0x1.4a35762203f2bp-12, 0x1.0bd0f6a48f4d8p-13, -0x1.02f599f2b678p-10}));
+}
+
+TEST_CASE("a solid is met where it is, though the ray grazes another one there") {
+  // The ball is met some 1e-8 before and after the box's face, and the standard tier knows it no better.
+  const Box box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, 1}};
+  const Sphere ball{.center = {1, 1.5, 0.5}, .radius = 1 + 0x1p-52};
+  const GridRay ray{{3, 0.5, 0.5}, {-1, 0, 0}};
+  for (const Entity& solid : {Entity(box) + Entity(ball), Entity(box) - Entity(ball)}) {
+    PreparedTree standard(solid, Precision::standard);
+    CHECK(standard.flips(ray) == FoundFlips{false, {{2, true}, {3, false}}});
+  }
+  PreparedTree joined(Entity(box) + Entity(ball), Precision::exact);
+  PreparedTree cut(Entity(box) - Entity(ball), Precision::exact);
+  const double before = joined.flips(ray).flips.front().t;
+  const double after = cut.flips(ray).flips.front().t;
+  CHECK(before < 2);
+  CHECK(after > 2);
+  CHECK(after - before < 1e-7);
 }

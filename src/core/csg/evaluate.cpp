@@ -198,9 +198,11 @@ CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
     if (caused_change(crossing.leaf)) cause = &crossing;
   }
   if (cause == nullptr) cause = &work_.crossings_[begin];
-  return {.t = work_.crossings_[begin].t,
+  // The place of the face itself: others of the cluster may be known far worse, where the ray grazes them.
+  const CsgCrossing& place = cause->t < ray_.t_max ? *cause : work_.crossings_[begin];
+  return {.t = place.t,
           .error = cause->error,
-          .t_low = work_.crossings_[begin].t_low,
+          .t_low = place.t_low,
           .leaf = cause->leaf,
           .face = cause->face,
           .entering = value(0)};
