@@ -178,7 +178,11 @@ void Record::add(const Record& other) {
   escalations += other.escalations;
   largest_ratio = std::max(largest_ratio, other.largest_ratio);
   largest_claim = std::max(largest_claim, other.largest_claim);
-  for (std::size_t i = 0; i < ulps_by_kind.size(); ++i) ulps_by_kind[i].add(other.ulps_by_kind[i]);
+  for (std::size_t i = 0; i < ray_kinds; ++i) {
+    rays_by_kind[i] += other.rays_by_kind[i];
+    close_calls_by_kind[i] += other.close_calls_by_kind[i];
+    ulps_by_kind[i].add(other.ulps_by_kind[i]);
+  }
   for (std::size_t i = 0; i < ulps_by_decade.size(); ++i) ulps_by_decade[i].add(other.ulps_by_decade[i]);
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   std::sort(failures.begin(), failures.end());
@@ -195,6 +199,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
   CrossingList found;
   const bool found_before = contestant.crossings(ray, found, record.escalations);
   ++record.rays;
+  ++record.rays_by_kind[static_cast<std::size_t>(ray.kind)];
   if (!expected.empty()) ++record.hits;
   bool kept = true;
   const bool same = found_before == truth.line.inside_before && found.size() == expected.size() &&
@@ -206,7 +211,8 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
     record.largest_ratio = record.largest_claim = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
       account(found[i], expected[i], ray, contestant.promise, record);
-    kept = record.largest_ratio <= tolerance && record.largest_claim <= tolerance;
+    kept = record.largest_ratio <= tolerance &&
+           (contestant.promise == Promise::exact || record.largest_claim <= tolerance);
     record.largest_ratio = std::max(record.largest_ratio, ratio_before);
     record.largest_claim = std::max(record.largest_claim, claim_before);
   } else {
@@ -220,6 +226,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
         (is_solid ? differs_beyond_bound(ray, found_before, found_t, truth.line.inside_before, expected_t)
                   : surface_differs_beyond_bound(ray, found));
     ++(wrong ? record.wrong : record.close_calls);
+    if (!wrong) ++record.close_calls_by_kind[static_cast<std::size_t>(ray.kind)];
     kept = !wrong;
   }
   if (!kept && record.failures.size() < most_failures) record.failures.push_back(number);

@@ -67,12 +67,14 @@ class Histogram {
 
 struct Record {
   std::uint64_t rays = 0;
-  std::uint64_t hits = 0;                         ///< rays that truly hit
-  std::uint64_t close_calls = 0;                  ///< decided otherwise, but within the bound
-  std::uint64_t wrong = 0;                        ///< decided otherwise beyond it
-  std::uint64_t escalations = 0;                  ///< questions that only exact arithmetic answered
-  double largest_ratio = 0;                       ///< error over the promised bound
-  double largest_claim = 0;                       ///< error over Crossing::error
+  std::uint64_t hits = 0;         ///< rays that truly hit
+  std::uint64_t close_calls = 0;  ///< decided otherwise, but within the bound
+  std::uint64_t wrong = 0;        ///< decided otherwise beyond it
+  std::array<std::uint64_t, ray_kinds> rays_by_kind{};
+  std::array<std::uint64_t, ray_kinds> close_calls_by_kind{};
+  std::uint64_t escalations = 0;  ///< questions that only exact arithmetic answered
+  double largest_ratio = 0;       ///< error over the promised bound
+  double largest_claim = 0;       ///< error over Crossing::error; in the exact tier of t + t_low
   std::array<Histogram, ray_kinds> ulps_by_kind;  ///< error in units of the last place of t
   std::array<Histogram, highest_decade - lowest_decade + 1> ulps_by_decade;  ///< of plain rays
   std::vector<std::uint64_t> failures;  ///< numbers of the first rays that broke a promise
