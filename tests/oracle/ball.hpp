@@ -13,6 +13,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <limits>
 
 namespace crt::test {
@@ -20,24 +21,24 @@ namespace crt::test {
 /// The sign of a number that may be 0, or more or less.
 struct Undecided {};
 
-template <int parts>
+template <std::size_t parts>
 class Ball {
  public:
   /// In bits.
-  static constexpr int precision() { return 53 * parts; }
+  static constexpr int precision() { return 53 * static_cast<int>(parts); }
 
   Ball() = default;
   Ball(double value) : radius_(value - value) {
     part_[0] = value;
   }  // NOLINT(google-explicit-constructor): exact
-  template <int fewer>
+  template <std::size_t fewer>
   requires(fewer < parts) explicit Ball(const Ball<fewer>& other) : radius_(other.radius()) {
-    for (int i = 0; i < fewer; ++i) part_[i] = other.part(i);
+    for (std::size_t i = 0; i < fewer; ++i) part_[i] = other.part(i);
   }
   /// The sum of the terms, each with the error that is told, and `radius` more.
-  static Ball sum_of(const double* terms, int count, double radius) {
+  static Ball sum_of(const double* terms, std::size_t count, double radius) {
     Sum sum;
-    for (int i = 0; i < count; ++i) sum.add(terms[i]);
+    for (std::size_t i = 0; i < count; ++i) sum.add(terms[i]);
     return sum.ball(radius);
   }
 
@@ -53,7 +54,7 @@ class Ball {
                     a.radius_ + b.radius_ + (std::abs(rest.error) + std::abs(bottom.error)));
     } else {
       Sum sum;
-      for (int i = 0; i < parts; ++i) {
+      for (std::size_t i = 0; i < parts; ++i) {
         sum.add(a.part_[i]);
         sum.add(b.part_[i]);
       }
@@ -87,16 +88,16 @@ class Ball {
       return normal(high.value, low.value, radius + dropped + lost);
     } else {
       Sum sum;
-      for (int order = 0; order < parts; ++order) {
-        for (int i = 0; i <= order; ++i) {
+      for (std::size_t order = 0; order < parts; ++order) {
+        for (std::size_t i = 0; i <= order; ++i) {
           const Two product = two_product(a.part_[i], b.part_[order - i]);
           sum.add(product.value);
           sum.add(product.error);
           if (order > 0 && product.value != 0) radius += lost;
         }
       }
-      for (int i = 1; i < parts; ++i) {
-        for (int j = parts - i; j < parts; ++j) radius += std::abs(a.part_[i] * b.part_[j]);
+      for (std::size_t i = 1; i < parts; ++i) {
+        for (std::size_t j = parts - i; j < parts; ++j) radius += std::abs(a.part_[i] * b.part_[j]);
       }
       return sum.ball(radius);
     }
@@ -107,7 +108,7 @@ class Ball {
     // Long division: |a / b - q| = |a - b q| / |b|.
     Ball quotient;
     Ball rest = a;
-    for (int step = 0; step < parts + 1; ++step) {
+    for (std::size_t step = 0; step < parts + 1; ++step) {
       const Ball digit(rest.part_[0] / b.part_[0]);
       quotient = quotient + digit;
       rest = rest - b * digit;
@@ -123,7 +124,7 @@ class Ball {
     // |sqrt(a) - s| = |a - s^2| / (sqrt(a) + s), Newton's iteration.
     Ball root(std::sqrt(a.part_[0]));
     Ball rest = a - root * root;
-    for (int step = 1; step < 2 * parts; step *= 2) {
+    for (std::size_t step = 1; step < 2 * parts; step *= 2) {
       root = (root + rest.middle() / Ball(2 * root.part_[0])).middle();
       rest = a - root * root;
     }
@@ -150,7 +151,7 @@ class Ball {
   bool surely_below(const Ball& other) const { return (other - *this).certain_sign() > 0; }
   /// For ordering what is apart.
   friend bool is_less(const Ball& a, const Ball& b) {
-    for (int i = 0; i < parts; ++i) {
+    for (std::size_t i = 0; i < parts; ++i) {
       if (a.part_[i] != b.part_[i]) return a.part_[i] < b.part_[i];
     }
     return false;
@@ -173,7 +174,7 @@ class Ball {
   }
   double value() const { return part_[0]; }
   double radius() const { return radius_; }
-  double part(int i) const { return part_[static_cast<std::size_t>(i)]; }
+  double part(std::size_t i) const { return part_[i]; }
   /// No number of the ball is larger, in size.
   double largest_size() const { return inflated(size() + radius_); }
 
@@ -238,13 +239,13 @@ class Ball {
 
   double size() const {
     double result = std::abs(part_[0]);
-    for (int i = 1; i < parts; ++i) result += std::abs(part_[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 1; i < parts; ++i) result += std::abs(part_[i]);
     return result * (1 + 0x1p-50);
   }
   /// Every number of the ball is at least so large, or this is negative.
   double least_size() const {
     double rest = radius_;
-    for (int i = 1; i < parts; ++i) rest += std::abs(part_[static_cast<std::size_t>(i)]);
+    for (std::size_t i = 1; i < parts; ++i) rest += std::abs(part_[i]);
     return std::abs(part_[0]) * (1 - 0x1p-50) - rest * (1 + 0x1p-40);
   }
 

@@ -20,15 +20,15 @@ double random_double(Counted& random) {
   return random.uniform(-1, 1) * random.power_of_ten(-12, 12);
 }
 
-template <int parts>
+template <std::size_t parts>
 bool holds(const Ball<parts>& ball, const Interval& truth) {
   Interval middle(0.0);
-  for (int i = 0; i < parts; ++i) middle = middle + Interval(ball.part(i));
+  for (std::size_t i = 0; i < parts; ++i) middle = middle + Interval(ball.part(i));
   const Interval distance = magnitude(truth - middle);
   return !Interval(ball.radius()).surely_below(distance) || std::isnan(ball.radius());
 }
 
-template <int parts>
+template <std::size_t parts>
 void check_arithmetic() {
   constexpr std::uint64_t rounds = 20'000;
   Bits::now = 2048;

@@ -20,7 +20,6 @@ using core::Crossing;
 using core::CrossingList;
 
 constexpr double u = unit_of_rounding;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What the measurement itself may be off by.
 constexpr double tolerance = 1 + 0x1p-20;
 constexpr std::size_t most_failures = 20;
