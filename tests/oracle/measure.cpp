@@ -140,10 +140,6 @@ Contestant naive_formulas() {
           }};
 }
 
-bool has_exact_tier(std::size_t primitive_kind) {
-  return core::make_exact_shape(make_ray(primitive_kind, 0).primitive) != nullptr;
-}
-
 void Histogram::add(double value) {
   ++count_;
   largest_ = std::max(largest_, value);

@@ -42,9 +42,6 @@ Contestant standard_tier();
 Contestant exact_tier();
 Contestant naive_formulas();
 
-/// Whether there is an exact tier of the primitive (by its place in the variant).
-bool has_exact_tier(std::size_t primitive_kind);
-
 /// How often each size of error occurred: 8 bins an octave.
 class Histogram {
  public:
