@@ -95,3 +95,17 @@ TEST_CASE("a solid is met where it is, though the ray grazes another one there")
   CHECK(after > 2);
   CHECK(after - before < 1e-7);
 }
+
+TEST_CASE("a solid that is cut off where it is grazed ends where the cut is") {
+  // Along the outside of a torus, to where a box begins that is taken away.
+  const Torus torus{.center = {1, 0, -1}, .axis = {0, -1, 0}, .radius = 1, .thickness = 1};
+  const Box box{.corner_a = {1, 0, -1}, .corner_b = {2, 2, 2}};
+  const GridRay ray{{-0x1.d116ba8835b24p+0, -0x1.d6733410226a9p+2, 0x1.f3d7f61a347bp-1},
+                    {0x1.688b5d441ad92p+1, 0x1.d6733410226a9p+2, 0x1.85013cb970ap-6}};
+  for (const Precision precision : {Precision::standard, Precision::exact}) {
+    PreparedTree cut(Entity(torus) - Entity(box), precision);
+    const FoundFlips found = cut.flips(ray);
+    REQUIRE(found.flips.size() == 2);
+    CHECK(found.flips[1] == FoundFlip{1, false});
+  }
+}

@@ -190,19 +190,22 @@ bool CsgEvaluation::caused_change(std::uint32_t leaf) const {
 
 CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
   const CsgCrossing* cause = nullptr;
+  // What changed the root and is known best tells the place: others may be known far worse, where the ray
+  // grazes them.
+  const CsgCrossing* place = nullptr;
   for (std::size_t i = begin; i < end; ++i) {
     const CsgCrossing& crossing = work_.crossings_[i];
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
     if (crossing.entering != (work_.leaf_values_[crossing.leaf] != 0)) continue;
-    if (cause != nullptr && cause->leaf <= crossing.leaf) continue;
-    if (caused_change(crossing.leaf)) cause = &crossing;
+    if (!caused_change(crossing.leaf)) continue;
+    if (cause == nullptr || crossing.leaf < cause->leaf) cause = &crossing;
+    if (place == nullptr || crossing.error < place->error) place = &crossing;
   }
   if (cause == nullptr) cause = &work_.crossings_[begin];
-  // The place of the face itself: others of the cluster may be known far worse, where the ray grazes them.
-  const CsgCrossing& place = cause->t < ray_.t_max ? *cause : work_.crossings_[begin];
-  return {.t = place.t,
+  if (place == nullptr || !(place->t < ray_.t_max)) place = &work_.crossings_[begin];
+  return {.t = place->t,
           .error = cause->error,
-          .t_low = place.t_low,
+          .t_low = place->t_low,
           .leaf = cause->leaf,
           .face = cause->face,
           .entering = value(0)};
