@@ -173,7 +173,7 @@ first, in plain doubles (`tests/oracle/naive.cpp`); it is measured with a millio
 - **ulps**: |t - true t| in units of the last place of t, for plain rays. What is above one half in the standard tier is what the place and
   the slant of the ray make unavoidable in doubles: the bound's second term. A start on the surface itself, where t is but rounding, is not counted.
 - **ns**: nanoseconds a ray on one core, over all kinds of rays, each of another primitive; the best of many rounds.
-- **escalations**: how often a ray of these asked for exact arithmetic, on average: half of them are made to.
+- **escalations**: how often a ray asked for exact arithmetic, on average over all kinds, half of which are hard on purpose.
 
 u is 2^-53; R the radius of a ball that holds the primitive (0 for planes); x the point relative to its centre; n . d the cosine of the slant.
 
