@@ -126,6 +126,7 @@ class Plain {
   core::CsgHit hit(const std::vector<CsgCrossing>& cluster, const Values& before, const Values& after) const {
     const bool now = after.nodes[0];
     const CsgCrossing* cause = nullptr;
+    const CsgCrossing* place = nullptr;  // known best
     for (const CsgCrossing& crossing : cluster) {
       if (crossing.entering != inside_[crossing.leaf] || after.leaves[crossing.leaf] != now) continue;
       bool changed = true;
@@ -133,14 +134,21 @@ class Plain {
         changed = changed && before.nodes[node] != now && after.nodes[node] == now;
         if (node == 0) break;
       }
-      if (changed && (cause == nullptr || crossing.leaf < cause->leaf)) cause = &crossing;
+      if (!changed) continue;
+      if (cause == nullptr || crossing.leaf < cause->leaf) cause = &crossing;
+      if (place == nullptr || std::tie(crossing.error, crossing.leaf) < std::tie(place->error, place->leaf)) {
+        place = &crossing;
+      }
     }
     if (cause == nullptr) cause = &cluster.front();
-    return {.t = cluster.front().t,
+    if (place == nullptr || !(place->t < ray_.t_max)) place = &cluster.front();
+    return {.t = place->t,
             .error = cause->error,
-            .t_low = cluster.front().t_low,
+            .t_low = place->t_low,
             .leaf = cause->leaf,
             .face = cause->face,
+            .surface = cause->surface,
+            .root = cause->root,
             .entering = now};
   }
 

@@ -273,16 +273,22 @@ bool CsgEvaluation::caused_change(std::uint32_t leaf) {
 CsgHit CsgEvaluation::blame() {
   const CsgCrossing& first = work_.cluster_.front();
   const CsgCrossing* cause = nullptr;
+  // What changed the root and is known best tells the place: others may be known far worse, where the ray
+  // grazes them.
+  const CsgCrossing* place = nullptr;
   for (const CsgCrossing& crossing : work_.cluster_) {
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
-    if (crossing.entering != leaf_inside(crossing.leaf)) continue;
-    if (cause != nullptr && cause->leaf <= crossing.leaf) continue;
-    if (caused_change(crossing.leaf)) cause = &crossing;
+    if (crossing.entering != leaf_inside(crossing.leaf) || !caused_change(crossing.leaf)) continue;
+    if (cause == nullptr || crossing.leaf < cause->leaf) cause = &crossing;
+    if (place == nullptr || std::tie(crossing.error, crossing.leaf) < std::tie(place->error, place->leaf)) {
+      place = &crossing;
+    }
   }
   if (cause == nullptr) cause = &first;
-  return {.t = first.t,
+  if (place == nullptr || !(place->t < ray_.t_max)) place = &first;
+  return {.t = place->t,
           .error = cause->error,
-          .t_low = first.t_low,
+          .t_low = place->t_low,
           .leaf = cause->leaf,
           .face = cause->face,
           .surface = cause->surface,
