@@ -3,7 +3,9 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <limits>
 
 #include "csg/plain_evaluation.hpp"
@@ -74,6 +76,24 @@ WorldRay random_ray(SolidMaker& make) {
   return ray;
 }
 
+/// A ray that goes on from a hit, through it or back.
+WorldRay continued(const CompiledScene& scene, const CsgProgram& program, const WorldRay& ray,
+                   const CsgHit& hit, const Vec3& direction, core::Side side) {
+  WorldRay next;
+  next.origin = ray.origin + hit.t * ray.direction;
+  next.direction = direction;
+  const core::Leaf& leaf = scene.leaves[program.first_leaf + hit.leaf];
+  const core::FaceSurface& surface = scene.face_surfaces[leaf.first_face + hit.face];
+  const bool outside = (side == core::Side::outside) != surface.flipped;
+  const Vec3 size = glm::abs(next.origin);
+  next.start = {.leaf = program.first_leaf + hit.leaf,
+                .face = hit.face,
+                .surface = surface.surface,
+                .side = outside ? core::Side::outside : core::Side::inside,
+                .t_error = core::start_rounding * std::max({size.x, size.y, size.z})};
+  return next;
+}
+
 /// A plate with n by n holes in it, across y.
 Entity plate_with_holes(int n) {
   std::vector<Entity> holes;
@@ -110,6 +130,29 @@ TEST_CASE("the tree of boxes agrees with the plain evaluation to the bit") {
     for (int i = 0; i < 100; ++i) hits += compare(scene, random_ray(make), work);
   }
   CHECK(hits > 10000);
+}
+
+TEST_CASE("rays that start on the object agree with the plain evaluation to the bit") {
+  std::size_t hits = 0;
+  CsgWorkspace work;
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    SolidMaker make(seed);
+    const CompiledScene scene = compiled(make.tree(4).entity());
+    CAPTURE(seed);
+    for (int i = 0; i < 30; ++i) {
+      const WorldRay ray = random_ray(make);
+      for (const CsgProgram& program : scene.programs) {
+        for (const CsgHit& hit : evaluate_plainly(scene, program, ray).hits) {
+          const Vec3 direction = make.integer(0, 1) == 0 ? ray.direction : make.grid_point();
+          if (direction == Vec3(0)) continue;
+          for (const core::Side side : {core::Side::outside, core::Side::inside}) {
+            hits += compare(scene, continued(scene, program, ray, hit, direction, side), work);
+          }
+        }
+      }
+    }
+  }
+  CHECK(hits > 2000);
 }
 
 TEST_CASE("large objects agree with the plain evaluation to the bit") {

@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/geometry/bounds.hpp"
+#include "core/math/vector.hpp"
 
 namespace crt::core {
 
@@ -20,7 +21,8 @@ struct LineSpan {
 /// What of a line does not change from box to box.
 class RaySlabs {
  public:
-  RaySlabs(const Vec3& origin, const Vec3& direction) : origin_(origin), direction_(direction) {
+  RaySlabs(const Vec3& origin, const Vec3& direction)
+      : origin_(origin), direction_(direction), origin_slack_(4 * slack * largest_component(origin)) {
     for (int axis = 0; axis < 3; ++axis) {
       // Below that the quotient must be taken: the inverse has no digits left, or is infinite.
       constexpr double smallest = 0x1p-1000;
@@ -82,7 +84,8 @@ class RaySlabs {
     const double d = direction_[axis];
     for (std::size_t i = 0; i < Count; ++i) {
       if (d == 0) {
-        if (o < lower[i] || o > upper[i]) enter[i] = std::numeric_limits<double>::infinity();
+        const bool beside = o < lower[i] - origin_slack_ || o > upper[i] + origin_slack_;
+        if (beside) leave[i] = -std::numeric_limits<double>::infinity();
         continue;
       }
       const double first = (lower[i] - o) / d;
@@ -97,6 +100,8 @@ class RaySlabs {
   Vec3 origin_;
   Vec3 direction_;
   Vec3 inverse_{0, 0, 0};
+  /// Rounding may have put a line that starts on the side of a box next to it.
+  double origin_slack_;
   bool is_steep_ = false;  ///< parallel to some slab, or all but
 };
 
