@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace crt::test {
@@ -12,11 +13,13 @@ constexpr double panel_width = 250;
 constexpr double panel_height = 170;
 constexpr double left = 46;
 constexpr double top = 28;
-constexpr double plot_width = panel_width - left - 12;
+constexpr double plot_width = panel_width - left - 20;
 constexpr double plot_height = panel_height - top - 34;
 constexpr std::size_t columns = 3;
 constexpr double lowest_power = -1;  // of ten, in ulps
 constexpr double highest_power = 17;
+constexpr std::array colors = {"#1f5fa8", "#2e8b57", "#c0392b"};
+constexpr std::array dashes = {"none", "4 3", "none"};
 
 double x_of(double decade) {
   return left + plot_width * (decade - lowest_decade) / (highest_decade + 1 - lowest_decade);
@@ -26,14 +29,16 @@ double y_of(double ulps) {
   return top + plot_height * (highest_power - power) / (highest_power - lowest_power);
 }
 
-std::string line(const Record& record, const char* color) {
+std::string line(const Record& record, const char* color, const char* dash) {
   std::string points;
   for (int decade = lowest_decade; decade <= highest_decade; ++decade) {
     const Histogram& ulps = record.ulps_by_decade[static_cast<std::size_t>(decade - lowest_decade)];
     if (ulps.count() == 0) continue;
     points += fmt::format("{:.1f},{:.1f} ", x_of(decade + 0.5), y_of(ulps.quantile(0.999)));
   }
-  return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='2'/>\n", points, color);
+  return fmt::format(
+      "<polyline points='{}' fill='none' stroke='{}' stroke-width='2' stroke-dasharray='{}'/>\n", points,
+      color, dash);
 }
 
 std::string panel(const Measured& measured) {
@@ -51,7 +56,9 @@ std::string panel(const Measured& measured) {
   }
   result += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#888'/>\n", left, top,
                         plot_width, plot_height);
-  return result + line(measured.naive, "#c0392b") + line(measured.ours, "#1f5fa8");
+  for (std::size_t i = 0; i < measured.tiers.size(); ++i)
+    result += line(measured.tiers[i].record, colors[i], dashes[i]);
+  return result;
 }
 
 }  // namespace
@@ -69,11 +76,13 @@ std::string accuracy_plot(const std::vector<Measured>& all) {
                           panel_width * static_cast<double>(i % columns),
                           panel_height * static_cast<double>(i / columns), panel(all[i]));
   }
-  result += fmt::format(
-      "<text x='{0}' y='{1}'>ulps of t, 99.9 % of plain rays, against the distance in sizes: "
-      "<tspan fill='#1f5fa8' font-weight='bold'>standard</tspan>, "
-      "<tspan fill='#c0392b' font-weight='bold'>naive</tspan></text>\n</svg>\n",
-      left, height - 12);
+  result +=
+      fmt::format("<text x='{}' y='{}'>ulps of t, 99.9 % of plain rays, against the distance in sizes:", left,
+                  height - 12);
+  for (std::size_t i = 0; i < colors.size() && !all.empty(); ++i) {
+    result += fmt::format(" <tspan fill='{}' font-weight='bold'>{}</tspan>", colors[i], all[0].tiers[i].name);
+  }
+  result += "</text>\n</svg>\n";
   return result;
 }
 

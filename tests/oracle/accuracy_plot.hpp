@@ -7,13 +7,15 @@
 
 namespace crt::test {
 
-/// What oracle_table knows of a primitive.
+/// What oracle_table knows of a primitive by one of the contestants.
+struct MeasuredTier {
+  std::string name;
+  Record record;
+  double nanoseconds = 0;  ///< a ray
+};
 struct Measured {
   std::size_t kind = 0;
-  Record ours;
-  Record naive;
-  double our_time = 0;  ///< nanoseconds a ray
-  double naive_time = 0;
+  std::vector<MeasuredTier> tiers;  ///< standard, exact, naive
 };
 
 /// An SVG: for each primitive the error that 99.9 % of plain rays stay below, in ulps, against distance.

@@ -3,35 +3,39 @@
 // An interval holds the true value for certain, as every operation rounds outwards. A number that fits
 // the precision stays a point, so the sign of a dyadic expression is known exactly once the precision
 // is large enough. Where a sign is open, `Undecided` is thrown and the caller tries again with more bits.
+// It offers the same as Ball, so that all of the oracle is written once for both.
 #pragma once
 
 #include <mpfr.h>
 
+#include <array>
+#include <limits>
 #include <utility>
+
+#include "oracle/ball.hpp"
 
 namespace crt::test {
 
-/// The sign of an interval that holds 0, and more.
-struct Undecided {};
-
 /// The precision of what this thread computes, in bits.
-struct Precision {
+struct Bits {
   static constexpr mpfr_prec_t lowest = 256;
   static constexpr mpfr_prec_t highest = 4096;
   static constexpr mpfr_prec_t factor = 4;
 
-  static inline thread_local mpfr_prec_t bits = lowest;
+  static inline thread_local mpfr_prec_t now = lowest;
 };
 
 class Interval {
  public:
-  Interval() : Interval(0.0) {}
+  /// No number at all: only to be assigned to.
+  Interval() noexcept : Interval(Empty{}) {}
   Interval(double value) {  // NOLINT(google-explicit-constructor): exact
-    initialise(Precision::bits);
+    initialise(Bits::now);
     mpfr_set_d(lower_, value, MPFR_RNDN);
     mpfr_set_d(upper_, value, MPFR_RNDN);
   }
-  Interval(const Interval& other) {
+  Interval(const Interval& other) : Interval(Empty{}) {
+    if (other.lower_->_mpfr_d == nullptr) return;
     initialise(mpfr_get_prec(other.lower_));
     mpfr_set(lower_, other.lower_, MPFR_RNDD);
     mpfr_set(upper_, other.upper_, MPFR_RNDU);
@@ -76,8 +80,8 @@ class Interval {
     const mpfr_t& low = positive ? a.lower_ : a.upper_;
     const mpfr_t& high = positive ? a.upper_ : a.lower_;
     Interval result(Blank{});
-    mpfr_div(result.lower_, low, (mpfr_sgn(low) >= 0) == positive ? b.upper_ : b.lower_, MPFR_RNDD);
-    mpfr_div(result.upper_, high, (mpfr_sgn(high) >= 0) == positive ? b.lower_ : b.upper_, MPFR_RNDU);
+    mpfr_div(result.lower_, low, mpfr_sgn(low) >= 0 ? b.upper_ : b.lower_, MPFR_RNDD);
+    mpfr_div(result.upper_, high, mpfr_sgn(high) >= 0 ? b.lower_ : b.upper_, MPFR_RNDU);
     return result;
   }
   friend Interval square(const Interval& a) {
@@ -107,7 +111,7 @@ class Interval {
   int sign() const {
     const int certain = certain_sign();
     if (certain != 0 || is_zero()) return certain;
-    if (Precision::bits < Precision::highest) throw Undecided{};
+    if (Bits::now < Bits::highest) throw Undecided{};
     return 0;
   }
   /// 0 also where it is not known.
@@ -126,8 +130,6 @@ class Interval {
     mpfr_set(result.upper_, result.lower_, MPFR_RNDN);
     return result;
   }
-  Interval lower() const { return point(lower_); }
-  Interval upper() const { return point(upper_); }
   /// The smallest interval that holds both.
   friend Interval hull(const Interval& a, const Interval& b) {
     Interval result(Blank{});
@@ -135,26 +137,34 @@ class Interval {
     mpfr_max(result.upper_, a.upper_, b.upper_, MPFR_RNDU);
     return result;
   }
+  /// For ordering what is apart.
+  friend bool is_less(const Interval& a, const Interval& b) {
+    return mpfr_less_p(a.middle().lower_, b.middle().lower_) != 0;
+  }
+  /// In bits.
+  static int precision() { return static_cast<int>(Bits::now); }
   /// Near the middle.
   double value() const { return mpfr_get_d(middle().lower_, MPFR_RNDN); }
-  /// The exponent e of the middle, 2^(e-1) <= |middle| < 2^e; very small for 0.
-  long exponent() const {
-    const Interval m = middle();
-    return mpfr_zero_p(m.lower_) ? -1'000'000 : static_cast<long>(mpfr_get_exp(m.lower_));
+  /// No number of the interval is larger, in size.
+  double largest_size() const {
+    return std::max(-mpfr_get_d(lower_, MPFR_RNDD), mpfr_get_d(upper_, MPFR_RNDU));
   }
-  /// A power of two, as a point.
-  static Interval power_of_two(long exponent) {
-    Interval result(Blank{});
-    mpfr_set_ui_2exp(result.lower_, 1, exponent, MPFR_RNDN);
-    mpfr_set(result.upper_, result.lower_, MPFR_RNDN);
-    return result;
+  /// A ball that holds the interval.
+  Ball<4> ball() const {
+    std::array<double, 4> parts{};
+    Interval rest = *this;
+    for (double& part : parts) {
+      part = rest.value();
+      rest = rest - Interval(part);
+    }
+    return Ball<4>::sum_of(parts.data(), 4, rest.largest_size());
   }
 
  private:
   struct Blank {};
   struct Empty {};
 
-  explicit Interval(Blank) { initialise(Precision::bits); }
+  explicit Interval(Blank) { initialise(Bits::now); }
   explicit Interval(Empty) noexcept {
     lower_->_mpfr_d = nullptr;
     upper_->_mpfr_d = nullptr;
@@ -166,12 +176,6 @@ class Interval {
   void swap(Interval& other) noexcept {
     std::swap(lower_[0], other.lower_[0]);
     std::swap(upper_[0], other.upper_[0]);
-  }
-  static Interval point(const mpfr_t& value) {
-    Interval result(Blank{});
-    mpfr_set(result.lower_, value, MPFR_RNDN);
-    mpfr_set(result.upper_, value, MPFR_RNDN);
-    return result;
   }
   static Interval hull_of_products(const Interval& a, const Interval& b) {
     Interval result(Blank{});
@@ -197,21 +201,43 @@ class Interval {
   mpfr_t upper_ = {};
 };
 
+/// The numbers that the oracle tries, the fastest first; Interval comes after them.
+enum class FirstTry { two_doubles, three_doubles, mpfr };
+
+/// The number that `compute`, a function of a value of a number type, works with.
+template <class Number>
+struct Using {
+  using type = Number;
+};
+
 /// Runs `compute` with more and more bits until it is certain.
 template <class Compute>
-auto until_certain(const Compute& compute) {
+auto until_certain(const Compute& compute, FirstTry first = FirstTry::two_doubles) {
+  try {
+    if (first <= FirstTry::two_doubles) return compute(Using<Ball<2>>());
+  } catch (const Undecided&) {
+  }
+  try {
+    if (first <= FirstTry::three_doubles) return compute(Using<Ball<3>>());
+  } catch (const Undecided&) {
+  }
   struct Restore {
-    ~Restore() { Precision::bits = Precision::lowest; }
+    ~Restore() { Bits::now = Bits::lowest; }
   } restore;
-  Precision::bits = Precision::lowest;
+  Bits::now = Bits::lowest;
   while (true) {
     try {
-      return compute();
+      return compute(Using<Interval>());
     } catch (const Undecided&) {
-      if (Precision::bits >= Precision::highest) throw;
-      Precision::bits *= Precision::factor;
+      if (Bits::now >= Bits::highest) throw;
+      Bits::now *= Bits::factor;
     }
   }
+}
+
+/// Whether more bits could be had.
+inline bool is_last_try() {
+  return Bits::now >= Bits::highest;
 }
 
 }  // namespace crt::test

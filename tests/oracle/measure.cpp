@@ -9,6 +9,8 @@
 #include <limits>
 #include <thread>
 
+#include "core/csg/placement.hpp"
+#include "core/geometry/exact_shape.hpp"
 #include "oracle/naive.hpp"
 
 namespace crt::test {
@@ -18,21 +20,30 @@ using core::Crossing;
 using core::CrossingList;
 
 constexpr double u = unit_of_rounding;
-constexpr double infinity = std::numeric_limits<double>::infinity();
 /// What the measurement itself may be off by.
 constexpr double tolerance = 1 + 0x1p-20;
 constexpr std::size_t most_failures = 20;
 
-double ulp(double t) {
-  return std::nextafter(std::abs(t), infinity) - std::abs(t);
+Question question_of(const TestRay& ray) {
+  return {ray.primitive, ray.origin, ray.direction, ray.to_world};
 }
 
 double error_of(double t, const TrueCrossing& crossing) {
-  return magnitude(crossing.t - Interval(t)).value();
+  return std::abs((crossing.t - Ball<4>(t)).value());
 }
 
-double bound_of(const TrueCrossing& crossing) {
-  return ulp(crossing.t.value()) / 2 + 8 * u * crossing.reach / crossing.approach;
+/// The distance of the doubles around it.
+double spacing_at(const Ball<4>& t) {
+  const double size = std::abs(t.value());
+  const bool below = t.part(1) != 0 && (t.part(1) < 0) == (t.value() > 0);
+  return below ? size - std::nextafter(size, 0) : test::ulp(size);
+}
+
+double bound_of(const TrueCrossing& crossing, const TestRay& ray, Promise promise) {
+  const double last_place = spacing_at(crossing.t);
+  if (promise == Promise::exact)
+    return (std::holds_alternative<Torus>(ray.primitive) ? 1 : 0.51) * last_place;
+  return last_place / 2 + 8 * u * crossing.reach / crossing.approach;
 }
 
 bool is_inside_at(double t, bool inside_before, const std::vector<double>& flips) {
@@ -51,7 +62,7 @@ bool differs_beyond_bound(const TestRay& ray, bool found_before, const std::vect
   const auto wrong_at = [&](double t) {
     const bool inside = is_inside_at(t, found_before, found);
     if (inside == is_inside_at(t, true_before, expected)) return false;
-    const double outside = true_distance(ray.primitive, ray.origin, ray.direction, t);
+    const double outside = true_distance(question_of(ray), t);
     const double from_center = glm::length(ray.origin - center_of(ray.primitive) + t * ray.direction);
     // `from_center` is rounded on the way there, and the spacing of t covers that.
     const double allowed = 8 * u * (size + from_center) + ulp(t) * speed;
@@ -69,8 +80,8 @@ bool differs_beyond_bound(const TestRay& ray, bool found_before, const std::vect
 
 bool surface_differs_beyond_bound(const TestRay& ray, const CrossingList& found) {
   const double t = found.empty() ? 0 : found[0].t;
-  const double beyond = true_distance(ray.primitive, ray.origin, ray.direction, t);
-  const TrueLine meeting = true_plane_crossings(ray.primitive, ray.origin, ray.direction);
+  const double beyond = true_distance(question_of(ray), t);
+  const TrueLine meeting = true_plane_crossings(question_of(ray));
   if (meeting.crossings.empty()) return !found.empty();
   const TrueCrossing& crossing = meeting.crossings[0];
   const double across = 8 * u * (size_of(ray.primitive) + crossing.reach);
@@ -78,37 +89,53 @@ bool surface_differs_beyond_bound(const TestRay& ray, const CrossingList& found)
   return (found.empty() ? -beyond : beyond) > allowed;
 }
 
-void account(double t, double claimed, const TrueCrossing& crossing, const TestRay& ray, bool has_error,
+void account(const Crossing& found, const TrueCrossing& crossing, const TestRay& ray, Promise promise,
              Record& record) {
-  const double error = error_of(t, crossing);
+  const double error = error_of(found.t, crossing);
   const double true_t = crossing.t.value();
   // Where a ray starts on a surface t is nothing but rounding, and has no last place of its own.
   constexpr double start = 0x1p-40;
   if (std::abs(true_t) * glm::length(ray.direction) > start * crossing.reach) {
-    const double ulps = error / ulp(true_t);
+    const double ulps = error / spacing_at(crossing.t);
     record.ulps_by_kind[static_cast<std::size_t>(ray.kind)].add(ulps);
     if (ray.kind == RayKind::plain)
       record.ulps_by_decade[static_cast<std::size_t>(ray.decade - lowest_decade)].add(ulps);
   }
-  record.largest_ratio = std::max(record.largest_ratio, error / bound_of(crossing));
-  if (has_error && error > 0 && !crossing.at_edge)
-    record.largest_claim = std::max(record.largest_claim, error / claimed);
+  record.largest_ratio = std::max(record.largest_ratio, error / bound_of(crossing, ray, promise));
+  if (promise == Promise::standard && error > 0 && !crossing.at_edge)
+    record.largest_claim = std::max(record.largest_claim, error / found.error);
+  constexpr double accuracy = 0x1p-10;
+  if (promise == Promise::exact && crossing.t.radius() <= accuracy * found.error) {
+    const double rest = std::abs((crossing.t - Ball<4>(found.t) - Ball<4>(found.t_low)).value());
+    if (rest > 0) record.largest_claim = std::max(record.largest_claim, rest / found.error);
+  }
 }
 
 }  // namespace
 
 Contestant standard_tier() {
   return {.name = "standard",
-          .crossings =
-              [](const TestRay& ray, CrossingList& out) {
-                const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
-                return core::make_shape(ray.primitive)->crossings(object_ray, out);
-              },
-          .has_error = true};
+          .promise = Promise::standard,
+          .crossings = [](const TestRay& ray, CrossingList& out, std::uint64_t&) {
+            const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
+            return core::make_shape(ray.primitive)->crossings(object_ray, out);
+          }};
+}
+
+Contestant exact_tier() {
+  return {.name = "exact",
+          .promise = Promise::exact,
+          .crossings = [](const TestRay& ray, CrossingList& out, std::uint64_t& escalations) {
+            const core::Placement placement{core::PreciseTransform(ray.to_world)};
+            const core::ObjectRay object_ray = placement.to_object(ray.origin, ray.direction);
+            core::ExactRay exact = placement.to_object_exactly(ray.origin, ray.direction, object_ray);
+            exact.escalations = &escalations;
+            return core::make_exact_shape(ray.primitive)->crossings(exact, out);
+          }};
 }
 
 Contestant naive_formulas() {
-  return {.name = "naive", .crossings = [](const TestRay& ray, CrossingList& out) {
+  return {.name = "naive", .crossings = [](const TestRay& ray, CrossingList& out, std::uint64_t&) {
             return naive_crossings(ray.primitive, ray.origin, ray.direction, out);
           }};
 }
@@ -143,25 +170,31 @@ void Record::add(const Record& other) {
   hits += other.hits;
   close_calls += other.close_calls;
   wrong += other.wrong;
+  escalations += other.escalations;
   largest_ratio = std::max(largest_ratio, other.largest_ratio);
   largest_claim = std::max(largest_claim, other.largest_claim);
-  for (std::size_t i = 0; i < ulps_by_kind.size(); ++i) ulps_by_kind[i].add(other.ulps_by_kind[i]);
+  for (std::size_t i = 0; i < ray_kinds; ++i) {
+    rays_by_kind[i] += other.rays_by_kind[i];
+    close_calls_by_kind[i] += other.close_calls_by_kind[i];
+    ulps_by_kind[i].add(other.ulps_by_kind[i]);
+  }
   for (std::size_t i = 0; i < ulps_by_decade.size(); ++i) ulps_by_decade[i].add(other.ulps_by_decade[i]);
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   std::sort(failures.begin(), failures.end());
   if (failures.size() > most_failures) failures.resize(most_failures);
 }
 
-Truth truth_of(const TestRay& ray) {
-  return {ray, true_crossings(ray.primitive, ray.origin, ray.direction)};
+Truth truth_of(const TestRay& ray, FirstTry first) {
+  return {ray, true_crossings(question_of(ray), first)};
 }
 
 bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number, Record& record) {
   const TestRay& ray = truth.ray;
   const std::vector<TrueCrossing>& expected = truth.line.crossings;
   CrossingList found;
-  const bool found_before = contestant.crossings(ray, found);
+  const bool found_before = contestant.crossings(ray, found, record.escalations);
   ++record.rays;
+  ++record.rays_by_kind[static_cast<std::size_t>(ray.kind)];
   if (!expected.empty()) ++record.hits;
   bool kept = true;
   const bool same = found_before == truth.line.inside_before && found.size() == expected.size() &&
@@ -172,8 +205,9 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
     const double claim_before = record.largest_claim;
     record.largest_ratio = record.largest_claim = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
-      account(found[i].t, found[i].error, expected[i], ray, contestant.has_error, record);
-    kept = record.largest_ratio <= tolerance && record.largest_claim <= tolerance;
+      account(found[i], expected[i], ray, contestant.promise, record);
+    kept = record.largest_ratio <= tolerance &&
+           (contestant.promise == Promise::exact || record.largest_claim <= tolerance);
     record.largest_ratio = std::max(record.largest_ratio, ratio_before);
     record.largest_claim = std::max(record.largest_claim, claim_before);
   } else {
@@ -183,9 +217,11 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
     for (const TrueCrossing& crossing : expected) expected_t.push_back(crossing.t.value());
     const bool is_solid = core::is_solid(ray.primitive);
     const bool wrong =
-        is_solid ? differs_beyond_bound(ray, found_before, found_t, truth.line.inside_before, expected_t)
-                 : surface_differs_beyond_bound(ray, found);
+        contestant.promise == Promise::exact ||
+        (is_solid ? differs_beyond_bound(ray, found_before, found_t, truth.line.inside_before, expected_t)
+                  : surface_differs_beyond_bound(ray, found));
     ++(wrong ? record.wrong : record.close_calls);
+    if (!wrong) ++record.close_calls_by_kind[static_cast<std::size_t>(ray.kind)];
     kept = !wrong;
   }
   if (!kept && record.failures.size() < most_failures) record.failures.push_back(number);
@@ -193,7 +229,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
 }
 
 std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first, std::uint64_t last,
-                                const std::vector<Contestant>& contestants) {
+                                const std::vector<Contestant>& contestants, RayMaker maker) {
   constexpr std::uint64_t batch = 256;
   const unsigned threads = std::max(1u, std::thread::hardware_concurrency());
   std::vector<std::vector<Record>> parts(threads, std::vector<Record>(contestants.size()));
@@ -203,7 +239,10 @@ std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first,
       const std::uint64_t begin = next.fetch_add(batch);
       if (begin >= last) break;
       for (std::uint64_t number = begin; number < std::min(begin + batch, last); ++number) {
-        const Truth truth = truth_of(make_ray(primitive_kind, number));
+        // Now and then with more bits, for what the exact tier claims of t_low.
+        constexpr std::uint64_t finer = 16;
+        const FirstTry first_try = number % finer == 0 ? FirstTry::three_doubles : FirstTry::two_doubles;
+        const Truth truth = truth_of(maker(primitive_kind, number), first_try);
         for (std::size_t i = 0; i < contestants.size(); ++i)
           measure(truth, contestants[i], number, records[i]);
       }
@@ -242,9 +281,14 @@ std::string description(const TestRay& ray) {
     else
       return fmt::format("triangle {} {} {}", text(p.a), text(p.b), text(p.c));
   };
-  return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}",
+  const std::string placed =
+      ray.to_world == Transform{}
+          ? ""
+          : fmt::format(", rows {} {} {} translation {}", text(ray.to_world.row_x), text(ray.to_world.row_y),
+                        text(ray.to_world.row_z), text(ray.to_world.translation));
+  return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}{}",
                      std::visit(primitive, ray.primitive), name_of(ray.kind), ray.decade, text(ray.origin),
-                     text(ray.direction));
+                     text(ray.direction), placed);
 }
 
 }  // namespace crt::test

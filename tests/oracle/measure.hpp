@@ -8,6 +8,8 @@
 // farther outside (or inside) than 8 u (R + |x|) plus the spacing of t's doubles there, in length. For
 // surfaces: where the line meets the plane is not farther beyond (or within) the rim than the bound on t
 // is long plus 8 u (R + |x|). A ray whose decision differs from the true one within this is a *close call*.
+//
+// The exact tier promises more: no close calls, and t within 0.51 ulp (of a torus 1 ulp).
 #pragma once
 
 #include <array>
@@ -23,14 +25,21 @@
 
 namespace crt::test {
 
+enum class Promise : std::uint8_t {
+  none,
+  standard,  ///< the bounds above, and Crossing::error
+  exact,
+};
+
 /// Whose crossings are measured. A tier is a way to make shapes.
 struct Contestant {
   std::string name;
-  std::function<bool(const TestRay& ray, core::CrossingList& out)> crossings;
-  /// Whether Crossing::error is a promise.
-  bool has_error = false;
+  Promise promise = Promise::none;
+  /// As Shape::crossings; counts what only exact arithmetic answered.
+  std::function<bool(const TestRay& ray, core::CrossingList& out, std::uint64_t& escalations)> crossings;
 };
 Contestant standard_tier();
+Contestant exact_tier();
 Contestant naive_formulas();
 
 /// How often each size of error occurred: 8 bins an octave.
@@ -55,11 +64,14 @@ class Histogram {
 
 struct Record {
   std::uint64_t rays = 0;
-  std::uint64_t hits = 0;                         ///< rays that truly hit
-  std::uint64_t close_calls = 0;                  ///< decided otherwise, but within the bound
-  std::uint64_t wrong = 0;                        ///< decided otherwise beyond it
-  double largest_ratio = 0;                       ///< error over the promised bound
-  double largest_claim = 0;                       ///< error over Crossing::error
+  std::uint64_t hits = 0;         ///< rays that truly hit
+  std::uint64_t close_calls = 0;  ///< decided otherwise, but within the bound
+  std::uint64_t wrong = 0;        ///< decided otherwise beyond it
+  std::array<std::uint64_t, ray_kinds> rays_by_kind{};
+  std::array<std::uint64_t, ray_kinds> close_calls_by_kind{};
+  std::uint64_t escalations = 0;  ///< questions that only exact arithmetic answered
+  double largest_ratio = 0;       ///< error over the promised bound
+  double largest_claim = 0;       ///< error over Crossing::error; in the exact tier of t + t_low
   std::array<Histogram, ray_kinds> ulps_by_kind;  ///< error in units of the last place of t
   std::array<Histogram, highest_decade - lowest_decade + 1> ulps_by_decade;  ///< of plain rays
   std::vector<std::uint64_t> failures;  ///< numbers of the first rays that broke a promise
@@ -72,14 +84,14 @@ struct Truth {
   TestRay ray;
   TrueLine line;
 };
-Truth truth_of(const TestRay& ray);
+Truth truth_of(const TestRay& ray, FirstTry first = FirstTry::two_doubles);
 
 /// Takes one ray into the account; whether every promise was kept.
 bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number, Record& record);
 
 /// Measures rays first to last (not included) of a primitive on all cores.
 std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first, std::uint64_t last,
-                                const std::vector<Contestant>& contestants);
+                                const std::vector<Contestant>& contestants, RayMaker maker = make_ray);
 
 /// A ray in full, to repeat it.
 std::string description(const TestRay& ray);

@@ -325,6 +325,38 @@ bool is_usable(const TestRay& ray) {
   return true;
 }
 
+/// Of the linear part.
+Vec3 apply(const Transform& transform, const Vec3& v) {
+  return {glm::dot(transform.row_x, v), glm::dot(transform.row_y, v), glm::dot(transform.row_z, v)};
+}
+
+/// The linear part of first and then second, rounded.
+Transform product(const Transform& second, const Transform& first) {
+  const auto row = [&](const Vec3& r) { return r.x * first.row_x + r.y * first.row_y + r.z * first.row_z; };
+  return {row(second.row_x), row(second.row_y), row(second.row_z)};
+}
+
+Transform random_transform(Counted& random) {
+  const auto quarter_turns = [&] { return 90.0 * random.integer(0, 3); };
+  const auto angle_in_degrees = [&] { return random.uniform(0, 360); };
+  const bool unrounded = random.integer(0, 3) == 0;
+  const auto turned = [&] {
+    const double x = unrounded ? quarter_turns() : angle_in_degrees();
+    const double y = unrounded ? quarter_turns() : angle_in_degrees();
+    return rotate({x, y, unrounded ? quarter_turns() : angle_in_degrees()});
+  };
+  constexpr double spread = 4;  // of decades, up and down
+  const auto factor = [&] {
+    return random.sign() *
+           (unrounded ? std::ldexp(1.0, random.integer(-8, 8)) : random.power_of_ten(-spread, spread));
+  };
+  const double x = factor();
+  const double y = factor();
+  const Transform scaled = scale(Vec3(x, y, random.integer(0, 1) == 0 ? x : factor()));
+  const Transform first = turned();
+  return product(turned(), product(scaled, first));
+}
+
 }  // namespace
 
 std::string_view name_of(RayKind kind) {
@@ -346,6 +378,18 @@ TestRay make_ray(std::size_t primitive_kind, std::uint64_t number) {
     const TestRay ray = ray_of_kind(primitive_kind, random);
     if (is_usable(ray)) return ray;
   }
+}
+
+TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
+  TestRay ray = make_ray(primitive_kind, number);
+  Counted random(primitive_kinds * primitive_kinds + primitive_kind, number);
+  const Transform transform = random_transform(random);
+  const Vec3 shift = glm::length(ray.origin) * random.power_of_ten(-3, 3) * random.in_cube();
+  ray.to_world = transform;
+  if (random.integer(0, 1) == 0) ray.to_world.translation = shift;
+  ray.origin = apply(transform, ray.origin) + ray.to_world.translation;
+  ray.direction = apply(transform, ray.direction);
+  return ray;
 }
 
 }  // namespace crt::test

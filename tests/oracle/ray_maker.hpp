@@ -9,6 +9,7 @@
 
 #include "core/math/random.hpp"
 #include "crt/primitives.hpp"
+#include "crt/transform.hpp"
 
 namespace crt::test {
 
@@ -33,6 +34,7 @@ struct TestRay {
   int decade = 0;  ///< distance is 10^decade to 10^(decade + 1) sizes
   Vec3 origin{0};
   Vec3 direction{0};
+  Transform to_world{};  ///< where the primitive is
 };
 inline constexpr int lowest_decade = -3;
 inline constexpr int highest_decade = 11;
@@ -56,5 +58,11 @@ class Counted {
 };
 
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
+
+/// The same with the primitive and the ray moved by a transform: rotated, scaled by factors that differ by up
+/// to 10^8, rotated again and shifted; or turned and scaled so that nothing is rounded.
+TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number);
+
+using RayMaker = TestRay (*)(std::size_t primitive_kind, std::uint64_t number);
 
 }  // namespace crt::test

@@ -2,6 +2,7 @@
 #include <doctest/doctest.h>
 
 #include "oracle/measure.hpp"
+#include "oracle/prepared_tree.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -52,6 +53,15 @@ TEST_CASE("a cone's apex is met from afar no worse than the rest of it") {
   CHECK(holds(cone, {0x1.03791fe4435a6p+21, -0x1.052252ce08a68p+23, 0x1.2204568a72bdap+41}, {0, 0, -1}));
 }
 
+TEST_CASE("a cone is met where it is by a line that grazes it next to a ruling") {
+  const Cone cone{.from = {-0x1.db94b90343c75p-6, 0, 0},
+                  .to = {0x1.5a353b94e2f65p+10, -0x1.19358edd08722p+14, 0x1.d8bc64adf9c7ep+11},
+                  .radius = 0x1.48e8186279c44p+14,
+                  .radius2 = 0x1.25d18c671d123p+13};
+  CHECK(holds(cone, {0x1.4d0a6e95d27e6p+26, -0x1.bd0e51c47431dp+26, 0x1.a2dc59bfeeabep+25},
+              {-0x1.4d12d46a6bb59p+26, 0x1.bcfd0c06f7469p+26, -0x1.a2dcad20945f3p+25}));
+}
+
 TEST_CASE("a line that is parallel to a cylinder's axis to rounding stays within it") {
   const Cylinder cylinder{.from = {-0x1.3931771d9440fp+29, 0, 0},
                           .to = {-0x1.3931771d9440fp+29, 0x1.1947de971bcecp-28, -0x1.35b4f3084aff7p-27},
@@ -66,4 +76,36 @@ TEST_CASE("a triangle is not hit by lines in its plane but for rounding that pas
                           .c = {-0x1.81c8bf1a62da1p-14, -0x1.3956d94c506dep-14, -0x1.9f6b3fce8b3c4p-3}};
   CHECK(holds(triangle, {-0x1.bb8ef40a8a274p-12, -0x1.d6efa755989bp-13, -0x1.9d863451b8d58p-3},
               {0x1.4a35762203f2bp-12, 0x1.0bd0f6a48f4d8p-13, -0x1.02f599f2b678p-10}));
+}
+
+TEST_CASE("a solid is met where it is, though the ray grazes another one there") {
+  // The ball is met some 1e-8 before and after the box's face, and the standard tier knows it no better.
+  const Box box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, 1}};
+  const Sphere ball{.center = {1, 1.5, 0.5}, .radius = 1 + 0x1p-52};
+  const GridRay ray{{3, 0.5, 0.5}, {-1, 0, 0}};
+  for (const Entity& solid : {Entity(box) + Entity(ball), Entity(box) - Entity(ball)}) {
+    PreparedTree standard(solid, Precision::standard);
+    CHECK(standard.flips(ray) == FoundFlips{false, {{2, true}, {3, false}}});
+  }
+  PreparedTree joined(Entity(box) + Entity(ball), Precision::exact);
+  PreparedTree cut(Entity(box) - Entity(ball), Precision::exact);
+  const double before = joined.flips(ray).flips.front().t;
+  const double after = cut.flips(ray).flips.front().t;
+  CHECK(before < 2);
+  CHECK(after > 2);
+  CHECK(after - before < 1e-7);
+}
+
+TEST_CASE("a solid that is cut off where it is grazed ends where the cut is") {
+  // Along the outside of a torus, to where a box begins that is taken away.
+  const Torus torus{.center = {1, 0, -1}, .axis = {0, -1, 0}, .radius = 1, .thickness = 1};
+  const Box box{.corner_a = {1, 0, -1}, .corner_b = {2, 2, 2}};
+  const GridRay ray{{-0x1.d116ba8835b24p+0, -0x1.d6733410226a9p+2, 0x1.f3d7f61a347bp-1},
+                    {0x1.688b5d441ad92p+1, 0x1.d6733410226a9p+2, 0x1.85013cb970ap-6}};
+  for (const Precision precision : {Precision::standard, Precision::exact}) {
+    PreparedTree cut(Entity(torus) - Entity(box), precision);
+    const FoundFlips found = cut.flips(ray);
+    REQUIRE(found.flips.size() == 2);
+    CHECK(found.flips[1] == FoundFlip{1, false});
+  }
 }

@@ -4,6 +4,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
+#include "oracle/equations.hpp"
 #include "oracle/line_oracle.hpp"
 
 namespace crt::test {
@@ -11,46 +12,51 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Near the middle, but 0 for what may be 0.
+double value_if_certain(const Interval& interval) {
+  return interval.certain_sign() == 0 ? 0 : interval.value();
+}
+
 /// How far a point, relative to the position, is beyond the rim.
 double beyond_rim(const Disc& d, const IntervalVec& p) {
-  return (length(p) - Interval(d.radius)).value();
+  return value_if_certain(length(p) - Interval(d.radius));
 }
 double beyond_rim(const HalfPlane& h, const IntervalVec& p) {
-  const IntervalVec normal = exactly(h.normal);
-  const Interval across = length(cross(normal, exactly(h.direction))) / length(normal);
-  return -(dot(exactly(h.direction), p) / across).value();
+  const IntervalVec normal = exactly<Interval>(h.normal);
+  const Interval across = length(cross(normal, exactly<Interval>(h.direction))) / length(normal);
+  return -value_if_certain(dot(exactly<Interval>(h.direction), p) / across);
 }
 double beyond_rim(const Triangle& t, const IntervalVec& p) {
-  const IntervalVec normal = normal_of(t);
+  const IntervalVec normal = normal_of<Interval>(t);
   const std::array<Vec3, 3> corners = {t.a, t.b, t.c};
   double result = -infinity;
   for (std::size_t i = 0; i < 3; ++i) {
-    const IntervalVec corner = exactly(corners[i]);
-    const IntervalVec edge = exactly(corners[(i + 1) % 3]) - corner;
-    const Interval height = dot(normal, cross(edge, p - (corner - exactly(t.a))));
-    result = std::max(result, -(height / (length(normal) * length(edge))).value());
+    const IntervalVec corner = exactly<Interval>(corners[i]);
+    const IntervalVec edge = exactly<Interval>(corners[(i + 1) % 3]) - corner;
+    const Interval height = dot(normal, cross(edge, p - (corner - exactly<Interval>(t.a))));
+    result = std::max(result, -value_if_certain(height / (length(normal) * length(edge))));
   }
   return result;
 }
 
 double outside(const Sphere& s, const IntervalVec& p) {
-  return (length(p - exactly(s.center)) - Interval(s.radius)).value();
+  return (length(p - exactly<Interval>(s.center)) - Interval(s.radius)).value();
 }
 double outside(const Box& b, const IntervalVec& p) {
   double result = -infinity;
-  const IntervalVec lower = exactly(glm::min(b.corner_a, b.corner_b));
-  const IntervalVec upper = exactly(glm::max(b.corner_a, b.corner_b));
+  const IntervalVec lower = exactly<Interval>(glm::min(b.corner_a, b.corner_b));
+  const IntervalVec upper = exactly<Interval>(glm::max(b.corner_a, b.corner_b));
   for (std::size_t i = 0; i < 3; ++i)
     result = std::max({result, (lower[i] - p[i]).value(), (p[i] - upper[i]).value()});
   return result;
 }
 double outside(const Plane& plane, const IntervalVec& p) {
-  const IntervalVec normal = exactly(plane.normal);
-  return (dot(normal, p - exactly(plane.position)) / length(normal)).value();
+  const IntervalVec normal = exactly<Interval>(plane.normal);
+  return (dot(normal, p - exactly<Interval>(plane.position)) / length(normal)).value();
 }
 double outside(const Frustum& c, const IntervalVec& p) {
-  const IntervalVec axis = exactly(c.to) - exactly(c.from);
-  const IntervalVec w = p - exactly(c.from);
+  const IntervalVec axis = exactly<Interval>(c.to) - exactly<Interval>(c.from);
+  const IntervalVec w = p - exactly<Interval>(c.from);
   const Interval height = length(axis);
   const Interval h = dot(w, axis) / height;
   const Interval growth = Interval(c.radius2) - Interval(c.radius);
@@ -66,8 +72,8 @@ double outside(const Cone& c, const IntervalVec& p) {
   return outside(frustum_of(c), p);
 }
 double outside(const Torus& torus, const IntervalVec& p) {
-  const IntervalVec axis = exactly(torus.axis);
-  const IntervalVec w = p - exactly(torus.center);
+  const IntervalVec axis = exactly<Interval>(torus.axis);
+  const IntervalVec w = p - exactly<Interval>(torus.center);
   const Interval height = dot(w, axis) / length(axis);
   const Interval outwards = length(cross(w, axis)) / length(axis) - Interval(torus.radius);
   return (sqrt(square(outwards) + square(height)) - Interval(torus.thickness)).value();
@@ -113,20 +119,26 @@ Ball ball_of(const Triangle& t) {
 
 }  // namespace
 
-double true_distance(const Primitive& primitive, const Vec3& origin, const Vec3& direction, double t) {
-  const ExactLine line(origin, direction, center_of(primitive));
+double true_distance(const Question& question, double t) {
+  const ExactLine<Interval> line(question.origin, question.direction, question.to_world,
+                                 center_of(question.primitive));
   return std::visit(
       [&]<class P>(const P& p) {
         if constexpr (is_surface<P>) {
-          const Polynomial plane = polynomials_of(primitive, line)[0];
+          const Polynomial<Interval> plane = equations(p, line)[0];
           if (plane[1].certain_sign() == 0) return plane[0].certain_sign() == 0 ? 0.0 : infinity;
-          const IntervalVec at = line.at(-plane[0] / plane[1]);
-          return beyond_rim(p, at - exactly(position_of(p)));
+          const Interval x = -plane[0] / plane[1];
+          return beyond_rim(p, line.from(position_of(p)) + x * line.direction);
         } else {
           return outside(p, line.at(Interval(t) - Interval(line.shift)));
         }
       },
-      primitive);
+      question.primitive);
+}
+
+PointAndSpeed point_and_speed(const Question& question, double t) {
+  const ExactLine<Interval> line(question.origin, question.direction, question.to_world, Vec3(0));
+  return {rounded(line.at(Interval(t) - Interval(line.shift))), glm::length(rounded(line.direction))};
 }
 
 Vec3 center_of(const Primitive& primitive) {

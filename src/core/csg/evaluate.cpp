@@ -41,173 +41,254 @@ bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& ob
   return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }
 
-LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direction) {
-  constexpr double inf = std::numeric_limits<double>::infinity();
-  // Two roundings go into each t: of the difference and of the quotient.
-  constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
-  constexpr LineSpan miss{inf, -inf};
-  LineSpan span{-inf, inf};
-  for (int axis = 0; axis < 3; ++axis) {
-    const double lower = bounds.lower[axis];
-    const double upper = bounds.upper[axis];
-    if (direction[axis] == 0) {
-      if (origin[axis] < lower || origin[axis] > upper) return miss;
-      continue;
-    }
-    double first = (lower - origin[axis]) / direction[axis];
-    double second = (upper - origin[axis]) / direction[axis];
-    if (first > second) std::swap(first, second);
-    span.enter = std::max(span.enter, first - slack * std::abs(first));
-    span.leave = std::min(span.leave, second + slack * std::abs(second));
-  }
-  return span;
+namespace {
+
+/// Of a line with one surface, a torus.
+constexpr std::size_t most_roots = 4;
+
+/// For heaps that have the nearest on top.
+constexpr auto is_later = [](const CsgCrossing& a, const CsgCrossing& b) {
+  return std::tie(a.t, a.t_low, a.leaf, a.entering) > std::tie(b.t, b.t_low, b.leaf, b.entering);
+};
+constexpr auto is_opened_later = [](const auto& a, const auto& b) {
+  return a.enter != b.enter ? a.enter > b.enter : b.child < a.child;
+};
+
+bool coincides(const CsgCrossing& first, const CsgCrossing& other) {
+  const double way = (other.t - first.t) + (other.t_low - first.t_low);
+  return way <= first.error + other.error && other.enter <= first.t + first.error;
 }
+
+}  // namespace
 
 CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
                              std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
                              CsgWorkspace& workspace)
     : program_(program),
       leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
+      face_surfaces_(face_surfaces),
       ray_(ray),
-      work_(workspace) {
-  work_.nodes_.resize(program.nodes.size());
-  for (std::size_t i = 0; i < program.nodes.size(); ++i)
-    work_.nodes_[i] = {program.nodes[i].count_outside, 0, false};
-  work_.leaf_values_.assign(program.leaf_count(), 0);
-  collect(face_surfaces);
-  while (position_ < work_.crossings_.size() && work_.crossings_[position_].t <= ray_.t_min) {
-    const std::size_t end = cluster_end(position_);
-    flip(position_, end);
-    position_ = end;
+      work_(workspace),
+      slabs_(ray.origin, ray.direction),
+      first_stamp_(++workspace.stamp_) {
+  if (work_.nodes_.size() < program.nodes.size()) work_.nodes_.resize(program.nodes.size());
+  if (work_.leaves_.size() < program.leaf_count()) work_.leaves_.resize(program.leaf_count());
+  if (work_.shared_.size() < most_roots * program.shared_surfaces) {
+    work_.shared_.resize(most_roots * program.shared_surfaces);
+  }
+  work_.openings_.clear();
+  work_.crossings_.clear();
+  for (const std::uint32_t leaf : program.tree.unbounded()) {
+    const LineSpan span = slabs_.span(leaves_[leaf].bounds);
+    if (!span.empty()) meet(LeafTree::Child::leaf(leaf), span.enter, span.leave);
+  }
+  if (program.tree.has_root()) program.tree.visit(0, slabs_, [&](auto... met) { meet(met...); });
+  open_up_to(farthest_start(ray_));
+  while (!work_.crossings_.empty() && work_.crossings_.front().t <= ray_.t_min) {
+    open_what_may_coincide();
+    gather_cluster();
+    flip_cluster();
   }
   starts_inside_ = value(0);
 }
 
-void CsgEvaluation::collect(std::span<const FaceSurface> face_surfaces) {
-  work_.crossings_.clear();
-  ++stamp_;
-  // Leaves that are placed alike follow one another: the ray is taken to their space once.
-  const Placement* placement = nullptr;
-  ObjectRay object_ray;
-  for (std::uint32_t index = 0; index < program_.leaf_count(); ++index) {
-    const Leaf& leaf = leaves_[index];
-    // A leaf that the line misses, has passed or meets too late stays outside.
-    const LineSpan span = span_in_box(leaf.bounds, ray_.origin, ray_.direction);
-    if (span.enter > span.leave || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max)
-      continue;
-    if (leaf.placement != placement) {
-      placement = leaf.placement;
-      object_ray = placement->to_object(ray_.origin, ray_.direction);
+void CsgEvaluation::meet(LeafTree::Child child, double enter, double leave) {
+  if (leave < ray_.t_min - ray_.start.t_error || enter > ray_.t_max) return;
+  work_.openings_.push_back({enter, child});
+  std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_opened_later);
+}
+
+void CsgEvaluation::open_up_to(double t) {
+  auto& openings = work_.openings_;
+  while (!openings.empty() && openings.front().enter <= t) {
+    const auto opening = openings.front();
+    std::pop_heap(openings.begin(), openings.end(), is_opened_later);
+    openings.pop_back();
+    if (opening.child.is_leaf()) {
+      open_leaf(opening.child.index(), opening.enter);
+    } else {
+      program_.tree.visit(opening.child.index(), slabs_, [&](auto... met) { meet(met...); });
     }
-    object_ray.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces, ray_.start);
-    work_.leaf_crossings_.clear();
-    if (leaf_crossings(leaf, ray_, object_ray, work_.leaf_crossings_, work_.escalations)) flip_leaf(index);
-    for (const Crossing& crossing : work_.leaf_crossings_) {
-      const std::uint32_t surface = face_surfaces[leaf.first_face + crossing.face].surface;
-      double t = crossing.t;
-      double t_low = crossing.t_low;
-      if (surface != ray_.start.surface && t > ray_.t_min && is_at_start(leaf, ray_, object_ray, crossing)) {
-        t = ray_.t_min;
-        t_low = 0;
+  }
+}
+
+bool CsgEvaluation::find_crossing() {
+  while (work_.crossings_.empty()) {
+    if (work_.openings_.empty()) return false;
+    open_up_to(work_.openings_.front().enter);
+  }
+  open_what_may_coincide();
+  return true;
+}
+
+void CsgEvaluation::open_what_may_coincide() {
+  // What is opened may bring a crossing that is nearer still.
+  while (!work_.openings_.empty()) {
+    const CsgCrossing& first = work_.crossings_.front();
+    const double next_enter = work_.openings_.front().enter;
+    if (!(next_enter <= first.t + first.error)) return;
+    open_up_to(next_enter);
+  }
+}
+
+void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
+  const Leaf& leaf = leaves_[index];
+  // Leaves that are placed alike often follow one another: the ray is taken to their space once.
+  if (leaf.placement != placement_) {
+    placement_ = leaf.placement;
+    object_ray_ = placement_->to_object(ray_.origin, ray_.direction);
+  }
+  object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
+  work_.leaf_crossings_.clear();
+  bool inside = leaf_crossings(leaf, ray_, object_ray_, work_.leaf_crossings_, work_.escalations);
+  work_.events += work_.leaf_crossings_.size();
+  for (const Crossing& crossing : work_.leaf_crossings_) {
+    const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
+    CsgCrossing met{.t = crossing.t,
+                    .error = crossing.error,
+                    .t_low = crossing.t_low,
+                    .enter = enter,
+                    .leaf = index,
+                    .face = crossing.face,
+                    .surface = surface.surface,
+                    .root = crossing.root,
+                    .entering = crossing.entering,
+                    .shared = surface.shared};
+    if (crossing.t < enter) {
+      // Before the box nothing of it matters, but the crossing may be in the box for all that is known.
+      if (crossing.t + crossing.error < enter) {
+        inside = crossing.entering;
+        continue;
       }
-      work_.crossings_.push_back({.t = t,
-                                  .error = crossing.error,
-                                  .t_low = t_low,
-                                  .leaf = index,
-                                  .face = crossing.face,
-                                  .surface = surface,
-                                  .root = crossing.root,
-                                  .entering = crossing.entering});
+      met.t = enter;
+      met.t_low = 0;
     }
+    if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
+        is_at_start(leaf, ray_, object_ray_, crossing)) {
+      met.t = ray_.t_min;
+      met.t_low = 0;
+    }
+    if (met.shared != FaceSurface::not_shared) ++shared_state(met).to_come;
+    work_.crossings_.push_back(met);
+    std::push_heap(work_.crossings_.begin(), work_.crossings_.end(), is_later);
   }
-  work_.events += work_.crossings_.size();
-  if (program_.coincident_faces) unify_coincident();
-  std::sort(work_.crossings_.begin(), work_.crossings_.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
-    return std::tie(a.t, a.t_low, a.leaf, a.entering) < std::tie(b.t, b.t_low, b.leaf, b.entering);
-  });
+  if (!inside) return;
+  ++work_.stamp_;
+  flip_leaf(index);
 }
 
-void CsgEvaluation::unify_coincident() {
+void CsgEvaluation::gather_cluster() {
   auto& crossings = work_.crossings_;
-  std::sort(crossings.begin(), crossings.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
-    return std::tie(a.surface, a.root, a.leaf) < std::tie(b.surface, b.root, b.leaf);
+  auto& cluster = work_.cluster_;
+  cluster.clear();
+  ++work_.stamp_;
+  do {
+    add_to_cluster(crossings.front());
+    std::pop_heap(crossings.begin(), crossings.end(), is_later);
+    crossings.pop_back();
+  } while (!crossings.empty() && coincides(cluster.front(), crossings.front()));
+  const bool some_to_come = std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing& crossing) {
+    return crossing.shared != FaceSurface::not_shared && shared_state(crossing).to_come > 0;
   });
-  for (std::size_t i = 1; i < crossings.size(); ++i) {
-    const CsgCrossing& first = crossings[i - 1];
-    if (crossings[i].surface != first.surface || crossings[i].root != first.root) continue;
-    crossings[i].t = first.t;
-    crossings[i].error = first.error;
-    crossings[i].t_low = first.t_low;
-  }
+  if (some_to_come) gather_shared();
 }
 
-std::size_t CsgEvaluation::cluster_end(std::size_t begin) const {
-  const auto& crossings = work_.crossings_;
-  const CsgCrossing& first = crossings[begin];
-  std::size_t end = begin + 1;
-  const auto way_from_first = [&](const CsgCrossing& crossing) {
-    return (crossing.t - first.t) + (crossing.t_low - first.t_low);
-  };
-  while (end < crossings.size() && way_from_first(crossings[end]) <= first.error + crossings[end].error)
-    ++end;
-  return end;
+void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
+  work_.cluster_.push_back(crossing);
+  if (crossing.shared == FaceSurface::not_shared) return;
+  SharedState& shared = shared_state(crossing);
+  --shared.to_come;
+  shared.cluster = work_.stamp_;
 }
 
-bool CsgEvaluation::value(std::uint32_t node) const {
-  return work_.nodes_[node].count >= program_.nodes[node].needed;
+void CsgEvaluation::gather_shared() {
+  auto& crossings = work_.crossings_;
+  const auto others = std::partition(crossings.begin(), crossings.end(), [&](const CsgCrossing& crossing) {
+    return crossing.shared == FaceSurface::not_shared || shared_state(crossing).cluster != work_.stamp_;
+  });
+  for (auto other = others; other != crossings.end(); ++other) add_to_cluster(*other);
+  crossings.erase(others, crossings.end());
+  std::make_heap(crossings.begin(), crossings.end(), is_later);
 }
 
-bool CsgEvaluation::flip(std::size_t begin, std::size_t end) {
+CsgEvaluation::SharedState& CsgEvaluation::shared_state(const CsgCrossing& crossing) {
+  const std::size_t index = most_roots * crossing.shared + crossing.root;
+  SharedState& state = work_.shared_[index];
+  if (state.stamp < first_stamp_) state = {.stamp = first_stamp_};
+  return state;
+}
+
+CsgEvaluation::NodeState& CsgEvaluation::state(std::uint32_t node) {
+  NodeState& state = work_.nodes_[node];
+  if (state.stamp < first_stamp_) state = {program_.nodes[node].count_outside, first_stamp_, false};
+  return state;
+}
+
+bool CsgEvaluation::value(std::uint32_t node) {
+  return state(node).count >= program_.nodes[node].needed;
+}
+
+bool CsgEvaluation::leaf_inside(std::uint32_t leaf) const {
+  return work_.leaves_[leaf].stamp >= first_stamp_ && work_.leaves_[leaf].inside;
+}
+
+bool CsgEvaluation::flip_cluster() {
   const bool before = value(0);
-  ++stamp_;
-  for (std::size_t i = begin; i < end; ++i) flip_leaf(work_.crossings_[i].leaf);
+  for (const CsgCrossing& crossing : work_.cluster_) flip_leaf(crossing.leaf);
   return value(0) != before;
 }
 
 void CsgEvaluation::flip_leaf(std::uint32_t leaf) {
-  work_.leaf_values_[leaf] ^= 1;
-  bool now = (work_.leaf_values_[leaf] != 0) != leaves_[leaf].complemented;
+  const bool inside = !leaf_inside(leaf);
+  work_.leaves_[leaf] = {work_.stamp_, inside};
+  bool now = inside != leaves_[leaf].complemented;
   std::uint32_t node = program_.leaf_parents[leaf];
   while (true) {
-    auto& state = work_.nodes_[node];
-    const bool before = value(node);
-    if (state.stamp != stamp_) {
-      state.stamp = stamp_;
-      state.value_before = before;
+    NodeState& touched = state(node);
+    const bool before = touched.count >= program_.nodes[node].needed;
+    if (touched.stamp != work_.stamp_) {
+      touched.stamp = work_.stamp_;
+      touched.value_before = before;
     }
-    state.count += now ? 1u : ~0u;
-    const bool after = value(node);
+    touched.count += now ? 1u : ~0u;
+    const bool after = touched.count >= program_.nodes[node].needed;
     if (after == before || node == 0) return;
     now = after;
     node = program_.nodes[node].parent;
   }
 }
 
-bool CsgEvaluation::caused_change(std::uint32_t leaf) const {
+bool CsgEvaluation::caused_change(std::uint32_t leaf) {
   const bool now = value(0);
-  if (((work_.leaf_values_[leaf] != 0) != leaves_[leaf].complemented) != now) return false;
+  if ((leaf_inside(leaf) != leaves_[leaf].complemented) != now) return false;
   std::uint32_t node = program_.leaf_parents[leaf];
   while (true) {
-    const auto& state = work_.nodes_[node];
-    if (state.stamp != stamp_ || state.value_before == now || value(node) != now) return false;
+    const NodeState& touched = state(node);
+    if (touched.stamp != work_.stamp_ || touched.value_before == now || value(node) != now) return false;
     if (node == 0) return true;
     node = program_.nodes[node].parent;
   }
 }
 
-CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
+CsgHit CsgEvaluation::blame() {
+  const CsgCrossing& first = work_.cluster_.front();
   const CsgCrossing* cause = nullptr;
-  for (std::size_t i = begin; i < end; ++i) {
-    const CsgCrossing& crossing = work_.crossings_[i];
+  // What changed the root and is known best tells the place: others may be known far worse, where the ray
+  // grazes them.
+  const CsgCrossing* place = nullptr;
+  for (const CsgCrossing& crossing : work_.cluster_) {
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
-    if (crossing.entering != (work_.leaf_values_[crossing.leaf] != 0)) continue;
-    if (cause != nullptr && cause->leaf <= crossing.leaf) continue;
-    if (caused_change(crossing.leaf)) cause = &crossing;
+    if (crossing.entering != leaf_inside(crossing.leaf) || !caused_change(crossing.leaf)) continue;
+    if (cause == nullptr || crossing.leaf < cause->leaf) cause = &crossing;
+    if (place == nullptr || std::tie(crossing.error, crossing.leaf) < std::tie(place->error, place->leaf)) {
+      place = &crossing;
+    }
   }
-  if (cause == nullptr) cause = &work_.crossings_[begin];
-  return {.t = work_.crossings_[begin].t,
+  if (cause == nullptr) cause = &first;
+  if (place == nullptr || !(place->t < ray_.t_max)) place = &first;
+  return {.t = place->t,
           .error = cause->error,
-          .t_low = work_.crossings_[begin].t_low,
+          .t_low = place->t_low,
           .leaf = cause->leaf,
           .face = cause->face,
           .surface = cause->surface,
@@ -216,12 +297,10 @@ CsgHit CsgEvaluation::blame(std::size_t begin, std::size_t end) const {
 }
 
 bool CsgEvaluation::next(CsgHit& hit) {
-  while (position_ < work_.crossings_.size() && work_.crossings_[position_].t < ray_.t_max) {
-    const std::size_t begin = position_;
-    const std::size_t end = cluster_end(begin);
-    position_ = end;
-    if (!flip(begin, end)) continue;
-    hit = blame(begin, end);
+  while (find_crossing() && work_.crossings_.front().t < ray_.t_max) {
+    gather_cluster();
+    if (!flip_cluster()) continue;
+    hit = blame();
     return true;
   }
   return false;

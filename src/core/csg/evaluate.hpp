@@ -17,11 +17,13 @@ struct CsgCrossing {
   double t = 0;
   double error = 0;
   double t_low = 0;        ///< as in Crossing
+  double enter = 0;        ///< where the line enters the leaf's box
   std::uint32_t leaf = 0;  ///< within the object
   std::uint32_t face = 0;
   std::uint32_t surface = 0;
   std::uint8_t root = 0;
-  bool entering = false;  ///< the primitive, whether or not it is complemented
+  bool entering = false;                           ///< the primitive, whether or not it is complemented
+  std::uint32_t shared = FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
 };
 
 /// A crossing of the object's own boundary.
@@ -74,16 +76,36 @@ class CsgWorkspace {
  private:
   friend class CsgEvaluation;
 
+  /// State of another ray, or of another object, counts as that outside of all leaves.
   struct NodeState {
     std::uint32_t count = 0;
-    std::uint32_t stamp = 0;  ///< of the cluster in which it was last touched
+    std::uint64_t stamp = 0;  ///< of the cluster in which it was last touched
     bool value_before = false;
   };
+  struct LeafState {
+    std::uint64_t stamp = 0;
+    bool inside = false;
+  };
+  /// Of a shared surface and a root: how many crossings are to come, and the last cluster that has one.
+  struct SharedState {
+    std::uint64_t stamp = 0;
+    std::uint32_t to_come = 0;
+    std::uint64_t cluster = 0;
+  };
+  /// A box that the line enters at `enter`.
+  struct Opening {
+    double enter = 0;
+    LeafTree::Child child;
+  };
 
+  std::uint64_t stamp_ = 0;
   CrossingList leaf_crossings_;
-  std::vector<CsgCrossing> crossings_;
+  std::vector<Opening> openings_;       ///< a heap, the nearest first
+  std::vector<CsgCrossing> crossings_;  ///< a heap, the nearest first
+  std::vector<CsgCrossing> cluster_;
   std::vector<NodeState> nodes_;
-  std::vector<std::uint8_t> leaf_values_;
+  std::vector<LeafState> leaves_;
+  std::vector<SharedState> shared_;
 };
 
 /// A face of `leaf` (which has the number `index` in the scene) that lies on the surface a ray starts
@@ -100,6 +122,11 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
 /// to this many times the rounding of the start.
 inline constexpr double flattest_start = 0x1p24;
 
+/// Up to where surfaces through the start may be met.
+inline double farthest_start(const WorldRay& ray) {
+  return ray.t_min + flattest_start * ray.start.t_error;
+}
+
 /// Whether a crossing near the start is of a surface through it.
 bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing);
@@ -113,25 +140,20 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
   return way <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
 }
 
-/// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
-struct LineSpan {
-  double enter = 0;
-  double leave = 0;
-};
-LineSpan span_in_box(const Bounds& bounds, const Vec3& origin, const Vec3& direction);
-
 /// Walks along a ray through one CSG object, from one crossing of its boundary to the next.
 ///
-///  1. Collect the crossings of every leaf with the whole line (leaves whose box the line misses
-///     have none). Crossings of one surface by different leaves get one t.
-///  2. Sort by t. Crossings that their error bounds cannot tell apart form a *cluster*.
+///  1. The boxes of the tree are opened in the order in which the line enters them, and no further than the
+///     next crossing asks for. A leaf whose box is opened puts its crossings among those to come.
+///  2. The first of these and all that coincide with it form a *cluster*: crossings that the bounds of
+///     their errors cannot tell apart, and those of one surface.
 ///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do.
 ///     Only the root's value before and after counts, so pieces without length vanish.
-///  4. Clusters up to t_min (and what coincides with the surface the ray starts on) only set the
+///  4. What is up to t_min (and what coincides with the surface the ray starts on) only sets the
 ///     state; after that each change of the root is a hit. Its face is that of the lowest leaf
 ///     through whose changes, node by node, the root changed.
 ///
-/// Costs O(leaves met + crossings * depth) after step 1, and a box test a leaf in step 1.
+/// A leaf is outside of its primitive before the line enters its box, as far as it matters. So the costs
+/// follow what the ray meets: O(log leaves) for each box that it comes near, O(depth) for each crossing.
 class CsgEvaluation {
  public:
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
@@ -144,22 +166,40 @@ class CsgEvaluation {
   bool next(CsgHit& hit);
 
  private:
-  void collect(std::span<const FaceSurface> face_surfaces);
-  void unify_coincident();
-  std::size_t cluster_end(std::size_t begin) const;
-  /// Flips everything in [begin, end) and returns whether the root changed.
-  bool flip(std::size_t begin, std::size_t end);
+  using NodeState = CsgWorkspace::NodeState;
+  using SharedState = CsgWorkspace::SharedState;
+
+  void meet(LeafTree::Child child, double enter, double leave);
+  /// Opens all boxes that are entered up to t.
+  void open_up_to(double t);
+  /// Opens boxes until there is a crossing, and all that can coincide with it.
+  bool find_crossing();
+  void open_what_may_coincide();
+  void open_leaf(std::uint32_t index, double enter);
+  /// Takes what coincides with the next crossing from those to come.
+  void gather_cluster();
+  void add_to_cluster(const CsgCrossing& crossing);
+  void gather_shared();
+  /// Flips the leaves of the cluster and returns whether the root changed.
+  bool flip_cluster();
   void flip_leaf(std::uint32_t leaf);
-  bool value(std::uint32_t node) const;
-  CsgHit blame(std::size_t begin, std::size_t end) const;
-  bool caused_change(std::uint32_t leaf) const;
+  NodeState& state(std::uint32_t node);
+  /// Of a crossing whose surface is shared.
+  SharedState& shared_state(const CsgCrossing& crossing);
+  bool value(std::uint32_t node);
+  bool leaf_inside(std::uint32_t leaf) const;
+  CsgHit blame();
+  bool caused_change(std::uint32_t leaf);
 
   const CsgProgram& program_;
-  std::span<const Leaf> leaves_;
+  std::span<const Leaf> leaves_;  ///< of the object
+  std::span<const FaceSurface> face_surfaces_;
   WorldRay ray_;
   CsgWorkspace& work_;
-  std::size_t position_ = 0;
-  std::uint32_t stamp_ = 0;
+  RaySlabs slabs_;
+  std::uint64_t first_stamp_;
+  const Placement* placement_ = nullptr;  ///< of object_ray_
+  ObjectRay object_ray_;
   bool starts_inside_ = false;
 };
 

@@ -14,11 +14,6 @@ const Vec3& row(const Transform& transform, int index) {
   return index == 1 ? transform.row_y : transform.row_z;
 }
 
-/// row . v + offset, to about the rounding of the result.
-DoubleDouble apply(const PreciseVec3& row, const Vec3& v, const DoubleDouble& offset) {
-  return row[0] * DoubleDouble(v.x) + row[1] * DoubleDouble(v.y) + row[2] * DoubleDouble(v.z) + offset;
-}
-
 }  // namespace
 
 Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.rounded()) {
@@ -26,6 +21,15 @@ Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.roun
   if (to_world_ == Transform{}) return;
   kind_ = to_world_ == unmoved ? Kind::translation : Kind::affine;
   to_object_ = inverse(PreciseTransform(to_world_));
+  for (int row = 0; row < 3; ++row) {
+    const auto set = [&](DoubleDoubleLanes& column, const DoubleDouble& entry) {
+      column.hi[row] = entry.hi;
+      column.lo[row] = entry.lo;
+    };
+    const auto i = static_cast<std::size_t>(row);
+    for (std::size_t column = 0; column < 3; ++column) set(columns_[column], to_object_.rows[i][column]);
+    set(columns_[3], to_object_.translation[i]);
+  }
   if (kind_ == Kind::affine) vector_error_ = inverse_error();
 }
 
@@ -58,25 +62,34 @@ double Placement::inverse_error() const {
   return inverse_size * (2 * residual + precise_roundoff);
 }
 
+namespace {
+
+void split(const DoubleDoubleLanes& lanes, Vec3& high, Vec3& low) {
+  for (int axis = 0; axis < 3; ++axis) {
+    high[axis] = lanes.hi[axis];
+    low[axis] = lanes.lo[axis];
+  }
+}
+
+}  // namespace
+
 ObjectRay Placement::to_object(const Vec3& origin, const Vec3& direction) const {
   ObjectRay ray;
   ray.origin = origin;
   ray.direction = direction;
   if (kind_ == Kind::identity) return ray;
+  if (kind_ == Kind::affine) {
+    const auto turned = [&](const Vec3& v) {
+      return columns_[0] * v.x + columns_[1] * v.y + columns_[2] * v.z;
+    };
+    split(turned(origin) + columns_[3], ray.origin, ray.origin_low);
+    split(turned(direction), ray.direction, ray.direction_low);
+    return ray;
+  }
   for (int axis = 0; axis < 3; ++axis) {
-    if (kind_ == Kind::translation) {
-      const DoubleDouble moved = two_sum(origin[axis], -to_world_.translation[axis]);
-      ray.origin[axis] = moved.hi;
-      ray.origin_low[axis] = moved.lo;
-      continue;
-    }
-    const auto index = static_cast<std::size_t>(axis);
-    const DoubleDouble start = apply(to_object_.rows[index], origin, to_object_.translation[index]);
-    const DoubleDouble along = apply(to_object_.rows[index], direction, 0.0);
-    ray.origin[axis] = start.hi;
-    ray.origin_low[axis] = start.lo;
-    ray.direction[axis] = along.hi;
-    ray.direction_low[axis] = along.lo;
+    const DoubleDouble moved = two_sum(origin[axis], -to_world_.translation[axis]);
+    ray.origin[axis] = moved.hi;
+    ray.origin_low[axis] = moved.lo;
   }
   return ray;
 }

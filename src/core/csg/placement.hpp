@@ -4,6 +4,7 @@
 #include "core/geometry/bounds.hpp"
 #include "core/geometry/exact_ray.hpp"
 #include "core/geometry/object_ray.hpp"
+#include "core/math/lanes.hpp"
 #include "core/math/precise_transform.hpp"
 #include "crt/transform.hpp"
 
@@ -52,6 +53,8 @@ class Placement {
   Kind kind_ = Kind::identity;
   Transform to_world_;
   PreciseTransform to_object_;
+  /// The same by columns, the translation last, a lane a row.
+  std::array<DoubleDoubleLanes, 4> columns_;
   /// Of a vector taken to object space: each component is off by at most this times the largest of the
   /// vector.
   double vector_error_ = 0;

@@ -9,6 +9,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "core/csg/leaf_tree.hpp"
 #include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
@@ -20,6 +21,10 @@ namespace crt::core {
 struct FaceSurface {
   std::uint32_t surface = 0;
   bool flipped = false;
+  /// Where other faces of the same object lie on it, too: a number among such surfaces of the object.
+  std::uint32_t shared = not_shared;
+
+  static constexpr std::uint32_t not_shared = 0xffffffffu;
 };
 
 /// A primitive in its place.
@@ -48,8 +53,8 @@ struct CsgProgram {
   std::vector<std::uint32_t> leaf_parents;
   /// Leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
-  /// Some of its faces lie on one surface.
-  bool coincident_faces = false;
+  LeafTree tree;  ///< over what of each leaf's box matters
+  std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }
 };

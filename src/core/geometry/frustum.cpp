@@ -142,11 +142,14 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
 /// it is a c with b nearly 0, and c the distance from the side there.
 void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const {
   constexpr double nearly = 0x1p-20;
-  const double radius = side.radius - side.radius_rate * (side.b / side.a);
-  const double grazing = nearly * nearly * line.squared_speed * radius * radius;
-  const bool middle_is_near = side.a > nearly * line.squared_speed;
-  if (!middle_is_near || std::abs(side.discriminant) > grazing) return;
-  line.move_to(ray, narrow_, line.to_precise_t(-side.b / side.a));
+  const double middle = -side.b / side.a;
+  const double radius = side.radius + side.radius_rate * middle;
+  if (std::abs(side.discriminant) > nearly * nearly * line.squared_speed * radius * radius) return;
+  // Next to a ruling, too, as long as the middle is there.
+  const bool is_within =
+      middle * middle * line.squared_speed < (height_ + wide_radius_) * (height_ + wide_radius_);
+  if (!(side.a > (is_within ? nearly * nearly : nearly) * line.squared_speed)) return;
+  line.move_to(ray, narrow_, line.to_precise_t(middle));
   side = side_equation(line);
   side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
 }

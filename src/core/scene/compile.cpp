@@ -35,6 +35,7 @@ class Compiler {
   void finish_program(CsgProgram& program);
   /// Narrows the boxes of the leaves to where they matter; returns the box around the object.
   Bounds narrow_bounds(const CsgProgram& program);
+  std::vector<Bounds> boxes_of(const CsgProgram& program) const;
   const Placement* place(const PreciseTransform& to_world);
   std::uint32_t material_number(const Part& part);
 
@@ -95,6 +96,7 @@ void Compiler::add_group(std::span<const Part> parts) {
     program.first_leaf = object.first_leaf;
     build_program(parts, program);
     object.bounds = narrow_bounds(program);
+    program.tree = LeafTree(boxes_of(program));
     object.program = static_cast<std::uint32_t>(result_.programs.size());
     result_.programs.push_back(std::move(program));
   }
@@ -164,7 +166,20 @@ void Compiler::finish_program(CsgProgram& program) {
     }
   }
   std::sort(numbers.begin(), numbers.end());
-  program.coincident_faces = std::adjacent_find(numbers.begin(), numbers.end()) != numbers.end();
+  std::unordered_map<std::uint32_t, std::uint32_t> shared;
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    if (numbers[i] == numbers[i - 1])
+      shared.try_emplace(numbers[i], static_cast<std::uint32_t>(shared.size()));
+  }
+  program.shared_surfaces = static_cast<std::uint32_t>(shared.size());
+  for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
+    const Leaf& leaf = result_.leaves[program.first_leaf + i];
+    for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
+      FaceSurface& surface = result_.face_surfaces[leaf.first_face + face];
+      const auto found = shared.find(surface.surface);
+      if (found != shared.end()) surface.shared = found->second;
+    }
+  }
 }
 
 // Every node has a box outside of which it has the value that it has where all leaves are outside
@@ -206,6 +221,15 @@ Bounds Compiler::narrow_bounds(const CsgProgram& program) {
     leaf.bounds = leaf.bounds.clipped(bounds[program.leaf_parents[i]]);
   }
   return bounds[0];
+}
+
+std::vector<Bounds> Compiler::boxes_of(const CsgProgram& program) const {
+  std::vector<Bounds> boxes;
+  boxes.reserve(program.leaf_count());
+  for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
+    boxes.push_back(result_.leaves[program.first_leaf + i].bounds);
+  }
+  return boxes;
 }
 
 void Compiler::add_leaf(const Part& part, bool complemented) {

@@ -11,7 +11,9 @@
 #include <oneapi/tbb/task_arena.h>
 #endif
 
-#include "core/csg/evaluate.hpp"
+#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/object_ray.hpp"
+#include "core/math/vector.hpp"
 #include "core/scene/embree_compat.hpp"
 #include "crt/error.hpp"
 
@@ -24,7 +26,7 @@ constexpr float float_infinity = std::numeric_limits<float>::infinity();
 /// How much boxes grow, in units in which the whole scene's half extent is between 1/2 and 1.
 /// A ray's origin and direction are rounded to floats for Embree: 2^-25 an axis for the origin
 /// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
-const double box_margin = std::ldexp(1.0, -22);
+constexpr double box_margin = 0x1p-22;
 
 float round_down(double value) {
   const auto nearest = static_cast<float>(value);
@@ -119,9 +121,9 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
     center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
     extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
   }
-  if (extent > 0) exponent_ = -(std::ilogb(extent) + 1);
-  total_.lower = total.lower - Vec3(std::ldexp(2 * box_margin, -exponent_));
-  total_.upper = total.upper + Vec3(std::ldexp(2 * box_margin, -exponent_));
+  if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
+  total_.lower = total.lower - Vec3(2 * box_margin / scale_);
+  total_.upper = total.upper + Vec3(2 * box_margin / scale_);
 
   auto handles = std::make_unique<Handles>();
 #ifdef CRT_TASKS_THREADS
@@ -134,10 +136,10 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   handles->boxes.reserve(boxes.size());
   for (const Bounds& box : boxes) {
     const auto lower = [&](int axis) {
-      return round_down(std::ldexp(box.lower[axis] - center_[axis], exponent_) - box_margin);
+      return round_down((box.lower[axis] - center_[axis]) * scale_ - box_margin);
     };
     const auto upper = [&](int axis) {
-      return round_up(std::ldexp(box.upper[axis] - center_[axis], exponent_) + box_margin);
+      return round_up((box.upper[axis] - center_[axis]) * scale_ + box_margin);
     };
     handles->boxes.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
   }
@@ -161,28 +163,25 @@ EmbreeTree::~EmbreeTree() = default;
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                           const Visit& visit) const {
   // A distant origin is moved up to the scene first, where floats are fine enough.
-  const LineSpan span = span_in_box(total_, origin, direction);
+  const LineSpan span = RaySlabs(origin, direction).span(total_);
   const double t_start = std::max(t_min, span.enter);
   const double t_end = std::min(t_max, span.leave);
   if (t_start > t_end) return;
 
-  const double longest = std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)});
-  const int direction_exponent = -std::ilogb(longest);
+  const double direction_scale = 1 / power_of_two_below(largest_component(direction));
   Traversal traversal;
   init_context(traversal.context);
   traversal.visit = &visit;
   traversal.t_start = t_start;
-  traversal.scale = std::ldexp(1.0, exponent_ - direction_exponent);
+  traversal.scale = scale_ / direction_scale;
 
   RTCRayHit ray_hit{};
   ObjectRay ray;
   ray.origin = origin;
   ray.direction = direction;
   const Vec3 start = ray.from_center(center_, t_start);
-  const auto place = [&](int axis) { return static_cast<float>(std::ldexp(start[axis], exponent_)); };
-  const auto way = [&](int axis) {
-    return static_cast<float>(std::ldexp(direction[axis], direction_exponent));
-  };
+  const auto place = [&](int axis) { return static_cast<float>(start[axis] * scale_); };
+  const auto way = [&](int axis) { return static_cast<float>(direction[axis] * direction_scale); };
   ray_hit.ray.org_x = place(0);
   ray_hit.ray.org_y = place(1);
   ray_hit.ray.org_z = place(2);

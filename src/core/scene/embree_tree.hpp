@@ -35,7 +35,7 @@ class EmbreeTree {
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};
-  int exponent_ = 0;  ///< boxes are scaled by 2^exponent
+  double scale_ = 1;  ///< a power of two: of the boxes that Embree gets
   std::unique_ptr<const Handles> handles_;
 };
 

@@ -1,0 +1,81 @@
+// A tree of boxes over the leaves of a CSG object, so that a ray asks only those that it comes near.
+//
+// Four boxes a node, in double precision, built by the surface area heuristic with bins (Wald, On fast
+// construction of SAH-based bounding volume hierarchies, 2007) and then two levels in one.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/bounds.hpp"
+
+namespace crt::core {
+
+class LeafTree {
+ public:
+  static constexpr std::size_t width = 4;
+
+  /// A node of the tree or a leaf of the object.
+  class Child {
+   public:
+    static Child leaf(std::uint32_t index) { return Child(index | leaf_bit); }
+    static Child node(std::uint32_t index) { return Child(index); }
+    Child() = default;
+
+    bool is_leaf() const { return (bits_ & leaf_bit) != 0; }
+    std::uint32_t index() const { return bits_ & ~leaf_bit; }
+    friend bool operator<(Child a, Child b) { return a.bits_ < b.bits_; }
+
+   private:
+    static constexpr std::uint32_t leaf_bit = 0x80000000u;
+    explicit Child(std::uint32_t bits) : bits_(bits) {}
+    std::uint32_t bits_ = 0;
+  };
+
+  LeafTree() = default;
+  /// Over one box a leaf. Empty boxes are left out; infinite ones are kept apart.
+  explicit LeafTree(std::span<const Bounds> boxes);
+
+  /// The leaves that a line may meet anywhere.
+  std::span<const std::uint32_t> unbounded() const { return unbounded_; }
+  bool has_root() const { return !nodes_.empty(); }
+  static Child root() { return Child::node(0); }
+
+  /// Calls meet(child, enter, leave) for what the line comes near below a node.
+  template <class Meet>
+  void visit(std::uint32_t node_index, const RaySlabs& slabs, const Meet& meet) const {
+    const Node& node = nodes_[node_index];
+    std::array<double, width> enter;
+    std::array<double, width> leave;
+    slabs.spans(node.lower, node.upper, enter, leave);
+    for (std::size_t i = 0; i < node.count; ++i) {
+      if (enter[i] <= leave[i]) meet(node.children[i], enter[i], leave[i]);
+    }
+  }
+
+ private:
+  struct alignas(32) Node {
+    std::array<std::array<double, width>, 3> lower;  ///< by axis
+    std::array<std::array<double, width>, 3> upper;
+    std::array<Child, width> children;
+    std::uint32_t count = 0;
+  };
+
+  struct Item {
+    Bounds box;
+    Vec3 middle;
+    std::uint32_t leaf;
+  };
+
+  /// Divides items in two; where the second part begins.
+  static std::size_t split(std::span<Item> items);
+  void add_child(std::uint32_t node, const Bounds& box, Child child);
+
+  std::vector<Node> nodes_;
+  std::vector<std::uint32_t> unbounded_;
+};
+
+}  // namespace crt::core

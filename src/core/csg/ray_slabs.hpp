@@ -1,0 +1,108 @@
+// A line against axis-parallel boxes, by slabs.
+#pragma once
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/bounds.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+
+/// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
+struct LineSpan {
+  double enter = 0;
+  double leave = 0;
+
+  bool empty() const { return !(enter <= leave); }
+};
+
+/// What of a line does not change from box to box.
+class RaySlabs {
+ public:
+  RaySlabs(const Vec3& origin, const Vec3& direction)
+      : origin_(origin), direction_(direction), origin_slack_(4 * slack * largest_component(origin)) {
+    for (int axis = 0; axis < 3; ++axis) {
+      // Below that the quotient must be taken: the inverse has no digits left, or is infinite.
+      constexpr double smallest = 0x1p-1000;
+      inverse_[axis] = 1 / direction[axis];
+      if (std::abs(direction[axis]) < smallest) is_steep_ = true;
+    }
+  }
+
+  LineSpan span(const Bounds& box) const {
+    std::array<double, 1> enter;
+    std::array<double, 1> leave;
+    std::array<std::array<double, 1>, 3> lower;
+    std::array<std::array<double, 1>, 3> upper;
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[static_cast<std::size_t>(axis)][0] = box.lower[axis];
+      upper[static_cast<std::size_t>(axis)][0] = box.upper[axis];
+    }
+    spans(lower, upper, enter, leave);
+    return {enter[0], leave[0]};
+  }
+
+  /// The spans of several boxes at once, given by axis. The same bits as of each alone.
+  template <std::size_t Count>
+  void spans(const std::array<std::array<double, Count>, 3>& lower,
+             const std::array<std::array<double, Count>, 3>& upper, std::array<double, Count>& enter,
+             std::array<double, Count>& leave) const {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    enter.fill(-infinity);
+    leave.fill(infinity);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const double o = origin_[static_cast<int>(axis)];
+      const double inverse = inverse_[static_cast<int>(axis)];
+      if (is_steep_ && std::abs(inverse) > largest_inverse) {
+        clip_steep(static_cast<int>(axis), lower[axis], upper[axis], enter, leave);
+        continue;
+      }
+      for (std::size_t i = 0; i < Count; ++i) {
+        const double first = (lower[axis][i] - o) * inverse;
+        const double second = (upper[axis][i] - o) * inverse;
+        const double low = first < second ? first : second;
+        const double high = first < second ? second : first;
+        const double safe_low = low - slack * std::abs(low);
+        const double safe_high = high + slack * std::abs(high);
+        enter[i] = safe_low > enter[i] ? safe_low : enter[i];
+        leave[i] = safe_high < leave[i] ? safe_high : leave[i];
+      }
+    }
+  }
+
+ private:
+  /// Three roundings go into each t: of the difference, the inverse and the product.
+  static constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
+  static constexpr double largest_inverse = 0x1p1000;
+
+  template <std::size_t Count>
+  void clip_steep(int axis, const std::array<double, Count>& lower, const std::array<double, Count>& upper,
+                  std::array<double, Count>& enter, std::array<double, Count>& leave) const {
+    const double o = origin_[axis];
+    const double d = direction_[axis];
+    for (std::size_t i = 0; i < Count; ++i) {
+      if (d == 0) {
+        const bool beside = o < lower[i] - origin_slack_ || o > upper[i] + origin_slack_;
+        if (beside) leave[i] = -std::numeric_limits<double>::infinity();
+        continue;
+      }
+      const double first = (lower[i] - o) / d;
+      const double second = (upper[i] - o) / d;
+      const double low = std::min(first, second);
+      const double high = std::max(first, second);
+      enter[i] = std::max(enter[i], low - slack * std::abs(low));
+      leave[i] = std::min(leave[i], high + slack * std::abs(high));
+    }
+  }
+
+  Vec3 origin_;
+  Vec3 direction_;
+  Vec3 inverse_{0, 0, 0};
+  /// Rounding may have put a line that starts on the side of a box next to it.
+  double origin_slack_;
+  bool is_steep_ = false;  ///< parallel to some slab, or all but
+};
+
+}  // namespace crt::core

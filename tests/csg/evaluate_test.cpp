@@ -1,0 +1,201 @@
+// The evaluation of CSG objects by trees of boxes against the plain one, and what it costs.
+#include "core/csg/evaluate.hpp"
+
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <limits>
+
+#include "csg/plain_evaluation.hpp"
+#include "support/solids.hpp"
+
+using namespace crt;
+using namespace crt::test;
+using core::CompiledScene;
+using core::CsgEvaluation;
+using core::CsgHit;
+using core::CsgProgram;
+using core::CsgWorkspace;
+using core::WorldRay;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+CompiledScene compiled(const Entity& entity, Precision precision = Precision::standard) {
+  return core::compile(std::span(&entity, 1), precision);
+}
+
+/// Compares along one ray; returns how many hits there are.
+std::size_t compare(const CompiledScene& scene, const WorldRay& ray, CsgWorkspace& work) {
+  std::size_t hits = 0;
+  for (const CsgProgram& program : scene.programs) {
+    const PlainEvaluation plain = evaluate_plainly(scene, program, ray);
+    CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, ray, work);
+    REQUIRE(evaluation.starts_inside() == plain.starts_inside);
+    CsgHit hit;
+    for (const CsgHit& expected : plain.hits) {
+      REQUIRE(evaluation.next(hit));
+      REQUIRE(hit.t == expected.t);
+      REQUIRE(hit.t_low == expected.t_low);
+      REQUIRE(hit.error == expected.error);
+      REQUIRE(hit.leaf == expected.leaf);
+      REQUIRE(hit.face == expected.face);
+      REQUIRE(hit.entering == expected.entering);
+      ++hits;
+    }
+    REQUIRE_FALSE(evaluation.next(hit));
+  }
+  return hits;
+}
+
+WorldRay random_ray(SolidMaker& make) {
+  WorldRay ray;
+  const bool on_grid = make.integer(0, 2) == 0;
+  if (on_grid) {
+    ray.origin = make.grid_point() * 2.0;
+    do ray.direction = make.grid_point();
+    while (ray.direction == Vec3(0));
+  } else {
+    ray.origin = {make.real(-9, 9), make.real(-9, 9), make.real(-9, 9)};
+    ray.direction = Vec3(make.real(-3, 3), make.real(-3, 3), make.real(-3, 3)) - ray.origin;
+  }
+  switch (make.integer(0, 3)) {
+    case 0:
+      ray.t_min = -infinity;
+      break;
+    case 1:
+      ray.t_min = make.real(-1, 2);
+      ray.t_max = ray.t_min + make.real(0, 2);
+      break;
+    default:
+      break;
+  }
+  return ray;
+}
+
+/// A ray that goes on from a hit, through it or back.
+WorldRay continued(const CompiledScene& scene, const CsgProgram& program, const WorldRay& ray,
+                   const CsgHit& hit, const Vec3& direction, core::Side side) {
+  WorldRay next;
+  next.origin = ray.origin + hit.t * ray.direction;
+  next.direction = direction;
+  const core::Leaf& leaf = scene.leaves[program.first_leaf + hit.leaf];
+  const core::FaceSurface& surface = scene.face_surfaces[leaf.first_face + hit.face];
+  const bool outside = (side == core::Side::outside) != surface.flipped;
+  const Vec3 size = glm::abs(next.origin);
+  next.start = {.leaf = program.first_leaf + hit.leaf,
+                .face = hit.face,
+                .surface = surface.surface,
+                .side = outside ? core::Side::outside : core::Side::inside,
+                .t_error = core::start_rounding * std::max({size.x, size.y, size.z})};
+  return next;
+}
+
+/// A plate with n by n holes in it, across y.
+Entity plate_with_holes(int n) {
+  std::vector<Entity> holes;
+  for (int x = 0; x < n; ++x) {
+    for (int z = 0; z < n; ++z) {
+      const Vec3 place{x + 0.5, 0, z + 0.5};
+      holes.emplace_back(Cylinder{.from = place - Vec3(0, 2, 0), .to = place + Vec3(0, 2, 0), .radius = 0.3});
+    }
+  }
+  return csg_difference(Box{.corner_a = {0, -1, 0}, .corner_b = {n * 1.0, 1, n * 1.0}}, holes);
+}
+
+/// Spheres one within the other, every second one cut out of the one before.
+Entity shells(int n) {
+  Entity solid = Sphere{.radius = 1};
+  for (int i = 1; i < n; ++i) {
+    const Sphere next{.radius = 1.0 + i};
+    solid = csg_difference(next, std::vector<Entity>{solid});
+  }
+  return solid;
+}
+
+}  // namespace
+
+TEST_CASE("the tree of boxes agrees with the plain evaluation to the bit") {
+  std::size_t hits = 0;
+  CsgWorkspace work;
+  for (std::uint32_t seed = 0; seed < 600; ++seed) {
+    SolidMaker make(seed);
+    const Solid solid = make.tree(4);
+    const Precision precision = seed % 4 == 3 ? Precision::exact : Precision::standard;
+    const CompiledScene scene = compiled(solid.entity(), precision);
+    CAPTURE(seed);
+    for (int i = 0; i < 100; ++i) hits += compare(scene, random_ray(make), work);
+  }
+  CHECK(hits > 10000);
+}
+
+TEST_CASE("rays that start on the object agree with the plain evaluation to the bit") {
+  std::size_t hits = 0;
+  CsgWorkspace work;
+  for (std::uint32_t seed = 0; seed < 300; ++seed) {
+    SolidMaker make(seed);
+    const CompiledScene scene = compiled(make.tree(4).entity());
+    CAPTURE(seed);
+    for (int i = 0; i < 30; ++i) {
+      const WorldRay ray = random_ray(make);
+      for (const CsgProgram& program : scene.programs) {
+        for (const CsgHit& hit : evaluate_plainly(scene, program, ray).hits) {
+          const Vec3 direction = make.integer(0, 1) == 0 ? ray.direction : make.grid_point();
+          if (direction == Vec3(0)) continue;
+          for (const core::Side side : {core::Side::outside, core::Side::inside}) {
+            hits += compare(scene, continued(scene, program, ray, hit, direction, side), work);
+          }
+        }
+      }
+    }
+  }
+  CHECK(hits > 2000);
+}
+
+TEST_CASE("large objects agree with the plain evaluation to the bit") {
+  CsgWorkspace work;
+  for (const Entity& entity : {plate_with_holes(12), shells(60)}) {
+    const CompiledScene scene = compiled(entity);
+    REQUIRE(scene.programs.size() == 1);
+    SolidMaker make(7);
+    std::size_t hits = 0;
+    for (int i = 0; i < 500; ++i) {
+      const WorldRay ray = random_ray(make);
+      hits += compare(scene, ray, work);
+    }
+    CHECK(hits > 500);
+  }
+}
+
+TEST_CASE("a ray asks the holes that it comes near, however many there are") {
+  // Slanted, through the top of the plate to a hole's wall.
+  const WorldRay ray{.origin = {5.1, 4, 5.5}, .direction = {0.4, -3, 0.1}};
+  std::uint64_t events = 0;
+  for (const int n : {10, 100}) {
+    const CompiledScene scene = compiled(plate_with_holes(n));
+    CsgWorkspace work;
+    CsgEvaluation evaluation(scene.programs[0], scene.leaves, scene.face_surfaces, ray, work);
+    CsgHit hit;
+    while (evaluation.next(hit)) continue;
+    if (n == 10) events = work.events;
+    CHECK(work.events > 0);
+    CHECK(work.events <= events);
+  }
+}
+
+TEST_CASE("what lies behind the first hit is not asked") {
+  const CompiledScene scene = compiled(plate_with_holes(30));
+  // Along the plate, through all holes of a row; the first hit is its side.
+  const WorldRay ray{.origin = {-5, 0.1, 3.5}, .direction = {1, 0, 0}};
+  CsgWorkspace work;
+  CsgEvaluation evaluation(scene.programs[0], scene.leaves, scene.face_surfaces, ray, work);
+  CsgHit hit;
+  REQUIRE(evaluation.next(hit));
+  CHECK(hit.t == 5);
+  CHECK(work.events <= 4);
+  while (evaluation.next(hit)) continue;
+  CHECK(work.events == 62);
+}

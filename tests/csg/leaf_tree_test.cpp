@@ -1,0 +1,80 @@
+#include "core/csg/leaf_tree.hpp"
+
+#include <doctest/doctest.h>
+
+#include <limits>
+#include <random>
+
+using namespace crt;
+using namespace crt::core;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+/// The spans of all leaves that a line comes near, NaN for others.
+std::vector<LineSpan> spans(const LeafTree& tree, std::size_t count, const RaySlabs& slabs) {
+  std::vector<LineSpan> result(count, {infinity, -infinity});
+  if (!tree.has_root()) return result;
+  std::vector<std::uint32_t> open{0};
+  while (!open.empty()) {
+    const std::uint32_t node = open.back();
+    open.pop_back();
+    tree.visit(node, slabs, [&](LeafTree::Child child, double enter, double leave) {
+      if (child.is_leaf()) {
+        CHECK(result[child.index()].empty());  // never twice
+        result[child.index()] = {enter, leave};
+      } else {
+        open.push_back(child.index());
+      }
+    });
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("a line finds in the tree the boxes that it meets one by one, with the same spans") {
+  std::mt19937 random(1);
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  for (const std::size_t count : {0, 1, 2, 3, 4, 5, 17, 100, 1000}) {
+    std::vector<Bounds> boxes;
+    for (std::size_t i = 0; i < count; ++i) {
+      const Vec3 corner{real(-9, 9), real(-9, 9), real(-9, 9)};
+      boxes.push_back({corner, corner + Vec3(real(0, 2), real(0, 2), i % 7 == 0 ? 0 : real(0, 2))});
+    }
+    if (count > 3) boxes[3] = {};  // empty: left out
+    const LeafTree tree(boxes);
+    for (int i = 0; i < 200; ++i) {
+      Vec3 direction{real(-1, 1), real(-1, 1), real(-1, 1)};
+      if (i % 3 == 0) direction[i % 9 / 3] = 0;
+      if (i % 20 == 0) direction = {0, 0x1p-1060, 0};
+      const RaySlabs slabs({real(-9, 9), real(-9, 9), real(-9, 9)}, direction);
+      const std::vector<LineSpan> found = spans(tree, count, slabs);
+      for (std::size_t k = 0; k < count; ++k) {
+        const LineSpan alone = boxes[k].empty() ? LineSpan{infinity, -infinity} : slabs.span(boxes[k]);
+        REQUIRE(found[k].empty() == alone.empty());
+        if (alone.empty()) continue;
+        REQUIRE(found[k].enter == alone.enter);
+        REQUIRE(found[k].leave == alone.leave);
+      }
+    }
+  }
+}
+
+TEST_CASE("boxes without end are kept apart") {
+  const Bounds half{{-infinity, 0, 0}, {1, 1, 1}};
+  const Bounds unit{{0, 0, 0}, {1, 1, 1}};
+  const LeafTree tree(std::vector<Bounds>{unit, half, Bounds::everything()});
+  REQUIRE(tree.unbounded().size() == 2);
+  CHECK(tree.unbounded()[0] == 1);
+  CHECK(tree.unbounded()[1] == 2);
+}
+
+TEST_CASE("a thousand boxes in one place are a tree, too") {
+  const std::vector<Bounds> boxes(1000, Bounds{{0, 0, 0}, {1, 1, 1}});
+  const RaySlabs slabs({0.5, 0.5, -3}, {0, 0, 1});
+  for (const LineSpan& span : spans(LeafTree(boxes), boxes.size(), slabs)) CHECK_FALSE(span.empty());
+}

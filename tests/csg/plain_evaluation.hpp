@@ -1,0 +1,19 @@
+// CSG along a ray in the plainest way: every leaf is asked, all crossings are sorted, and the tree is
+// evaluated anew at each place. What the library's evaluation must agree with, to the bit.
+#pragma once
+
+#include <vector>
+
+#include "core/csg/evaluate.hpp"
+#include "core/scene/compile.hpp"
+
+namespace crt::test {
+
+struct PlainEvaluation {
+  bool starts_inside = false;
+  std::vector<core::CsgHit> hits;
+};
+PlainEvaluation evaluate_plainly(const core::CompiledScene& scene, const core::CsgProgram& program,
+                                 const core::WorldRay& ray);
+
+}  // namespace crt::test

@@ -1,0 +1,203 @@
+// The implicit equations of the primitives, restricted to a line: polynomials in x with exact coefficients.
+// Nothing here is shared with src/core/geometry. Number is a Ball or an Interval.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "crt/transform.hpp"
+#include "oracle/number_vec.hpp"
+#include "oracle/roots.hpp"
+
+namespace crt::test {
+
+template <class Number>
+Polynomial<Number> operator+(const Polynomial<Number>& a, const Polynomial<Number>& b) {
+  Polynomial<Number> result = a.size() >= b.size() ? a : b;
+  for (std::size_t i = 0; i < std::min(a.size(), b.size()); ++i) result[i] = a[i] + b[i];
+  return result;
+}
+template <class Number>
+Polynomial<Number> operator*(const Number& a, const Polynomial<Number>& b) {
+  Polynomial<Number> result;
+  for (const Number& coefficient : b) result.push_back(a * coefficient);
+  return result;
+}
+template <class Number>
+Polynomial<Number> operator-(const Polynomial<Number>& a) {
+  Polynomial<Number> result;
+  for (const Number& coefficient : a) result.push_back(-coefficient);
+  return result;
+}
+template <class Number>
+Polynomial<Number> operator-(const Polynomial<Number>& a, const Polynomial<Number>& b) {
+  return a + -b;
+}
+template <class Number>
+Polynomial<Number> square(const Polynomial<Number>& a) {
+  Polynomial<Number> result;
+  for (std::size_t sum = 0; sum + 1 < 2 * a.size(); ++sum) {
+    Number coefficient(0.0);
+    const std::size_t first = sum < a.size() ? 0 : sum + 1 - a.size();
+    for (std::size_t i = first; 2 * i < sum; ++i) coefficient = coefficient + a[i] * a[sum - i];
+    coefficient = coefficient + coefficient;
+    result.push_back(sum % 2 == 0 ? coefficient + square(a[sum / 2]) : coefficient);
+  }
+  return result;
+}
+
+/// A line in the space of a primitive, without rounding, with t = shift + x: x is 0 near the primitive.
+template <class Number>
+struct ExactLine {
+  /// The primitive is where `to_world` has it; its inverse is taken by Cramer's rule.
+  ExactLine(const Vec3& world_origin, const Vec3& world_direction, const Transform& to_world,
+            const Vec3& near)
+      : origin(exactly<Number>(world_origin)), direction(exactly<Number>(world_direction)) {
+    if (to_world != Transform{}) enter(to_world);
+    const Vec3 d = rounded(direction);
+    move_to(-glm::dot(rounded(origin - exactly<Number>(near)), d) / glm::dot(d, d));
+  }
+
+  void move_to(double t) {
+    shift = t;
+    way = Number(t) * direction;
+  }
+  /// The point at x = 0, relative to another.
+  NumberVec<Number> from(const Vec3& position) const { return (origin - exactly<Number>(position)) + way; }
+  NumberVec<Number> at(const Number& x) const { return (origin + way) + x * direction; }
+
+  NumberVec<Number> origin;  ///< at t = 0
+  NumberVec<Number> direction;
+  double shift = 0;
+  NumberVec<Number> way;  ///< from there to x = 0
+
+ private:
+  void enter(const Transform& to_world) {
+    const std::array rows = {exactly<Number>(to_world.row_x), exactly<Number>(to_world.row_y),
+                             exactly<Number>(to_world.row_z)};
+    const std::array columns = {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
+    const Number determinant = dot(rows[0], columns[0]);
+    const auto solve = [&](const NumberVec<Number>& v) {
+      const NumberVec<Number> result = v[0] * columns[0] + v[1] * columns[1] + v[2] * columns[2];
+      return NumberVec<Number>{result[0] / determinant, result[1] / determinant, result[2] / determinant};
+    };
+    origin = solve(origin - exactly<Number>(to_world.translation));
+    direction = solve(direction);
+  }
+};
+
+/// The line relative to a point, and what can be said of it as polynomials in x.
+template <class Number>
+struct Relative {
+  Relative(const ExactLine<Number>& line, const Vec3& origin)
+      : point(line.from(origin)), direction(line.direction) {}
+
+  Polynomial<Number> along(const NumberVec<Number>& axis) const {
+    return {dot(axis, point), dot(axis, direction)};
+  }
+  Polynomial<Number> squared_distance() const {
+    return {squared(point), Number(2) * dot(point, direction), squared(direction)};
+  }
+
+  /// From the axis through the origin; times the length of `axis`, squared.
+  Polynomial<Number> squared_distance_from_axis(const NumberVec<Number>& axis) const {
+    const NumberVec<Number> p = cross(point, axis);
+    const NumberVec<Number> d = cross(direction, axis);
+    return {squared(p), Number(2) * dot(p, d), squared(d)};
+  }
+
+  NumberVec<Number> point;
+  const NumberVec<Number>& direction;
+};
+
+/// The most that a primitive has.
+inline constexpr std::size_t most_equations = 6;
+template <class Number>
+using Equations = Few<Polynomial<Number>, most_equations>;
+
+// A solid is where its polynomials are negative: all of them, but for the torus.
+
+// A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
+// h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
+template <class Number>
+Equations<Number> equations(const Frustum& c, const ExactLine<Number>& line) {
+  const Relative relative(line, c.from);
+  const NumberVec<Number> axis = exactly<Number>(c.to) - exactly<Number>(c.from);
+  const Number a = squared(axis);
+  const Polynomial<Number> h = relative.along(axis);
+  const Number growth = Number(c.radius2) - Number(c.radius);
+  const Polynomial<Number> radius = Polynomial<Number>{Number(c.radius) * a} + growth * h;
+  return {a * relative.squared_distance_from_axis(axis) - square(radius), -h, h - Polynomial<Number>{a}};
+}
+template <class Number>
+Equations<Number> equations(const Cylinder& c, const ExactLine<Number>& line) {
+  return equations(frustum_of(c), line);
+}
+template <class Number>
+Equations<Number> equations(const Cone& c, const ExactLine<Number>& line) {
+  return equations(frustum_of(c), line);
+}
+
+template <class Number>
+Equations<Number> equations(const Sphere& s, const ExactLine<Number>& line) {
+  return {Relative(line, s.center).squared_distance() - Polynomial<Number>{square(Number(s.radius))}};
+}
+
+template <class Number>
+Equations<Number> equations(const Box& b, const ExactLine<Number>& line) {
+  Equations<Number> result;
+  const Relative lower(line, glm::min(b.corner_a, b.corner_b));
+  const Relative upper(line, glm::max(b.corner_a, b.corner_b));
+  for (std::size_t i = 0; i < 3; ++i) {
+    result.push_back({-lower.point[i], -lower.direction[i]});
+    result.push_back({upper.point[i], upper.direction[i]});
+  }
+  return result;
+}
+
+template <class Number>
+Equations<Number> equations(const Plane& p, const ExactLine<Number>& line) {
+  return {Relative(line, p.position).along(exactly<Number>(p.normal))};
+}
+
+// With S = |p|^2 + R^2 - r^2, inside means S < 2 R rho: S < 0 or Q = |axis|^2 (S^2 - 4 R^2 rho^2) < 0.
+// So the lemon within a spindle torus, where Q > 0 and S < 0, is filled.
+template <class Number>
+Equations<Number> equations(const Torus& torus, const ExactLine<Number>& line) {
+  const Relative relative(line, torus.center);
+  const NumberVec<Number> axis = exactly<Number>(torus.axis);
+  const Number ring = square(Number(torus.radius));
+  const Polynomial<Number> s =
+      relative.squared_distance() + Polynomial<Number>{ring - square(Number(torus.thickness))};
+  const Number a = squared(axis);
+  return {a * square(s) - (Number(4) * ring) * relative.squared_distance_from_axis(axis), s};
+}
+
+/// Of a surface, its plane's.
+template <class Number>
+Equations<Number> equations(const Disc& d, const ExactLine<Number>& line) {
+  return {Relative(line, d.center).along(exactly<Number>(d.normal))};
+}
+template <class Number>
+Equations<Number> equations(const HalfPlane& h, const ExactLine<Number>& line) {
+  return {Relative(line, h.position).along(exactly<Number>(h.normal))};
+}
+template <class Number>
+Equations<Number> equations(const Triangle& t, const ExactLine<Number>& line) {
+  return {Relative(line, t.a).along(normal_of<Number>(t))};
+}
+
+template <class Number>
+Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
+  return std::visit([&](const auto& p) { return equations(p, line); }, primitive);
+}
+
+/// Whether a point is inside a solid, by the signs of its equations there.
+template <class Signs>
+bool is_inside(const Primitive& solid, const Signs& signs) {
+  const auto negative = [](int sign) { return sign < 0; };
+  if (std::holds_alternative<Torus>(solid)) return std::any_of(signs.begin(), signs.end(), negative);
+  return std::all_of(signs.begin(), signs.end(), negative);
+}
+
+}  // namespace crt::test

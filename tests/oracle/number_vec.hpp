@@ -1,0 +1,99 @@
+// What the parts of the oracle share: vectors of numbers, and which primitives are what.
+#pragma once
+
+#include <array>
+#include <type_traits>
+
+#include "crt/primitives.hpp"
+#include "oracle/interval.hpp"
+
+namespace crt::test {
+
+template <class Number>
+using NumberVec = std::array<Number, 3>;
+using IntervalVec = NumberVec<Interval>;
+
+template <class Number>
+NumberVec<Number> exactly(const Vec3& v) {
+  return {Number(v.x), Number(v.y), Number(v.z)};
+}
+template <class Number>
+NumberVec<Number> operator+(const NumberVec<Number>& a, const NumberVec<Number>& b) {
+  return {a[0] + b[0], a[1] + b[1], a[2] + b[2]};
+}
+template <class Number>
+NumberVec<Number> operator-(const NumberVec<Number>& a, const NumberVec<Number>& b) {
+  return {a[0] - b[0], a[1] - b[1], a[2] - b[2]};
+}
+template <class Number>
+NumberVec<Number> operator*(const Number& a, const NumberVec<Number>& b) {
+  return {a * b[0], a * b[1], a * b[2]};
+}
+template <class Number>
+Number dot(const NumberVec<Number>& a, const NumberVec<Number>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+template <class Number>
+Number squared(const NumberVec<Number>& a) {
+  return square(a[0]) + square(a[1]) + square(a[2]);
+}
+template <class Number>
+Number length(const NumberVec<Number>& a) {
+  return sqrt(squared(a));
+}
+template <class Number>
+NumberVec<Number> cross(const NumberVec<Number>& a, const NumberVec<Number>& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+template <class Number>
+Ball<4> as_ball(const Number& number) {
+  if constexpr (std::is_same_v<Number, Interval>) {
+    return number.ball();
+  } else {
+    return Ball<4>(number);
+  }
+}
+
+/// In doubles, for what need not be exact.
+template <class Number>
+Vec3 rounded(const NumberVec<Number>& v) {
+  return {v[0].value(), v[1].value(), v[2].value()};
+}
+
+/// A truncated cone, or a cylinder.
+struct Frustum {
+  Vec3 from;
+  Vec3 to;
+  double radius;
+  double radius2;
+};
+
+inline Frustum frustum_of(const Cylinder& c) {
+  return {c.from, c.to, c.radius, c.radius};
+}
+inline Frustum frustum_of(const Cone& c) {
+  return {c.from, c.to, c.radius, c.radius2};
+}
+
+template <class Number>
+NumberVec<Number> normal_of(const Triangle& t) {
+  const NumberVec<Number> a = exactly<Number>(t.a);
+  return cross(exactly<Number>(t.b) - a, exactly<Number>(t.c) - a);
+}
+
+/// The primitives without an inside.
+template <class P>
+constexpr bool is_surface =
+    std::is_same_v<P, Disc> || std::is_same_v<P, HalfPlane> || std::is_same_v<P, Triangle>;
+
+inline Vec3 position_of(const Disc& d) {
+  return d.center;
+}
+inline Vec3 position_of(const HalfPlane& h) {
+  return h.position;
+}
+inline Vec3 position_of(const Triangle& t) {
+  return t.a;
+}
+
+}  // namespace crt::test
