@@ -7,6 +7,8 @@
 //     S < 0  or  Q = |A|^2 S^2 - 4 R^2 (|q|^2 |A|^2 - (q . A)^2) < 0.
 // All crossings are roots of Q. Of the quartic's other roots, where a spindle torus has its inner lemon and
 // where the line only touches, both sides are alike.
+#include <optional>
+
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/torus.hpp"
@@ -16,6 +18,89 @@
 
 namespace crt::core {
 namespace {
+
+/// The torus along a line without rounding: S and Q, each times some positive number, as polynomials of x
+/// with t = shift + scale x, where x is about 1 at the torus.
+class ExactTorusLine {
+ public:
+  ExactTorusLine(const Torus& torus, const ExactRay& ray, const NearLine& near_line, double unit) {
+    shift_ = near_line.to_precise_t(near_line.closest());
+    scale_ = unit / power_of_two_below(largest_component(ray.near.direction));
+    constexpr double smallest_scale = 0x1p-1000;
+    if (!std::isfinite(shift_.hi) || !std::isfinite(scale_) || scale_ < smallest_scale) {
+      shift_ = 0.0;
+      scale_ = 1;
+    }
+    const Dyadic shift = Dyadic(shift_.hi) + Dyadic(shift_.lo);
+    offset_ = shift * Dyadic(1 / scale_);
+    const ExactLine line = ray.exact();
+    DyadicPolynomial squared_length;
+    DyadicPolynomial along;
+    Dyadic squared_axis;
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      const DyadicPolynomial component(
+          {line.origin[i] + shift * line.direction[i] - line.weight * Dyadic(torus.center[axis]),
+           Dyadic(scale_) * line.direction[i]});
+      const Dyadic a(torus.axis[axis]);
+      squared_length = squared_length + component * component;
+      along = along + a * component;
+      squared_axis = squared_axis + square(a);
+    }
+    const Dyadic ring = Dyadic(torus.radius) * line.weight;
+    const Dyadic tube = Dyadic(torus.thickness) * line.weight;
+    const DyadicPolynomial squared_rho = squared_axis * squared_length - along * along;
+    sum_ = squared_length + DyadicPolynomial({square(ring) - square(tube)});
+    quartic_ = squared_axis * (sum_ * sum_) - Dyadic(4) * square(ring) * squared_rho;
+  }
+
+  /// All crossings.
+  void append(CrossingList& out) const {
+    const std::vector<Dyadic> separators = root_separators(quartic_);
+    bool inside = false;
+    std::uint8_t root = 0;
+    for (std::size_t i = 1; i < separators.size(); ++i) {
+      if (is_inside(separators[i]) == inside) continue;
+      inside = !inside;
+      Crossing crossing{.root = root++, .entering = inside};
+      refine(separators[i - 1], separators[i], crossing);
+      if (std::isfinite(crossing.t)) out.push_back(crossing);
+    }
+  }
+
+  /// Finds the crossing at about t, if that is the only one within `room` of it; or cannot tell.
+  bool find(const DoubleDouble& t, double room, Crossing& crossing) const {
+    const double x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
+    constexpr double narrowest = 0x1p-44;
+    constexpr double widening = 0x1p10;
+    for (double width = narrowest; width < room / scale_; width *= widening) {
+      const Dyadic low = Dyadic(x) - Dyadic(width);
+      const Dyadic high = Dyadic(x) + Dyadic(width);
+      if (is_inside(low) == crossing.entering || is_inside(high) != crossing.entering) continue;
+      refine(low, high, crossing);
+      return std::isfinite(crossing.t);
+    }
+    return false;
+  }
+
+ private:
+  bool is_inside(const Dyadic& x) const { return sum_.value(x).sign() < 0 || quartic_.value(x).sign() < 0; }
+
+  void refine(const Dyadic& low, const Dyadic& high, Crossing& crossing) const {
+    const Dyadic x = refined_root(quartic_, low, high, offset_,
+                                  [&](const Dyadic& place) { return is_inside(place) == crossing.entering; });
+    const DoubleDouble t = (Dyadic(scale_) * (x + offset_)).rounded().unscaled();
+    crossing.t = t.hi;
+    crossing.t_low = t.lo;
+    crossing.error = precise_roundoff * std::abs(t.hi);
+  }
+
+  DyadicPolynomial sum_;      ///< S
+  DyadicPolynomial quartic_;  ///< Q
+  DoubleDouble shift_;
+  double scale_ = 1;
+  Dyadic offset_;  ///< shift / scale
+};
 
 class ExactTorusShape final : public ExactShape {
  public:
@@ -49,7 +134,7 @@ class ExactTorusShape final : public ExactShape {
     const std::size_t before = out.size();
     if (dips.certain && append(ray, line, dips, out)) return false;
     out.resize(before);
-    append_exactly(ray, line, out);
+    ExactTorusLine(torus_, ray, line, unit_).append(out);
     return false;
   }
 
@@ -58,14 +143,23 @@ class ExactTorusShape final : public ExactShape {
     return {glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along)};
   }
 
+  /// The crossings of dips that are certain; or cannot tell them apart.
   bool append(const ExactRay& ray, const NearLine& line, const TorusLine::Dips& dips,
               CrossingList& out) const {
+    std::optional<ExactTorusLine> exact;
     std::uint8_t root = 0;
     for (std::size_t i = 0; i < dips.count; ++i) {
       for (const bool entering : {true, false}) {
         Crossing crossing{.root = root++, .entering = entering};
         const double x = entering ? dips.dip[i].enter : dips.dip[i].leave;
-        if (!polish(ray, line.to_precise_t(x), {}, crossing)) return false;
+        if (!polish(ray, line.to_precise_t(x), {}, crossing)) {
+          if (!exact) exact.emplace(torus_, ray, line, unit_);
+          // To the other crossings it is farther than that.
+          constexpr double share = 1.0 / 3;
+          double room = dips.dip[i].leave - dips.dip[i].enter;
+          if (dips.count > 1) room = std::min(room, dips.dip[1].enter - dips.dip[0].leave);
+          if (!exact->find(line.to_precise_t(x), line.to_t_length(share * room), crossing)) return false;
+        }
         out.push_back(crossing);
         if (crossing.t > ray.first_above) return true;
       }
@@ -159,74 +253,6 @@ class ExactTorusShape final : public ExactShape {
       }
     }
     return false;
-  }
-
-  /// The polynomials in x of the points (origin + x direction) / weight relative to the centre, each times
-  /// some positive number.
-  struct Polynomials {
-    DyadicPolynomial sum;      ///< S
-    DyadicPolynomial quartic;  ///< Q
-
-    bool inside(const Dyadic& x) const { return sum.value(x).sign() < 0 || quartic.value(x).sign() < 0; }
-  };
-
-  Polynomials polynomials(const ExactLine& line) const {
-    DyadicPolynomial squared_length;
-    DyadicPolynomial along;
-    Dyadic squared_axis;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      const DyadicPolynomial component({line.origin[i], line.direction[i]});
-      const Dyadic a(torus_.axis[axis]);
-      squared_length = squared_length + component * component;
-      along = along + a * component;
-      squared_axis = squared_axis + square(a);
-    }
-    const Dyadic ring = Dyadic(torus_.radius) * line.weight;
-    const Dyadic tube = Dyadic(torus_.thickness) * line.weight;
-    const DyadicPolynomial squared_rho = squared_axis * squared_length - along * along;
-    Polynomials result;
-    result.sum = squared_length + DyadicPolynomial({square(ring) - square(tube)});
-    result.quartic = squared_axis * (result.sum * result.sum) - Dyadic(4) * square(ring) * squared_rho;
-    return result;
-  }
-
-  void append_exactly(const ExactRay& ray, const NearLine& near_line, CrossingList& out) const {
-    // t = shift + scale x, with x of about 1 where the torus is.
-    DoubleDouble shift = near_line.to_precise_t(near_line.closest());
-    double scale = unit_ / power_of_two_below(largest_component(ray.near.direction));
-    constexpr double smallest_scale = 0x1p-1000;
-    if (!std::isfinite(shift.hi) || !std::isfinite(scale) || scale < smallest_scale) {
-      shift = 0.0;
-      scale = 1;
-    }
-    const Dyadic exact_shift = Dyadic(shift.hi) + Dyadic(shift.lo);
-    ExactLine line = ray.exact();
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      line.origin[i] =
-          line.origin[i] + exact_shift * line.direction[i] - line.weight * Dyadic(torus_.center[axis]);
-      line.direction[i] = Dyadic(scale) * line.direction[i];
-    }
-    const Polynomials torus = polynomials(line);
-    const std::vector<Dyadic> separators = root_separators(torus.quartic);
-    const Dyadic offset = exact_shift * Dyadic(1 / scale);
-    bool inside = false;
-    std::uint8_t root = 0;
-    for (std::size_t i = 1; i < separators.size(); ++i) {
-      if (torus.inside(separators[i]) == inside) continue;
-      const bool was_inside = inside;
-      inside = !inside;
-      const Dyadic x = refined_root(torus.quartic, separators[i - 1], separators[i], offset,
-                                    [&](const Dyadic& place) { return torus.inside(place) != was_inside; });
-      const DoubleDouble t = (Dyadic(scale) * (x + offset)).rounded().unscaled();
-      if (!std::isfinite(t.hi)) continue;
-      out.push_back({.t = t.hi,
-                     .error = precise_roundoff * std::abs(t.hi),
-                     .t_low = t.lo,
-                     .root = root++,
-                     .entering = inside});
-    }
   }
 
   Torus torus_;
