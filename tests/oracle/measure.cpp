@@ -206,8 +206,7 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
     record.largest_ratio = record.largest_claim = 0;
     for (std::size_t i = 0; i < found.size(); ++i)
       account(found[i], expected[i], ray, contestant.promise, record);
-    kept = record.largest_ratio <= tolerance &&
-           (contestant.promise == Promise::exact || record.largest_claim <= tolerance);
+    kept = record.largest_ratio <= tolerance && record.largest_claim <= tolerance;
     record.largest_ratio = std::max(record.largest_ratio, ratio_before);
     record.largest_claim = std::max(record.largest_claim, claim_before);
   } else {

@@ -109,3 +109,17 @@ TEST_CASE("a solid that is cut off where it is grazed ends where the cut is") {
     CHECK(found.flips[1] == FoundFlip{1, false});
   }
 }
+
+TEST_CASE("the exact tier's error of t is a bound next to a torus's axis and to a cylinder's side") {
+  constexpr std::size_t cylinder = 4;
+  constexpr std::size_t torus = 6;
+  const auto holds_in_exact = [](const TestRay& ray) {
+    Record record;
+    return measure(truth_of(ray), exact_tier(), 0, record);
+  };
+  for (const std::uint64_t number : {62329, 340228, 149863, 412005, 543009, 760698, 809610}) {
+    CAPTURE(number);
+    CHECK(holds_in_exact(make_placed_ray(torus, number)));
+  }
+  CHECK(holds_in_exact(make_ray(cylinder, 310949)));
+}

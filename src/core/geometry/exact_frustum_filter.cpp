@@ -236,7 +236,8 @@ bool FilteredSide::polish(DoubleDouble t, Crossing& crossing) const {
     if (!(std::abs(g.rate) > g.rate_error) || (g.rate < 0) != crossing.entering) return false;
     const double change = g.value.value() / g.rate;
     t = t + DoubleDouble(-change);
-    const double inaccuracy = g.rate_error + g.half_curvature * std::abs(change);
+    // The error before the step is the change and a little.
+    const double inaccuracy = g.rate_error + 2 * g.half_curvature * std::abs(change);
     crossing.error = (g.error + std::abs(change) * inaccuracy) / (std::abs(g.rate) - g.rate_error) +
                      precise_roundoff * std::abs(t.hi);
     if (ray_.is_settled(t.hi, crossing.error)) {

@@ -235,15 +235,18 @@ class ExactTorusShape final : public ExactShape {
       const double curvature = 2 * speed * speed * (1 + ring_ / (level.rho - 2 * way));
       const double distance = std::abs(level.outward) + level.height;
       constexpr double rate_rounding = 0x1p-46;
+      // Next to the axis the direction away from it is what is left of the point.
+      const double size = ring_ + level.rho + level.height;
       const double rate_error =
-          rate_rounding * speed * (distance + ring_ * (distance / (level.rho + distance)));
+          rate_rounding * speed * (distance + std::abs(level.outward) * (size / level.rho));
       const bool alone = level.rho > 4 * way && 4 * curvature * std::abs(change) < std::abs(rate) &&
                          2 * rate_error < std::abs(rate);
       if (!alone || (rate < 0) != crossing.entering) return false;
       t = t + DoubleDouble(-change);
       const double off = ray.point_error(torus_.center, t.hi) / unit_;
       const double level_error = level.error + 2 * off * (distance + way + off);
-      const double inaccuracy = rate_error + curvature * std::abs(change);
+      // The error before the step is the change and a little.
+      const double inaccuracy = rate_error + 2 * curvature * std::abs(change);
       crossing.error = (level_error + std::abs(change) * inaccuracy) / (std::abs(rate) - rate_error) +
                        precise_roundoff * std::abs(t.hi);
       if (ray.is_settled(t.hi, crossing.error)) {
