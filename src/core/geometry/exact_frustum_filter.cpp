@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "core/geometry/exact_frustum.hpp"
+#include "core/geometry/exact_shape.hpp"
 #include "core/geometry/frustum.hpp"
 #include "core/math/vector.hpp"
 
@@ -238,13 +239,9 @@ bool FilteredSide::polish(DoubleDouble t, Crossing& crossing) const {
     t = t + DoubleDouble(-change);
     // The error before the step is the change and a little.
     const double inaccuracy = g.rate_error + 2 * g.half_curvature * std::abs(change);
-    crossing.error = (g.error + std::abs(change) * inaccuracy) / (std::abs(g.rate) - g.rate_error) +
-                     precise_roundoff * std::abs(t.hi);
-    if (ray_.is_settled(t.hi, crossing.error)) {
-      crossing.t = t.hi;
-      crossing.t_low = t.lo;
-      return true;
-    }
+    const double error = (g.error + std::abs(change) * inaccuracy) / (std::abs(g.rate) - g.rate_error) +
+                         precise_roundoff * std::abs(t.hi);
+    if (settle(ray_, t, error, crossing)) return true;
   }
   return false;
 }

@@ -24,6 +24,15 @@ class ExactShape {
   virtual bool crossings(const ExactRay& ray, CrossingList& out) const = 0;
 };
 
+/// Gives a crossing its t, if what it may be off by is little enough.
+inline bool settle(const ExactRay& ray, const DoubleDouble& t, double error, Crossing& crossing) {
+  if (!ray.is_settled(t.hi, error)) return false;
+  crossing.t = t.hi;
+  crossing.t_low = t.lo;
+  crossing.error = error;
+  return true;
+}
+
 std::unique_ptr<const ExactShape> make_exact_shape(const Plane& plane);
 std::unique_ptr<const ExactShape> make_exact_shape(const HalfPlane& half_plane);
 std::unique_ptr<const ExactShape> make_exact_shape(const Disc& disc);

@@ -63,13 +63,9 @@ class ExactSphereShape final : public ExactShape {
       constexpr double change_rounding = 0x1p-48;
       const double inaccuracy =
           change_rounding * size * largest_component(d) + glm::dot(d, d) * std::abs(change);
-      crossing.error = (height_error + std::abs(change) * inaccuracy) / std::abs(slope) +
-                       precise_roundoff * std::abs(t.hi);
-      if (ray.is_settled(t.hi, crossing.error)) {
-        crossing.t = t.hi;
-        crossing.t_low = t.lo;
-        return true;
-      }
+      const double error = (height_error + std::abs(change) * inaccuracy) / std::abs(slope) +
+                           precise_roundoff * std::abs(t.hi);
+      if (settle(ray, t, error, crossing)) return true;
     }
     return false;
   }

@@ -247,13 +247,9 @@ class ExactTorusShape final : public ExactShape {
       const double level_error = level.error + 2 * off * (distance + way + off);
       // The error before the step is the change and a little.
       const double inaccuracy = rate_error + 2 * curvature * std::abs(change);
-      crossing.error = (level_error + std::abs(change) * inaccuracy) / (std::abs(rate) - rate_error) +
-                       precise_roundoff * std::abs(t.hi);
-      if (ray.is_settled(t.hi, crossing.error)) {
-        crossing.t = t.hi;
-        crossing.t_low = t.lo;
-        return true;
-      }
+      const double error = (level_error + std::abs(change) * inaccuracy) / (std::abs(rate) - rate_error) +
+                           precise_roundoff * std::abs(t.hi);
+      if (settle(ray, t, error, crossing)) return true;
     }
     return false;
   }

@@ -113,7 +113,7 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
   CrossingList& crossings = work_.crossings;
   crossings.clear();
   // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
-  const double start = ray_.t_min + flattest_start * ray_.start.t_error;
+  const double start = farthest_start(ray_);
   const double first_above = takes_one_ && leaf.exact ? std::nextafter(start, infinity) : infinity;
   bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations, first_above);
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
