@@ -471,7 +471,9 @@ CRT_API crt_status crt_scene_get_background(const crt_scene* scene, crt_backgrou
 /** The texts are valid until the scene changes. */
 CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings);
 
-/** Checks the scene, which stays as it is, and builds what rays need. */
+/** Checks the scene, which stays as it is, and builds what rays need. While what was prepared of the same
+ * scene before is still there and no entity has come, gone or changed place since, that is not built again: a
+ * new camera, light, background or setting (other than the precision) costs next to nothing. */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 
 /** @} */

@@ -18,6 +18,8 @@ class PreparedScene {
 
   /// Internal: what rays see.
   const core::PreparedData& data() const { return *data_; }
+  /// Internal: the same, without holding on to it.
+  std::weak_ptr<const core::PreparedData> watched_data() const { return data_; }
 
  private:
   std::shared_ptr<const core::PreparedData> data_;
@@ -25,5 +27,11 @@ class PreparedScene {
 
 /// Checks the scene (throws Error naming what is wrong) and builds what rays need.
 PreparedScene prepare(const Scene& scene);
+
+/// The same for a scene that was prepared before and edited since. As long as its entities are the same
+/// (copies of one another, in the same order) and Settings::precision is, what rays meet is not built again:
+/// a new camera, light, background or other setting costs next to nothing. The picture is the same either
+/// way.
+PreparedScene prepare(const Scene& scene, const PreparedScene& earlier);
 
 }  // namespace crt

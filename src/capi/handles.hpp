@@ -62,6 +62,8 @@ struct crt_image : crt::capi::Counted {
 
 struct crt_scene : crt::capi::Counted {
   crt::Scene value;
+  /// What was prepared last, for what of it can be used again while somebody still has it.
+  std::weak_ptr<const crt::core::PreparedData> prepared;
   /// What crt_scene_get_background() has lent of the background's picture.
   mutable crt::capi::Reference<crt_image> lent_background;
 };

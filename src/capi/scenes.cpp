@@ -41,6 +41,7 @@ crt_status crt_scene_copy(const crt_scene* scene, crt_scene** out) {
     require(out, "out");
     auto copy = std::make_unique<crt_scene>();
     copy->value = scene->value;
+    copy->prepared = scene->prepared;
     *out = copy.release();
   });
 }
@@ -153,6 +154,10 @@ crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out) {
   return guarded([&] {
     require(scene, "scene");
     require(out, "out");
-    *out = new crt_prepared(crt::prepare(scene->value));
+    const auto earlier = scene->prepared.lock();
+    crt::PreparedScene prepared =
+        earlier ? crt::prepare(scene->value, crt::PreparedScene(earlier)) : crt::prepare(scene->value);
+    scene->prepared = prepared.watched_data();
+    *out = new crt_prepared(std::move(prepared));
   });
 }

@@ -42,19 +42,48 @@ void unify_coincident(std::vector<RayHit>& crossings) {
 
 }  // namespace
 
-PreparedData::PreparedData(const Scene& scene) {
+/// What depends on the entities and on nothing else in the scene but the precision.
+struct PreparedData::Geometry {
+  std::vector<std::shared_ptr<const EntityNode>> entities;  ///< held, so that their addresses stay theirs
+  Precision precision;
+  std::vector<SharedMaterial> materials;
+  bool has_csg;
+  Accelerator accelerator;
+
+  Geometry(const Scene& scene, CompiledScene compiled)
+      : precision(scene.settings.precision),
+        materials(std::move(compiled.materials)),
+        has_csg(!compiled.programs.empty()),
+        accelerator(std::move(compiled)) {
+    entities.reserve(scene.entities.size());
+    for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
+  }
+
+  bool is_of(const Scene& scene) const {
+    return precision == scene.settings.precision &&
+           std::equal(entities.begin(), entities.end(), scene.entities.begin(), scene.entities.end(),
+                      [](const auto& node, const Entity& entity) { return node == entity.shared_node(); });
+  }
+};
+
+PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
+    : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
   scene_ = scene;
   scene_.entities.clear();
 
-  CompiledScene compiled = compile(scene.entities, scene.settings.precision);
-  TexturePool textures(scene.settings.gamma);
-  for (const SharedMaterial& material : compiled.materials) materials_.emplace_back(material, textures);
+  if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
+    geometry_ = earlier->geometry_;
+  } else {
+    geometry_ = std::make_shared<const Geometry>(scene, compile(scene.entities, scene.settings.precision));
+  }
+  accelerator_ = &geometry_->accelerator;
+  for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
   for (const PreparedMaterial& material : materials_) opaque_.push_back(material.opaque);
-  background_ = std::make_unique<PreparedBackground>(scene.background, textures);
-  features_ = find_features(scene_, materials_, !compiled.programs.empty());
-  accelerator_ = std::make_unique<Accelerator>(std::move(compiled));
+  background_ = std::make_unique<PreparedBackground>(scene.background, textures_);
+  textures_.settle();
+  features_ = find_features(scene_, materials_, geometry_->has_csg);
 
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   prepare_seconds_ = elapsed.count();
@@ -151,6 +180,11 @@ namespace crt {
 PreparedScene prepare(const Scene& scene) {
   const core::FloatEnvironment ieee;
   return PreparedScene(std::make_shared<const core::PreparedData>(scene));
+}
+
+PreparedScene prepare(const Scene& scene, const PreparedScene& earlier) {
+  const core::FloatEnvironment ieee;
+  return PreparedScene(std::make_shared<const core::PreparedData>(scene, &earlier.data()));
 }
 
 }  // namespace crt

@@ -86,7 +86,8 @@ struct RayWorkspace {
 /// Immutable after prepare(); every member function is safe from any number of threads.
 class PreparedData {
  public:
-  explicit PreparedData(const Scene& scene);
+  /// Takes over of `earlier`, if there is one, what does not depend on what has changed since.
+  explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr);
   ~PreparedData();
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;
@@ -133,14 +134,20 @@ class PreparedData {
   /// Lights, camera, background and settings as given (and checked); entities are left out.
   const Scene& scene() const { return scene_; }
   double prepare_seconds() const { return prepare_seconds_; }
+  /// Whether what rays meet was made once for both.
+  bool shares_geometry_with(const PreparedData& other) const { return geometry_ == other.geometry_; }
 
  private:
+  struct Geometry;
+
   Scene scene_;
+  std::shared_ptr<const Geometry> geometry_;
+  TexturePool textures_;
   std::vector<PreparedMaterial> materials_;
   std::vector<bool> opaque_;  ///< by material
   std::unique_ptr<const PreparedBackground> background_;
   Features features_;
-  std::unique_ptr<const Accelerator> accelerator_;
+  const Accelerator* accelerator_ = nullptr;  ///< of the geometry
   double prepare_seconds_ = 0;
 };
 

@@ -80,7 +80,11 @@ Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap
 }
 
 std::shared_ptr<const Texture> TexturePool::get(const std::shared_ptr<const Image>& image) {
-  std::shared_ptr<const Texture>& texture = textures_[image.get()];
+  std::shared_ptr<const Texture>& texture = textures_[image];
+  if (!texture && earlier_ != nullptr) {
+    const auto found = earlier_->textures_.find(image);
+    if (found != earlier_->textures_.end()) texture = found->second;
+  }
   if (!texture) texture = std::make_shared<const Texture>(image, gamma_);
   return texture;
 }

@@ -38,11 +38,18 @@ class TexturePool {
  public:
   explicit TexturePool(double gamma) : gamma_(gamma) {}
 
+  /// Takes over what another pool has made, if it is for the same gamma, of what is asked for until
+  /// settle() is called. `earlier` may be null.
+  TexturePool(double gamma, const TexturePool* earlier)
+      : gamma_(gamma), earlier_(earlier != nullptr && earlier->gamma_ == gamma ? earlier : nullptr) {}
+  void settle() { earlier_ = nullptr; }
+
   std::shared_ptr<const Texture> get(const std::shared_ptr<const Image>& image);
 
  private:
   double gamma_;
-  std::map<const Image*, std::shared_ptr<const Texture>> textures_;
+  const TexturePool* earlier_ = nullptr;
+  std::map<std::shared_ptr<const Image>, std::shared_ptr<const Texture>> textures_;
 };
 
 }  // namespace crt::core
