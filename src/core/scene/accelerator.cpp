@@ -113,8 +113,9 @@ void Accelerator::Query::test_leaf(std::uint32_t object_index, const SceneObject
   CrossingList& crossings = work_.crossings;
   crossings.clear();
   // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
+  constexpr double more_than_rounding = 0x1p-50;
   const double start = farthest_start(ray_);
-  const double first_above = takes_one_ && leaf.exact ? std::nextafter(start, infinity) : infinity;
+  const double first_above = takes_one_ ? start + more_than_rounding * std::abs(start) : infinity;
   bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations, first_above);
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = object_ray.start.face != no_face;
