@@ -123,3 +123,10 @@ TEST_CASE("the exact tier's error of t is a bound next to a torus's axis and to 
   }
   CHECK(holds_in_exact(make_ray(cylinder, 310949)));
 }
+
+TEST_CASE(
+    "a triangle is met where it is by a line that is parallel to it but for the rounding of its normal") {
+  constexpr std::size_t triangle = 8;
+  Record record;
+  CHECK(measure(truth_of(make_ray(triangle, 7088570)), standard_tier(), 0, record));
+}

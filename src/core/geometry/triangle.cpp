@@ -30,14 +30,19 @@ double inverse_length_scale(const Vec3& v) {
   return 1 / power_of_two_below(largest_component(v));
 }
 
-/// (b - a) x (c - a) up to a power of two, good to a rounding even for slivers; 0 if it is within
-/// the rounding of double-double, so that the corners are on a line for all we can tell.
-Vec3 normal_of(const Triangle& triangle) {
+/// (b - a) x (c - a) up to a power of two.
+PreciseVector precise_normal_of(const Triangle& triangle) {
   const Vec3 ab = triangle.b - triangle.a;
   const Vec3 ac = triangle.c - triangle.a;
-  if (largest_component(ab) == 0 || largest_component(ac) == 0) return Vec3(0.0);
-  const PreciseVector product = cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
-                                      difference(triangle.c, triangle.a, inverse_length_scale(ac)));
+  if (largest_component(ab) == 0 || largest_component(ac) == 0) return {};
+  return cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
+               difference(triangle.c, triangle.a, inverse_length_scale(ac)));
+}
+
+/// The same good to a rounding even for slivers; 0 if it is within the rounding of double-double, so that the
+/// corners are on a line for all we can tell.
+Vec3 normal_of(const Triangle& triangle) {
+  const PreciseVector product = precise_normal_of(triangle);
   constexpr double rounding = 0x1p-98;
   const Vec3 normal = rounded(product);
   return largest_component(normal) > rounding ? normal : Vec3(0.0);
@@ -77,7 +82,9 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
 }  // namespace
 
 TriangleShape::TriangleShape(const Triangle& triangle)
-    : corners_{triangle.a, triangle.b, triangle.c}, face_(normal_of(triangle), triangle.a) {}
+    : corners_{triangle.a, triangle.b, triangle.c},
+      face_(normal_of(triangle), triangle.a),
+      precise_normal_(precise_normal_of(triangle)) {}
 
 Bounds TriangleShape::bounds() const {
   Bounds result;
@@ -101,8 +108,40 @@ bool TriangleShape::passes_edges(const ObjectRay& ray) const {
   return !(left && right);
 }
 
-bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+/// Of a line that is parallel to the triangle but for little more than the rounding of the normal, the
+/// normal's further digits decide.
+PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
+  constexpr double nearly_parallel = 0x1p-40;
+  const double size = largest_component(face_.normal()) * largest_component(ray.direction);
+  if (ray.start.face == 0 || !(std::abs(meeting.rate) < nearly_parallel * size)) return meeting;
+  PreciseVector direction;
+  PreciseVector offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    direction[i] = two_sum(ray.direction[axis], ray.direction_low[axis]);
+    const DoubleDouble exact = two_sum(ray.origin[axis], -corners_[0][axis]);
+    offset[i] = exact + DoubleDouble(ray.origin_low[axis]);
+  }
+  const PreciseVector& n = precise_normal_;
+  const DoubleDouble rate = n[0] * direction[0] + n[1] * direction[1] + n[2] * direction[2];
+  const DoubleDouble height = n[0] * offset[0] + n[1] * offset[1] + n[2] * offset[2];
+  PlaneFace::Meeting result = meeting;
+  result.rate = rate.hi;
+  const DoubleDouble t = -height / rate;
+  result.found = rate.hi != 0 && std::isfinite(t.hi);
+  if (!result.found) return result;
+  result.t = t.hi;
+  result.t_low = t.lo;
+  constexpr double roundings = 8;
+  const double reach = glm::length(ray.from_center(corners_[0], t.hi, t.lo));
+  result.error =
+      rounding_of(t.hi) + roundings * unit_roundoff * reach * glm::length(rounded(n)) / std::abs(rate.hi);
+  return result;
+}
+
+bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  const PlaneFace::Meeting meeting = meet(ray);
   if (!meeting.found) return false;
   if (PlaneFace::starts_here(ray) || passes_edges(ray)) PlaneFace::emit(meeting, out);
   return false;

@@ -15,6 +15,7 @@
 
 #include "core/geometry/plane_face.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/math/precise_transform.hpp"
 
 namespace crt::core {
 
@@ -30,10 +31,12 @@ class TriangleShape final : public Shape {
   Surface surface(std::uint32_t) const override { return face_.surface(); }
 
  private:
+  PlaneFace::Meeting meet(const ObjectRay& ray) const;
   bool passes_edges(const ObjectRay& ray) const;
 
   std::array<Vec3, 3> corners_;
   PlaneFace face_;
+  PreciseVec3 precise_normal_;  ///< the face's, with further digits
 };
 
 /// Whether the corners are not on one line.
