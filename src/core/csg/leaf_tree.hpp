@@ -42,7 +42,6 @@ class LeafTree {
   /// The leaves that a line may meet anywhere.
   std::span<const std::uint32_t> unbounded() const { return unbounded_; }
   bool has_root() const { return !nodes_.empty(); }
-  static Child root() { return Child::node(0); }
 
   /// Calls meet(child, enter, leave) for what the line comes near below a node.
   template <class Meet>

@@ -23,12 +23,7 @@ class RaySlabs {
  public:
   RaySlabs(const Vec3& origin, const Vec3& direction)
       : origin_(origin), direction_(direction), origin_slack_(4 * slack * largest_component(origin)) {
-    for (int axis = 0; axis < 3; ++axis) {
-      // Below that the quotient must be taken: the inverse has no digits left, or is infinite.
-      constexpr double smallest = 0x1p-1000;
-      inverse_[axis] = 1 / direction[axis];
-      if (std::abs(direction[axis]) < smallest) is_steep_ = true;
-    }
+    for (int axis = 0; axis < 3; ++axis) inverse_[axis] = 1 / direction[axis];
   }
 
   LineSpan span(const Bounds& box) const {
@@ -55,7 +50,7 @@ class RaySlabs {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const double o = origin_[static_cast<int>(axis)];
       const double inverse = inverse_[static_cast<int>(axis)];
-      if (is_steep_ && std::abs(inverse) > largest_inverse) {
+      if (std::abs(inverse) > largest_inverse) {
         clip_steep(static_cast<int>(axis), lower[axis], upper[axis], enter, leave);
         continue;
       }
@@ -75,6 +70,7 @@ class RaySlabs {
  private:
   /// Three roundings go into each t: of the difference, the inverse and the product.
   static constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
+  /// Above that the line is parallel to the slab, or all but, and the quotient must be taken.
   static constexpr double largest_inverse = 0x1p1000;
 
   template <std::size_t Count>
@@ -102,7 +98,6 @@ class RaySlabs {
   Vec3 inverse_{0, 0, 0};
   /// Rounding may have put a line that starts on the side of a box next to it.
   double origin_slack_;
-  bool is_steep_ = false;  ///< parallel to some slab, or all but
 };
 
 }  // namespace crt::core

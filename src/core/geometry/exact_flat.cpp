@@ -93,9 +93,7 @@ class ExactDiscShape final : public ExactFlatShape {
     const double room = 1 - distance;
     if (std::abs(room) > filter_rounding * (1 + distance) + 2 * (point.error / radius_)) return room > 0;
     const ExactPoint exact = exact_meeting(ray, meeting);
-    const Dyadic squared_distance =
-        square(exact.offset[0]) + square(exact.offset[1]) + square(exact.offset[2]);
-    return (squared_distance - square(exact.weight * Dyadic(radius_))).sign() <= 0;
+    return (dot(exact.offset, exact.offset) - square(exact.weight * Dyadic(radius_))).sign() <= 0;
   }
 
   double radius_;
@@ -116,9 +114,7 @@ class ExactHalfPlaneShape final : public ExactFlatShape {
     constexpr double largest_sum = 6;  // of three components below 2
     if (std::abs(inward) > largest_sum * point.error) return inward > 0;
     const ExactPoint exact = exact_meeting(ray, meeting);
-    return (exact.offset[0] * Dyadic(direction_.x) + exact.offset[1] * Dyadic(direction_.y) +
-            exact.offset[2] * Dyadic(direction_.z))
-               .sign() >= 0;
+    return dot(exact.offset, exactly(direction_)).sign() >= 0;
   }
 
   Vec3 direction_;
@@ -160,16 +156,8 @@ class ExactTriangleShape final : public ExactFlatShape {
   }
 
   static int exact_side_of_edge(const ExactLine& line, const Vec3& from, const Vec3& to) {
-    Dyadic volume;
-    for (int axis = 0; axis < 3; ++axis) {
-      const int j = (axis + 1) % 3;
-      const int k = (axis + 2) % 3;
-      const auto i = static_cast<std::size_t>(axis);
-      const Dyadic moment = (Dyadic(to[j]) - Dyadic(from[j])) * line.direction[static_cast<std::size_t>(k)] -
-                            (Dyadic(to[k]) - Dyadic(from[k])) * line.direction[static_cast<std::size_t>(j)];
-      volume = volume + (line.weight * Dyadic(from[axis]) - line.origin[i]) * moment;
-    }
-    return volume.sign();
+    const DyadicVector start = line.weight * exactly(from) - line.origin;
+    return dot(start, cross(exactly(to) - exactly(from), line.direction)).sign();
   }
 
   std::array<Vec3, 3> corners_;

@@ -14,17 +14,12 @@ namespace {
 class ExactSide {
  public:
   ExactSide(const ExactFrustum& frustum, const ExactRay& ray) : line_(ray.exact()) {
-    std::array<Dyadic, 3> way;
-    std::array<Dyadic, 3> offset;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      way[i] = Dyadic(frustum.wide[axis]) - Dyadic(frustum.narrow[axis]);
-      offset[i] = line_.origin[i] - line_.weight * Dyadic(frustum.narrow[axis]);
-    }
+    const DyadicVector way = exactly(frustum.wide) - exactly(frustum.narrow);
+    const DyadicVector offset = line_.origin - line_.weight * exactly(frustum.narrow);
     const Dyadic growth = Dyadic(frustum.wide_radius) - Dyadic(frustum.radius);
     const Dyadic squared_length = dot(way, way);
-    const std::array<Dyadic, 3> across = cross(offset, way);
-    const std::array<Dyadic, 3> turning = cross(line_.direction, way);
+    const DyadicVector across = cross(offset, way);
+    const DyadicVector turning = cross(line_.direction, way);
     radius_ = Dyadic(frustum.radius) * line_.weight * squared_length + growth * dot(offset, way);
     radius_rate_ = growth * dot(line_.direction, way);
     g_ = {squared_length * dot(turning, turning) - square(radius_rate_),
@@ -49,17 +44,11 @@ class ExactSide {
   std::optional<Crossing> root(bool entering, const CapMeeting& /*enter*/,
                                const CapMeeting& /*leave*/) const {
     Crossing crossing{.face = FrustumShape::side_face, .entering = entering};
-    DoubleDouble t;
     if (g_.a.sign() == 0) {
-      t = (-g_.c.rounded() / (g_.b + g_.b).rounded()).unscaled();
-    } else {
-      crossing.root = (g_.a.sign() > 0) == entering ? 0 : 1;
-      t = g_.roots()[crossing.root];
+      return exact_crossing((-g_.c.rounded() / (g_.b + g_.b).rounded()).unscaled(), crossing);
     }
-    crossing.t = t.hi;
-    crossing.t_low = t.lo;
-    crossing.error = precise_roundoff * std::abs(t.hi);
-    return crossing;
+    crossing.root = (g_.a.sign() > 0) == entering ? 0 : 1;
+    return exact_crossing(g_.roots()[crossing.root], crossing);
   }
 
   /// What a line that starts on the side is decided by.
@@ -69,22 +58,11 @@ class ExactSide {
                      .radius = radius_.sign(),
                      .radius_rate = radius_rate_.sign(),
                      .other = {.face = FrustumShape::side_face}};
-    if (result.a == 0) return result;
-    const DoubleDouble t = (-(g_.b + g_.b).rounded() / g_.a.rounded()).unscaled();
-    result.other.t = t.hi;
-    result.other.t_low = t.lo;
-    result.other.error = precise_roundoff * std::abs(t.hi);
+    if (result.a != 0) result.other = exact_crossing(g_.root_beside_zero(), result.other);
     return result;
   }
 
  private:
-  static Dyadic dot(const std::array<Dyadic, 3>& a, const std::array<Dyadic, 3>& b) {
-    return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-  }
-  static std::array<Dyadic, 3> cross(const std::array<Dyadic, 3>& a, const std::array<Dyadic, 3>& b) {
-    return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-  }
-
   /// The sign of the end's t less that of the vertex of g, which opens upwards.
   int side_of_vertex(const CapMeeting& end) const {
     if (!end.found()) return end.meeting.side;

@@ -27,7 +27,6 @@ struct ExactFrustum {
   double radius;  ///< r
   double wide_radius;
   double unit;
-  double way_unit;
 
   PreciseVec3 way;              ///< W
   DoubleDouble squared_length;  ///< |W|^2

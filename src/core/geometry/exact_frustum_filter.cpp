@@ -23,8 +23,8 @@ ExactFrustum::ExactFrustum(const Vec3& from, const Vec3& to, double from_radius,
       wide(to_radius > from_radius ? to : from),
       radius(std::min(from_radius, to_radius)),
       wide_radius(std::max(from_radius, to_radius)),
-      unit(power_of_two_below(wide_radius)),
-      way_unit(power_of_two_below(largest_component(wide - narrow))) {
+      unit(power_of_two_below(wide_radius)) {
+  const double way_unit = power_of_two_below(largest_component(wide - narrow));
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble component = two_sum(wide[axis], -narrow[axis]);
     way[static_cast<std::size_t>(axis)] = {component.hi / way_unit, component.lo / way_unit};
@@ -74,11 +74,8 @@ std::optional<Crossing> FilteredSide::root(bool entering, const CapMeeting& ente
 
 std::optional<SideStart> FilteredSide::start() const {
   const PointAt at = point_at(0.0, 0);
-  PreciseVec3 d;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    d[i] = {ray_.near.direction[axis] / frustum_.unit, ray_.near.direction_low[axis] / frustum_.unit};
-  }
+  PreciseVec3 d = precise_direction(ray_.near);
+  for (DoubleDouble& component : d) component = {component.hi / frustum_.unit, component.lo / frustum_.unit};
   const double d_error = ray_.direction_error / frustum_.unit;
   const PointAt way = part_of(d, d_error + precise_roundoff * sum_of_sizes(d), 0.0);
   const DoubleDouble& ll = frustum_.squared_length;

@@ -5,36 +5,30 @@
 namespace crt::core {
 namespace {
 
-std::array<Dyadic, 3> difference(const Vec3& to, const Vec3& from) {
-  return {Dyadic(to.x) - Dyadic(from.x), Dyadic(to.y) - Dyadic(from.y), Dyadic(to.z) - Dyadic(from.z)};
-}
-
 /// At least the sum of a plane's normal's components: none is larger than 1.
 constexpr double normal_size = 3;
 
 }  // namespace
 
 ExactPlane::ExactPlane(const Vec3& normal, const Vec3& position) : position_(position) {
-  take_normal({normal.x, normal.y, normal.z});
+  take_normal(exactly(normal));
 }
 
 ExactPlane ExactPlane::across_way(const Vec3& from, const Vec3& to, const Vec3& position) {
   ExactPlane plane;
   plane.position_ = position;
-  plane.take_normal(difference(to, from));
+  plane.take_normal(exactly(to) - exactly(from));
   return plane;
 }
 
 ExactPlane ExactPlane::through(const Vec3& a, const Vec3& b, const Vec3& c) {
-  const std::array<Dyadic, 3> u = difference(b, a);
-  const std::array<Dyadic, 3> v = difference(c, a);
   ExactPlane plane;
   plane.position_ = a;
-  plane.take_normal({u[1] * v[2] - u[2] * v[1], u[2] * v[0] - u[0] * v[2], u[0] * v[1] - u[1] * v[0]});
+  plane.take_normal(cross(exactly(b) - exactly(a), exactly(c) - exactly(a)));
   return plane;
 }
 
-void ExactPlane::take_normal(const std::array<Dyadic, 3>& normal) {
+void ExactPlane::take_normal(const DyadicVector& normal) {
   exact_normal_ = normal;
   int largest = 0;
   int components = 0;
@@ -80,13 +74,9 @@ ExactPlane::Meeting ExactPlane::estimate_across_axis(const ExactRay& ray) const 
 }
 
 ExactPlane::Rate ExactPlane::rate(const ExactRay& ray) const {
-  PreciseVec3 direction;
+  const PreciseVec3 direction = precise_direction(ray.near);
   double size = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    direction[i] = {ray.near.direction[axis], ray.near.direction_low[axis]};
-    size += std::abs(normal_[i].hi * direction[i].hi);
-  }
+  for (std::size_t i = 0; i < 3; ++i) size += std::abs(normal_[i].hi * direction[i].hi);
   return {precise_dot(normal_, direction), precise_roundoff * size + normal_size * ray.direction_error};
 }
 
@@ -150,11 +140,8 @@ ExactPlane::Meeting ExactPlane::meet_surface(const ExactRay& ray) const {
 
 ExactPlane::Fraction ExactPlane::meet_exactly(const ExactLine& line) const {
   Fraction t;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    t.numerator = t.numerator + exact_normal_[i] * (line.weight * Dyadic(position_[axis]) - line.origin[i]);
-    t.denominator = t.denominator + exact_normal_[i] * line.direction[i];
-  }
+  t.numerator = dot(exact_normal_, line.weight * exactly(position_) - line.origin);
+  t.denominator = dot(exact_normal_, line.direction);
   t.side = t.denominator.sign();
   if (t.side >= 0) return t;
   return {-t.numerator, -t.denominator, t.side};
@@ -174,11 +161,7 @@ int order(const ExactRay& ray, const ExactPlane& first_plane, const ExactPlane::
 ExactPoint exact_point(const ExactLine& line, const ExactPlane::Fraction& t, const Vec3& center) {
   ExactPoint point;
   point.weight = line.weight * t.denominator;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    point.offset[i] = line.origin[i] * t.denominator + line.direction[i] * t.numerator -
-                      point.weight * Dyadic(center[axis]);
-  }
+  point.offset = t.denominator * line.origin + t.numerator * line.direction - point.weight * exactly(center);
   return point;
 }
 

@@ -61,11 +61,11 @@ class ExactPlane {
   Meeting estimate(const ExactRay& ray) const;
   Meeting estimate_across_axis(const ExactRay& ray) const;
   Meeting settled(const ExactRay& ray, const Meeting& estimate) const;
-  void take_normal(const std::array<Dyadic, 3>& normal);
+  void take_normal(const DyadicVector& normal);
 
   int axis_ = -1;                      ///< the coordinate axis of the normal, or -1
   PreciseVec3 normal_{0.0, 0.0, 0.0};  ///< to 100 bits of each component, the largest about 1
-  std::array<Dyadic, 3> exact_normal_;
+  DyadicVector exact_normal_;
   Vec3 position_{0, 0, 0};
 };
 
@@ -75,7 +75,7 @@ int order(const ExactRay& ray, const ExactPlane& first_plane, const ExactPlane::
 
 /// A point of a line relative to a center, without rounding: offset / weight, with weight > 0.
 struct ExactPoint {
-  std::array<Dyadic, 3> offset;
+  DyadicVector offset;
   Dyadic weight;
 };
 ExactPoint exact_point(const ExactLine& line, const ExactPlane::Fraction& t, const Vec3& center);

@@ -17,6 +17,9 @@ struct ExactQuadratic {
 
   /// Both roots in ascending order, each to about 100 bits. a must not be 0, the discriminant not negative.
   std::array<DoubleDouble, 2> roots() const;
+
+  /// If c is taken as 0, the root beside 0, to about 100 bits. a must not be 0.
+  DoubleDouble root_beside_zero() const { return (-(b + b).rounded() / a.rounded()).unscaled(); }
 };
 
 }  // namespace crt::core

@@ -3,44 +3,23 @@
 #include "core/math/vector.hpp"
 
 namespace crt::core {
-namespace {
-
-using DyadicVector = std::array<Dyadic, 3>;
-
-DyadicVector cross(const Vec3& a, const Vec3& b) {
-  const auto component = [&](int i, int j) {
-    return Dyadic(a[i]) * Dyadic(b[j]) - Dyadic(a[j]) * Dyadic(b[i]);
-  };
-  return {component(1, 2), component(2, 0), component(0, 1)};
-}
-
-Dyadic dot(const DyadicVector& a, const DyadicVector& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-DyadicVector exactly(const Vec3& v) {
-  return {v.x, v.y, v.z};
-}
-
-}  // namespace
-
 ExactLine ExactRay::exact() const {
   if (escalations != nullptr) ++*escalations;
   ExactLine line;
   line.origin = exactly(world_origin);
   line.direction = exactly(world_direction);
   if (to_world == nullptr) return line;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    line.origin[i] = line.origin[i] - Dyadic(to_world->translation[axis]);
-  }
+  line.origin = line.origin - exactly(to_world->translation);
   if (*to_world == Transform{.translation = to_world->translation}) return line;
 
   // Cramer's rule: the columns of the inverse times the determinant are cross products of the rows.
-  const DyadicVector yz = cross(to_world->row_y, to_world->row_z);
-  const DyadicVector zx = cross(to_world->row_z, to_world->row_x);
-  const DyadicVector xy = cross(to_world->row_x, to_world->row_y);
-  line.weight = dot(exactly(to_world->row_x), yz);
+  const DyadicVector x = exactly(to_world->row_x);
+  const DyadicVector y = exactly(to_world->row_y);
+  const DyadicVector z = exactly(to_world->row_z);
+  const DyadicVector yz = cross(y, z);
+  const DyadicVector zx = cross(z, x);
+  const DyadicVector xy = cross(x, y);
+  line.weight = dot(x, yz);
   const bool mirrored = line.weight.sign() < 0;
   if (mirrored) line.weight = -line.weight;
   const auto solve = [&](const DyadicVector& v) {

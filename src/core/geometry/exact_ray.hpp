@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/geometry/object_ray.hpp"
-#include "core/math/dyadic.hpp"
+#include "core/math/dyadic_vector.hpp"
 #include "core/math/precise_transform.hpp"
 #include "crt/transform.hpp"
 
@@ -14,8 +14,8 @@ namespace crt::core {
 /// A line in object space without any rounding: (origin + t direction) / weight, with weight > 0. The
 /// division that the inverse of a transform needs is never carried out.
 struct ExactLine {
-  std::array<Dyadic, 3> origin;
-  std::array<Dyadic, 3> direction;
+  DyadicVector origin;
+  DyadicVector direction;
   Dyadic weight = 1;
 };
 
@@ -53,6 +53,12 @@ struct ExactRay {
   /// What each component of a point p(t) - center is off by at most, where it is computed in double-double.
   double point_error(const Vec3& center, double t) const;
 };
+
+inline PreciseVec3 precise_direction(const ObjectRay& ray) {
+  return {DoubleDouble(ray.direction.x, ray.direction_low.x),
+          DoubleDouble(ray.direction.y, ray.direction_low.y),
+          DoubleDouble(ray.direction.z, ray.direction_low.z)};
+}
 
 /// p(t + t_low) - center to about 100 bits.
 PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t);

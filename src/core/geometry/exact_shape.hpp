@@ -33,6 +33,14 @@ inline bool settle(const ExactRay& ray, const DoubleDouble& t, double error, Cro
   return true;
 }
 
+/// A crossing with a t that was rounded to about 100 bits.
+inline Crossing exact_crossing(const DoubleDouble& t, Crossing crossing) {
+  crossing.t = t.hi;
+  crossing.t_low = t.lo;
+  crossing.error = precise_roundoff * std::abs(t.hi);
+  return crossing;
+}
+
 std::unique_ptr<const ExactShape> make_exact_shape(const Plane& plane);
 std::unique_ptr<const ExactShape> make_exact_shape(const HalfPlane& half_plane);
 std::unique_ptr<const ExactShape> make_exact_shape(const Disc& disc);

@@ -71,16 +71,9 @@ class ExactSphereShape final : public ExactShape {
   }
 
   ExactQuadratic quadratic(const ExactLine& line) const {
-    ExactQuadratic result;
-    result.c = -square(line.weight * Dyadic(radius_));
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto i = static_cast<std::size_t>(axis);
-      const Dyadic offset = line.origin[i] - line.weight * Dyadic(center_[axis]);
-      result.a = result.a + square(line.direction[i]);
-      result.b = result.b + line.direction[i] * offset;
-      result.c = result.c + square(offset);
-    }
-    return result;
+    const DyadicVector offset = line.origin - line.weight * exactly(center_);
+    return {dot(line.direction, line.direction), dot(line.direction, offset),
+            dot(offset, offset) - square(line.weight * Dyadic(radius_))};
   }
 
   bool exact_crossings(const ExactRay& ray, CrossingList& out) const {
@@ -88,39 +81,32 @@ class ExactSphereShape final : public ExactShape {
     if (equation.discriminant().sign() <= 0) return false;
     const auto [enter, leave] = equation.roots();
     if (!std::isfinite(enter.hi) || !std::isfinite(leave.hi)) return false;
-    const auto error = [](const DoubleDouble& t) { return precise_roundoff * std::abs(t.hi); };
-    out.push_back({.t = enter.hi, .error = error(enter), .t_low = enter.lo, .root = 0, .entering = true});
-    out.push_back({.t = leave.hi, .error = error(leave), .t_low = leave.lo, .root = 1, .entering = false});
+    out.push_back(exact_crossing(enter, {.root = 0, .entering = true}));
+    out.push_back(exact_crossing(leave, {.root = 1, .entering = false}));
     return false;
   }
 
   /// As the standard tier has it: c is 0 by identity, and the other root -2 b / a.
   bool crossings_from_surface(const ExactRay& ray, CrossingList& out) const {
     const ObjectRay& near = ray.near;
-    PreciseVec3 d;
-    for (int axis = 0; axis < 3; ++axis) {
-      d[static_cast<std::size_t>(axis)] = {near.direction[axis], near.direction_low[axis]};
-    }
+    const PreciseVec3 d = precise_direction(near);
     const PreciseVec3 p = precise_from_center(near, center_, 0.0);
     const DoubleDouble a = precise_dot(d, d);
     const DoubleDouble half = -precise_dot(p, d) / a;
-    DoubleDouble t{2 * half.hi, 2 * half.lo};
+    const DoubleDouble t{2 * half.hi, 2 * half.lo};
     const double size = sum_of_sizes(p);
-    double error =
+    const double error =
         2 *
             (sum_of_sizes(d) * ray.point_error(center_, 0) + size * ray.direction_error +
              precise_roundoff * size * largest_component(near.direction)) /
             a.hi +
         (precise_roundoff + 4 * ray.direction_error / largest_component(near.direction)) * std::abs(t.hi);
-    if (!ray.is_settled(t.hi, error)) {
-      const ExactQuadratic equation = quadratic(ray.exact());
-      t = (-(equation.b + equation.b).rounded() / equation.a.rounded()).unscaled();
-      error = precise_roundoff * std::abs(t.hi);
+    const bool outside = near.start.side == Side::outside;
+    Crossing other{.root = static_cast<std::uint8_t>(!outside)};
+    if (!settle(ray, t, error, other)) {
+      other = exact_crossing(quadratic(ray.exact()).root_beside_zero(), other);
     }
     Stretch stretch(near.start, unit_roundoff * (radius_ / largest_component(near.direction)));
-    const bool outside = near.start.side == Side::outside;
-    const Crossing other{
-        .t = t.hi, .error = error, .t_low = t.lo, .root = static_cast<std::uint8_t>(!outside)};
     const Crossing start{.root = static_cast<std::uint8_t>(outside)};
     stretch.enter(outside ? other : start);
     stretch.leave(outside ? start : other);

@@ -89,10 +89,7 @@ class ExactTorusLine {
   void refine(const Dyadic& low, const Dyadic& high, Crossing& crossing) const {
     const Dyadic x = refined_root(quartic_, low, high, offset_,
                                   [&](const Dyadic& place) { return is_inside(place) == crossing.entering; });
-    const DoubleDouble t = (Dyadic(scale_) * (x + offset_)).rounded().unscaled();
-    crossing.t = t.hi;
-    crossing.t_low = t.lo;
-    crossing.error = precise_roundoff * std::abs(t.hi);
+    crossing = exact_crossing((Dyadic(scale_) * (x + offset_)).rounded().unscaled(), crossing);
   }
 
   DyadicPolynomial sum_;      ///< S

@@ -37,11 +37,13 @@ PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
   result.found = true;
   result.t = t.hi;
   result.t_low = t.lo;
-  constexpr double roundings = 8;
-  const double reach = glm::length(near);
-  result.error =
-      rounding_of(t.hi) + roundings * unit_roundoff * reach * glm::length(normal_) / std::abs(result.rate);
+  result.error = meeting_error(t.hi, glm::length(near), glm::length(normal_), result.rate);
   return result;
+}
+
+double PlaneFace::meeting_error(double t, double reach, double normal_length, double rate) {
+  constexpr double roundings = 8;
+  return rounding_of(t) + roundings * unit_roundoff * reach * normal_length / std::abs(rate);
 }
 
 PlaneFace::Meeting PlaneFace::meet_axis_plane(const ObjectRay& ray) const {

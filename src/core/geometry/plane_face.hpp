@@ -23,6 +23,10 @@ class PlaneFace {
   };
   Meeting meet(const ObjectRay& ray) const;
 
+  /// The standard tier's bound on the error of t: `reach` from the position, with a rate of
+  /// n . d for a normal n of the given length.
+  static double meeting_error(double t, double reach, double normal_length, double rate);
+
   /// The meeting point relative to the position.
   Vec3 point(const ObjectRay& ray, const Meeting& meeting) const;
 

@@ -6,11 +6,9 @@
 namespace crt::core {
 namespace {
 
-using PreciseVector = std::array<DoubleDouble, 3>;
-
 /// to - from exactly, times `scale` (a power of two).
-PreciseVector difference(const Vec3& to, const Vec3& from, double scale) {
-  PreciseVector result;
+PreciseVec3 difference(const Vec3& to, const Vec3& from, double scale) {
+  PreciseVec3 result;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble exact = two_sum(to[axis], -from[axis]);
     result[static_cast<std::size_t>(axis)] = {exact.hi * scale, exact.lo * scale};
@@ -18,11 +16,11 @@ PreciseVector difference(const Vec3& to, const Vec3& from, double scale) {
   return result;
 }
 
-PreciseVector cross(const PreciseVector& a, const PreciseVector& b) {
+PreciseVec3 cross(const PreciseVec3& a, const PreciseVec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-Vec3 rounded(const PreciseVector& v) {
+Vec3 rounded(const PreciseVec3& v) {
   return {v[0].value(), v[1].value(), v[2].value()};
 }
 
@@ -31,7 +29,7 @@ double inverse_length_scale(const Vec3& v) {
 }
 
 /// (b - a) x (c - a) up to a power of two.
-PreciseVector precise_normal_of(const Triangle& triangle) {
+PreciseVec3 precise_normal_of(const Triangle& triangle) {
   const Vec3 ab = triangle.b - triangle.a;
   const Vec3 ac = triangle.c - triangle.a;
   if (largest_component(ab) == 0 || largest_component(ac) == 0) return {};
@@ -41,8 +39,7 @@ PreciseVector precise_normal_of(const Triangle& triangle) {
 
 /// The same good to a rounding even for slivers; 0 if it is within the rounding of double-double, so that the
 /// corners are on a line for all we can tell.
-Vec3 normal_of(const Triangle& triangle) {
-  const PreciseVector product = precise_normal_of(triangle);
+Vec3 rounded_normal(const PreciseVec3& product) {
   constexpr double rounding = 0x1p-98;
   const Vec3 normal = rounded(product);
   return largest_component(normal) > rounding ? normal : Vec3(0.0);
@@ -62,8 +59,8 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
 
   const double scale = 1 / power_of_two_below(std::max(largest_component(edge), largest_component(start)));
   const double direction_scale = 1 / power_of_two_below(largest_component(ray.direction));
-  PreciseVector direction;
-  PreciseVector offset;
+  PreciseVec3 direction;
+  PreciseVec3 offset;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     direction[i] = two_sum(ray.direction[axis] * direction_scale, ray.direction_low[axis] * direction_scale);
@@ -72,7 +69,7 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
         DoubleDouble(exact.hi * scale, exact.lo * scale) + DoubleDouble(ray.origin_low[axis] * scale);
     offset[i] = -(origin + direction[i] * DoubleDouble(t / direction_scale * scale));
   }
-  const PreciseVector moment = cross(difference(to, from, scale), direction);
+  const PreciseVec3 moment = cross(difference(to, from, scale), direction);
   const DoubleDouble precise = offset[0] * moment[0] + offset[1] * moment[1] + offset[2] * moment[2];
   constexpr double rounding = 0x1p-96;
   if (std::abs(precise.hi) <= rounding) return 0;
@@ -83,8 +80,8 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
 
 TriangleShape::TriangleShape(const Triangle& triangle)
     : corners_{triangle.a, triangle.b, triangle.c},
-      face_(normal_of(triangle), triangle.a),
-      precise_normal_(precise_normal_of(triangle)) {}
+      precise_normal_(precise_normal_of(triangle)),
+      face_(rounded_normal(precise_normal_), triangle.a) {}
 
 Bounds TriangleShape::bounds() const {
   Bounds result;
@@ -115,15 +112,15 @@ PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
   constexpr double nearly_parallel = 0x1p-40;
   const double size = largest_component(face_.normal()) * largest_component(ray.direction);
   if (ray.start.face == 0 || !(std::abs(meeting.rate) < nearly_parallel * size)) return meeting;
-  PreciseVector direction;
-  PreciseVector offset;
+  PreciseVec3 direction;
+  PreciseVec3 offset;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
     direction[i] = two_sum(ray.direction[axis], ray.direction_low[axis]);
     const DoubleDouble exact = two_sum(ray.origin[axis], -corners_[0][axis]);
     offset[i] = exact + DoubleDouble(ray.origin_low[axis]);
   }
-  const PreciseVector& n = precise_normal_;
+  const PreciseVec3& n = precise_normal_;
   const DoubleDouble rate = n[0] * direction[0] + n[1] * direction[1] + n[2] * direction[2];
   const DoubleDouble height = n[0] * offset[0] + n[1] * offset[1] + n[2] * offset[2];
   PlaneFace::Meeting result = meeting;
@@ -133,10 +130,8 @@ PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
   if (!result.found) return result;
   result.t = t.hi;
   result.t_low = t.lo;
-  constexpr double roundings = 8;
   const double reach = glm::length(ray.from_center(corners_[0], t.hi, t.lo));
-  result.error =
-      rounding_of(t.hi) + roundings * unit_roundoff * reach * glm::length(rounded(n)) / std::abs(rate.hi);
+  result.error = PlaneFace::meeting_error(t.hi, reach, glm::length(rounded(n)), rate.hi);
   return result;
 }
 
@@ -166,7 +161,7 @@ SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& 
 }
 
 bool has_area(const Triangle& triangle) {
-  return largest_component(normal_of(triangle)) != 0;
+  return largest_component(rounded_normal(precise_normal_of(triangle))) != 0;
 }
 
 void validate(const Triangle& triangle) {

@@ -35,8 +35,8 @@ class TriangleShape final : public Shape {
   bool passes_edges(const ObjectRay& ray) const;
 
   std::array<Vec3, 3> corners_;
-  PlaneFace face_;
   PreciseVec3 precise_normal_;  ///< the face's, with further digits
+  PlaneFace face_;
 };
 
 /// Whether the corners are not on one line.

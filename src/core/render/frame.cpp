@@ -33,12 +33,7 @@ void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<Ra
     if (!same_end(a.entry, b.entry)) return a.entry.t > b.entry.t;
     return same_end(a.exit, b.exit) ? a.exit.object < b.exit.object : a.exit.t > b.exit.t;
   };
-  // By insertion, as in media_order.hpp.
-  for (std::size_t i = 1; i < solids.size(); ++i) {
-    for (std::size_t k = i; k > 0 && comes_first(solids[k], solids[k - 1]); --k) {
-      std::swap(solids[k], solids[k - 1]);
-    }
-  }
+  sort_by_insertion(solids, comes_first);
   for (std::size_t i = 0; i < solids.size(); ++i) exits[i] = solids[i].exit;
 }
 

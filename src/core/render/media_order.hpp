@@ -36,6 +36,17 @@ MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, cons
   });
 }
 
+/// Sorts by insertion, which needs no strict order: two ends that both are at one place with a third need not
+/// be so themselves.
+template <class Item, class ComesFirst>
+void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) {
+  for (std::size_t i = 1; i < items.size(); ++i) {
+    for (std::size_t k = i; k > 0 && comes_first(items[k], items[k - 1]); --k) {
+      std::swap(items[k], items[k - 1]);
+    }
+  }
+}
+
 /// Brings solids that are entered at one place into the order in which to enter them.
 template <class ExitOf>
 void sort_outermost_first(std::vector<RayHit>& entered, const ExitOf& exit_of) {
@@ -44,12 +55,7 @@ void sort_outermost_first(std::vector<RayHit>& entered, const ExitOf& exit_of) {
     const RayHit exit_b = exit_of(b.object);
     return same_end(exit_a, exit_b) ? a.object < b.object : exit_a.t > exit_b.t;
   };
-  // By insertion: two exits that both are at one place with a third need not be so themselves.
-  for (std::size_t i = 1; i < entered.size(); ++i) {
-    for (std::size_t k = i; k > 0 && is_outer(entered[k], entered[k - 1]); --k) {
-      std::swap(entered[k], entered[k - 1]);
-    }
-  }
+  sort_by_insertion(entered, is_outer);
 }
 
 }  // namespace crt::core
