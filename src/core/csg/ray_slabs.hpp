@@ -21,6 +21,11 @@ struct LineSpan {
 /// What of a line does not change from box to box.
 class RaySlabs {
  public:
+  /// Three roundings go into each t: of the difference, the inverse and the product.
+  static constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
+  /// Above that the line is parallel to the slab, or all but, and the quotient must be taken.
+  static constexpr double largest_inverse = 0x1p1000;
+
   RaySlabs(const Vec3& origin, const Vec3& direction)
       : origin_(origin), direction_(direction), origin_slack_(4 * slack * largest_component(origin)) {
     for (int axis = 0; axis < 3; ++axis) inverse_[axis] = 1 / direction[axis];
@@ -68,11 +73,6 @@ class RaySlabs {
   }
 
  private:
-  /// Three roundings go into each t: of the difference, the inverse and the product.
-  static constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
-  /// Above that the line is parallel to the slab, or all but, and the quotient must be taken.
-  static constexpr double largest_inverse = 0x1p1000;
-
   template <std::size_t Count>
   void clip_steep(int axis, const std::array<double, Count>& lower, const std::array<double, Count>& upper,
                   std::array<double, Count>& enter, std::array<double, Count>& leave) const {

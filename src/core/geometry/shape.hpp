@@ -55,6 +55,9 @@ class Shape {
   /// False for mere surfaces, which have no inside.
   virtual bool is_solid() const = 0;
 
+  /// Whether no line that has left it outwards meets it again; a flat surface is left to either side.
+  virtual bool is_convex() const { return true; }
+
   /// A box in object space that holds the shape, rounded outwards; infinite where the shape is.
   virtual Bounds bounds() const = 0;
 

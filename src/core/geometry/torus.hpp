@@ -26,6 +26,7 @@ class TorusShape final : public Shape {
   explicit TorusShape(const Torus& torus);
 
   bool is_solid() const override { return true; }
+  bool is_convex() const override { return false; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;

@@ -4,10 +4,34 @@
 
 #include <cmath>
 
+#ifdef __AVX__
+#include <immintrin.h>
+#endif
+
 namespace crt::core {
 
 using Lanes = double __attribute__((vector_size(32)));
+/// What comparing two of them gives: all bits of a lane set where it is true.
+using LaneMask = decltype(Lanes{} < Lanes{});
 inline constexpr int lane_count = 4;
+
+inline Lanes lanes_of(double value) {
+  return Lanes{value, value, value, value};
+}
+
+inline Lanes min(const Lanes& a, const Lanes& b) {
+  return a < b ? a : b;
+}
+
+inline Lanes max(const Lanes& a, const Lanes& b) {
+  return a < b ? b : a;
+}
+
+inline Lanes sqrt(const Lanes& a) {
+  Lanes result;
+  for (int i = 0; i < lane_count; ++i) result[i] = std::sqrt(a[i]);
+  return result;
+}
 
 inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
   Lanes result;
@@ -41,7 +65,7 @@ inline DoubleDoubleLanes operator+(const DoubleDoubleLanes& a, const DoubleDoubl
 }
 
 inline DoubleDoubleLanes operator*(const DoubleDoubleLanes& a, double b) {
-  const Lanes factor = {b, b, b, b};
+  const Lanes factor = lanes_of(b);
   const Lanes product = a.hi * factor;
   return quick_two_sum(product, fma(a.hi, factor, -product) + a.lo * factor);
 }

@@ -14,46 +14,89 @@ void add(Tracer::Sample& sum, const Tracer::Sample& sample) {
   sum.alpha += sample.alpha;
 }
 
-/// The sum over the lens for the place (place_x, place_y) of the picture.
-Tracer::Sample trace_lens(const Frame& frame, const RandomUse& first_use, double place_x, double place_y,
-                          Tracer& tracer) {
-  const Settings& settings = frame.settings();
-  Tracer::Sample sum{.alpha = 0};
-  for (int i = 0; i < settings.dof_samples; ++i) {
-    RandomUse use = first_use;
-    use.sample += static_cast<std::uint32_t>(i);
-    const auto [u, v] = random_pair(settings.seed, use);
-    add(sum, tracer.trace(frame.camera().ray(place_x, place_y, frame.camera().lens_point(u, v))));
+/// Gathers camera rays until a packet is full. A pixel's sum is that of its subpixels' sums over the lens, in
+/// their order.
+class SampleSums {
+ public:
+  SampleSums(Tracer& tracer, int lens_points) : tracer_(tracer), lens_points_(lens_points) {}
+
+  void take(const CameraRay& ray, Tracer::Sample& pixel) {
+    rays_[count_] = ray;
+    pixels_[count_] = &pixel;
+    if (++count_ == packet_size) trace();
   }
-  return sum;
-}
 
-}  // namespace
+  void trace() {
+    tracer_.trace(std::span(rays_.data(), count_), samples_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      add(lens_sum_, samples_[i]);
+      if (++lens_point_ < lens_points_) continue;
+      add(*pixels_[i], lens_sum_);
+      lens_sum_ = {.alpha = 0};
+      lens_point_ = 0;
+    }
+    count_ = 0;
+  }
 
-Tracer::Sample trace_pixel(const Frame& frame, int x, int y, Tracer& tracer, RenderStats& stats) {
+ private:
+  Tracer& tracer_;
+  int lens_points_;
+  std::size_t count_ = 0;
+  std::array<CameraRay, packet_size> rays_;
+  std::array<Tracer::Sample*, packet_size> pixels_{};
+  std::array<Tracer::Sample, packet_size> samples_;
+  Tracer::Sample lens_sum_{.alpha = 0};
+  int lens_point_ = 0;
+};
+
+/// Takes the rays through one pixel.
+void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& sums, Tracer::Sample& pixel) {
+  const CameraRays& camera = frame.camera();
   const int grid = frame.settings().supersampling;
-  const bool lens = frame.features().lens;
-  const int lens_points = lens ? frame.settings().dof_samples : 1;
-  Tracer::Sample sum{.alpha = 0};
+  RandomUse use = {.x = static_cast<std::uint32_t>(x),
+                   .y = static_cast<std::uint32_t>(y),
+                   .sample = 0,
+                   .dimension = lens_dimension};
   for (int row = 0; row < grid; ++row) {
     for (int column = 0; column < grid; ++column) {
       const double place_x = x + (column + 0.5) / grid;
       const double place_y = y + (row + 0.5) / grid;
-      if (!lens) {
-        add(sum, tracer.trace(frame.camera().ray(place_x, place_y)));
+      if (!frame.features().lens) {
+        sums.take(camera.ray(place_x, place_y), pixel);
         continue;
       }
-      const RandomUse first_use = {.x = static_cast<std::uint32_t>(x),
-                                   .y = static_cast<std::uint32_t>(y),
-                                   .sample = static_cast<std::uint32_t>((row * grid + column) * lens_points),
-                                   .dimension = lens_dimension};
-      add(sum, trace_lens(frame, first_use, place_x, place_y, tracer));
-      stats.lens_samples += static_cast<std::uint64_t>(lens_points);
+      for (int i = 0; i < lens_points; ++i, ++use.sample) {
+        const auto [u, v] = random_pair(frame.settings().seed, use);
+        sums.take(camera.ray(place_x, place_y, camera.lens_point(u, v)), pixel);
+      }
     }
   }
-  ++stats.pixels;
-  const double count = static_cast<double>(grid) * grid * lens_points;
-  return {sum.color / count, sum.alpha / count};
+}
+
+}  // namespace
+
+void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<Tracer::Sample> pixels,
+                  RenderStats& stats) {
+  const bool lens = frame.features().lens;
+  const int lens_points = lens ? frame.settings().dof_samples : 1;
+  SampleSums sums(tracer, lens_points);
+  auto pixel = pixels.begin();
+  for (int y = region.y; y < region.y + region.height; ++y) {
+    for (int x = region.x; x < region.x + region.width; ++x, ++pixel) {
+      *pixel = {.alpha = 0};
+      take_pixel(frame, x, y, lens_points, sums, *pixel);
+    }
+  }
+  sums.trace();
+
+  const int grid = frame.settings().supersampling;
+  const auto pixel_count = static_cast<std::uint64_t>(pixel - pixels.begin());
+  const double samples_per_pixel = static_cast<double>(grid) * grid * lens_points;
+  for (Tracer::Sample& done : pixels.first(pixel_count)) {
+    done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel};
+  }
+  stats.pixels += pixel_count;
+  if (lens) stats.lens_samples += pixel_count * static_cast<std::uint64_t>(samples_per_pixel);
 }
 
 }  // namespace crt::core

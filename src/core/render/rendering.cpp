@@ -62,14 +62,15 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options)
 void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& work) {
   const FloatEnvironment ieee;
   Tracer tracer(frame, work, progress_);
-  std::array<float, std::size_t{4} * Tiles::side * Tiles::side> pixels;
+  constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
+  std::array<Tracer::Sample, most_pixels> samples;
+  trace_pixels(frame, tile, tracer, samples, work.stats);
+  std::array<float, 4 * most_pixels> pixels;
   float* next = pixels.data();
-  for (int y = tile.y; y < tile.y + tile.height; ++y) {
-    for (int x = tile.x; x < tile.x + tile.width; ++x) {
-      const Tracer::Sample pixel = trace_pixel(frame, x, y, tracer, work.stats);
-      for (int channel = 0; channel < 3; ++channel) *next++ = float_range(pixel.color[channel]);
-      *next++ = static_cast<float>(pixel.alpha);
-    }
+  const auto count = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
+  for (const Tracer::Sample& sample : std::span(samples).first(count)) {
+    for (int channel = 0; channel < 3; ++channel) *next++ = float_range(sample.color[channel]);
+    *next++ = static_cast<float>(sample.alpha);
   }
   canvas_.put(tile, std::span(pixels.data(), next));
 }

@@ -8,7 +8,6 @@
 #include "core/render/media_order.hpp"
 #include "core/render/shadow.hpp"
 #include "core/shading/fresnel.hpp"
-#include "core/shading/phong.hpp"
 
 namespace crt::core {
 
@@ -18,7 +17,7 @@ namespace {
 /// recursion would not end in a lifetime. With weights that add up to 1 it is never reached.
 constexpr int most_rays_per_sample = 65536;
 
-/// Rays between two looks at the progress; a power of two.
+/// Rays between two looks at the progress.
 constexpr unsigned ticks_per_poll = 256;
 
 MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_first) {
@@ -49,12 +48,24 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
   camera_media_mark_ = work_.media.mark();
 }
 
-Tracer::Sample Tracer::trace(const CameraRay& camera_ray) {
+void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
+  if (frame_.features().transparency && !frame_.one_viewpoint()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) trace_alone(rays[i], samples[i]);
+  } else {
+    trace_together(rays, samples);
+  }
+}
+
+void Tracer::trace_alone(const CameraRay& camera_ray, Sample& sample) {
+  sample = {};
   work_.media.release(camera_media_mark_);
   work_.pending.clear();
   work_.pending.push_back(first_path(camera_ray));
-  Sample sample;
-  for (int rays = 0; !work_.pending.empty(); ++rays) {
+  follow_pending(0, sample);
+}
+
+void Tracer::follow_pending(int rays, Sample& sample) {
+  for (; !work_.pending.empty(); ++rays) {
     if (rays == most_rays_per_sample) {
       ++work_.stats.samples_over_ray_bound;
       break;
@@ -64,7 +75,47 @@ Tracer::Sample Tracer::trace(const CameraRay& camera_ray) {
     work_.media.release(path.media_mark);
     follow(path, sample);
   }
-  return sample;
+}
+
+void Tracer::trace_together(std::span<const CameraRay> rays, std::span<Sample> samples) {
+  std::array<WorldRay, packet_size> eye_rays;
+  std::array<RayHit, packet_size> hits;
+  for (std::size_t i = 0; i < rays.size(); ++i) eye_rays[i] = Frame::eye_ray(rays[i]);
+  data_.intersect(std::span(eye_rays.data(), rays.size()), hits, work_.rays);
+  PathRay path;
+  path.media = camera_media_;
+  path.media_mark = camera_media_mark_;
+  std::size_t seen_count = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    samples[i] = {};
+    if (hits[i].has_company && frame_.features().transparency) {
+      // All that is there is told of one ray at a time.
+      trace_alone(rays[i], samples[i]);
+      continue;
+    }
+    ++work_.stats.camera_rays;
+    path.ray = eye_rays[i];
+    Rgb weight = path.weight;
+    if (!pass_medium(path, hits[i].t, weight)) continue;
+    if (!hits[i].found()) {
+      see_background(path, weight, samples[i]);
+      continue;
+    }
+    Seen& seen = seen_[seen_count++];
+    seen.weight = weight;
+    seen.sample = &samples[i];
+    see(path, hits[i], seen);
+  }
+  tick(static_cast<unsigned>(rays.size()));
+  const std::span<Seen> all(seen_.data(), seen_count);
+  light_together(all);
+  for (const Seen& seen : all) {
+    seen.sample->color += seen.weight * seen.light;
+    work_.media.release(camera_media_mark_);
+    work_.pending.clear();
+    split(seen);
+    follow_pending(1, *seen.sample);
+  }
 }
 
 PathRay Tracer::first_path(const CameraRay& camera_ray) {
@@ -89,17 +140,23 @@ void Tracer::follow(const PathRay& path, Sample& sample) {
   RayHit hit = data_.intersect(path.ray, work_.rays);
   if (hit.has_company && frame_.features().transparency) hit = seen_of(path, hit);
   Rgb weight = path.weight;
-  if (frame_.features().absorption && path.media != MediaLists::empty) {
-    weight *= transmittance(data_.materials()[work_.media.innermost(path.media).material], hit.t);
-    if (is_black(weight)) return;
-  }
+  if (!pass_medium(path, hit.t, weight)) return;
   if (!hit.found()) {
     see_background(path, weight, sample);
     return;
   }
-  const SurfaceHit surface = surface_hit(data_, path.ray, hit, work_);
-  sample.color += weight * direct_light_at(surface, path, hit);
-  split(surface, path, hit, weight);
+  Seen seen;
+  seen.weight = weight;
+  see(path, hit, seen);
+  light_alone(seen);
+  sample.color += weight * seen.light;
+  split(seen);
+}
+
+bool Tracer::pass_medium(const PathRay& path, double length, Rgb& weight) const {
+  if (!frame_.features().absorption || path.media == MediaLists::empty) return true;
+  weight *= transmittance(data_.materials()[work_.media.innermost(path.media).material], length);
+  return !is_black(weight);
 }
 
 void Tracer::see_background(const PathRay& path, const Rgb& weight, Sample& sample) const {
@@ -112,39 +169,81 @@ void Tracer::see_background(const PathRay& path, const Rgb& weight, Sample& samp
   }
 }
 
-Rgb Tracer::direct_light_at(const SurfaceHit& surface, const PathRay& path, const RayHit& hit) {
+void Tracer::see(const PathRay& path, const RayHit& hit, Seen& seen) {
+  seen.path = path;
+  seen.hit = hit;
+  seen.surface = surface_hit(data_, path.ray, hit, work_);
+  const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
-  Rgb light = ambient_light(frame_.ambient(), material.reflectivity);
-  const PhongSurface phong = {.color = surface.color,
-                              .diffuse = surface.material->diffuse(surface.transparency),
-                              .specular = material.specular,
-                              .shininess = material.shininess,
-                              .normal = surface.normal,
-                              .view = path.ray.direction};
-  if (phong.diffuse <= 0 && phong.specular <= 0) return light;
-
-  std::optional<StartPoint> start;
-  for (const PreparedLight& source : frame_.lights()) {
-    const std::optional<LightSample> sample = source.sample(surface.point.position, path.path_length + hit.t);
-    if (!sample || glm::dot(sample->direction, surface.face_normal) <= 0) continue;
-    const Rgb unhidden = direct_light(phong, *sample, source.color());
-    if (is_black(unhidden)) continue;
-    if (!start) start = data_.start_point(path.ray, hit, surface.viewer_side);
-    const WorldRay shadow_ray = {.origin = surface.point.position,
-                                 .direction = sample->direction,
-                                 .t_max = sample->distance,
-                                 .start = *start,
-                                 .end_error = lamp_error(surface.point.position, *sample)};
-    tick();
-    light += unhidden * light_share(data_, shadow_ray, path.media, work_);
-  }
-  return light;
+  seen.light = ambient_light(frame_.ambient(), material.reflectivity);
+  seen.phong = {.color = surface.color,
+                .diffuse = surface.material->diffuse(surface.transparency),
+                .specular = material.specular,
+                .shininess = material.shininess,
+                .normal = surface.normal,
+                .view = path.ray.direction};
+  seen.start.reset();
 }
 
-void Tracer::split(const SurfaceHit& surface, const PathRay& path, const RayHit& hit, const Rgb& weight) {
+std::optional<Tracer::Unhidden> Tracer::unhidden(const PreparedLight& source, Seen& seen) const {
+  if (seen.phong.diffuse <= 0 && seen.phong.specular <= 0) return std::nullopt;
+  const Vec3& position = seen.surface.point.position;
+  const std::optional<LightSample> sample = source.sample(position, seen.path.path_length + seen.hit.t);
+  if (!sample || glm::dot(sample->direction, seen.surface.face_normal) <= 0) return std::nullopt;
+  const Rgb light = direct_light(seen.phong, *sample, source.color());
+  if (is_black(light)) return std::nullopt;
+  if (!seen.start) seen.start = data_.start_point(seen.path.ray, seen.hit, seen.surface.viewer_side);
+  return Unhidden{.light = light,
+                  .shadow_ray = {.origin = position,
+                                 .direction = sample->direction,
+                                 .t_max = sample->distance,
+                                 .start = *seen.start,
+                                 .end_error = lamp_error(position, *sample)}};
+}
+
+void Tracer::light_alone(Seen& seen) {
+  for (const PreparedLight& source : frame_.lights()) {
+    const std::optional<Unhidden> reaching = unhidden(source, seen);
+    if (!reaching) continue;
+    tick();
+    seen.light += reaching->light * light_share(data_, reaching->shadow_ray, seen.path.media, work_);
+  }
+}
+
+void Tracer::light_together(std::span<Seen> all) {
+  if (frame_.features().transparency) {
+    for (Seen& seen : all) light_alone(seen);
+    return;
+  }
+  std::array<WorldRay, packet_size> shadow_rays;
+  std::array<Seen*, packet_size> seen_from;
+  std::array<Rgb, packet_size> lights;
+  for (const PreparedLight& source : frame_.lights()) {
+    std::size_t count = 0;
+    for (Seen& seen : all) {
+      const std::optional<Unhidden> reaching = unhidden(source, seen);
+      if (!reaching) continue;
+      shadow_rays[count] = reaching->shadow_ray;
+      lights[count] = reaching->light;
+      seen_from[count++] = &seen;
+    }
+    work_.stats.shadow_rays += count;
+    tick(static_cast<unsigned>(count));
+    const RayMask hidden = data_.occluded(std::span(shadow_rays.data(), count), work_.rays);
+    for (std::size_t i = 0; i < count; ++i) {
+      if ((hidden >> i & 1u) == 0) seen_from[i]->light += lights[i];
+    }
+  }
+}
+
+void Tracer::split(const Seen& seen) {
+  const SurfaceHit& surface = seen.surface;
   double mirror_share = surface.material->description->reflectivity;
   if (mirror_share <= 0 && surface.transparency <= 0) return;
 
+  const PathRay& path = seen.path;
+  const RayHit& hit = seen.hit;
+  const Rgb& weight = seen.weight;
   PathRay next;
   next.ray.origin = surface.point.position;
   next.bounces = path.bounces + 1;
@@ -265,8 +364,11 @@ double Tracer::refractive_index(MediaLists::List media) const {
   return data_.materials()[work_.media.innermost(media).material].description->refractive_index;
 }
 
-void Tracer::tick() {
-  if (++ticks_ % ticks_per_poll == 0) progress_.poll();
+void Tracer::tick(unsigned rays) {
+  ticks_ += rays;
+  if (ticks_ < ticks_per_poll) return;
+  ticks_ = 0;
+  progress_.poll();
 }
 
 }  // namespace crt::core

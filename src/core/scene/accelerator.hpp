@@ -2,17 +2,20 @@
 #pragma once
 
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "core/scene/compile.hpp"
+#include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
+#include "core/scene/ray_packet.hpp"
 
 namespace crt::core {
 
 class EmbreeTree;
 
-/// Finds crossings: a tree of boxes says which objects a ray may meet, the rest happens here, in
-/// double. Objects without end stay outside of the tree and are tested by every ray.
+/// Finds crossings: a tree of boxes says which objects a ray may meet, cheap tests which of these it surely
+/// misses, the rest happens exactly, in double. Objects without end stay outside of the tree.
 class Accelerator {
  public:
   explicit Accelerator(CompiledScene compiled);
@@ -22,6 +25,13 @@ class Accelerator {
 
   RayHit nearest(const WorldRay& ray, RayWorkspace& work) const;
   bool any(const WorldRay& ray, RayWorkspace& work) const;
+
+  /// The same for up to packet_size rays that go nearly the same way, each with what it finds alone; but
+  /// RayWorkspace::here and near are of no use after it.
+  void nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
+  /// Which of the rays.
+  RayMask any(std::span<const WorldRay> rays, RayWorkspace& work) const;
+
   /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
   /// material `is_opaque` says so (if given).
   bool all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
@@ -35,6 +45,7 @@ class Accelerator {
   /// Whether some surface has faces of several objects on it.
   bool objects_share_surfaces() const { return objects_share_surfaces_; }
 
+  const CompiledScene& compiled() const { return compiled_; }
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
@@ -44,21 +55,32 @@ class Accelerator {
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
-
- private:
-  class Query;
-
-  void traverse(Query& query) const;
   /// Whether a crossing near the ray's end is of a surface through that end.
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
+  /// The leaf that a ray has left for good when it starts: it cannot meet the leaf again.
+  std::uint32_t left_for_good(const StartPoint& start) const;
+
+ private:
+  template <class Kind>
+  void traverse(Kind& query) const;
+  template <class Kind>
+  void traverse_filtered(Kind& query) const;
+  template <class Kind>
+  void traverse_filtered(RayPacket& packet, std::span<Kind> queries) const;
+  RayPacket packet_of(std::span<const WorldRay> rays) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
   CompiledScene compiled_;
-  std::vector<std::uint32_t> unbounded_;    ///< objects
-  std::vector<std::uint32_t> bounded_;      ///< objects, in the order in which Embree numbers them
+  std::vector<std::uint32_t> unbounded_;  ///< objects
+  std::vector<std::uint32_t> bounded_;    ///< objects, in the order in which Embree numbers them
+  std::vector<Outline> unbounded_outlines_;
+  std::vector<Outline> bounded_outlines_;
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
   bool objects_share_surfaces_ = false;
 };
+
+/// Crossings before that are surely not of a surface through the ray's end.
+double certain_end(const WorldRay& ray);
 
 }  // namespace crt::core

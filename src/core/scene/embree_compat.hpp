@@ -24,6 +24,16 @@ inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& 
   rtcIntersect1(scene, &ray_hit, &arguments);
 }
 
+/// Of rays that go nearly the same way.
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
+                             RTCRayHit16& ray_hits) {
+  RTCIntersectArguments arguments;
+  rtcInitIntersectArguments(&arguments);
+  arguments.context = &context;
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &ray_hits, &arguments);
+}
+
 #else
 
 using EmbreeContext = RTCIntersectContext;
@@ -34,6 +44,13 @@ inline void init_context(EmbreeContext& context) {
 
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray_hit) {
   rtcIntersect1(scene, &context, &ray_hit);
+}
+
+/// Of rays that go nearly the same way.
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
+                             RTCRayHit16& ray_hits) {
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect16(valid, scene, &context, &ray_hits);
 }
 
 #endif

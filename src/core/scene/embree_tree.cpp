@@ -1,6 +1,7 @@
 #include "core/scene/embree_tree.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -69,7 +70,7 @@ void check(RTCDevice device) {
 /// A ray on its way, behind the context that Embree hands to the callbacks.
 struct Traversal {
   EmbreeContext context;  // first, so that the two have one address
-  const EmbreeTree::Visit* visit = nullptr;
+  BoxVisitor* visitor = nullptr;
   double t_start = 0;  ///< t where Embree's ray starts
   double scale = 1;    ///< Embree's t for each unit of t
   std::exception_ptr failure;
@@ -78,12 +79,28 @@ struct Traversal {
   float far_end(double t) const { return std::max(round_up((t - t_start) * scale), 0.0f); }
 };
 
+/// A packet's likewise.
+struct PacketTraversal {
+  EmbreeContext context;  // first, so that the two have one address
+  PacketVisitor* visitor = nullptr;
+  const RayPacket* packet = nullptr;
+  std::array<Lanes, RayPacket::group_count> t_start;
+  double scale = 1;
+  std::exception_ptr failure;
+
+  float far_end(std::size_t ray) const {
+    const double start = t_start[ray / lane_count][static_cast<int>(ray % lane_count)];
+    const double limit = packet->limit(ray);
+    return limit < start ? -float_infinity : std::max(round_up((limit - start) * scale), 0.0f);
+  }
+};
+
 /// Visits a box and returns Embree's new end of the ray. No exception may pass through Embree, so
 /// one is kept for later and the ray ended.
 float visit_box(EmbreeContext* context, std::uint32_t box) {
   auto* traversal = reinterpret_cast<Traversal*>(context);
   try {
-    const double t_max = (*traversal->visit)(box);
+    const double t_max = traversal->visitor->visit(box);
     return t_max < traversal->t_start ? -float_infinity : traversal->far_end(t_max);
   } catch (...) {
     traversal->failure = std::current_exception();
@@ -95,7 +112,33 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
 }
 
+/// Visits a box with those rays of a packet whose own boxes Embree met.
+void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRayN* rays, unsigned count) {
+  auto* traversal = reinterpret_cast<PacketTraversal*>(context);
+  // Embree may cut a packet into smaller ones; the first ray's number tells which this is.
+  const unsigned first = RTCRayN_id(rays, count, 0);
+  RayMask mask = 0;
+  for (unsigned i = 0; i < count; ++i) mask |= static_cast<RayMask>(valid[i] & 1) << i;
+  try {
+    const RayMask changed = traversal->visitor->visit(box, mask << first) >> first;
+    for_each_ray(changed, [&](std::size_t ray) {
+      const auto i = static_cast<unsigned>(ray);
+      float& far_end = RTCRayN_tfar(rays, count, i);
+      far_end = std::min(far_end, traversal->far_end(first + ray));
+    });
+  } catch (...) {
+    traversal->failure = std::current_exception();
+    for (unsigned i = 0; i < count; ++i) RTCRayN_tfar(rays, count, i) = -float_infinity;
+  }
+}
+
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
+  const unsigned count = arguments->N;
+  if (count != 1) {
+    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
+    visit_box(arguments->context, arguments->primID, arguments->valid, rays, count);
+    return;
+  }
   if (arguments->valid[0] == 0) return;
   auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
   const float far_end = visit_box(arguments->context, arguments->primID);
@@ -161,7 +204,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
 EmbreeTree::~EmbreeTree() = default;
 
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
-                          const Visit& visit) const {
+                          BoxVisitor& visitor) const {
   // A distant origin is moved up to the scene first, where floats are fine enough.
   const LineSpan span = RaySlabs(origin, direction).span(total_);
   const double t_start = std::max(t_min, span.enter);
@@ -171,7 +214,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   const double direction_scale = 1 / power_of_two_below(largest_component(direction));
   Traversal traversal;
   init_context(traversal.context);
-  traversal.visit = &visit;
+  traversal.visitor = &visitor;
   traversal.t_start = t_start;
   traversal.scale = scale_ / direction_scale;
 
@@ -193,6 +236,87 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   ray_hit.ray.mask = ~0u;
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
   embree_intersect(handles_->scene, traversal.context, ray_hit);
+  if (traversal.failure) std::rethrow_exception(traversal.failure);
+}
+
+void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leave) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  enter = lanes_of(-infinity);
+  leave = lanes_of(infinity);
+  LaneMask steep{};
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const Lanes inverse = 1.0 / lines.direction[i];
+    const Lanes first = (total_.lower[axis] - lines.origin[i]) * inverse;
+    const Lanes second = (total_.upper[axis] - lines.origin[i]) * inverse;
+    const Lanes low = min(first, second);
+    const Lanes high = max(first, second);
+    enter = max(enter, low - RaySlabs::slack * outline_detail::size_of(low));
+    leave = min(leave, high + RaySlabs::slack * outline_detail::size_of(high));
+    steep |= outline_detail::size_of(inverse) > RaySlabs::largest_inverse;
+  }
+  for_each_ray(mask_of(steep), [&](std::size_t ray) {
+    const auto i = static_cast<int>(ray);
+    const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
+    const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
+    const LineSpan span = RaySlabs(origin, direction).span(total_);
+    enter[i] = span.enter;
+    leave[i] = span.leave;
+  });
+}
+
+void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
+  PacketTraversal traversal;
+  init_context(traversal.context);
+  traversal.visitor = &visitor;
+  traversal.packet = &packet;
+  traversal.scale = scale_;
+
+  RTCRayHit16 ray_hits{};
+  RTCRay16& to_trace = ray_hits.ray;
+  alignas(64) std::array<int, packet_size> valid{};
+  RayMask some = 0;
+  for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+    const std::size_t first = group * lane_count;
+    const RayMask wanted = rays >> first & 0xfu;
+    if (wanted == 0) continue;
+    const OutlineLine<Lanes>& lines = packet.groups[group];
+    Lanes enter;
+    Lanes leave;
+    clip(lines, enter, leave);
+    const Lanes start = max(lines.begin, enter);
+    const Lanes end = min(packet.limits[group], leave);
+    const RayMask meeting = wanted & mask_of(start <= end);
+    if (meeting == 0) continue;
+    some |= meeting << first;
+    traversal.t_start[group] = start;
+    // As ObjectRay::from_center() has it.
+    std::array<Lanes, 3> place;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const DoubleDoubleLanes offset =
+          two_sum(lines.origin[axis], lanes_of(-center_[static_cast<int>(axis)]));
+      place[axis] = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
+    }
+    for_each_ray(meeting, [&](std::size_t lane) {
+      const auto i = static_cast<int>(lane);
+      const std::size_t ray = first + lane;
+      valid[ray] = -1;
+      to_trace.org_x[ray] = static_cast<float>(place[0][i]);
+      to_trace.org_y[ray] = static_cast<float>(place[1][i]);
+      to_trace.org_z[ray] = static_cast<float>(place[2][i]);
+      to_trace.dir_x[ray] = static_cast<float>(lines.direction[0][i]);
+      to_trace.dir_y[ray] = static_cast<float>(lines.direction[1][i]);
+      to_trace.dir_z[ray] = static_cast<float>(lines.direction[2][i]);
+      to_trace.tfar[ray] = std::max(round_up((end[i] - start[i]) * scale_), 0.0f);
+    });
+  }
+  if (some == 0) return;
+  for (unsigned ray = 0; ray < packet_size; ++ray) {
+    to_trace.mask[ray] = ~0u;
+    to_trace.id[ray] = ray;
+    ray_hits.hit.geomID[ray] = RTC_INVALID_GEOMETRY_ID;
+  }
+  embree_intersect(handles_->scene, traversal.context, valid.data(), ray_hits);
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 

@@ -2,13 +2,33 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <memory>
 #include <span>
 
 #include "core/geometry/bounds.hpp"
+#include "core/scene/ray_packet.hpp"
 
 namespace crt::core {
+
+/// Is told of the boxes that a ray may meet.
+class BoxVisitor {
+ public:
+  /// Returns the t beyond which nothing matters any more (below t_min: stop).
+  virtual double visit(std::uint32_t box) = 0;
+
+ protected:
+  ~BoxVisitor() = default;
+};
+
+/// Is told of the boxes that rays of a packet may meet.
+class PacketVisitor {
+ public:
+  /// Returns for which of these rays the packet's limit has changed (below t_min: stop).
+  virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
+
+ protected:
+  ~PacketVisitor() = default;
+};
 
 /// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved
 /// and scaled by a power of two to around 1, and grown by more than all roundings on the way: it
@@ -21,17 +41,19 @@ class EmbreeTree {
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
 
-  /// Is called with the index of a box that the ray may meet, and returns the t beyond which
-  /// nothing matters any more (below t_min: stop).
-  using Visit = std::function<double(std::uint32_t box)>;
-
   /// Visits, roughly from near to far, at least every box that the ray origin + t * direction meets
   /// at t_min <= t <= t_max. `direction` may have any length.
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
-                const Visit& visit) const;
+                BoxVisitor& visitor) const;
+
+  /// The same for those of a packet's rays, up to their limits.
+  void traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const;
 
  private:
   struct Handles;
+
+  /// The part of each line that is in the box around all boxes.
+  void clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leave) const;
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

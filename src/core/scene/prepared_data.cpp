@@ -99,6 +99,15 @@ bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
   return accelerator_->any(ray, work);
 }
 
+void PreparedData::intersect(std::span<const WorldRay> rays, std::span<RayHit> hits,
+                             RayWorkspace& work) const {
+  accelerator_->nearest(rays, hits, work);
+}
+
+RayMask PreparedData::occluded(std::span<const WorldRay> rays, RayWorkspace& work) const {
+  return accelerator_->any(rays, work);
+}
+
 bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
                              RayWorkspace& work) const {
   out.clear();

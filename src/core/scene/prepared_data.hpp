@@ -6,12 +6,14 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 #include "core/csg/evaluate.hpp"
 #include "core/csg/program.hpp"
 #include "core/geometry/object_ray.hpp"
 #include "core/scene/features.hpp"
+#include "core/scene/ray_packet.hpp"
 #include "core/shading/prepared_background.hpp"
 #include "core/shading/prepared_material.hpp"
 #include "crt/scene.hpp"
@@ -97,6 +99,11 @@ class PreparedData {
 
   /// Whether there is any crossing at all before the ray's end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
+
+  /// The same for up to packet_size rays that go nearly the same way, each with what it finds alone; but
+  /// RayWorkspace::here and near are of no use after it.
+  void intersect(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
+  RayMask occluded(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
   /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
   /// others are entered. With `stop_at_opaque`, returns false as soon as one of an opaque

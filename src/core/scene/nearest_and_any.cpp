@@ -1,0 +1,385 @@
+// The two queries that most rays ask, for one ray or a packet of them: the nearest crossing, and whether
+// there is any. Cheap tests come first, exact ones where these leave something open.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/math/vector.hpp"
+#include "core/scene/embree_tree.hpp"
+#include "core/scene/object_query.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+constexpr double largest_end = 0x1p900;
+
+/// How far along the ray from a hit other crossings may be and yet be at its place, or at the start of a ray
+/// that goes on from it, whose origin is rounded. Wide, as the next ray may meet at right angles what
+/// this one grazes: it only decides where to look.
+double company_width(const WorldRay& ray, const RayHit& hit) {
+  constexpr double error_factor = 4;
+  constexpr double relative_width = 0x1p-40;
+  const double farthest =
+      std::fma(std::abs(hit.t), largest_component(ray.direction), largest_component(ray.origin));
+  return error_factor * hit.error + relative_width * farthest;
+}
+
+class Nearest final : public ObjectQuery<Nearest> {
+ public:
+  using ObjectQuery::ObjectQuery;
+  static constexpr bool takes_one = true;
+  static constexpr bool any_will_do = false;
+  RayHit best;
+
+  bool take(const RayHit& hit) {
+    if (!(hit.t < ray().t_max)) return false;
+    if (std::tie(hit.t, hit.t_low, hit.object) < std::tie(best.t, best.t_low, best.object)) {
+      const double reach = hit.t + company_width(ray(), hit);
+      const bool has_company = best.t <= reach;
+      best = hit;
+      best.has_company = has_company;
+      set_limit(std::min(limit(), reach));
+    } else {
+      best.has_company = true;
+    }
+    return false;
+  }
+};
+
+class Any final : public ObjectQuery<Any> {
+ public:
+  using ObjectQuery::ObjectQuery;
+  static constexpr bool takes_one = true;
+  static constexpr bool any_will_do = true;
+  bool found = false;
+
+  bool take(const RayHit& hit) {
+    if (is_on_way(hit)) settle();
+    return false;
+  }
+  void settle() {
+    found = true;
+    set_limit(-infinity);
+  }
+};
+
+/// What a cheap test may say of an object.
+enum class Judgement { open, missed, met };
+
+/// One ray and the cheap tests.
+class OutlinedRay {
+ public:
+  OutlinedRay(const Accelerator& accelerator, const WorldRay& ray)
+      : start_surface_(ray.start.surface), left_leaf_(accelerator.left_for_good(ray.start)) {
+    const Vec3& d = ray.direction;
+    line_.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
+    line_.direction = {d.x, d.y, d.z};
+    line_.squared_speed = glm::dot(d, d);
+    line_.inverse_squared_speed = 1 / line_.squared_speed;
+    line_.inverse_speed = std::sqrt(line_.inverse_squared_speed);
+    line_.begin = ray.t_min;
+    line_.certain_from = farthest_start(ray);
+    line_.certain_to = std::min(certain_end(ray), largest_end);
+  }
+
+  Judgement judge(const Outline& outline, double limit) const {
+    double last;
+    return judge(outline, limit, last);
+  }
+
+  /// `last` is set for a plane that is met, to a t not before that.
+  Judgement judge(const Outline& outline, double limit, double& last) const {
+    if (outline.lone_leaf == left_leaf_ && left_leaf_ != nothing) return Judgement::missed;
+    if (outline.kind == Outline::Kind::unknown) return Judgement::open;
+    // Of that surface it is known otherwise where the ray meets it.
+    if (outline.surface == start_surface_) return Judgement::open;
+    const auto verdict = outline.kind == Outline::Kind::sphere ? judge_sphere(outline, line_, limit)
+                                                               : judge_plane(outline, line_, limit, last);
+    if (verdict.missed != 0) return Judgement::missed;
+    return verdict.met != 0 ? Judgement::met : Judgement::open;
+  }
+
+ private:
+  OutlineLine<double> line_;
+  std::uint32_t start_surface_;
+  std::uint32_t left_leaf_;
+};
+
+/// As a hit there would have it.
+double reach_of_plane(const WorldRay& ray, double last) {
+  return last + company_width(ray, {.t = last});
+}
+
+}  // namespace
+
+template <class Kind>
+void Accelerator::traverse_filtered(Kind& query) const {
+  const WorldRay& ray = query.ray();
+  const OutlinedRay outlined(*this, ray);
+  const auto is_done = [&] { return query.limit() <= ray.t_min; };
+  const auto test = [&](std::uint32_t object, const Outline& outline) {
+    const Judgement judgement = outlined.judge(outline, query.limit());
+    if (judgement == Judgement::missed) return;
+    if constexpr (Kind::any_will_do) {
+      if (judgement == Judgement::met) {
+        query.settle();
+        return;
+      }
+    }
+    query.test(object);
+  };
+
+  // A plane that is met bounds what else matters; where exactly is only asked if nothing is before it.
+  constexpr bool planes_last = !Kind::any_will_do;
+  for (std::size_t i = 0; i < unbounded_.size() && !is_done(); ++i) {
+    const Outline& outline = unbounded_outlines_[i];
+    if (planes_last && outline.kind == Outline::Kind::plane) {
+      double last = 0;
+      const Judgement judgement = outlined.judge(outline, query.limit(), last);
+      if (judgement == Judgement::met) query.set_limit(std::min(query.limit(), reach_of_plane(ray, last)));
+    } else {
+      test(unbounded_[i], outline);
+    }
+  }
+  if (tree_ && !is_done()) {
+    class Visitor final : public BoxVisitor {
+     public:
+      Visitor(const Accelerator& accelerator, Kind& kind, const decltype(test)& tester)
+          : accelerator_(accelerator), kind_(kind), test_(tester) {}
+      double visit(std::uint32_t box) override {
+        test_(accelerator_.bounded_[box], accelerator_.bounded_outlines_[box]);
+        return kind_.limit();
+      }
+
+     private:
+      const Accelerator& accelerator_;
+      Kind& kind_;
+      const decltype(test)& test_;
+    };
+    Visitor visitor(*this, query, test);
+    tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), visitor);
+  }
+  if (!planes_last) return;
+  for (std::size_t i = 0; i < unbounded_.size(); ++i) {
+    if (unbounded_outlines_[i].kind == Outline::Kind::plane) test(unbounded_[i], unbounded_outlines_[i]);
+  }
+}
+
+RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
+  Nearest query(*this, ray, work);
+  traverse_filtered(query);
+  return query.best.has_company ? gather_company(ray, query.best, work) : query.best;
+}
+
+bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
+  Any query(*this, ray, work);
+  traverse_filtered(query);
+  return query.found;
+}
+
+RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const {
+  WorldRay piece = ray;
+  piece.t_max = std::min(ray.t_max, std::nextafter(nearest.t + company_width(ray, nearest), infinity));
+  std::vector<RayHit>& here = work.here;
+  std::vector<RayHit>& near = work.near;
+  here.clear();
+  near.clear();
+  all(piece, nullptr, near, work);
+  std::sort(near.begin(), near.end(), [](const RayHit& a, const RayHit& b) {
+    return std::tie(a.object, a.t, a.t_low) < std::tie(b.object, b.t, b.t_low);
+  });
+  const auto split = std::stable_partition(
+      near.begin(), near.end(), [&](const RayHit& crossing) { return same_place(crossing, nearest); });
+  here.assign(near.begin(), split);
+  near.erase(near.begin(), split);
+  if (here.empty()) return nearest;
+  RayHit first = here.front();
+  first.has_company = here.size() + near.size() > 1;
+  return first;
+}
+
+RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
+  RayPacket packet;
+  packet.count = rays.size();
+  for (std::size_t i = 0; i < packet_size; ++i) {
+    // What is beyond the last ray is made like it, so that no lane holds nonsense.
+    const WorldRay& ray = rays[std::min(i, rays.size() - 1)];
+    OutlineLine<Lanes>& lines = packet.groups[i / lane_count];
+    const auto lane = static_cast<int>(i % lane_count);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lines.origin[axis][lane] = ray.origin[static_cast<int>(axis)];
+      lines.direction[axis][lane] = ray.direction[static_cast<int>(axis)];
+    }
+    lines.begin[lane] = ray.t_min;
+    lines.certain_from[lane] = farthest_start(ray);
+    lines.certain_to[lane] = std::min(certain_end(ray), largest_end);
+    packet.set_limit(i, ray.t_max);
+    packet.start_surfaces[i] = ray.start.surface;
+    packet.left_leaves[i] = left_for_good(ray.start);
+  }
+  for (OutlineLine<Lanes>& lines : packet.groups) {
+    lines.squared_speed = outline_detail::dot(lines.direction, lines.direction);
+    lines.inverse_squared_speed = 1.0 / lines.squared_speed;
+    lines.inverse_speed = sqrt(lines.inverse_squared_speed);
+  }
+  return packet;
+}
+
+namespace {
+
+RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, std::uint32_t value) {
+  RayMask mask = 0;
+  for (std::size_t i = 0; i < packet_size; ++i) mask |= static_cast<RayMask>(values[i] == value) << i;
+  return mask;
+}
+
+/// A packet and the cheap tests.
+class OutlinedPacket {
+ public:
+  explicit OutlinedPacket(RayPacket& packet)
+      : packet_(packet),
+        starts_on_surface_(packet.all() & ~rays_with(packet.start_surfaces, nothing)),
+        left_some_(packet.all() & ~rays_with(packet.left_leaves, nothing)) {}
+
+  Verdict<RayMask> judge(const Outline& outline, RayMask rays) const {
+    std::array<Lanes, RayPacket::group_count> last;
+    return judge(outline, rays, last);
+  }
+
+  Verdict<RayMask> judge(const Outline& outline, RayMask rays,
+                         std::array<Lanes, RayPacket::group_count>& last) const {
+    Verdict<RayMask> verdict{};
+    if (outline.kind != Outline::Kind::unknown) {
+      for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+        const std::size_t first = group * lane_count;
+        if ((rays >> first & group_mask) == 0) continue;
+        const OutlineLine<Lanes>& lines = packet_.groups[group];
+        const Lanes& limits = packet_.limits[group];
+        const Verdict<LaneMask> of_lanes = outline.kind == Outline::Kind::sphere
+                                               ? judge_sphere(outline, lines, limits)
+                                               : judge_plane(outline, lines, limits, last[group]);
+        verdict.missed |= mask_of(of_lanes.missed) << first;
+        verdict.met |= mask_of(of_lanes.met) << first;
+      }
+      if ((rays & starts_on_surface_) != 0) {
+        const RayMask open = rays_with(packet_.start_surfaces, outline.surface);
+        verdict.missed &= ~open;
+        verdict.met &= ~open;
+      }
+    }
+    if ((rays & left_some_) != 0 && outline.lone_leaf != nothing) {
+      verdict.missed |= rays_with(packet_.left_leaves, outline.lone_leaf);
+    }
+    verdict.missed &= rays;
+    verdict.met &= rays & ~verdict.missed;
+    return verdict;
+  }
+
+ private:
+  static constexpr RayMask group_mask = (1u << lane_count) - 1;
+
+  const RayPacket& packet_;
+  RayMask starts_on_surface_;
+  RayMask left_some_;
+};
+
+}  // namespace
+
+template <class Kind>
+void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) const {
+  const OutlinedPacket outlined(packet);
+  RayMask going = packet.all();
+  const auto settle = [&](std::size_t ray) {
+    packet.set_limit(ray, queries[ray].limit());
+    if (queries[ray].limit() <= queries[ray].ray().t_min) going &= ~(RayMask{1} << ray);
+  };
+  /// Returns the rays whose limits it changed.
+  const auto test = [&](std::uint32_t object, const Outline& outline, RayMask rays) {
+    const Verdict<RayMask> verdict = outlined.judge(outline, rays);
+    RayMask changed = 0;
+    RayMask open = rays & ~verdict.missed;
+    if constexpr (Kind::any_will_do) {
+      open &= ~verdict.met;
+      for_each_ray(verdict.met, [&](std::size_t ray) {
+        queries[ray].settle();
+        settle(ray);
+      });
+      changed = verdict.met;
+    }
+    for_each_ray(open, [&](std::size_t ray) {
+      const double before = queries[ray].limit();
+      queries[ray].test(object);
+      if (queries[ray].limit() == before) return;
+      settle(ray);
+      changed |= RayMask{1} << ray;
+    });
+    return changed;
+  };
+
+  constexpr bool planes_last = !Kind::any_will_do;
+  for (std::size_t i = 0; i < unbounded_.size() && going != 0; ++i) {
+    const Outline& outline = unbounded_outlines_[i];
+    if (planes_last && outline.kind == Outline::Kind::plane) {
+      std::array<Lanes, RayPacket::group_count> last;
+      for_each_ray(outlined.judge(outline, going, last).met, [&](std::size_t ray) {
+        const double reach =
+            reach_of_plane(queries[ray].ray(), last[ray / lane_count][static_cast<int>(ray % lane_count)]);
+        queries[ray].set_limit(std::min(queries[ray].limit(), reach));
+        settle(ray);
+      });
+    } else {
+      test(unbounded_[i], outline, going);
+    }
+  }
+  if (tree_ && going != 0) {
+    class Visitor final : public PacketVisitor {
+     public:
+      Visitor(const Accelerator& accelerator, const decltype(test)& tester)
+          : accelerator_(accelerator), test_(tester) {}
+      RayMask visit(std::uint32_t box, RayMask rays) override {
+        return test_(accelerator_.bounded_[box], accelerator_.bounded_outlines_[box], rays);
+      }
+
+     private:
+      const Accelerator& accelerator_;
+      const decltype(test)& test_;
+    };
+    Visitor visitor(*this, test);
+    tree_->traverse(packet, going, visitor);
+  }
+  if (!planes_last) return;
+  for (std::size_t i = 0; i < unbounded_.size(); ++i) {
+    if (unbounded_outlines_[i].kind == Outline::Kind::plane) {
+      test(unbounded_[i], unbounded_outlines_[i], going);
+    }
+  }
+}
+
+void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
+  if (rays.empty()) return;
+  RayPacket packet = packet_of(rays);
+  std::array<Nearest, packet_size> queries;
+  for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = Nearest(*this, rays[i], work);
+  traverse_filtered(packet, std::span<Nearest>(queries));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const RayHit& best = queries[i].best;
+    hits[i] = best.has_company ? gather_company(rays[i], best, work) : best;
+  }
+}
+
+RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {
+  if (rays.empty()) return 0;
+  RayPacket packet = packet_of(rays);
+  std::array<Any, packet_size> queries;
+  for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = Any(*this, rays[i], work);
+  traverse_filtered(packet, std::span<Any>(queries));
+  RayMask found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(queries[i].found) << i;
+  return found;
+}
+
+}  // namespace crt::core

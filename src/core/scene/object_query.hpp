@@ -1,0 +1,128 @@
+// One ray's query of a scene's objects, whatever finds them.
+#pragma once
+
+#include <cmath>
+#include <limits>
+
+#include "core/scene/accelerator.hpp"
+
+namespace crt::core {
+
+/// Follows the crossings of one object after the other. What a kind of query keeps of them the class derived
+/// from it says (a template, as it is called for every object that a ray comes near):
+///
+///     bool begin(std::uint32_t object, bool starts_inside);  // is told first; false skips the object
+///     bool take(const RayHit& hit);  // crossings with t_min < t <= limit in order until it returns false
+///     void end(std::uint32_t object, std::uint32_t leaf, bool inside);  // there are no more
+///     static constexpr bool takes_one;  // whether take() never asks for more than the first crossing
+template <class Kind>
+class ObjectQuery {
+ public:
+  ObjectQuery() = default;
+  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
+      : accelerator_(&accelerator), ray_(&ray), work_(&work), limit_(ray.t_max) {}
+
+  /// Nothing at t > limit() matters any more; below t_min, the query is done.
+  double limit() const { return limit_; }
+  void set_limit(double limit) { limit_ = limit; }
+  const WorldRay& ray() const { return *ray_; }
+
+  void test(std::uint32_t object_index) {
+    ++work_->intersection_tests;
+    const SceneObject& object = accelerator_->object(object_index);
+    if (object.is_csg()) {
+      test_csg(object_index, object);
+    } else {
+      test_leaf(object_index, object);
+    }
+  }
+
+ protected:
+  ~ObjectQuery() = default;
+
+  /// Whether a crossing is before the ray's end and not at it.
+  bool is_on_way(const RayHit& hit) const {
+    return hit.t < certain_end(*ray_) || (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
+  }
+
+  bool begin(std::uint32_t /*object*/, bool /*starts_inside*/) { return true; }
+  void end(std::uint32_t /*object*/, std::uint32_t /*leaf*/, bool /*inside*/) {}
+
+ private:
+  Kind& kind() { return static_cast<Kind&>(*this); }
+  void test_leaf(std::uint32_t object_index, const SceneObject& object);
+  void test_csg(std::uint32_t object_index, const SceneObject& object);
+
+  const Accelerator* accelerator_ = nullptr;
+  const WorldRay* ray_ = nullptr;
+  RayWorkspace* work_ = nullptr;
+  double limit_ = 0;
+};
+
+template <class Kind>
+void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject& object) {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Leaf& leaf = accelerator_->leaf(object.first_leaf);
+  const ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
+  CrossingList& crossings = work_->crossings;
+  crossings.clear();
+  // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
+  constexpr double more_than_rounding = 0x1p-50;
+  const double start = farthest_start(*ray_);
+  const double first_above = Kind::takes_one ? start + more_than_rounding * std::abs(start) : infinity;
+  bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations, first_above);
+  // Another object's surface that coincides with the one the ray starts on is at the start as well.
+  const bool starts_here = object_ray.start.face != no_face;
+  std::size_t index = 0;
+  for (; index < crossings.size(); ++index) {
+    const Crossing& crossing = crossings[index];
+    if (crossing.t > ray_->t_min && (starts_here || !is_at_start(leaf, *ray_, object_ray, crossing))) break;
+    inside = crossing.entering;
+  }
+  if (!kind().begin(object_index, inside && object.solid)) return;
+  for (; index < crossings.size() && crossings[index].t <= limit_; ++index) {
+    const Crossing& crossing = crossings[index];
+    inside = crossing.entering;
+    const RayHit hit{.t = crossing.t,
+                     .error = crossing.error,
+                     .t_low = crossing.t_low,
+                     .object = object_index,
+                     .leaf = object.first_leaf,
+                     .face = crossing.face,
+                     .surface = accelerator_->face_surface(leaf, crossing.face).surface,
+                     .root = crossing.root,
+                     .entering = crossing.entering};
+    if (!kind().take(hit)) return;
+  }
+  kind().end(object_index, object.first_leaf, inside && object.solid);
+}
+
+template <class Kind>
+void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& object) {
+  const CompiledScene& scene = accelerator_->compiled();
+  const CsgProgram& program = scene.programs[object.program];
+  WorldRay csg_ray = *ray_;
+  csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
+  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg);
+  bool inside = evaluation.starts_inside();
+  std::uint32_t leaf = program.first_leaf;
+  if (!kind().begin(object_index, inside)) return;
+  CsgHit found;
+  while (evaluation.next(found)) {
+    inside = found.entering;
+    leaf = program.first_leaf + found.leaf;
+    const RayHit hit{.t = found.t,
+                     .error = found.error,
+                     .t_low = found.t_low,
+                     .object = object_index,
+                     .leaf = leaf,
+                     .face = found.face,
+                     .surface = found.surface,
+                     .root = found.root,
+                     .entering = found.entering};
+    if (!kind().take(hit)) return;
+  }
+  kind().end(object_index, leaf, inside);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,126 @@
+// Cheap tests that spare most exact ones: whether a line surely misses an object, or surely meets it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/csg/evaluate.hpp"
+#include "core/math/lanes.hpp"
+
+namespace crt::core {
+
+/// An object as the cheap tests see it. Few objects have an outline: those that scenes have many of and
+/// whose exact test costs much more.
+struct Outline {
+  enum class Kind : std::uint8_t { unknown, sphere, plane };
+
+  Kind kind = Kind::unknown;
+  Vec3 place{0, 0, 0};   ///< the center, or a point of the plane
+  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1
+  double radius = 0;
+  std::uint32_t surface = nothing;  ///< its whole surface
+  /// The leaf of an object that has but one; no ray that left it for good meets it again.
+  std::uint32_t lone_leaf = nothing;
+};
+
+/// One line, or as many side by side as a Real has lanes.
+template <class Real>
+struct OutlineLine {
+  std::array<Real, 3> origin;
+  std::array<Real, 3> direction;  ///< of length about 1
+  Real squared_speed;
+  Real inverse_squared_speed;
+  Real inverse_speed;
+  Real begin;         ///< crossings before it do not count
+  Real certain_from;  ///< crossings behind it and before certain_to count
+  Real certain_to;    ///< finite
+};
+
+template <class Mask>
+struct Verdict {
+  Mask missed;  ///< no crossing counts
+  Mask met;     ///< one surely does
+};
+
+namespace outline_detail {
+
+/// Relative, 128 roundings: what the sums below can be off by, and what the exact test may decide
+/// otherwise, with room to spare.
+inline constexpr double slack = 0x1p-46;
+
+template <class Real>
+Real size_of(const Real& x) {
+  return x < 0.0 ? -x : x;
+}
+
+template <class Real>
+Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+template <class Real>
+std::array<Real, 3> way_to(const OutlineLine<Real>& line, const Vec3& place) {
+  return {place.x - line.origin[0], place.y - line.origin[1], place.z - line.origin[2]};
+}
+
+}  // namespace outline_detail
+
+/// A sphere against the part of a line up to `limit`.
+///
+/// With w the way to the center, the closest approach is at c = w . d / d^2, at a squared distance of q^2,
+/// and half the chord is h with h^2 d^2 = r^2 - q^2. Roundings change that by less than 32 u (w^2 + r^2), and
+/// the bound on the error of an exact test's t is of that size as well: the chord's ends are compared by
+/// their squares, with four times as much added.
+template <class Real>
+auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Real& limit) {
+  using namespace outline_detail;
+  const std::array<Real, 3> way = way_to(line, sphere.place);
+  const Real squared_way = dot(way, way);
+  const Real closest = dot(way, line.direction) * line.inverse_squared_speed;
+  const std::array<Real, 3> across = {way[0] - closest * line.direction[0],
+                                      way[1] - closest * line.direction[1],
+                                      way[2] - closest * line.direction[2]};
+  const double squared_radius = sphere.radius * sphere.radius;
+  const Real room = squared_radius - dot(across, across);
+  const Real error = slack * (squared_way + squared_radius);
+  const Real longest = room + error;
+
+  const Real reach = size_of(closest) + sphere.radius * line.inverse_speed;
+  const auto beyond_chord = [&](const Real& distance) {
+    return (distance > 0.0) & (distance * distance * line.squared_speed > longest);
+  };
+  const auto from = [&](const Real& t) { return (closest - t) - slack * (reach + size_of(t)); };
+  const auto up_to = [&](const Real& t) { return (t - closest) - slack * (reach + size_of(t)); };
+
+  const Real to_end = up_to(line.certain_to);
+  const auto before_end = (to_end > 0.0) | (to_end * to_end * line.squared_speed < room - error);
+  using Mask = decltype((room < error) & (error < room));
+  return Verdict<Mask>{
+      .missed = (longest < 0.0) | beyond_chord(from(limit)) | beyond_chord(up_to(line.begin)),
+      .met = (room > error) & beyond_chord(from(line.certain_from)) & before_end};
+}
+
+/// A plane likewise; `last` is set to a t up to which it surely has been met, if it is met at all.
+template <class Real>
+auto judge_plane(const Outline& plane, const OutlineLine<Real>& line, const Real& limit, Real& last) {
+  using namespace outline_detail;
+  const std::array<Real, 3> way = way_to(line, plane.place);
+  const Vec3& n = plane.normal;
+  const Real rate = n.x * line.direction[0] + n.y * line.direction[1] + n.z * line.direction[2];
+  const Real t = (n.x * way[0] + n.y * way[1] + n.z * way[2]) / rate;
+  const auto sum_of_sizes = [](const std::array<Real, 3>& v) {
+    return size_of(v[0]) + size_of(v[1]) + size_of(v[2]);
+  };
+  constexpr double normal_size = 6;  // of three components below 2
+  const Real speed = sum_of_sizes(line.direction);
+  const Real error = (normal_size * slack) * (sum_of_sizes(way) + size_of(t) * speed) / size_of(rate);
+  // So flat that the rate itself is not known, nor the error: nothing is certain.
+  constexpr double flattest = 0x1p-30;
+  const auto known = size_of(rate) > flattest * speed;
+  last = t + error;
+  using Mask = decltype((t < error) & (error < t));
+  return Verdict<Mask>{.missed = known & ((last < line.begin) | (t - error > limit)),
+                       .met = known & (t - error > line.certain_from) & (last < line.certain_to)};
+}
+
+}  // namespace crt::core

@@ -1,0 +1,55 @@
+// Rays that go through a scene side by side.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "core/scene/outline.hpp"
+
+namespace crt::core {
+
+/// So many rays at most travel together. It pays where they go nearly the same way.
+inline constexpr std::size_t packet_size = 16;
+
+/// A bit for each ray of a packet.
+using RayMask = std::uint32_t;
+
+/// The lanes of a comparison as bits.
+inline RayMask mask_of(const LaneMask& lanes) {
+#ifdef __AVX__
+  return static_cast<RayMask>(_mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)));
+#else
+  RayMask mask = 0;
+  for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
+  return mask;
+#endif
+}
+
+/// Calls use(index) for each bit that is set.
+template <class Use>
+void for_each_ray(RayMask mask, const Use& use) {
+  for (; mask != 0; mask &= mask - 1) use(static_cast<std::size_t>(std::countr_zero(mask)));
+}
+
+/// Up to packet_size rays by component, as vector instructions take them.
+struct RayPacket {
+  static constexpr std::size_t group_count = packet_size / lane_count;
+
+  std::size_t count = 0;
+  std::array<OutlineLine<Lanes>, group_count> groups;
+  /// Beyond it nothing matters any more to a ray.
+  std::array<Lanes, group_count> limits;
+  std::array<std::uint32_t, packet_size> start_surfaces;
+  /// The lone leaf that a ray has left for good.
+  std::array<std::uint32_t, packet_size> left_leaves;
+
+  RayMask all() const { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
+  double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
+  void set_limit(std::size_t ray, double limit) {
+    limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
+  }
+};
+
+}  // namespace crt::core
