@@ -36,7 +36,8 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
 
 bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing) {
-  const Vec3 normal = leaf.placement->normal_to_world(leaf.shape->surface_point(object_ray, crossing).normal);
+  const SurfacePoint point = leaf.shape->surface_point(object_ray, crossing, false);
+  const Vec3 normal = leaf.placement->normal_to_world(point.normal);
   const double way = crossing.t - ray.t_min - crossing.error;
   return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }

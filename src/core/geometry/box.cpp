@@ -23,7 +23,7 @@ bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return stretch.finish(out);
 }
 
-SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool /*with_uv*/) const {
   const PlaneFace& face = faces_[crossing.face];
   const int across = face.axis();
   Vec3 share;

@@ -22,7 +22,7 @@ class BoxShape final : public Shape {
   bool is_solid() const override { return true; }
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
 

@@ -32,12 +32,13 @@ bool DiscShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint DiscShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint DiscShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
-  return {.position = face_.absolute(relative),
-          .normal = face_.unit_normal(),
-          .u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter)),
-          .v = std::min(1.0, glm::length(relative / radius_))};
+  SurfacePoint result{.position = face_.absolute(relative), .normal = face_.unit_normal()};
+  if (!with_uv) return result;
+  result.u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter));
+  result.v = std::min(1.0, glm::length(relative / radius_));
+  return result;
 }
 
 void validate(const Disc& disc) {

@@ -212,8 +212,8 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
                                ray.start, stretch);
 }
 
-SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
-  if (crossing.face != side_face) return cap_point(ray, crossing);
+SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
+  if (crossing.face != side_face) return cap_point(ray, crossing, with_uv);
   const Vec3 offset = ray.from_center(narrow_, crossing.t) * (1 / unit_);
   const double z = glm::dot(offset, axis_);
   // Across the axis, twice: the second time removes what the first one's rounding left along it.
@@ -228,19 +228,21 @@ SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& c
   SurfacePoint result;
   result.position = narrow_ + unit_ * (share * height_ * axis_ + radius * radial);
   result.normal = at_apex && sine_ > 0 ? -axis_ : unit_vector(cosine_ * radial - sine_ * axis_);
+  if (!with_uv) return result;
   result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
   result.v = narrow_ == from_ ? share : 1 - share;
   return result;
 }
 
-SurfacePoint FrustumShape::cap_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint FrustumShape::cap_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   const std::size_t end = crossing.face - 1;
   const PlaneFace& cap = *caps_[end];
   const Vec3 relative = cap.onto_plane(ray.from_center(cap.position(), crossing.t));
-  return {.position = cap.absolute(relative),
-          .normal = cap.unit_normal(),
-          .u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter)),
-          .v = std::min(1.0, glm::length(relative / radii_[end]))};
+  SurfacePoint result{.position = cap.absolute(relative), .normal = cap.unit_normal()};
+  if (!with_uv) return result;
+  result.u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter));
+  result.v = std::min(1.0, glm::length(relative / radii_[end]));
+  return result;
 }
 
 Surface FrustumShape::surface(std::uint32_t face) const {

@@ -34,7 +34,7 @@ class FrustumShape : public Shape {
   bool is_solid() const final { return true; }
   Bounds bounds() const final;
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const final;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const final;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
 
@@ -60,7 +60,7 @@ class FrustumShape : public Shape {
   void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
-  SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing) const;
+  SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const;
 
   Vec3 from_;
   Vec3 to_;

@@ -37,7 +37,8 @@ bool HalfPlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint HalfPlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint HalfPlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
+                                           bool /*with_uv*/) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
   const Vec3 along_edge = glm::cross(face_.unit_normal(), inward_);
   return {.position = face_.absolute(relative),

@@ -18,7 +18,7 @@ class HalfPlaneShape final : public Shape {
   bool is_solid() const override { return false; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const override;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
 

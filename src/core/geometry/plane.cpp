@@ -31,7 +31,8 @@ bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return meeting.rate > 0;
 }
 
-SurfacePoint PlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint PlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
+                                       bool /*with_uv*/) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
   return {.position = face_.absolute(relative),
           .normal = face_.unit_normal(),

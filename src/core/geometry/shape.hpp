@@ -73,8 +73,10 @@ class Shape {
   /// outwards it has no crossing at t > 0, inwards exactly one.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
 
-  /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray.
-  virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing) const = 0;
+  /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray. Without
+  /// `with_uv`, u and v need not be set: they may cost more than the rest.
+  virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
+                                     bool with_uv = true) const = 0;
 
   /// How many faces there are, and the surface that a face is a piece of (for finding faces that
   /// coincide).

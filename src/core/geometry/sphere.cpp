@@ -74,12 +74,13 @@ bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out
   return stretch.finish(out);
 }
 
-SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   SurfacePoint result;
   const Vec3 offset = ray.from_center(center_, crossing.t);
   const Vec3 n = unit_vector(largest_component(offset) > 0 ? offset : -ray.direction);
   result.normal = n;
   result.position = center_ + radius_ * n;
+  if (!with_uv) return result;
   result.u = turn(n.z, n.x);
   result.v = std::atan2(n.y, std::hypot(n.x, n.z)) / std::numbers::pi + 0.5;
   return result;

@@ -62,7 +62,7 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   const Vec3 offset = ray.from_center(center_, crossing.t) * (1 / unit_);
   const double height = glm::dot(offset, frame_.along);
   // Twice: the second time removes what the first one's rounding left along the axis.
@@ -74,6 +74,7 @@ SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& cro
   SurfacePoint result;
   result.normal = largest_component(from_ring) > 0 ? unit_vector(from_ring) : radial;
   result.position = center_ + unit_ * (ring_ * radial + tube_ * result.normal);
+  if (!with_uv) return result;
   result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
   result.v = turn(outward, height);
   return result;

@@ -142,21 +142,24 @@ bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& crossing) const {
+SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
+                                          bool with_uv) const {
+  const Vec3 relative = face_.onto_plane(ray.from_center(corners_[0], crossing.t));
+  const Bounds box = bounds();
+  SurfacePoint result{.position = glm::clamp(face_.absolute(relative), box.lower, box.upper),
+                      .normal = face_.unit_normal()};
+  if (!with_uv) return result;
   const Vec3 ab = corners_[1] - corners_[0];
   const Vec3 ac = corners_[2] - corners_[0];
   const double scale = inverse_length_scale(ab);
   const double scale_c = inverse_length_scale(ac);
-  const Vec3 relative = face_.onto_plane(ray.from_center(corners_[0], crossing.t));
   const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
   const double squared_area = glm::dot(area, area);
+  if (!(squared_area > 0)) return result;
   const double u = glm::dot(accurate_cross(relative * scale, ac * scale_c), area) / squared_area;
   const double v = glm::dot(accurate_cross(ab * scale, relative * scale_c), area) / squared_area;
-  SurfacePoint result{.position = face_.absolute(relative), .normal = face_.unit_normal()};
-  result.u = squared_area > 0 ? std::clamp(u, 0.0, 1.0) : 0.0;
-  result.v = squared_area > 0 ? std::clamp(v, 0.0, 1.0 - result.u) : 0.0;
-  const Bounds box = bounds();
-  result.position = glm::clamp(result.position, box.lower, box.upper);
+  result.u = std::clamp(u, 0.0, 1.0);
+  result.v = std::clamp(v, 0.0, 1.0 - result.u);
   return result;
 }
 

@@ -79,7 +79,7 @@ class Query {
 
  private:
   Hit described(const RayHit& hit) const {
-    const HitPoint point = data_.hit_point(ray_, hit);
+    const HitPoint point = data_.hit_point(ray_, hit, true);
     return {.t = PowerOfTwo(-exponent_) * hit.t,
             .position = point.position,
             .normal = point.normal,

@@ -37,11 +37,11 @@ double left_of(double absorption, double length) {
 
 }  // namespace
 
-SurfaceHit surface_hit(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work) {
-  SurfaceHit surface;
-  surface.point = data.hit_point(ray, hit);
+void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
+             SurfaceHit& surface) {
+  const PreparedMaterial& material = data.materials()[data.hit_material(hit)];
+  surface.point = data.hit_point(ray, hit, material.pattern || material.bump);
   const HitPoint& point = surface.point;
-  const PreparedMaterial& material = data.materials()[point.material];
   surface.material = &material;
 
   const Color color = material_color(material, point, work.stats);
@@ -55,14 +55,13 @@ SurfaceHit surface_hit(const PreparedData& data, const WorldRay& ray, const RayH
   if (material.bump) {
     surface.normal = visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction);
   }
-  return surface;
 }
 
 CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
                                RenderStats& stats) {
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
-  const Color color =
-      material.pattern ? material_color(material, data.hit_point(ray, crossing), stats) : material.color;
+  const Color color = material.pattern ? material_color(material, data.hit_point(ray, crossing, true), stats)
+                                       : material.color;
   return {.transparency = material.transparency(color.a), .color = rgb(color)};
 }
 

@@ -15,8 +15,9 @@ struct SurfaceHit {
   Side viewer_side = Side::outside;
 };
 
-/// Looks up the material's colour and bumps where `ray` hits.
-SurfaceHit surface_hit(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work);
+/// Looks up the place where `ray` hits, with the material's colour and bumps there.
+void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
+             SurfaceHit& surface);
 
 /// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
 struct CrossingFilter {

@@ -172,7 +172,7 @@ void Tracer::see_background(const PathRay& path, const Rgb& weight, Sample& samp
 void Tracer::see(const PathRay& path, const RayHit& hit, Seen& seen) {
   seen.path = path;
   seen.hit = hit;
-  seen.surface = surface_hit(data_, path.ray, hit, work_);
+  look_up(data_, path.ray, hit, work_, seen.surface);
   const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
   seen.light = ambient_light(frame_.ambient(), material.reflectivity);

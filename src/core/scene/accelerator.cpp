@@ -93,14 +93,14 @@ ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) cons
   return result;
 }
 
-SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit) const {
+SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
   const Leaf& leaf = compiled_.leaves[hit.leaf];
   const Crossing crossing{.t = hit.t,
                           .error = hit.error,
                           .face = hit.face,
                           .root = 0,
                           .entering = hit.entering != leaf.complemented};
-  return leaf.shape->surface_point(object_ray(hit.leaf, ray), crossing);
+  return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing, with_uv);
 }
 
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
@@ -121,7 +121,8 @@ double certain_end(const WorldRay& ray) {
 
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
   if (!(ray.end_error > 0)) return false;
-  const Vec3 normal = compiled_.leaves[hit.leaf].placement->normal_to_world(surface_point(ray, hit).normal);
+  const Vec3 normal =
+      compiled_.leaves[hit.leaf].placement->normal_to_world(surface_point(ray, hit, false).normal);
   const double slope = std::abs(glm::dot(normal, ray.direction));
   return (ray.t_max - hit.t - hit.error) * slope <= ray.end_error;
 }

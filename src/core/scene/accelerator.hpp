@@ -51,8 +51,8 @@ class Accelerator {
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
     return compiled_.face_surfaces[leaf.first_face + face];
   }
-  /// The point of a hit that `ray` found, in the space of its leaf.
-  SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit) const;
+  /// The point of a hit that `ray` found, in the space of its leaf; u and v only if asked for.
+  SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Whether a crossing near the ray's end is of a surface through that end.

@@ -17,19 +17,27 @@ inline void init_context(EmbreeContext& context) {
   rtcInitRayQueryContext(&context);
 }
 
-inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray_hit) {
+inline RTCIntersectArguments arguments_with(EmbreeContext& context) {
   RTCIntersectArguments arguments;
   rtcInitIntersectArguments(&arguments);
   arguments.context = &context;
+  return arguments;
+}
+
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray_hit) {
+  RTCIntersectArguments arguments = arguments_with(context);
   rtcIntersect1(scene, &ray_hit, &arguments);
 }
 
 /// Of rays that go nearly the same way.
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid, RTCRayHit8& ray_hits) {
+  RTCIntersectArguments arguments = arguments_with(context);
+  arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &ray_hits, &arguments);
+}
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
                              RTCRayHit16& ray_hits) {
-  RTCIntersectArguments arguments;
-  rtcInitIntersectArguments(&arguments);
-  arguments.context = &context;
+  RTCIntersectArguments arguments = arguments_with(context);
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcIntersect16(valid, scene, &ray_hits, &arguments);
 }
@@ -47,6 +55,10 @@ inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& 
 }
 
 /// Of rays that go nearly the same way.
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid, RTCRayHit8& ray_hits) {
+  context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
+  rtcIntersect8(valid, scene, &context, &ray_hits);
+}
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
                              RTCRayHit16& ray_hits) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

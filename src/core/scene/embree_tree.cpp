@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <exception>
 #include <limits>
@@ -29,14 +30,17 @@ constexpr float float_infinity = std::numeric_limits<float>::infinity();
 /// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
 constexpr double box_margin = 0x1p-22;
 
-float round_down(double value) {
-  const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) <= value ? nearest : std::nextafter(nearest, -float_infinity);
-}
-
 float round_up(double value) {
   const auto nearest = static_cast<float>(value);
-  return static_cast<double>(nearest) >= value ? nearest : std::nextafter(nearest, float_infinity);
+  if (!(static_cast<double>(nearest) < value)) return nearest;
+  // As std::nextafter() has it, which is a call.
+  const auto bits = std::bit_cast<std::uint32_t>(nearest);
+  if (nearest > 0) return std::bit_cast<float>(bits + 1);
+  return nearest < 0 ? std::bit_cast<float>(bits - 1) : std::numeric_limits<float>::denorm_min();
+}
+
+float round_down(double value) {
+  return -round_up(-value);
 }
 
 /// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
@@ -67,9 +71,15 @@ void check(RTCDevice device) {
   if (error != RTC_ERROR_NONE) fail(error);
 }
 
-/// A ray on its way, behind the context that Embree hands to the callbacks.
+/// What the callbacks get of Embree: the context is the first member, so that the two have one address.
+struct AnyTraversal {
+  EmbreeContext context;
+  bool of_packet = false;
+};
+
+/// A ray on its way.
 struct Traversal {
-  EmbreeContext context;  // first, so that the two have one address
+  AnyTraversal any;
   BoxVisitor* visitor = nullptr;
   double t_start = 0;  ///< t where Embree's ray starts
   double scale = 1;    ///< Embree's t for each unit of t
@@ -81,7 +91,7 @@ struct Traversal {
 
 /// A packet's likewise.
 struct PacketTraversal {
-  EmbreeContext context;  // first, so that the two have one address
+  AnyTraversal any{.context = {}, .of_packet = true};
   PacketVisitor* visitor = nullptr;
   const RayPacket* packet = nullptr;
   std::array<Lanes, RayPacket::group_count> t_start;
@@ -115,10 +125,12 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
 /// Visits a box with those rays of a packet whose own boxes Embree met.
 void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRayN* rays, unsigned count) {
   auto* traversal = reinterpret_cast<PacketTraversal*>(context);
-  // Embree may cut a packet into smaller ones; the first ray's number tells which this is.
-  const unsigned first = RTCRayN_id(rays, count, 0);
   RayMask mask = 0;
   for (unsigned i = 0; i < count; ++i) mask |= static_cast<RayMask>(valid[i] & 1) << i;
+  if (mask == 0) return;
+  // Embree may cut a packet into smaller ones: a ray's number, if it is valid, tells which this is.
+  const auto some = static_cast<unsigned>(std::countr_zero(mask));
+  const unsigned first = RTCRayN_id(rays, count, some) - some;
   try {
     const RayMask changed = traversal->visitor->visit(box, mask << first) >> first;
     for_each_ray(changed, [&](std::size_t ray) {
@@ -133,8 +145,8 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
 }
 
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
-  const unsigned count = arguments->N;
-  if (count != 1) {
+  if (reinterpret_cast<const AnyTraversal*>(arguments->context)->of_packet) {
+    const unsigned count = arguments->N;
     RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
     visit_box(arguments->context, arguments->primID, arguments->valid, rays, count);
     return;
@@ -151,6 +163,7 @@ struct EmbreeTree::Handles {
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<RTCBounds> boxes;
+  bool takes_sixteen = false;  ///< rays at once, without taking them one by one
 
   ~Handles() {
     if (scene != nullptr) rtcReleaseScene(scene);
@@ -198,6 +211,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   rtcReleaseGeometry(geometry);
   build(handles->scene, boxes.size());
   check(handles->device);
+  handles->takes_sixteen =
+      rtcGetDeviceProperty(handles->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   handles_ = std::move(handles);
 }
 
@@ -213,7 +228,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
 
   const double direction_scale = 1 / power_of_two_below(largest_component(direction));
   Traversal traversal;
-  init_context(traversal.context);
+  init_context(traversal.any.context);
   traversal.visitor = &visitor;
   traversal.t_start = t_start;
   traversal.scale = scale_ / direction_scale;
@@ -235,7 +250,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   ray_hit.ray.tfar = traversal.far_end(t_end);
   ray_hit.ray.mask = ~0u;
   ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  embree_intersect(handles_->scene, traversal.context, ray_hit);
+  embree_intersect(handles_->scene, traversal.any.context, ray_hit);
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
@@ -266,29 +281,38 @@ void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leav
 }
 
 void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
+  if (handles_->takes_sixteen) {
+    traverse_part<RTCRayHit16, packet_size>(packet, rays, 0, visitor);
+    return;
+  }
+  constexpr std::size_t half = packet_size / 2;
+  traverse_part<RTCRayHit8, half>(packet, rays, 0, visitor);
+  traverse_part<RTCRayHit8, half>(packet, rays, half, visitor);
+}
+
+template <class RayHits, std::size_t Count>
+void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
+                               PacketVisitor& visitor) const {
   PacketTraversal traversal;
-  init_context(traversal.context);
+  init_context(traversal.any.context);
   traversal.visitor = &visitor;
   traversal.packet = &packet;
   traversal.scale = scale_;
 
-  RTCRayHit16 ray_hits{};
-  RTCRay16& to_trace = ray_hits.ray;
-  alignas(64) std::array<int, packet_size> valid{};
-  RayMask some = 0;
-  for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-    const std::size_t first = group * lane_count;
-    const RayMask wanted = rays >> first & 0xfu;
-    if (wanted == 0) continue;
+  RayHits ray_hits;
+  auto& to_trace = ray_hits.ray;
+  alignas(64) std::array<int, Count> valid;
+  bool some = false;
+  for (std::size_t first = 0; first < Count; first += lane_count) {
+    const std::size_t group = (first_ray + first) / lane_count;
     const OutlineLine<Lanes>& lines = packet.groups[group];
     Lanes enter;
     Lanes leave;
     clip(lines, enter, leave);
     const Lanes start = max(lines.begin, enter);
     const Lanes end = min(packet.limits[group], leave);
-    const RayMask meeting = wanted & mask_of(start <= end);
-    if (meeting == 0) continue;
-    some |= meeting << first;
+    const RayMask meeting = rays >> (first_ray + first) & mask_of(start <= end);
+    some = some || meeting != 0;
     traversal.t_start[group] = start;
     // As ObjectRay::from_center() has it.
     std::array<Lanes, 3> place;
@@ -297,26 +321,30 @@ void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& 
           two_sum(lines.origin[axis], lanes_of(-center_[static_cast<int>(axis)]));
       place[axis] = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
     }
-    for_each_ray(meeting, [&](std::size_t lane) {
+    const Lanes length = (end - start) * scale_;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const auto i = static_cast<int>(lane);
       const std::size_t ray = first + lane;
-      valid[ray] = -1;
+      valid[ray] = (meeting >> lane & 1u) != 0 ? -1 : 0;
       to_trace.org_x[ray] = static_cast<float>(place[0][i]);
       to_trace.org_y[ray] = static_cast<float>(place[1][i]);
       to_trace.org_z[ray] = static_cast<float>(place[2][i]);
       to_trace.dir_x[ray] = static_cast<float>(lines.direction[0][i]);
       to_trace.dir_y[ray] = static_cast<float>(lines.direction[1][i]);
       to_trace.dir_z[ray] = static_cast<float>(lines.direction[2][i]);
-      to_trace.tfar[ray] = std::max(round_up((end[i] - start[i]) * scale_), 0.0f);
-    });
+      to_trace.tfar[ray] = std::max(round_up(length[i]), 0.0f);
+    }
   }
-  if (some == 0) return;
-  for (unsigned ray = 0; ray < packet_size; ++ray) {
+  if (!some) return;
+  for (std::size_t ray = 0; ray < Count; ++ray) {
+    to_trace.tnear[ray] = 0;
+    to_trace.time[ray] = 0;
     to_trace.mask[ray] = ~0u;
-    to_trace.id[ray] = ray;
+    to_trace.id[ray] = static_cast<unsigned>(first_ray + ray);
+    to_trace.flags[ray] = 0;
     ray_hits.hit.geomID[ray] = RTC_INVALID_GEOMETRY_ID;
   }
-  embree_intersect(handles_->scene, traversal.context, valid.data(), ray_hits);
+  embree_intersect(handles_->scene, traversal.any.context, valid.data(), ray_hits);
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 

@@ -52,6 +52,9 @@ class EmbreeTree {
  private:
   struct Handles;
 
+  template <class RayHits, std::size_t Count>
+  void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
+                     PacketVisitor& visitor) const;
   /// The part of each line that is in the box around all boxes.
   void clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leave) const;
 

@@ -132,9 +132,9 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
   return accelerator_->stay(ray, object, work);
 }
 
-HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit) const {
+HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const SurfacePoint surface = accelerator_->surface_point(ray, hit);
+  const SurfacePoint surface = accelerator_->surface_point(ray, hit, with_uv);
   HitPoint point;
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);

@@ -119,8 +119,8 @@ class PreparedData {
   /// Whether the ray starts inside a solid object (just after its start, as above), and where it leaves it.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
-  /// What shading needs of a hit that `ray` found.
-  HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const;
+  /// What shading needs of a hit that `ray` found; u and v only if asked for.
+  HitPoint hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
