@@ -13,11 +13,12 @@ namespace {
 /// What the media along the ray absorb, between the crossings in work.crossings.
 class AbsorbedShare {
  public:
-  AbsorbedShare(const PreparedData& data, const WorldRay& ray, MediaLists::List media, Workspace& work)
-      : data_(data), ray_(ray), media_(media), work_(work) {}
+  AbsorbedShare(const PreparedData& data, const WorldRay& ray, MediaLists& lists, MediaLists::List media,
+                Workspace& work)
+      : data_(data), ray_(ray), lists_(lists), media_(media), work_(work) {}
 
   Rgb share() {
-    const std::uint32_t mark = work_.media.mark();
+    const std::uint32_t mark = lists_.mark();
     const std::vector<RayHit>& crossings = work_.crossings;
     for (std::size_t begin = 0; begin < crossings.size();) {
       std::size_t end = begin + 1;
@@ -27,14 +28,14 @@ class AbsorbedShare {
       begin = end;
     }
     go_on_to(ray_.t_max);
-    work_.media.release(mark);
+    lists_.release(mark);
     return share_;
   }
 
  private:
   void go_on_to(double t) {
     if (media_ != MediaLists::empty) {
-      share_ *= transmittance(data_.materials()[work_.media.innermost(media_).material], t - reached_);
+      share_ *= transmittance(data_.materials()[lists_.innermost(media_).material], t - reached_);
     }
     reached_ = t;
   }
@@ -49,14 +50,14 @@ class AbsorbedShare {
       if (crossing.entering) {
         if (entered.size() < most_media_at_once) entered.push_back(crossing);
       } else {
-        media_ = work_.media.left(media_, crossing.object);
+        media_ = lists_.left(media_, crossing.object);
       }
     }
     const auto exit_of = [&](std::uint32_t object) { return exit_after(end, object); };
     sort_outermost_first(entered, exit_of);
     for (const RayHit& crossing : entered) {
       const Medium medium{crossing.object, data_.hit_material(crossing)};
-      media_ = entered_in_order(work_.media, media_, medium, exit_of);
+      media_ = entered_in_order(lists_, media_, medium, exit_of);
     }
   }
 
@@ -75,6 +76,7 @@ class AbsorbedShare {
 
   const PreparedData& data_;
   const WorldRay& ray_;
+  MediaLists& lists_;
   MediaLists::List media_;
   Workspace& work_;
   Rgb share_{1, 1, 1};
@@ -83,9 +85,8 @@ class AbsorbedShare {
 
 }  // namespace
 
-Rgb light_share(const PreparedData& data, const WorldRay& ray, MediaLists::List media, Workspace& work) {
-  ++work.stats.shadow_rays;
-  if (!data.features().transparency) return Rgb(data.occluded(ray, work.rays) ? 0 : 1);
+Rgb light_share(const PreparedData& data, const WorldRay& ray, MediaLists& lists, MediaLists::List media,
+                Workspace& work) {
   if (!data.crossings(ray, true, work.crossings, work.rays)) return Rgb(0);
 
   Rgb share(1);
@@ -94,7 +95,7 @@ Rgb light_share(const PreparedData& data, const WorldRay& ray, MediaLists::List 
     share *= filter.transparency * filter.color;
     if (is_black(share)) return share;
   }
-  if (data.features().absorption) share *= AbsorbedShare(data, ray, media, work).share();
+  if (data.features().absorption) share *= AbsorbedShare(data, ray, lists, media, work).share();
   return share;
 }
 

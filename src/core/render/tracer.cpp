@@ -1,5 +1,6 @@
 #include "core/render/tracer.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -39,140 +40,110 @@ Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
   return glm::dot(direction, side) < 0 ? mirrored(direction, side) : direction;
 }
 
+/// Whether rays go so nearly the same way that a packet of them pays.
+bool go_together(std::span<const WorldRay> rays) {
+  constexpr std::size_t fewest = 3;
+  if (rays.size() < fewest) return false;
+  constexpr double widest = 0.9;  // the cosine
+  const Vec3& first = rays.front().direction;
+  return std::all_of(rays.begin(), rays.end(),
+                     [&](const WorldRay& ray) { return glm::dot(ray.direction, first) > widest; });
+}
+
 }  // namespace
 
 Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
     : frame_(frame), data_(frame.data()), work_(work), progress_(progress) {
-  work_.media.release(0);
-  camera_media_ = nested(work_.media, frame.camera_media());
-  camera_media_mark_ = work_.media.mark();
+  for (SampleWork& sample : work.samples) {
+    sample.media.release(0);
+    camera_media_ = nested(sample.media, frame.camera_media());
+    camera_media_mark_ = sample.media.mark();
+  }
 }
 
 void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
-  if (frame_.features().transparency && !frame_.one_viewpoint()) {
-    for (std::size_t i = 0; i < rays.size(); ++i) trace_alone(rays[i], samples[i]);
-  } else {
-    trace_together(rays, samples);
-  }
-}
-
-void Tracer::trace_alone(const CameraRay& camera_ray, Sample& sample) {
-  sample = {};
-  work_.media.release(camera_media_mark_);
-  work_.pending.clear();
-  work_.pending.push_back(first_path(camera_ray));
-  follow_pending(0, sample);
-}
-
-void Tracer::follow_pending(int rays, Sample& sample) {
-  for (; !work_.pending.empty(); ++rays) {
-    if (rays == most_rays_per_sample) {
-      ++work_.stats.samples_over_ray_bound;
-      break;
-    }
-    const PathRay path = work_.pending.back();
-    work_.pending.pop_back();
-    work_.media.release(path.media_mark);
-    follow(path, sample);
-  }
-}
-
-void Tracer::trace_together(std::span<const CameraRay> rays, std::span<Sample> samples) {
-  std::array<WorldRay, packet_size> eye_rays;
-  std::array<RayHit, packet_size> hits;
-  for (std::size_t i = 0; i < rays.size(); ++i) eye_rays[i] = Frame::eye_ray(rays[i]);
-  data_.intersect(std::span(eye_rays.data(), rays.size()), hits, work_.rays);
-  PathRay path;
-  path.media = camera_media_;
-  path.media_mark = camera_media_mark_;
-  std::size_t seen_count = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    SampleWork& work = work_.samples[i];
+    work.media.release(camera_media_mark_);
+    work.pending.clear();
+    work.pending.push_back(first_path(rays[i], work.media));
+    work.rays = 0;
     samples[i] = {};
-    if (hits[i].has_company && frame_.features().transparency) {
-      // All that is there is told of one ray at a time.
-      trace_alone(rays[i], samples[i]);
-      continue;
-    }
-    ++work_.stats.camera_rays;
-    path.ray = eye_rays[i];
-    Rgb weight = path.weight;
-    if (!pass_medium(path, hits[i].t, weight)) continue;
-    if (!hits[i].found()) {
-      see_background(path, weight, samples[i]);
-      continue;
-    }
-    Seen& seen = seen_[seen_count++];
-    seen.weight = weight;
-    seen.sample = &samples[i];
-    see(path, hits[i], seen);
   }
-  tick(static_cast<unsigned>(rays.size()));
-  const std::span<Seen> all(seen_.data(), seen_count);
-  light_together(all);
-  for (const Seen& seen : all) {
-    seen.sample->color += seen.weight * seen.light;
-    work_.media.release(camera_media_mark_);
-    work_.pending.clear();
-    split(seen);
-    follow_pending(1, *seen.sample);
-  }
+  const std::span<Sample> traced = samples.first(rays.size());
+  while (const std::size_t count = take_round(traced)) follow(std::span(round_).first(count));
 }
 
-PathRay Tracer::first_path(const CameraRay& camera_ray) {
+std::size_t Tracer::take_round(std::span<Sample> samples) {
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < samples.size(); ++i) {
+    SampleWork& work = work_.samples[i];
+    if (work.pending.empty()) continue;
+    if (work.rays++ == most_rays_per_sample) {
+      ++work_.stats.samples_over_ray_bound;
+      work.pending.clear();
+      continue;
+    }
+    Seen& seen = round_[count++];
+    seen.work = &work;
+    seen.sample = &samples[i];
+    seen.path = work.pending.back();
+    work.pending.pop_back();
+    work.media.release(seen.path.media_mark);
+  }
+  return count;
+}
+
+PathRay Tracer::first_path(const CameraRay& camera_ray, MediaLists& media) {
   PathRay path;
   path.ray = Frame::eye_ray(camera_ray);
   path.media = camera_media_;
   if (frame_.features().transparency && !frame_.one_viewpoint()) {
     find_surrounding_media(data_, path.ray, work_.surrounding, work_);
-    path.media = nested(work_.media, work_.surrounding);
+    path.media = nested(media, work_.surrounding);
   }
-  path.media_mark = work_.media.mark();
+  path.media_mark = media.mark();
   return path;
 }
 
-void Tracer::follow(const PathRay& path, Sample& sample) {
+void Tracer::follow(std::span<Seen> round) {
+  std::array<WorldRay, packet_size> rays;
+  std::array<RayHit, packet_size> hits;
+  for (std::size_t i = 0; i < round.size(); ++i) rays[i] = round[i].path.ray;
+  tick(static_cast<unsigned>(round.size()));
+  const bool together = go_together(std::span(rays).first(round.size()));
+  if (together) data_.intersect(std::span(rays).first(round.size()), hits, work_.rays);
+
+  std::array<Seen*, packet_size> on_surface;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < round.size(); ++i) {
+    Seen& seen = round[i];
+    const bool ask_alone = !together || (hits[i].has_company && frame_.features().transparency);
+    seen.hit = ask_alone ? data_.intersect(rays[i], work_.rays) : hits[i];
+    if (see(seen)) on_surface[count++] = &seen;
+  }
+  add_light(std::span(on_surface).first(count));
+  for (std::size_t i = 0; i < count; ++i) {
+    Seen& seen = *on_surface[i];
+    seen.sample->color += seen.weight * seen.light;
+    split(seen);
+  }
+}
+
+bool Tracer::see(Seen& seen) {
+  const PathRay& path = seen.path;
   RenderStats& stats = work_.stats;
   ++(path.kind == RayKind::camera       ? stats.camera_rays
      : path.kind == RayKind::reflection ? stats.reflection_rays
                                         : stats.refraction_rays);
-  tick();
-
-  RayHit hit = data_.intersect(path.ray, work_.rays);
-  if (hit.has_company && frame_.features().transparency) hit = seen_of(path, hit);
-  Rgb weight = path.weight;
-  if (!pass_medium(path, hit.t, weight)) return;
-  if (!hit.found()) {
-    see_background(path, weight, sample);
-    return;
+  if (seen.hit.has_company && frame_.features().transparency) seen.hit = seen_of(path, seen.hit);
+  seen.weight = path.weight;
+  if (!pass_medium(seen)) return false;
+  if (!seen.hit.found()) {
+    see_background(seen);
+    return false;
   }
-  Seen seen;
-  seen.weight = weight;
-  see(path, hit, seen);
-  light_alone(seen);
-  sample.color += weight * seen.light;
-  split(seen);
-}
-
-bool Tracer::pass_medium(const PathRay& path, double length, Rgb& weight) const {
-  if (!frame_.features().absorption || path.media == MediaLists::empty) return true;
-  weight *= transmittance(data_.materials()[work_.media.innermost(path.media).material], length);
-  return !is_black(weight);
-}
-
-void Tracer::see_background(const PathRay& path, const Rgb& weight, Sample& sample) const {
-  const Color background = data_.background().color(path.ray.direction);
-  if (path.kind == RayKind::camera) {
-    sample.alpha = background.a;
-    sample.color += background.a * weight * rgb(background);
-  } else {
-    sample.color += weight * rgb(background);
-  }
-}
-
-void Tracer::see(const PathRay& path, const RayHit& hit, Seen& seen) {
-  seen.path = path;
-  seen.hit = hit;
-  look_up(data_, path.ray, hit, work_, seen.surface);
+  look_up(data_, path.ray, seen.hit, work_, seen.surface);
   const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
   seen.light = ambient_light(frame_.ambient(), material.reflectivity);
@@ -183,6 +154,24 @@ void Tracer::see(const PathRay& path, const RayHit& hit, Seen& seen) {
                 .normal = surface.normal,
                 .view = path.ray.direction};
   seen.start.reset();
+  return true;
+}
+
+bool Tracer::pass_medium(Seen& seen) const {
+  if (!frame_.features().absorption || seen.path.media == MediaLists::empty) return true;
+  const Medium& medium = seen.work->media.innermost(seen.path.media);
+  seen.weight *= transmittance(data_.materials()[medium.material], seen.hit.t);
+  return !is_black(seen.weight);
+}
+
+void Tracer::see_background(Seen& seen) const {
+  const Color background = data_.background().color(seen.path.ray.direction);
+  if (seen.path.kind == RayKind::camera) {
+    seen.sample->alpha = background.a;
+    seen.sample->color += background.a * seen.weight * rgb(background);
+  } else {
+    seen.sample->color += seen.weight * rgb(background);
+  }
 }
 
 std::optional<Tracer::Unhidden> Tracer::unhidden(const PreparedLight& source, Seen& seen) const {
@@ -201,49 +190,54 @@ std::optional<Tracer::Unhidden> Tracer::unhidden(const PreparedLight& source, Se
                                  .end_error = lamp_error(position, *sample)}};
 }
 
-void Tracer::light_alone(Seen& seen) {
-  for (const PreparedLight& source : frame_.lights()) {
-    const std::optional<Unhidden> reaching = unhidden(source, seen);
-    if (!reaching) continue;
-    tick();
-    seen.light += reaching->light * light_share(data_, reaching->shadow_ray, seen.path.media, work_);
-  }
-}
-
-void Tracer::light_together(std::span<Seen> all) {
-  if (frame_.features().transparency) {
-    for (Seen& seen : all) light_alone(seen);
-    return;
-  }
-  std::array<WorldRay, packet_size> shadow_rays;
-  std::array<Seen*, packet_size> seen_from;
+void Tracer::add_light(std::span<Seen*> seen) {
+  std::array<WorldRay, packet_size> rays;
+  std::array<Seen*, packet_size> lit;
   std::array<Rgb, packet_size> lights;
   for (const PreparedLight& source : frame_.lights()) {
     std::size_t count = 0;
-    for (Seen& seen : all) {
-      const std::optional<Unhidden> reaching = unhidden(source, seen);
+    for (Seen* surface : seen) {
+      const std::optional<Unhidden> reaching = unhidden(source, *surface);
       if (!reaching) continue;
-      shadow_rays[count] = reaching->shadow_ray;
+      rays[count] = reaching->shadow_ray;
       lights[count] = reaching->light;
-      seen_from[count++] = &seen;
+      lit[count++] = surface;
     }
     work_.stats.shadow_rays += count;
     tick(static_cast<unsigned>(count));
-    const RayMask hidden = data_.occluded(std::span(shadow_rays.data(), count), work_.rays);
-    for (std::size_t i = 0; i < count; ++i) {
-      if ((hidden >> i & 1u) == 0) seen_from[i]->light += lights[i];
-    }
+    const RayMask hidden = hidden_of(std::span(rays).first(count));
+    for (std::size_t i = 0; i < count; ++i)
+      lit[i]->light += lights[i] * light_share_of(rays[i], *lit[i], (hidden >> i & 1u) != 0);
   }
 }
 
-void Tracer::split(const Seen& seen) {
+RayMask Tracer::hidden_of(std::span<const WorldRay> rays) {
+  if (go_together(rays)) return data_.occluded(rays, work_.rays);
+  RayMask hidden = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    hidden |= static_cast<RayMask>(data_.occluded(rays[i], work_.rays)) << i;
+  }
+  return hidden;
+}
+
+Rgb Tracer::light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden) {
+  const Features& features = frame_.features();
+  if (!hidden) {
+    if (!features.absorption || seen.path.media == MediaLists::empty) return Rgb(1);
+  } else if (!features.transparency) {
+    return Rgb(0);
+  }
+  return light_share(data_, shadow_ray, seen.work->media, seen.path.media, work_);
+}
+
+void Tracer::split(Seen& seen) {
   const SurfaceHit& surface = seen.surface;
   double mirror_share = surface.material->description->reflectivity;
   if (mirror_share <= 0 && surface.transparency <= 0) return;
 
   const PathRay& path = seen.path;
   const RayHit& hit = seen.hit;
-  const Rgb& weight = seen.weight;
+  MediaLists& media = seen.work->media;
   PathRay next;
   next.ray.origin = surface.point.position;
   next.bounces = path.bounces + 1;
@@ -251,38 +245,39 @@ void Tracer::split(const Seen& seen) {
 
   PathRay mirror = next;
   mirror.media = path.media;
-  mirror.media_mark = work_.media.mark();
+  mirror.media_mark = media.mark();
 
   PathRay through = next;
   through.weight = Rgb(0);
   if (surface.transparency > 0) {
     const Side far_side = surface.viewer_side == Side::outside ? Side::inside : Side::outside;
     through.ray.start = data_.start_point(path.ray, hit, far_side);
-    const Passage open = passage(surface, path, hit, through.ray.start);
+    const Passage open = passage(seen, through.ray.start);
     through.media = open.media;
-    through.media_mark = work_.media.mark();
-    const Refraction refraction = refract(path.ray.direction, surface.normal, refractive_index(path.media),
-                                          refractive_index(through.media));
+    through.media_mark = media.mark();
+    const Refraction refraction =
+        refract(path.ray.direction, surface.normal, refractive_index(media, path.media),
+                refractive_index(media, through.media));
     mirror_share += open.transparency * refraction.reflectance;
-    through.weight = open.transparency * (1 - refraction.reflectance) * weight * open.color;
+    through.weight = open.transparency * (1 - refraction.reflectance) * seen.weight * open.color;
     through.ray.direction = kept_on_side(refraction.direction, -surface.face_normal);
   }
 
   // The last one pushed is followed first; media lists made for it are dropped before the other's turn.
   if (mirror_share > 0) {
     mirror.kind = RayKind::reflection;
-    mirror.weight = mirror_share * weight;
+    mirror.weight = mirror_share * seen.weight;
     mirror.ray.direction = kept_on_side(mirrored(path.ray.direction, surface.normal), surface.face_normal);
     mirror.ray.start = data_.start_point(path.ray, hit, surface.viewer_side);
-    push(mirror);
+    push(*seen.work, mirror);
   }
   if (!is_black(through.weight)) {
     through.kind = RayKind::refraction;
-    if (push(through) && surface.point.solid) ++work_.stats.media_changes;
+    if (push(*seen.work, through) && surface.point.solid) ++work_.stats.media_changes;
   }
 }
 
-bool Tracer::push(const PathRay& path) {
+bool Tracer::push(SampleWork& work, const PathRay& path) {
   const double least = frame_.settings().min_weight;
   if (path.weight.x < least && path.weight.y < least && path.weight.z < least) {
     ++work_.stats.rays_below_min_weight;
@@ -292,7 +287,7 @@ bool Tracer::push(const PathRay& path) {
     ++work_.stats.rays_beyond_depth;
     return false;
   }
-  work_.pending.push_back(path);
+  work.pending.push_back(path);
   return true;
 }
 
@@ -309,24 +304,30 @@ RayHit Tracer::seen_of(const PathRay& path, const RayHit& hit) {
   return seen;
 }
 
-Tracer::Passage Tracer::passage(const SurfaceHit& surface, const PathRay& path, const RayHit& hit,
-                                const StartPoint& behind) {
+Tracer::Passage Tracer::passage(const Seen& seen, const StartPoint& behind) {
+  const SurfaceHit& surface = seen.surface;
+  const PathRay& path = seen.path;
+  MediaLists& media = seen.work->media;
   Passage passage{.transparency = surface.transparency, .color = surface.color, .media = path.media};
   const WorldRay ray = {.origin = surface.point.position, .direction = path.ray.direction, .start = behind};
-  if (hit.has_company) {
-    pass_company(ray, path, hit, passage);
+  if (seen.hit.has_company) {
+    pass_company(ray, seen, passage);
   } else if (surface.point.solid) {
     const auto exit_of = [&](std::uint32_t object) { return data_.stay(ray, object, work_.rays).exit; };
     const Medium medium{surface.point.object, surface.point.material};
-    passage.media = surface.point.entering ? entered_in_order(work_.media, path.media, medium, exit_of)
-                                           : work_.media.left(path.media, medium.object);
+    passage.media = surface.point.entering ? entered_in_order(media, path.media, medium, exit_of)
+                                           : media.left(path.media, medium.object);
   }
   return passage;
 }
 
 // A ray that starts at the hit finds some crossings next to it behind itself, whatever rounding makes of
 // their order: which of them it has passed is told by what it starts inside of.
-void Tracer::pass_company(const WorldRay& behind, const PathRay& path, const RayHit& hit, Passage& passage) {
+void Tracer::pass_company(const WorldRay& behind, const Seen& seen, Passage& passage) {
+  const PathRay& path = seen.path;
+  const RayHit& hit = seen.hit;
+  MediaLists& media = seen.work->media;
+  data_.intersect(path.ray, work_.rays);  // once more: others have been asked for since then
   std::vector<RayHit>& entered = work_.entered;
   entered.clear();
   const auto pass = [&](const RayHit& crossing, bool at_place) {
@@ -341,10 +342,10 @@ void Tracer::pass_company(const WorldRay& behind, const PathRay& path, const Ray
     }
     if (!solid) return;
     if (crossing.entering) {
-      const bool is_new = !work_.media.holds(path.media, crossing.object);
+      const bool is_new = !media.holds(path.media, crossing.object);
       if (is_new && entered.size() < most_media_at_once) entered.push_back(crossing);
     } else {
-      passage.media = work_.media.left(passage.media, crossing.object);
+      passage.media = media.left(passage.media, crossing.object);
     }
   };
   for (const RayHit& crossing : work_.rays.here) pass(crossing, true);
@@ -354,14 +355,14 @@ void Tracer::pass_company(const WorldRay& behind, const PathRay& path, const Ray
   sort_outermost_first(entered, exit_of);
   for (const RayHit& crossing : entered) {
     const Medium medium{crossing.object, data_.hit_material(crossing)};
-    passage.media = entered_in_order(work_.media, passage.media, medium, exit_of);
+    passage.media = entered_in_order(media, passage.media, medium, exit_of);
   }
 }
 
-double Tracer::refractive_index(MediaLists::List media) const {
+double Tracer::refractive_index(const MediaLists& lists, MediaLists::List media) const {
   constexpr double vacuum = 1;
   if (media == MediaLists::empty) return vacuum;
-  return data_.materials()[work_.media.innermost(media).material].description->refractive_index;
+  return data_.materials()[lists.innermost(media).material].description->refractive_index;
 }
 
 void Tracer::tick(unsigned rays) {

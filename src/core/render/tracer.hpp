@@ -14,9 +14,11 @@
 
 namespace crt::core {
 
-/// Traces camera rays on one thread, and their shadow rays, as packets where all of them see the same media
-/// around the camera. Mirrored and refracted rays wait on a stack, each with its weight: its share of the
-/// light that the camera ray brings. A sample does not depend on what is traced beside it.
+/// Traces camera rays on one thread, up to packet_size side by side. Mirrored and refracted rays wait on a
+/// stack of each sample, each with its weight: its share of the light that the camera ray brings. In every
+/// round each sample follows the last ray on its stack, and the rounds' rays, and the shadow rays of each
+/// light, travel as packets where they go nearly the same way. A sample does not depend on what is traced
+/// beside it.
 class Tracer {
  public:
   /// All three must outlive the tracer, and nothing else may use the workspace meanwhile.
@@ -27,13 +29,14 @@ class Tracer {
     double alpha = 1;
   };
 
-  /// Traces up to packet_size camera rays, best such that go nearly the same way. Throws Error (cancelled)
-  /// soon after the progress says so.
+  /// Traces up to packet_size camera rays. Throws Error (cancelled) soon after the progress says so.
   void trace(std::span<const CameraRay> rays, std::span<Sample> samples);
 
  private:
-  /// What a camera ray sees, while it waits for the light there.
+  /// A sample's ray in this round, and what it meets.
   struct Seen {
+    SampleWork* work = nullptr;
+    Sample* sample = nullptr;
     PathRay path;
     RayHit hit;
     SurfaceHit surface;
@@ -41,7 +44,6 @@ class Tracer {
     Rgb weight{0, 0, 0};
     Rgb light{0, 0, 0};
     std::optional<StartPoint> start;  ///< of rays that leave to the viewer's side
-    Sample* sample = nullptr;
   };
   /// A light as it reaches a surface if nothing hides it.
   struct Unhidden {
@@ -49,27 +51,28 @@ class Tracer {
     WorldRay shadow_ray;
   };
 
-  void trace_alone(const CameraRay& camera_ray, Sample& sample);
-  void trace_together(std::span<const CameraRay> rays, std::span<Sample> samples);
-  PathRay first_path(const CameraRay& camera_ray);
-  /// Follows what waits on the stack, and what comes of it, as the rays of a sample after the first so many.
-  void follow_pending(int rays, Sample& sample);
-  void follow(const PathRay& path, Sample& sample);
-  void see_background(const PathRay& path, const Rgb& weight, Sample& sample) const;
+  PathRay first_path(const CameraRay& camera_ray, MediaLists& media);
+  /// Takes the next ray of each sample that has one, and says of how many.
+  std::size_t take_round(std::span<Sample> samples);
+  void follow(std::span<Seen> round);
+  /// Whether there is a surface, whose light is still to come; else the ray is done.
+  bool see(Seen& seen);
+  void see_background(Seen& seen) const;
   /// Takes from the weight what the medium on the way to a hit absorbs; whether anything is left.
-  bool pass_medium(const PathRay& path, double length, Rgb& weight) const;
+  bool pass_medium(Seen& seen) const;
 
-  /// Looks up what the path has met, with the light that needs no shadow ray.
-  void see(const PathRay& path, const RayHit& hit, Seen& seen);
+  /// Adds the light of all lights that the surfaces send back along the paths.
+  void add_light(std::span<Seen*> seen);
+  /// Which of the rays meet anything at all.
+  RayMask hidden_of(std::span<const WorldRay> rays);
+  /// What gets through along the way to a light, of which it is known whether anything is met there.
+  Rgb light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden);
   std::optional<Unhidden> unhidden(const PreparedLight& source, Seen& seen) const;
-  /// The light of all lights that the surface sends back along the path.
-  void light_alone(Seen& seen);
-  void light_together(std::span<Seen> all);
 
   /// Puts the mirrored and the refracted ray on the stack, if they are worth it.
-  void split(const Seen& seen);
+  void split(Seen& seen);
   /// Whether the path was worth it.
-  bool push(const PathRay& path);
+  bool push(SampleWork& work, const PathRay& path);
 
   /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
   /// several the one whose object was written first.
@@ -81,11 +84,10 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  Passage passage(const SurfaceHit& surface, const PathRay& path, const RayHit& hit,
-                  const StartPoint& behind);
+  Passage passage(const Seen& seen, const StartPoint& behind);
   /// Adds what other objects at the place do.
-  void pass_company(const WorldRay& behind, const PathRay& path, const RayHit& hit, Passage& passage);
-  double refractive_index(MediaLists::List media) const;
+  void pass_company(const WorldRay& behind, const Seen& seen, Passage& passage);
+  double refractive_index(const MediaLists& lists, MediaLists::List media) const;
 
   /// Counts rays; lets the progress speak now and then.
   void tick(unsigned rays = 1);
@@ -94,11 +96,12 @@ class Tracer {
   const PreparedData& data_;
   Workspace& work_;
   Progress& progress_;
+  /// The same in every sample's lists.
   MediaLists::List camera_media_ = MediaLists::empty;
   /// Of the lists that all camera rays need.
   std::uint32_t camera_media_mark_ = 0;
   unsigned ticks_ = 0;
-  std::array<Seen, packet_size> seen_;
+  std::array<Seen, packet_size> round_;
 };
 
 }  // namespace crt::core

@@ -1,6 +1,7 @@
 // What one thread works with: memory that it reuses from ray to ray, and its counts.
 #pragma once
 
+#include <array>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -25,11 +26,17 @@ struct PathRay {
   std::uint32_t media_mark = 0;
 };
 
+/// One of the samples that are traced side by side.
+struct SampleWork {
+  MediaLists media;
+  std::vector<PathRay> pending;  ///< a stack
+  int rays = 0;                  ///< followed so far
+};
+
 struct Workspace {
   RayWorkspace rays;
   RenderStats stats;
-  MediaLists media;
-  std::vector<PathRay> pending;
+  std::array<SampleWork, packet_size> samples;
   std::vector<RayHit> crossings;
   std::vector<RayHit> entered;
   std::vector<Medium> surrounding;
