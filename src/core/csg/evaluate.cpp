@@ -25,11 +25,10 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
 }
 
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
-                    std::uint64_t& escalations, double first_above) {
+                    std::uint64_t& escalations) {
   if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
   ExactRay exact = leaf.placement->to_object_exactly(ray.origin, ray.direction, object_ray);
   exact.start_error = ray.start.t_error;
-  exact.first_above = first_above;
   exact.escalations = &escalations;
   return leaf.exact->crossings(exact, out);
 }

@@ -114,9 +114,9 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
                        const StartPoint& start);
 
 /// The crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's space, by the leaf's
-/// tier. Of the crossings with t above `first_above` those behind the first may be left out.
+/// tier.
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
-                    std::uint64_t& escalations, double first_above = std::numeric_limits<double>::infinity());
+                    std::uint64_t& escalations);
 
 /// The flatter a ray meets a surface, the farther from its start it may do so if that is on the surface: up
 /// to this many times the rounding of the start.

@@ -107,7 +107,7 @@ class ExactFrustumShape final : public ExactShape {
       if (end.meeting.found()) (end.meeting.side < 0 ? enter : leave) = end;
     }
     const double first_above =
-        start.face == no_face ? ray.first_above : std::numeric_limits<double>::infinity();
+        start.face == no_face ? ray.near.first_above : std::numeric_limits<double>::infinity();
     Piece piece;
     FilteredSide filtered(frustum_, ray);
     std::optional<bool> hit = cut(filtered, enter, leave, first_above, piece);

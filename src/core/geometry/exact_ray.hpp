@@ -35,8 +35,6 @@ struct ExactRay {
   /// A ray that starts on a surface has a rounded origin: what it meets at |t| below this is at the start for
   /// all that is known.
   double start_error = 0;
-  /// Of the crossings with t above this only the first is asked for: the others may be left out.
-  double first_above = std::numeric_limits<double>::infinity();
   /// Counts how often exact() is asked.
   std::uint64_t* escalations = nullptr;
 

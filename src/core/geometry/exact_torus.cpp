@@ -158,7 +158,7 @@ class ExactTorusShape final : public ExactShape {
           if (!exact->find(line.to_precise_t(x), line.to_t_length(share * room), crossing)) return false;
         }
         out.push_back(crossing);
-        if (crossing.t > ray.first_above) return true;
+        if (crossing.t > ray.near.first_above) return true;
       }
     }
     return true;

@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdint>
+#include <limits>
 
 #include "core/math/double_double.hpp"
 #include "crt/vec.hpp"
@@ -30,6 +31,8 @@ struct ObjectRay {
   Vec3 direction{0, 0, 1};
   Vec3 direction_low{0, 0, 0};
   RayStart start = {};
+  /// Of the crossings with t above this only the first is asked for: the others may be left out.
+  double first_above = std::numeric_limits<double>::infinity();
 
   /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
   /// is about one rounding of the result, not of the way there, if the point is near the center.

@@ -31,33 +31,48 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     return Vec3(glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along));
   };
   TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
-  TorusLine::Dips dips = torus.dips();
-  if (on_surface) {
-    obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
-  }
-
   const double size = ring_ + tube_;
   std::uint8_t root = 0;
-  for (std::size_t i = 0; i < dips.count; ++i) {
-    const TorusLine::Dip& dip = dips.dip[i];
-    const auto crossing = [&](double x, bool entering) {
-      const double t = line.to_t(x);
-      const double reach = size + glm::length(line.at(x));
-      // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
-      const double approach = std::abs(torus.half_slope(x)) / tube_;
-      const double longest = (dip.leave - dip.enter) + grazing_error(line, reach, size);
-      if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
-      // A start that rounding has moved off the surface takes the whole level of G along.
-      const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
-      const double along = off_surface < longest * approach ? off_surface / approach : longest;
-      const double error = standard_error(line, t, reach, approach, longest) + line.to_t_length(along);
-      return Crossing{.t = t, .error = error, .root = root++, .entering = entering};
-    };
-    const Crossing enter = crossing(dip.enter, true);
-    const Crossing leave = crossing(dip.leave, false);
-    if (!(enter.t < leave.t)) continue;
+  const auto crossing = [&](double x, bool entering, double length) {
+    const double t = line.to_t(x);
+    const double reach = size + glm::length(line.at(x));
+    // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
+    const double approach = std::abs(torus.half_slope(x)) / tube_;
+    const double longest = length + grazing_error(line, reach, size);
+    if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
+    // A start that rounding has moved off the surface takes the whole level of G along.
+    const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
+    const double along = off_surface < longest * approach ? off_surface / approach : longest;
+    const double error = standard_error(line, t, reach, approach, longest) + line.to_t_length(along);
+    return Crossing{.t = t, .error = error, .root = root++, .entering = entering};
+  };
+  const auto add = [&](const TorusLine::Dip& dip) {
+    const Crossing enter = crossing(dip.enter, true, dip.leave - dip.enter);
+    const Crossing leave = crossing(dip.leave, false, dip.leave - dip.enter);
+    if (!(enter.t < leave.t)) return;
     out.push_back(enter);
     out.push_back(leave);
+  };
+
+  if (on_surface) {
+    TorusLine::Dips dips = torus.dips();
+    obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
+    for (std::size_t i = 0; i < dips.count; ++i) add(dips.dip[i]);
+    return false;
+  }
+  const TorusLine::Stretches stretches = torus.stretches();
+  for (std::size_t i = 0; i < stretches.count; ++i) {
+    const auto& [enter, leave] = stretches.stretch[i];
+    const double first = torus.root(enter);
+    const double t = line.to_t(first);
+    // The stretch goes on to where it is known to be inside: its end needs not be known if it is not asked
+    // for.
+    if (t > ray.first_above && t < line.to_t(leave.negative)) {
+      out.push_back(crossing(first, true, leave.positive - first));
+      return false;
+    }
+    add({first, torus.root(leave)});
+    if (!out.empty() && out.back().t > ray.first_above) return false;
   }
   return false;
 }

@@ -152,19 +152,30 @@ TorusLine::Search TorusLine::find_sign(double low, double high, double sign) con
   return {std::nullopt, false};
 }
 
-/// The one root between two points of different sign: Newton, and bisection where it would leave
-/// the bounds or does not halve them fast enough.
-double TorusLine::root_between(double negative, double positive) const {
+TorusLine::Level TorusLine::level_and_slope(double x) const {
+  const Vec3 p = point_ + x * direction_;
+  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+  const double outward = rho - ring_;
+  const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
+  return {.value = outward * outward - (tube_ - p.z) * (tube_ + p.z),
+          .half_slope = outward * rho_rate + p.z * direction_.z};
+}
+
+/// Newton, and bisection where it would leave the bounds or does not halve them fast enough.
+double TorusLine::root(const Bracket& bracket) const {
+  double negative = bracket.negative;
+  double positive = bracket.positive;
   if (on_surface_ && std::min(negative, positive) <= 0 && std::max(negative, positive) >= 0) return 0;
   constexpr int most_steps = 200;
   double x = negative + (positive - negative) / 2;
   double step_before = std::abs(positive - negative);
   for (int step = 0; step < most_steps; ++step) {
-    const double height = value(x);
+    const Level level = on_surface_ ? Level{value(x), half_slope(x)} : level_and_slope(x);
+    const double height = level.value;
     if (height == 0) return x;
     (height < 0 ? negative : positive) = x;
     // With the known root divided out, so is its slope: G = x H, H' = (G' - H) / x.
-    const double slope = 2 * half_slope(x);
+    const double slope = 2 * level.half_slope;
     const double newton = on_surface_ ? height / (slope - height / x) : height / slope;
     double next = x - newton;
     const double low = std::min(negative, positive);
@@ -178,8 +189,8 @@ double TorusLine::root_between(double negative, double positive) const {
   return x;
 }
 
-TorusLine::Dips TorusLine::dips() {
-  Dips result;
+TorusLine::Stretches TorusLine::stretches() {
+  Stretches result;
   const std::optional<Range> whole = range();
   if (!whole) return result;
   const Range concave = concave_part(*whole);
@@ -190,8 +201,8 @@ TorusLine::Dips TorusLine::dips() {
   result.certain =
       (first.certain || concave.low == whole->low) && (second.certain || concave.high == whole->high);
   const auto add = [&](double outside_before, double first_inside, double last_inside, double outside_after) {
-    result.dip[result.count++] = {root_between(first_inside, outside_before),
-                                  root_between(last_inside, outside_after)};
+    result.stretch[result.count++] = {.enter = {first_inside, outside_before},
+                                      .leave = {last_inside, outside_after}};
   };
   if (first.x && second.x) {
     const Search rise = find_sign(concave.low, concave.high, -1);
@@ -206,6 +217,15 @@ TorusLine::Dips TorusLine::dips() {
     add(whole->low, *first.x, *first.x, concave.high);
   } else if (second.x) {
     add(concave.low, *second.x, *second.x, whole->high);
+  }
+  return result;
+}
+
+TorusLine::Dips TorusLine::dips() {
+  const Stretches found = stretches();
+  Dips result{.dip = {}, .count = found.count, .certain = found.certain};
+  for (std::size_t i = 0; i < found.count; ++i) {
+    result.dip[i] = {root(found.stretch[i].enter), root(found.stretch[i].leave)};
   }
   return result;
 }

@@ -19,7 +19,25 @@ class TorusLine {
   /// is what each component of a point near the torus may be off by, rounding included.
   void take_care(double off) { off_ = off; }
 
-  /// A stretch of the line inside the torus.
+  /// The one root between two points of different sign.
+  struct Bracket {
+    double negative;
+    double positive;
+  };
+  /// A stretch of the line inside the torus, by brackets around its ends.
+  struct Stretches {
+    struct Ends {
+      Bracket enter;
+      Bracket leave;
+    };
+    std::array<Ends, 2> stretch;
+    std::size_t count = 0;
+    bool certain = true;
+  };
+  /// In ascending order.
+  Stretches stretches();
+  double root(const Bracket& bracket) const;
+
   struct Dip {
     double enter;
     double leave;
@@ -29,7 +47,7 @@ class TorusLine {
     std::size_t count = 0;
     bool certain = true;
   };
-  /// In ascending order. Ends at x = 0 are exactly 0 if the point is on the surface.
+  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the surface.
   Dips dips();
 
   double value(double x) const;  ///< G; less what it is at x = 0, if the point is on the surface
@@ -54,7 +72,12 @@ class TorusLine {
   double value_error(double x) const;
   double slope_error() const;
   double inflection_error(const Range& concave) const;
-  double root_between(double negative, double positive) const;
+  /// G and G' / 2 off the surface.
+  struct Level {
+    double value;
+    double half_slope;
+  };
+  Level level_and_slope(double x) const;
 
   Vec3 point_;
   Vec3 direction_;

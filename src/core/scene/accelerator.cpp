@@ -16,35 +16,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What the cheap tests know of an object: of spheres and planes all, if no rounding is between their own
-/// place and that in the world.
-Outline outline_of(const CompiledScene& scene, const SceneObject& object) {
-  Outline outline;
-  if (object.is_csg()) return outline;
-  outline.lone_leaf = object.first_leaf;
-  const Leaf& leaf = scene.leaves[object.first_leaf];
-  const bool is_whole_surface = leaf.shape->is_solid() && leaf.face_count == 1;
-  if (!is_whole_surface || !leaf.placement->is_translation()) return outline;
-  const Surface surface = leaf.shape->surface(0);
-  for (int axis = 0; axis < 3; ++axis) {
-    const DoubleDouble place = two_sum(surface.position[axis], leaf.placement->to_world().translation[axis]);
-    if (place.lo != 0) return outline;
-    outline.place[axis] = place.hi;
-  }
-  outline.surface = scene.face_surfaces[leaf.first_face].surface;
-  // Squares of such sizes, and of what matters beside them, are normal numbers.
-  constexpr double smallest = 0x1p-300;
-  constexpr double largest = 0x1p300;
-  if (surface.kind == SurfaceKind::sphere) {
-    outline.radius = surface.sizes[0];
-    if (outline.radius > smallest && outline.radius < largest) outline.kind = Outline::Kind::sphere;
-  } else if (surface.kind == SurfaceKind::plane) {
-    outline.normal = scaled_to_one(surface.direction);
-    outline.kind = Outline::Kind::plane;
-  }
-  return outline;
-}
-
 bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {

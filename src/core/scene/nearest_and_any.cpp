@@ -97,8 +97,7 @@ class OutlinedRay {
     if (outline.kind == Outline::Kind::unknown) return Judgement::open;
     // Of that surface it is known otherwise where the ray meets it.
     if (outline.surface == start_surface_) return Judgement::open;
-    const auto verdict = outline.kind == Outline::Kind::sphere ? judge_sphere(outline, line_, limit)
-                                                               : judge_plane(outline, line_, limit, last);
+    const auto verdict = judge_outline(outline, line_, limit, last);
     if (verdict.missed != 0) return Judgement::missed;
     return verdict.met != 0 ? Judgement::met : Judgement::open;
   }
@@ -259,9 +258,7 @@ class OutlinedPacket {
         if ((rays >> first & group_mask) == 0) continue;
         const OutlineLine<Lanes>& lines = packet_.groups[group];
         const Lanes& limits = packet_.limits[group];
-        const Verdict<LaneMask> of_lanes = outline.kind == Outline::Kind::sphere
-                                               ? judge_sphere(outline, lines, limits)
-                                               : judge_plane(outline, lines, limits, last[group]);
+        const Verdict<LaneMask> of_lanes = judge_outline(outline, lines, limits, last[group]);
         verdict.missed |= mask_of(of_lanes.missed) << first;
         verdict.met |= mask_of(of_lanes.met) << first;
       }

@@ -61,16 +61,15 @@ class ObjectQuery {
 
 template <class Kind>
 void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject& object) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
   const Leaf& leaf = accelerator_->leaf(object.first_leaf);
-  const ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
+  ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
   CrossingList& crossings = work_->crossings;
   crossings.clear();
   // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
   constexpr double more_than_rounding = 0x1p-50;
   const double start = farthest_start(*ray_);
-  const double first_above = Kind::takes_one ? start + more_than_rounding * std::abs(start) : infinity;
-  bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations, first_above);
+  if (Kind::takes_one) object_ray.first_above = start + more_than_rounding * std::abs(start);
+  bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = object_ray.start.face != no_face;
   std::size_t index = 0;

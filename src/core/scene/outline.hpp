@@ -12,16 +12,23 @@ namespace crt::core {
 /// An object as the cheap tests see it. Few objects have an outline: those that scenes have many of and
 /// whose exact test costs much more.
 struct Outline {
-  enum class Kind : std::uint8_t { unknown, sphere, plane };
+  enum class Kind : std::uint8_t { unknown, sphere, plane, torus };
 
   Kind kind = Kind::unknown;
   Vec3 place{0, 0, 0};   ///< the center, or a point of the plane
-  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1
-  double radius = 0;
+  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus
+  double radius = 0;     ///< the torus's is that of its ring
+  double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
   std::uint32_t surface = nothing;  ///< its whole surface
   /// The leaf of an object that has but one; no ray that left it for good meets it again.
   std::uint32_t lone_leaf = nothing;
 };
+
+struct CompiledScene;
+struct SceneObject;
+
+/// The outline of an object, of unknown kind where it has none.
+Outline outline_of(const CompiledScene& scene, const SceneObject& object);
 
 /// One line, or as many side by side as a Real has lanes.
 template <class Real>
@@ -51,6 +58,13 @@ inline constexpr double slack = 0x1p-46;
 template <class Real>
 Real size_of(const Real& x) {
   return x < 0.0 ? -x : x;
+}
+
+inline double square_root(double x) {
+  return std::sqrt(x);
+}
+inline Lanes square_root(const Lanes& x) {
+  return sqrt(x);
 }
 
 template <class Real>
@@ -121,6 +135,70 @@ auto judge_plane(const Outline& plane, const OutlineLine<Real>& line, const Real
   using Mask = decltype((t < error) & (error < t));
   return Verdict<Mask>{.missed = known & ((last < line.begin) | (t - error > limit)),
                        .met = known & (t - error > line.certain_from) & (last < line.certain_to)};
+}
+
+/// From farther away than so many sizes the roundings are not covered by what outlines are larger than
+/// objects.
+inline constexpr double farthest_outline = 0x1p16;
+
+/// A torus: only whether it is missed, because the line passes by the ball and the slab around it, or through
+/// the hole in its middle. The outline is thicker than the torus by more than all roundings here.
+template <class Real>
+auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real& limit) {
+  using namespace outline_detail;
+  const std::array<Real, 3> way = way_to(line, torus.place);
+  const Real closest = dot(way, line.direction) * line.inverse_squared_speed;
+  // From here on the line relative to the center, from where it is closest.
+  const std::array<Real, 3> across = {closest * line.direction[0] - way[0],
+                                      closest * line.direction[1] - way[1],
+                                      closest * line.direction[2] - way[2]};
+  const Vec3& axis = torus.normal;
+  const auto along_axis = [&](const std::array<Real, 3>& v) {
+    return axis.x * v[0] + axis.y * v[1] + axis.z * v[2];
+  };
+  const double ball = torus.radius + torus.thickness;
+  const Real squared_across = dot(across, across);
+  const Real squared_way = dot(way, way);
+  const Real room = ball * ball - squared_across;
+  const Real half = square_root((room > 0.0 ? room : 0.0 * room) * line.inverse_squared_speed);
+  // The part of the line in the slab, as far as it is in the ball. Where the line is parallel to the slab the
+  // quotients are huge or no numbers, and comparing leaves the ball's.
+  const Real height = along_axis(across);
+  const Real climb = along_axis(line.direction);
+  const Real first = (-torus.thickness - height) / climb;
+  const Real second = (torus.thickness - height) / climb;
+  const Real low = first < second ? first : second;
+  const Real high = first < second ? second : first;
+  const Real from = low > -half ? low : -half;
+  const Real to = high < half ? high : half;
+  const auto squared_distance = [&](const Real& x) {
+    const Real at = height + x * climb;
+    return squared_across + x * x * line.squared_speed - at * at;
+  };
+  const double hole = torus.radius - torus.thickness;
+  const double squared_hole = hole > 0 ? hole * hole : 0;
+  using Mask = decltype((room < half) & (half < room));
+  const auto through_hole = (squared_distance(from) < squared_hole) & (squared_distance(to) < squared_hole);
+  // More than the bound on the error of a root that is grazed.
+  const Real gap = 0x1p-20 * ball * line.inverse_speed;
+  const auto known = squared_way < farthest_outline * farthest_outline * ball * ball;
+  return Verdict<Mask>{
+      .missed = known & ((room < 0.0) | (from > to) | through_hole | (closest - half - gap > limit) |
+                         (closest + half + gap < line.begin)),
+      .met = room < room};
+}
+
+/// Whatever it is, if it is known; `last` as of planes.
+template <class Real>
+auto judge_outline(const Outline& outline, const OutlineLine<Real>& line, const Real& limit, Real& last) {
+  switch (outline.kind) {
+    case Outline::Kind::sphere:
+      return judge_sphere(outline, line, limit);
+    case Outline::Kind::torus:
+      return judge_torus(outline, line, limit);
+    default:
+      return judge_plane(outline, line, limit, last);
+  }
 }
 
 }  // namespace crt::core

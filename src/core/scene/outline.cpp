@@ -1,0 +1,92 @@
+#include "core/scene/outline.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "core/math/vector.hpp"
+#include "core/scene/compile.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// By how much a transform scales, if it does so alike in all directions (but for its own roundings); else 0.
+double even_scale(const Transform& transform) {
+  const std::array<Vec3, 3> rows = {transform.row_x, transform.row_y, transform.row_z};
+  const double square = glm::dot(rows[0], rows[0]);
+  constexpr double rounding = 0x1p-40;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k <= i; ++k) {
+      const double wanted = i == k ? square : 0;
+      if (!(std::abs(glm::dot(rows[i], rows[k]) - wanted) <= rounding * square)) return 0;
+    }
+  }
+  return std::sqrt(square);
+}
+
+/// Outlines of spheres and planes are where the objects are to the last bit, or there are none.
+bool place_exactly(const Surface& surface, const Placement& placement, Outline& outline) {
+  if (!placement.is_translation()) return false;
+  for (int axis = 0; axis < 3; ++axis) {
+    const DoubleDouble place = two_sum(surface.position[axis], placement.to_world().translation[axis]);
+    if (place.lo != 0) return false;
+    outline.place[axis] = place.hi;
+  }
+  return true;
+}
+
+/// That of a torus is thicker by more than all roundings.
+bool place_torus(const Surface& surface, const Placement& placement, Outline& outline) {
+  const double scale = even_scale(placement.to_world());
+  outline.place = placement.point_to_world(surface.position);
+  const Vec3 tip = placement.point_to_world(surface.position + surface.direction);
+  const Vec3 axis = tip - outline.place;
+  const double size = scale * (surface.sizes[0] + surface.sizes[1]);
+  // Where the place is far larger than the axis the difference has too few digits left.
+  constexpr double most_sizes = 0x1p12;
+  if (!(largest_component(outline.place) < most_sizes * size) || !(largest_component(axis) > 0)) return false;
+  if (!(largest_component(outline.place) < most_sizes * largest_component(axis))) return false;
+  outline.normal = unit_vector(axis);
+  constexpr double roundings = 0x1p-30;
+  outline.radius = scale * surface.sizes[0];
+  outline.thickness = scale * surface.sizes[1] + roundings * size;
+  return true;
+}
+
+}  // namespace
+
+Outline outline_of(const CompiledScene& scene, const SceneObject& object) {
+  Outline outline;
+  if (object.is_csg()) return outline;
+  outline.lone_leaf = object.first_leaf;
+  const Leaf& leaf = scene.leaves[object.first_leaf];
+  if (!leaf.shape->is_solid() || leaf.face_count != 1) return outline;
+  const Surface surface = leaf.shape->surface(0);
+  outline.surface = scene.face_surfaces[leaf.first_face].surface;
+  // Squares of such sizes, and of what matters beside them, are normal numbers.
+  constexpr double smallest = 0x1p-300;
+  constexpr double largest = 0x1p300;
+  const auto has_fair_size = [&](double size) { return size > smallest && size < largest; };
+  switch (surface.kind) {
+    case SurfaceKind::sphere:
+      outline.radius = surface.sizes[0];
+      if (has_fair_size(outline.radius) && place_exactly(surface, *leaf.placement, outline)) {
+        outline.kind = Outline::Kind::sphere;
+      }
+      break;
+    case SurfaceKind::plane:
+      outline.normal = scaled_to_one(surface.direction);
+      if (place_exactly(surface, *leaf.placement, outline)) outline.kind = Outline::Kind::plane;
+      break;
+    case SurfaceKind::torus:
+      if (place_torus(surface, *leaf.placement, outline) && has_fair_size(outline.thickness) &&
+          has_fair_size(outline.radius)) {
+        outline.kind = Outline::Kind::torus;
+      }
+      break;
+    default:
+      break;
+  }
+  return outline;
+}
+
+}  // namespace crt::core
