@@ -12,7 +12,7 @@
 
 #include "core/math/float_environment.hpp"
 #include "core/render/pixel.hpp"
-#include "core/render/tasks.hpp"
+#include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
