@@ -54,6 +54,7 @@ struct CsgProgram {
   /// Leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
   LeafTree tree;  ///< over what of each leaf's box matters
+  Bounds bounds;  ///< of the object, in the world
   std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }

@@ -70,8 +70,11 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
     : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
-  scene_ = scene;
-  scene_.entities.clear();
+  scene_ = {.entities = {},
+            .lights = scene.lights,
+            .camera = scene.camera,
+            .background = scene.background,
+            .settings = scene.settings};
 
   if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
     geometry_ = earlier->geometry_;
