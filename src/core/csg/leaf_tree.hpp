@@ -43,6 +43,10 @@ class LeafTree {
 
   /// The leaves that a line may meet anywhere.
   std::span<const std::uint32_t> unbounded() const { return unbounded_; }
+  /// Of memory, beside the object itself.
+  std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + unbounded_.capacity() * sizeof(std::uint32_t);
+  }
   bool has_root() const { return !nodes_.empty(); }
 
   /// Calls meet(child, enter, leave) for what the line comes near below a node.

@@ -113,6 +113,7 @@ void Rendering::run() {
     RenderStats stats = render_tiles();
     stats.threads = allowed_threads(options_.threads);
     stats.prepare_seconds = data_.prepare_seconds();
+    stats.memory = data_.memory();
     stats.trace_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     canvas_.set_stats(stats);
     tell(stats);

@@ -1,6 +1,7 @@
 #include "core/scene/compile.hpp"
 
 #include <algorithm>
+#include <atomic>
 
 #include "core/scene/flatten.hpp"
 #include "core/scene/surface_table.hpp"
@@ -110,6 +111,7 @@ class Compiler {
 CompiledScene Compiler::compile() {
   result_.materials = std::move(flat_.materials);
   result_.programs = std::move(flat_.programs);
+  result_.programs.shrink_to_fit();
   make_placements();
   make_leaves();
   make_faces();
@@ -130,7 +132,9 @@ void Compiler::make_placements() {
 
 void Compiler::make_leaves() {
   result_.leaves.resize(flat_.leaves.size());
+  std::atomic<std::uint64_t> shape_bytes = 0;
   for_ranges(flat_.leaves.size(), items_for_a_thread / 4, threads_, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t bytes = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const LeafSource& source = flat_.leaves[i];
       Leaf& leaf = result_.leaves[i];
@@ -142,8 +146,11 @@ void Compiler::make_leaves() {
       leaf.entity_id = source.entity_id;
       leaf.complemented = source.complemented;
       leaf.face_count = leaf.shape->face_count();
+      bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
     }
+    shape_bytes += bytes;
   });
+  result_.shape_bytes = shape_bytes;
 }
 
 void Compiler::make_faces() {
@@ -176,6 +183,8 @@ void Compiler::finish_programs() {
 void Compiler::finish_program(CsgProgram& program) {
   const std::span<Leaf> leaves = std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
   finish_nodes(program, leaves);
+  program.nodes.shrink_to_fit();
+  program.leaf_parents.shrink_to_fit();
   program.shared_surfaces = number_shared(leaves, result_.face_surfaces);
   program.bounds = narrow_bounds(program, leaves);
   std::vector<Bounds> boxes;

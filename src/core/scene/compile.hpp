@@ -29,6 +29,7 @@ struct CompiledScene {
   std::vector<SceneObject> objects;
   std::vector<CsgProgram> programs;
   std::vector<SharedMaterial> materials;
+  std::uint64_t shape_bytes = 0;  ///< of all leaves together
 };
 
 /// Flattens entities: unions at the top become objects of their own as far as their parts keep

@@ -17,6 +17,7 @@
 #include "core/shading/prepared_background.hpp"
 #include "core/shading/prepared_material.hpp"
 #include "crt/scene.hpp"
+#include "crt/stats.hpp"
 
 namespace crt::core {
 
@@ -141,6 +142,7 @@ class PreparedData {
   /// Lights, camera, background and settings as given (and checked); entities are left out.
   const Scene& scene() const { return scene_; }
   double prepare_seconds() const { return prepare_seconds_; }
+  MemoryUse memory() const;
   /// Whether what rays meet was made once for both.
   bool shares_geometry_with(const PreparedData& other) const { return geometry_ == other.geometry_; }
 
