@@ -183,6 +183,7 @@ void Compiler::finish_programs() {
 void Compiler::finish_program(CsgProgram& program) {
   const std::span<Leaf> leaves = std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
   finish_nodes(program, leaves);
+  program.paths = NodePaths(program.nodes);
   program.nodes.shrink_to_fit();
   program.leaf_parents.shrink_to_fit();
   program.shared_surfaces = number_shared(leaves, result_.face_surfaces);

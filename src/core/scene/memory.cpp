@@ -10,7 +10,8 @@ std::uint64_t primitive_bytes(const CompiledScene& scene) {
 std::uint64_t csg_bytes(const CompiledScene& scene) {
   std::uint64_t bytes = bytes_of(scene.programs);
   for (const CsgProgram& program : scene.programs) {
-    bytes += bytes_of(program.nodes) + bytes_of(program.leaf_parents) + program.tree.bytes();
+    bytes += bytes_of(program.nodes) + bytes_of(program.leaf_parents) + program.tree.bytes() +
+             program.paths.bytes();
   }
   return bytes;
 }
