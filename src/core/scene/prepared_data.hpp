@@ -121,7 +121,7 @@ class PreparedData {
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
   /// What shading needs of a hit that `ray` found; u and v only if asked for.
-  HitPoint hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
+  HitPoint hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv = true) const;
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
