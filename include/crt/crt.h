@@ -695,6 +695,11 @@ typedef struct crt_render_stats {
   double prepare_seconds; /**< by the clock on the wall, as the next */
   double trace_seconds;
   uint64_t escalations; /**< questions of CRT_PRECISION_EXACT that only exact arithmetic answered */
+  /* Bytes that the prepared scene keeps; what it shares with its entities and images is not counted. */
+  uint64_t primitive_bytes; /**< primitives in their places, and which of their faces coincide */
+  uint64_t csg_bytes;       /**< how they are combined, and a tree of boxes for each CSG object */
+  uint64_t tree_bytes;      /**< the tree of boxes over all objects */
+  uint64_t material_bytes;  /**< materials, and pictures that had to be taken to linear light */
 } crt_render_stats;
 
 /** @} */

@@ -1,6 +1,7 @@
 #pragma once
 
 #include <crt/scene.hpp>
+#include <crt/stats.hpp>
 #include <memory>
 
 namespace crt {
@@ -15,6 +16,9 @@ class PreparedScene {
  public:
   /// Internal: see prepare().
   explicit PreparedScene(std::shared_ptr<const core::PreparedData> data) : data_(std::move(data)) {}
+
+  /// What it takes of memory. Scenes that were prepared from one another share some of it; each counts all.
+  MemoryUse memory() const;
 
   /// Internal: what rays see.
   const core::PreparedData& data() const { return *data_; }

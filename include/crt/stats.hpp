@@ -5,6 +5,17 @@
 
 namespace crt {
 
+/// Bytes of memory that a prepared scene keeps, by what they are for. What it shares with the scene that it
+/// was made from (the entities themselves, pictures in linear light) is not counted.
+struct MemoryUse {
+  std::uint64_t primitives = 0;  ///< each in its place, and which of their faces coincide
+  std::uint64_t csg = 0;         ///< how they are combined, and a tree of boxes for each CSG object
+  std::uint64_t tree = 0;        ///< the tree of boxes over all objects
+  std::uint64_t materials = 0;   ///< and pictures that had to be taken to linear light
+
+  std::uint64_t total() const { return primitives + csg + tree + materials; }
+};
+
 /// What a render did. Counts are exact and do not depend on the number of threads.
 struct RenderStats {
   // Rays by kind.
@@ -41,6 +52,8 @@ struct RenderStats {
   double prepare_seconds = 0;
   double trace_seconds = 0;
   double write_seconds = 0;
+
+  MemoryUse memory;  ///< of the prepared scene
 };
 
 }  // namespace crt

@@ -87,6 +87,10 @@ crt_render_stats to_c(const RenderStats& stats) {
   out.prepare_seconds = stats.prepare_seconds;
   out.trace_seconds = stats.trace_seconds;
   out.escalations = stats.escalations;
+  out.primitive_bytes = stats.memory.primitives;
+  out.csg_bytes = stats.memory.csg;
+  out.tree_bytes = stats.memory.tree;
+  out.material_bytes = stats.memory.materials;
   return out;
 }
 

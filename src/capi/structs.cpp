@@ -147,7 +147,11 @@ std::span<const std::size_t> field_ends<crt_render_stats>() {
                                       CRT_END(S, lens_samples),
                                       CRT_END(S, prepare_seconds),
                                       CRT_END(S, trace_seconds),
-                                      CRT_END(S, escalations)};
+                                      CRT_END(S, escalations),
+                                      CRT_END(S, primitive_bytes),
+                                      CRT_END(S, csg_bytes),
+                                      CRT_END(S, tree_bytes),
+                                      CRT_END(S, material_bytes)};
   return ends;
 }
 

@@ -143,6 +143,15 @@ std::string seconds_json(const RenderStats& stats, int level) {
       .text();
 }
 
+std::string memory_json(const MemoryUse& memory, int level) {
+  return ObjectWriter(level)
+      .add("primitives", memory.primitives)
+      .add("csg", memory.csg)
+      .add("tree", memory.tree)
+      .add("materials", memory.materials)
+      .text();
+}
+
 std::string rays_json(const RenderStats& stats, int level) {
   return ObjectWriter(level)
       .add("camera", stats.camera_rays)
@@ -179,6 +188,7 @@ std::string report_json(const PictureReport& report, int level) {
   return object.add("pixels", report.stats.pixels)
       .add("threads", report.stats.threads)
       .add_raw("seconds", seconds_json(report.stats, level + 1))
+      .add_raw("memory_bytes", memory_json(report.stats.memory, level + 1))
       .add_raw("rays", rays_json(report.stats, level + 1))
       .add_raw("counters", counters_json(report.stats, level + 1))
       .add_raw("settings", settings_json(report.settings, report.projection, level + 1))

@@ -161,7 +161,7 @@ AT(crt_render_options, progress_user, 40);
 AT(crt_render_options, log, 48);
 AT(crt_render_options, log_user, 56);
 
-SIZE(crt_render_stats, 144);
+SIZE(crt_render_stats, 176);
 AT(crt_render_stats, struct_size, 0);
 AT(crt_render_stats, threads, 4);
 AT(crt_render_stats, pixels, 8);
@@ -181,6 +181,10 @@ AT(crt_render_stats, lens_samples, 112);
 AT(crt_render_stats, prepare_seconds, 120);
 AT(crt_render_stats, trace_seconds, 128);
 AT(crt_render_stats, escalations, 136);
+AT(crt_render_stats, primitive_bytes, 144);
+AT(crt_render_stats, csg_bytes, 152);
+AT(crt_render_stats, tree_bytes, 160);
+AT(crt_render_stats, material_bytes, 168);
 
 SIZE(crt_write_options, 8);
 AT(crt_write_options, struct_size, 0);

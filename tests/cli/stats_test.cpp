@@ -40,6 +40,10 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
     CHECK(stats["seconds"][stage].kind == Json::Kind::number);
     CHECK(stats["seconds"][stage].number >= 0);
   }
+  CHECK(stats["memory_bytes"]["primitives"].number > 0);
+  CHECK(stats["memory_bytes"]["csg"].number == 0);
+  CHECK(stats["memory_bytes"]["tree"].number > 0);
+  CHECK(stats["memory_bytes"]["materials"].number > 0);
   CHECK(stats["counters"]["intersection_tests"].number > 0);
   CHECK(stats["version"].kind == Json::Kind::string);
   CHECK_FALSE(stats.has("frame"));

@@ -116,6 +116,35 @@ Entity shells(int n) {
   return solid;
 }
 
+/// Operations in one another, deep enough that paths take the place of counters.
+Entity chain(SolidMaker& make, int length) {
+  Entity result = make.leaf().entity();
+  for (int i = 0; i < length; ++i) {
+    const Entity other = make.tree(make.integer(0, 9) == 0 ? 2 : 0).entity();
+    switch (make.integer(0, 8)) {
+      case 0:
+        result = result ^ (other + make.leaf().entity());
+        break;
+      case 1:
+        result = other - result;
+        break;
+      case 2:
+      case 3:
+      case 4:
+        result = result + other;
+        break;
+      default:
+        result = result - other;
+    }
+  }
+  return result;
+}
+
+/// Deep shells with a hole down to the core.
+Entity alternating(int n) {
+  return shells(n) - Cylinder{.from = {0, 0, 0}, .to = {0, 2.0 * n, 0}, .radius = 0.5};
+}
+
 }  // namespace
 
 TEST_CASE("the tree of boxes agrees with the plain evaluation to the bit") {
@@ -168,6 +197,46 @@ TEST_CASE("large objects agree with the plain evaluation to the bit") {
     }
     CHECK(hits > 500);
   }
+}
+
+TEST_CASE("deep chains of operations agree with the plain evaluation to the bit") {
+  CsgWorkspace work;
+  std::size_t hits = 0;
+  std::size_t deep = 0;
+  for (std::uint32_t seed = 0; seed < 60; ++seed) {
+    SolidMaker make(1000 + seed);
+    const Precision precision = seed % 4 == 3 ? Precision::exact : Precision::standard;
+    const CompiledScene scene = compiled(chain(make, make.integer(100, 300)), precision);
+    CAPTURE(seed);
+    for (const CsgProgram& program : scene.programs) deep += !program.paths.empty();
+    for (int i = 0; i < 40; ++i) {
+      const WorldRay ray = random_ray(make);
+      hits += compare(scene, ray, work);
+      for (const CsgProgram& program : scene.programs) {
+        for (const CsgHit& hit : evaluate_plainly(scene, program, ray).hits) {
+          const core::Side side = make.integer(0, 1) == 0 ? core::Side::outside : core::Side::inside;
+          hits += compare(scene, continued(scene, program, ray, hit, ray.direction, side), work);
+        }
+      }
+    }
+  }
+  CHECK(deep > 40);
+  CHECK(hits > 1500);
+}
+
+TEST_CASE("a hundred shells agree with the plain evaluation to the bit") {
+  const CompiledScene scene = compiled(alternating(100));
+  REQUIRE(scene.programs.size() == 1);
+  REQUIRE_FALSE(scene.programs[0].paths.empty());
+  CsgWorkspace work;
+  SolidMaker make(3);
+  std::size_t hits = 0;
+  for (int i = 0; i < 60; ++i) {
+    WorldRay ray = random_ray(make);
+    if (i % 2 == 0) ray = {.origin = {make.real(-1, 1), 300, make.real(-1, 1)}, .direction = {0, -1, 0}};
+    hits += compare(scene, ray, work);
+  }
+  CHECK(hits > 2000);
 }
 
 TEST_CASE("a ray asks the holes that it comes near, however many there are") {

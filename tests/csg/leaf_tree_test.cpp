@@ -78,3 +78,28 @@ TEST_CASE("a thousand boxes in one place are a tree, too") {
   const RaySlabs slabs({0.5, 0.5, -3}, {0, 0, 1});
   for (const LineSpan& span : spans(LeafTree(boxes), boxes.size(), slabs)) CHECK_FALSE(span.empty());
 }
+
+TEST_CASE("a tree is the same on any number of threads") {
+  std::mt19937 random(2);
+  const auto real = [&](double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(random);
+  };
+  std::vector<Bounds> boxes;
+  for (int i = 0; i < 30'000; ++i) {
+    const Vec3 corner{real(-9, 9), real(-9, 9) * real(0, 1), i % 2 == 0 ? 0 : real(0, 1)};
+    boxes.push_back({corner, corner + Vec3(real(0, 0.2))});
+  }
+  const LeafTree tree(boxes, 1);
+  for (const int threads : {0, 2, 5}) CHECK(LeafTree(boxes, threads) == tree);
+  CHECK_FALSE(LeafTree(std::span(boxes).first(29'999)) == tree);
+
+  for (int i = 0; i < 20; ++i) {
+    const RaySlabs slabs({real(-9, 9), real(-9, 9), -5}, {real(-0.1, 0.1), real(-0.1, 0.1), 1});
+    const std::vector<LineSpan> found = spans(tree, boxes.size(), slabs);
+    for (std::size_t k = 0; k < boxes.size(); ++k) {
+      const LineSpan alone = slabs.span(boxes[k]);
+      REQUIRE(found[k].empty() == alone.empty());
+      if (!alone.empty()) REQUIRE(found[k].enter == alone.enter);
+    }
+  }
+}

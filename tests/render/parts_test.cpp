@@ -1,16 +1,10 @@
 // The small parts that rendering is made of.
 #include <doctest/doctest.h>
-#include <crt/error.hpp>
 
-#include <atomic>
-#include <mutex>
 #include <set>
-#include <stdexcept>
-#include <thread>
 #include <vector>
 
 #include "core/render/media.hpp"
-#include "core/render/tasks.hpp"
 #include "core/render/tiles.hpp"
 
 using namespace crt::core;
@@ -80,55 +74,4 @@ TEST_CASE("tiles cover each pixel of a region once and nothing else") {
     CHECK(*covered.begin() == std::pair(region.x, region.y));
     CHECK(*covered.rbegin() == std::pair(region.x + region.width - 1, region.y + region.height - 1));
   }
-}
-
-TEST_CASE("every task runs once, on any number of threads") {
-  for (const int threads : {0, 1, 2, 7, 100}) {
-    std::vector<std::atomic<int>> runs(1000);
-    run_tasks(runs.size(), threads, [&](std::size_t i) { ++runs[i]; });
-    for (const auto& count : runs) REQUIRE(count == 1);
-  }
-  run_tasks(0, 4, [](std::size_t) { FAIL("there is no task"); });
-}
-
-TEST_CASE("one thread runs tasks in order, on itself") {
-  std::vector<std::size_t> order;
-  const auto here = std::this_thread::get_id();
-  run_tasks(100, 1, [&](std::size_t i) {
-    REQUIRE(std::this_thread::get_id() == here);
-    order.push_back(i);
-  });
-  for (std::size_t i = 0; i < 100; ++i) CHECK(order[i] == i);
-}
-
-TEST_CASE("no more threads than asked for work at once") {
-  std::atomic<int> working = 0;
-  std::atomic<int> most = 0;
-  run_tasks(200, 2, [&](std::size_t) {
-    const int now = ++working;
-    int seen = most;
-    while (now > seen && !most.compare_exchange_weak(seen, now)) {
-    }
-    for (int i = 0; i < 100; ++i) std::this_thread::yield();
-    --working;
-  });
-  CHECK(most <= 2);
-}
-
-TEST_CASE("a task's exception comes out and stops the rest") {
-  for (const int threads : {0, 1, 3}) {
-    std::atomic<int> begun = 0;
-    CHECK_THROWS_AS(run_tasks(100'000, threads,
-                              [&](std::size_t) {
-                                if (++begun == 10) throw std::domain_error("task");
-                              }),
-                    std::domain_error);
-    CHECK(begun < 100'000);
-  }
-}
-
-TEST_CASE("a negative number of threads is refused") {
-  CHECK_THROWS_AS(allowed_threads(-1), crt::Error);
-  CHECK(allowed_threads(1) == 1);
-  CHECK(allowed_threads(0) >= 1);
 }

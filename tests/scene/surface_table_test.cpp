@@ -16,20 +16,20 @@ Placement placed(std::initializer_list<Transform> steps) {
   return Placement(all);
 }
 
-FaceSurface number_of(SurfaceTable& table, const Primitive& primitive, std::uint32_t face,
-                      const Placement& placement = {}) {
-  return table.find(make_shape(primitive)->surface(face), placement);
+CanonicalSurface surface_of(const Primitive& primitive, std::uint32_t face, const Placement& placement = {}) {
+  return canonical_surface(make_shape(primitive)->surface(face), placement);
 }
 
 /// Whether some face of `a` lies on the same surface as some face of `b`.
 bool share(const Primitive& a, const Placement& a_place, const Primitive& b, const Placement& b_place) {
-  SurfaceTable table;
-  const auto first = make_shape(a);
-  const auto second = make_shape(b);
-  for (std::uint32_t i = 0; i < first->face_count(); ++i) {
-    for (std::uint32_t k = 0; k < second->face_count(); ++k) {
-      if (table.find(first->surface(i), a_place).surface == table.find(second->surface(k), b_place).surface)
+  for (std::uint32_t i = 0; i < make_shape(a)->face_count(); ++i) {
+    for (std::uint32_t k = 0; k < make_shape(b)->face_count(); ++k) {
+      const CanonicalSurface first = surface_of(a, i, a_place);
+      const CanonicalSurface second = surface_of(b, k, b_place);
+      if (first.key == second.key) {
+        CHECK(first.hash() == second.hash());
         return true;
+      }
     }
   }
   return false;
@@ -38,14 +38,13 @@ bool share(const Primitive& a, const Placement& a_place, const Primitive& b, con
 }  // namespace
 
 TEST_CASE("opposite planes are one surface, turned round") {
-  SurfaceTable table;
-  const FaceSurface up = number_of(table, Plane{.normal = {1, 2, 3}, .position = {1, 1, 1}}, 0);
-  const FaceSurface down = number_of(table, Plane{.normal = {-2, -4, -6}, .position = {3, 0, 1}}, 0);
-  CHECK(up.surface == down.surface);
+  const CanonicalSurface up = surface_of(Plane{.normal = {1, 2, 3}, .position = {1, 1, 1}}, 0);
+  const CanonicalSurface down = surface_of(Plane{.normal = {-2, -4, -6}, .position = {3, 0, 1}}, 0);
+  CHECK(up.key == down.key);
   CHECK(up.flipped != down.flipped);
-  const FaceSurface other =
-      number_of(table, Plane{.normal = {1, 2, 3}, .position = {1, 1, 1.000000000000001}}, 0);
-  CHECK(other.surface != up.surface);
+  const CanonicalSurface other =
+      surface_of(Plane{.normal = {1, 2, 3}, .position = {1, 1, 1.000000000000001}}, 0);
+  CHECK(other.key != up.key);
 }
 
 TEST_CASE("faces of different primitives that lie in one plane are one surface") {

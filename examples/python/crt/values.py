@@ -248,3 +248,7 @@ class RenderStats(Struct):
     prepare_seconds: Double
     trace_seconds: Double
     escalations: Long
+    primitive_bytes: Long
+    csg_bytes: Long
+    tree_bytes: Long
+    material_bytes: Long

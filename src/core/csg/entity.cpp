@@ -139,8 +139,10 @@ Entity::Entity(Primitive primitive) {
 Entity Entity::transformed(const Transform& transform) const {
   require_finite(transform);
   EntityWrapper wrapper = wrapper_of(*this);
-  wrapper.to_parent = core::compose(core::PreciseTransform(transform), wrapper.to_parent);
-  require_usable(wrapper.to_parent);
+  core::PreciseTransform to_parent(transform);
+  if (wrapper.to_parent) to_parent = core::compose(to_parent, *wrapper.to_parent);
+  require_usable(to_parent);
+  wrapper.to_parent = std::make_shared<const core::PreciseTransform>(to_parent);
   return make_entity(std::move(wrapper));
 }
 

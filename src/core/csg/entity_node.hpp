@@ -25,7 +25,8 @@ struct CsgOperation {
 /// What an entity wears: where it is, its material and number. Wrappers never nest: wrapping one
 /// again makes a new one around the same child, so chains of a million transforms cost nothing later.
 struct EntityWrapper {
-  core::PreciseTransform to_parent;
+  /// Behind a pointer, as most nodes are primitives and all nodes have one size; none: as it is.
+  std::shared_ptr<const core::PreciseTransform> to_parent;
   std::optional<SharedMaterial> material;  ///< for parts without one of their own
   std::optional<std::uint32_t> id;
   EntityPointer child;

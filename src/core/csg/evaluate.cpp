@@ -71,7 +71,11 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       work_(workspace),
       slabs_(ray.origin, ray.direction),
       first_stamp_(++workspace.stamp_) {
-  if (work_.nodes_.size() < program.nodes.size()) work_.nodes_.resize(program.nodes.size());
+  if (!program.paths.empty()) {
+    paths_.emplace(program.paths, work_.paths_, first_stamp_);
+  } else if (work_.nodes_.size() < program.nodes.size()) {
+    work_.nodes_.resize(program.nodes.size());
+  }
   if (work_.leaves_.size() < program.leaf_count()) work_.leaves_.resize(program.leaf_count());
   if (work_.shared_.size() < most_roots * program.shared_surfaces) {
     work_.shared_.resize(most_roots * program.shared_surfaces);
@@ -89,7 +93,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     gather_cluster();
     flip_cluster();
   }
-  starts_inside_ = value(0);
+  starts_inside_ = root_value();
 }
 
 void CsgEvaluation::meet(LeafTree::Child child, double enter, double leave) {
@@ -233,9 +237,10 @@ bool CsgEvaluation::leaf_inside(std::uint32_t leaf) const {
 }
 
 bool CsgEvaluation::flip_cluster() {
-  const bool before = value(0);
+  const bool before = root_value();
+  if (paths_) paths_->begin_cluster();
   for (const CsgCrossing& crossing : work_.cluster_) flip_leaf(crossing.leaf);
-  return value(0) != before;
+  return root_value() != before;
 }
 
 void CsgEvaluation::flip_leaf(std::uint32_t leaf) {
@@ -243,6 +248,10 @@ void CsgEvaluation::flip_leaf(std::uint32_t leaf) {
   work_.leaves_[leaf] = {work_.stamp_, inside};
   bool now = inside != leaves_[leaf].complemented;
   std::uint32_t node = program_.leaf_parents[leaf];
+  if (paths_) {
+    paths_->set_leaf(node, now);
+    return;
+  }
   while (true) {
     NodeState& touched = state(node);
     const bool before = touched.count >= program_.nodes[node].needed;
@@ -258,9 +267,7 @@ void CsgEvaluation::flip_leaf(std::uint32_t leaf) {
   }
 }
 
-bool CsgEvaluation::caused_change(std::uint32_t leaf) {
-  const bool now = value(0);
-  if ((leaf_inside(leaf) != leaves_[leaf].complemented) != now) return false;
+bool CsgEvaluation::is_changed_up_to_root(std::uint32_t leaf, bool now) {
   std::uint32_t node = program_.leaf_parents[leaf];
   while (true) {
     const NodeState& touched = state(node);
@@ -270,18 +277,37 @@ bool CsgEvaluation::caused_change(std::uint32_t leaf) {
   }
 }
 
+void CsgEvaluation::find_causes() {
+  const bool now = root_value();
+  auto& causes = work_.causes_;
+  causes.clear();
+  for (const CsgCrossing& crossing : work_.cluster_) {
+    // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
+    const bool inside = leaf_inside(crossing.leaf);
+    if (crossing.entering != inside || (inside != leaves_[crossing.leaf].complemented) != now) continue;
+    const bool has_changed = paths_ ? paths_->is_all(program_.leaf_parents[crossing.leaf], now)
+                                    : is_changed_up_to_root(crossing.leaf, now);
+    if (has_changed) causes.push_back(&crossing);
+  }
+  if (!paths_) return;
+  paths_->toggle_cluster();
+  std::erase_if(causes, [&](const CsgCrossing* crossing) {
+    return !paths_->is_all(program_.leaf_parents[crossing->leaf], !now);
+  });
+  paths_->toggle_cluster();
+}
+
 CsgHit CsgEvaluation::blame() {
   const CsgCrossing& first = work_.cluster_.front();
   const CsgCrossing* cause = nullptr;
   // What changed the root and is known best tells the place: others may be known far worse, where the ray
   // grazes them.
   const CsgCrossing* place = nullptr;
-  for (const CsgCrossing& crossing : work_.cluster_) {
-    // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
-    if (crossing.entering != leaf_inside(crossing.leaf) || !caused_change(crossing.leaf)) continue;
-    if (cause == nullptr || crossing.leaf < cause->leaf) cause = &crossing;
-    if (place == nullptr || std::tie(crossing.error, crossing.leaf) < std::tie(place->error, place->leaf)) {
-      place = &crossing;
+  find_causes();
+  for (const CsgCrossing* crossing : work_.causes_) {
+    if (cause == nullptr || crossing->leaf < cause->leaf) cause = crossing;
+    if (place == nullptr || std::tie(crossing->error, crossing->leaf) < std::tie(place->error, place->leaf)) {
+      place = crossing;
     }
   }
   if (cause == nullptr) cause = &first;
@@ -293,7 +319,7 @@ CsgHit CsgEvaluation::blame() {
           .face = cause->face,
           .surface = cause->surface,
           .root = cause->root,
-          .entering = value(0)};
+          .entering = root_value()};
 }
 
 bool CsgEvaluation::next(CsgHit& hit) {

@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -103,7 +104,9 @@ class CsgWorkspace {
   std::vector<Opening> openings_;       ///< a heap, the nearest first
   std::vector<CsgCrossing> crossings_;  ///< a heap, the nearest first
   std::vector<CsgCrossing> cluster_;
+  std::vector<const CsgCrossing*> causes_;
   std::vector<NodeState> nodes_;
+  PathWorkspace paths_;  ///< in the place of nodes_, of deep programs
   std::vector<LeafState> leaves_;
   std::vector<SharedState> shared_;
 };
@@ -146,14 +149,16 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
 ///     next crossing asks for. A leaf whose box is opened puts its crossings among those to come.
 ///  2. The first of these and all that coincide with it form a *cluster*: crossings that the bounds of
 ///     their errors cannot tell apart, and those of one surface.
-///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do.
+///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do. In deep
+///     programs paths take their place (node_paths.hpp).
 ///     Only the root's value before and after counts, so pieces without length vanish.
 ///  4. What is up to t_min (and what coincides with the surface the ray starts on) only sets the
 ///     state; after that each change of the root is a hit. Its face is that of the lowest leaf
 ///     through whose changes, node by node, the root changed.
 ///
 /// A leaf is outside of its primitive before the line enters its box, as far as it matters. So the costs
-/// follow what the ray meets: O(log leaves) for each box that it comes near, O(depth) for each crossing.
+/// follow what the ray meets: O(log leaves) for each box that it comes near, O(depth) for each crossing, and
+/// O(log^2 nodes) if the program is deep.
 class CsgEvaluation {
  public:
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
@@ -187,9 +192,12 @@ class CsgEvaluation {
   /// Of a crossing whose surface is shared.
   SharedState& shared_state(const CsgCrossing& crossing);
   bool value(std::uint32_t node);
+  bool root_value() { return paths_ ? paths_->root() : value(0); }
   bool leaf_inside(std::uint32_t leaf) const;
   CsgHit blame();
-  bool caused_change(std::uint32_t leaf);
+  /// The crossings of the cluster through whose changes, node by node, the root changed.
+  void find_causes();
+  bool is_changed_up_to_root(std::uint32_t leaf, bool now);
 
   const CsgProgram& program_;
   std::span<const Leaf> leaves_;  ///< of the object
@@ -198,6 +206,7 @@ class CsgEvaluation {
   CsgWorkspace& work_;
   RaySlabs slabs_;
   std::uint64_t first_stamp_;
+  std::optional<PathValues> paths_;       ///< of a deep program
   const Placement* placement_ = nullptr;  ///< of object_ray_
   ObjectRay object_ray_;
   bool starts_inside_ = false;

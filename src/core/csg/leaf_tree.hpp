@@ -28,6 +28,7 @@ class LeafTree {
     bool is_leaf() const { return (bits_ & leaf_bit) != 0; }
     std::uint32_t index() const { return bits_ & ~leaf_bit; }
     friend bool operator<(Child a, Child b) { return a.bits_ < b.bits_; }
+    friend bool operator==(Child, Child) = default;
 
    private:
     static constexpr std::uint32_t leaf_bit = 0x80000000u;
@@ -36,11 +37,16 @@ class LeafTree {
   };
 
   LeafTree() = default;
-  /// Over one box a leaf. Empty boxes are left out; infinite ones are kept apart.
-  explicit LeafTree(std::span<const Bounds> boxes);
+  /// Over one box a leaf. Empty boxes are left out; infinite ones are kept apart. Built on up to `threads`
+  /// threads (as run_tasks() has it); the tree is always the same.
+  explicit LeafTree(std::span<const Bounds> boxes, int threads = 0);
 
   /// The leaves that a line may meet anywhere.
   std::span<const std::uint32_t> unbounded() const { return unbounded_; }
+  /// Of memory, beside the object itself.
+  std::size_t bytes() const {
+    return nodes_.capacity() * sizeof(Node) + unbounded_.capacity() * sizeof(std::uint32_t);
+  }
   bool has_root() const { return !nodes_.empty(); }
 
   /// Calls meet(child, enter, leave) for what the line comes near below a node.
@@ -55,23 +61,19 @@ class LeafTree {
     }
   }
 
+  friend bool operator==(const LeafTree&, const LeafTree&) = default;
+
  private:
   struct alignas(32) Node {
-    std::array<std::array<double, width>, 3> lower;  ///< by axis
-    std::array<std::array<double, width>, 3> upper;
+    std::array<std::array<double, width>, 3> lower{};  ///< by axis
+    std::array<std::array<double, width>, 3> upper{};
     std::array<Child, width> children;
     std::uint32_t count = 0;
+
+    friend bool operator==(const Node&, const Node&) = default;
   };
 
-  struct Item {
-    Bounds box;
-    Vec3 middle;
-    std::uint32_t leaf;
-  };
-
-  /// Divides items in two; where the second part begins.
-  static std::size_t split(std::span<Item> items);
-  void add_child(std::uint32_t node, const Bounds& box, Child child);
+  class Builder;
 
   std::vector<Node> nodes_;
   std::vector<std::uint32_t> unbounded_;

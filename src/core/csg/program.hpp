@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/csg/leaf_tree.hpp"
+#include "core/csg/node_paths.hpp"
 #include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
@@ -53,7 +54,9 @@ struct CsgProgram {
   std::vector<std::uint32_t> leaf_parents;
   /// Leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
-  LeafTree tree;  ///< over what of each leaf's box matters
+  NodePaths paths;  ///< of deep programs: what takes the place of walking up from node to node
+  LeafTree tree;    ///< over what of each leaf's box matters
+  Bounds bounds;    ///< of the object, in the world
   std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }

@@ -25,6 +25,7 @@ class BoxShape final : public Shape {
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
+  std::size_t bytes() const override { return sizeof *this; }
 
  private:
   Vec3 lower_;

@@ -42,6 +42,12 @@ class ExactBoxShape final : public ExactShape {
     return false;
   }
 
+  std::size_t bytes() const override {
+    std::size_t bytes = sizeof *this;
+    for (const ExactPlane& plane : faces_) bytes += plane.more_bytes();
+    return bytes;
+  }
+
  private:
   /// Where the line enters or leaves what is between the faces seen so far.
   struct End {

@@ -34,6 +34,8 @@ class ExactPlaneShape final : public ExactShape {
     return meeting.side > 0;
   }
 
+  std::size_t bytes() const override { return sizeof *this + plane_.more_bytes(); }
+
  private:
   ExactPlane plane_;
 };
@@ -86,6 +88,8 @@ class ExactDiscShape final : public ExactFlatShape {
   explicit ExactDiscShape(const Disc& disc)
       : ExactFlatShape(ExactPlane(disc.normal, disc.center)), radius_(disc.radius) {}
 
+  std::size_t bytes() const override { return sizeof *this + plane().more_bytes(); }
+
  private:
   bool contains(const ExactRay& ray, const Meeting& meeting) const override {
     const NearPoint point = near_point(ray, meeting);
@@ -107,6 +111,8 @@ class ExactHalfPlaneShape final : public ExactFlatShape {
         direction_(half_plane.direction),
         scaled_direction_(scaled_to_one(half_plane.direction)) {}
 
+  std::size_t bytes() const override { return sizeof *this + plane().more_bytes(); }
+
  private:
   bool contains(const ExactRay& ray, const Meeting& meeting) const override {
     const NearPoint point = near_point(ray, meeting);
@@ -126,6 +132,8 @@ class ExactTriangleShape final : public ExactFlatShape {
   explicit ExactTriangleShape(const Triangle& triangle)
       : ExactFlatShape(ExactPlane::through(triangle.a, triangle.b, triangle.c)),
         corners_{triangle.a, triangle.b, triangle.c} {}
+
+  std::size_t bytes() const override { return sizeof *this + plane().more_bytes(); }
 
  private:
   bool contains(const ExactRay& ray, const Meeting& meeting) const override {

@@ -127,6 +127,12 @@ class ExactFrustumShape final : public ExactShape {
     return stretch.finish(out);
   }
 
+  std::size_t bytes() const override {
+    std::size_t bytes = sizeof *this;
+    for (const ExactPlane& plane : caps_) bytes += plane.more_bytes();
+    return bytes;
+  }
+
  private:
   struct Piece {
     Crossing enter;

@@ -48,6 +48,13 @@ class ExactPlane {
 
   const Vec3& position() const { return position_; }
 
+  /// Of memory, beside the object itself.
+  std::size_t more_bytes() const {
+    std::size_t bytes = 0;
+    for (const Dyadic& component : exact_normal_) bytes += component.more_bytes();
+    return bytes;
+  }
+
  private:
   ExactPlane() = default;
   /// n . d up to a positive factor, and what it may be off by.

@@ -22,6 +22,9 @@ class ExactShape {
 
   /// As Shape::crossings, of the same primitive: the same faces, roots and promises.
   virtual bool crossings(const ExactRay& ray, CrossingList& out) const = 0;
+
+  /// Of memory.
+  virtual std::size_t bytes() const = 0;
 };
 
 /// Gives a crossing its t, if what it may be off by is little enough.

@@ -42,6 +42,8 @@ class ExactSphereShape final : public ExactShape {
     return false;
   }
 
+  std::size_t bytes() const override { return sizeof *this; }
+
  private:
   /// Newton's iteration until t is certain to the last bit; false if that fails.
   bool polish(const ExactRay& ray, Crossing& crossing) const {

@@ -135,6 +135,8 @@ class ExactTorusShape final : public ExactShape {
     return false;
   }
 
+  std::size_t bytes() const override { return sizeof *this; }
+
  private:
   Vec3 in_frame(const Vec3& v) const {
     return {glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along)};

@@ -37,6 +37,7 @@ class FrustumShape : public Shape {
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const final;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
+  std::size_t bytes() const override { return sizeof *this; }
 
   static constexpr std::uint32_t side_face = 0;
 

@@ -21,6 +21,7 @@ class HalfPlaneShape final : public Shape {
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
+  std::size_t bytes() const override { return sizeof *this; }
 
  private:
   PlaneFace face_;

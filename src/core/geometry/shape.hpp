@@ -6,6 +6,7 @@
 // transform of the entity. Faces of a primitive are numbered from 0 in the order its header tells.
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
@@ -82,6 +83,9 @@ class Shape {
   /// coincide).
   virtual std::uint32_t face_count() const = 0;
   virtual Surface surface(std::uint32_t face) const = 0;
+
+  /// Of memory.
+  virtual std::size_t bytes() const = 0;
 };
 
 /// Checks a primitive's parameters; throws Error (invalid_argument) naming the field.

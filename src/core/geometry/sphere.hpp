@@ -23,6 +23,7 @@ class SphereShape final : public Shape {
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
+  std::size_t bytes() const override { return sizeof *this; }
 
  private:
   bool crossings_from_surface(const ObjectRay& ray, CrossingList& out) const;

@@ -42,6 +42,9 @@ class Dyadic {
   /// To about 100 bits.
   ScaledNumber rounded() const;
 
+  /// Of memory, beside the object itself.
+  std::size_t more_bytes() const { return limbs_.capacity() * sizeof(Limb); }
+
   friend Dyadic operator-(Dyadic a);
   friend Dyadic operator+(const Dyadic& a, const Dyadic& b);
   friend Dyadic operator-(const Dyadic& a, const Dyadic& b);

@@ -9,7 +9,7 @@
 #include <utility>
 
 #include "core/render/rendering.hpp"
-#include "core/render/tasks.hpp"
+#include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
 namespace crt {

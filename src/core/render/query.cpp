@@ -7,8 +7,8 @@
 #include <new>
 
 #include "core/math/float_environment.hpp"
-#include "core/render/tasks.hpp"
 #include "core/scene/prepared_data.hpp"
+#include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
 namespace crt {

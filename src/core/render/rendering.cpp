@@ -12,7 +12,7 @@
 
 #include "core/math/float_environment.hpp"
 #include "core/render/pixel.hpp"
-#include "core/render/tasks.hpp"
+#include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
@@ -113,6 +113,7 @@ void Rendering::run() {
     RenderStats stats = render_tiles();
     stats.threads = allowed_threads(options_.threads);
     stats.prepare_seconds = data_.prepare_seconds();
+    stats.memory = data_.memory();
     stats.trace_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     canvas_.set_stats(stats);
     tell(stats);

@@ -8,13 +8,23 @@
 
 #include "core/math/vector.hpp"
 #include "core/scene/embree_tree.hpp"
+#include "core/scene/memory.hpp"
 #include "core/scene/object_query.hpp"
+#include "core/tasks/parallel.hpp"
 
 namespace crt::core {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
+
+std::vector<Outline> outlines_of(const CompiledScene& scene, std::span<const std::uint32_t> objects) {
+  std::vector<Outline> outlines(objects.size());
+  for_ranges(objects.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) outlines[i] = outline_of(scene, scene.objects[objects[i]]);
+  });
+  return outlines;
+}
 
 bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
@@ -37,17 +47,18 @@ bool any_surface_is_shared(const CompiledScene& scene) {
 Accelerator::Accelerator(CompiledScene compiled)
     : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
+  bounded_.reserve(compiled_.objects.size());
   for (std::uint32_t i = 0; i < compiled_.objects.size(); ++i) {
     const Bounds& bounds = compiled_.objects[i].bounds;
     if (bounds.finite()) {
       bounded_.push_back(i);
-      bounded_outlines_.push_back(outline_of(compiled_, compiled_.objects[i]));
       total.include(bounds);
     } else {
       unbounded_.push_back(i);
-      unbounded_outlines_.push_back(outline_of(compiled_, compiled_.objects[i]));
     }
   }
+  bounded_outlines_ = outlines_of(compiled_, bounded_);
+  unbounded_outlines_ = outlines_of(compiled_, unbounded_);
   if (bounded_.empty()) return;
   std::vector<Bounds> boxes;
   boxes.reserve(bounded_.size());
@@ -56,6 +67,13 @@ Accelerator::Accelerator(CompiledScene compiled)
 }
 
 Accelerator::~Accelerator() = default;
+
+MemoryUse Accelerator::memory() const {
+  MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
+  use.tree = bytes_of(bounded_) + bytes_of(unbounded_) + bytes_of(bounded_outlines_) +
+             bytes_of(unbounded_outlines_) + (tree_ ? tree_->bytes() : 0);
+  return use;
+}
 
 ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) const {
   const Leaf& leaf = compiled_.leaves[index];

@@ -9,6 +9,7 @@
 #include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/scene/ray_packet.hpp"
+#include "crt/stats.hpp"
 
 namespace crt::core {
 
@@ -44,6 +45,9 @@ class Accelerator {
 
   /// Whether some surface has faces of several objects on it.
   bool objects_share_surfaces() const { return objects_share_surfaces_; }
+
+  /// What it takes of memory, but for materials.
+  MemoryUse memory() const;
 
   const CompiledScene& compiled() const { return compiled_; }
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }

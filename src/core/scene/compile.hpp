@@ -2,7 +2,6 @@
 #pragma once
 
 #include <cstdint>
-#include <deque>
 #include <optional>
 #include <span>
 #include <vector>
@@ -24,17 +23,20 @@ struct SceneObject {
 };
 
 struct CompiledScene {
-  std::deque<Placement> placements;  ///< a deque: leaves point into it
+  std::vector<Placement> placements;  ///< leaves point into it
   std::vector<Leaf> leaves;
   std::vector<FaceSurface> face_surfaces;
   std::vector<SceneObject> objects;
   std::vector<CsgProgram> programs;
   std::vector<SharedMaterial> materials;
+  std::uint64_t shape_bytes = 0;  ///< of all leaves together
 };
 
 /// Flattens entities: unions at the top become objects of their own as far as their parts keep
 /// apart, transforms are composed once, materials and ids are resolved, faces that coincide get one
-/// surface. Throws Error (limit) if there are more than 2^25 primitives.
-CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard);
+/// surface. O(n log n), on up to `threads` threads (as run_tasks() has it); what comes out is always the
+/// same. Throws Error (limit) if there are more than 2^25 primitives.
+CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard,
+                      int threads = 0);
 
 }  // namespace crt::core

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <bit>
 #include <cmath>
 #include <exception>
@@ -118,6 +119,12 @@ float visit_box(EmbreeContext* context, std::uint32_t box) {
   }
 }
 
+/// Is told of what Embree takes (or, as a negative number, gives back); true lets it.
+bool count_memory(void* embree_bytes, ssize_t bytes, bool /*done*/) {
+  *static_cast<std::atomic<std::int64_t>*>(embree_bytes) += bytes;
+  return true;
+}
+
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
 }
@@ -160,6 +167,7 @@ void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
 }  // namespace
 
 struct EmbreeTree::Handles {
+  std::atomic<std::int64_t> embree_bytes = 0;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
   std::vector<RTCBounds> boxes;
@@ -189,6 +197,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   handles->device = rtcNewDevice(nullptr);
 #endif
   if (handles->device == nullptr) fail(rtcGetDeviceError(nullptr));
+  rtcSetDeviceMemoryMonitorFunction(handles->device, count_memory, &handles->embree_bytes);
   handles->boxes.reserve(boxes.size());
   for (const Bounds& box : boxes) {
     const auto lower = [&](int axis) {
@@ -217,6 +226,10 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
 }
 
 EmbreeTree::~EmbreeTree() = default;
+
+std::uint64_t EmbreeTree::bytes() const {
+  return static_cast<std::uint64_t>(handles_->embree_bytes) + handles_->boxes.capacity() * sizeof(RTCBounds);
+}
 
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                           BoxVisitor& visitor) const {

@@ -41,6 +41,9 @@ class EmbreeTree {
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
 
+  /// Of memory: Embree's and the boxes.
+  std::uint64_t bytes() const;
+
   /// Visits, roughly from near to far, at least every box that the ray origin + t * direction meets
   /// at t_min <= t <= t_max. `direction` may have any length.
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,

@@ -1,25 +1,38 @@
 #pragma once
 
 #include <cstdint>
+#include <deque>
 
 #include "core/csg/entity_node.hpp"
 
 namespace crt::core {
 
+/// The transforms that come about where one is applied after another. A null pointer is none at all.
+class TransformPool {
+ public:
+  const PreciseTransform* composed(const PreciseTransform* second, const PreciseTransform* first) {
+    if (second == nullptr) return first;
+    return first == nullptr ? second : &transforms_.emplace_back(compose(*second, *first));
+  }
+
+ private:
+  std::deque<PreciseTransform> transforms_;
+};
+
 /// A subtree of an entity with all that was decided above it.
 struct Part {
   const EntityNode* node = nullptr;
-  PreciseTransform to_world;
-  const SharedMaterial* material = nullptr;  ///< for leaves without one of their own
+  const PreciseTransform* to_world = nullptr;  ///< of a TransformPool or of the entity
+  const SharedMaterial* material = nullptr;    ///< for leaves without one of their own
   std::uint32_t id = 0;
   bool id_is_final = false;  ///< a with_id above: inner ones no longer count
 
   /// The part with wrappers around its node opened and applied.
-  Part unwrapped() const {
+  Part unwrapped(TransformPool& pool) const {
     Part inner = *this;
     while (const auto* wrapper = std::get_if<EntityWrapper>(&inner.node->content)) {
       inner.node = wrapper->child.get();
-      inner.to_world = compose(inner.to_world, wrapper->to_parent);
+      inner.to_world = pool.composed(inner.to_world, wrapper->to_parent.get());
       // An inner material is nearer to the leaves, an outer id nearer to the user.
       if (wrapper->material) inner.material = &*wrapper->material;
       if (wrapper->id && !inner.id_is_final) {
@@ -31,11 +44,14 @@ struct Part {
   }
 
   /// A child of this part's operation.
-  Part child(const EntityPointer& pointer) const {
+  Part child(const EntityPointer& pointer, TransformPool& pool) const {
     Part result = *this;
     result.node = pointer.get();
-    return result.unwrapped();
+    return result.unwrapped(pool);
   }
+
+  /// The operation that the part is, if it is none of them a null pointer.
+  const CsgOperation* operation() const { return std::get_if<CsgOperation>(&node->content); }
 };
 
 }  // namespace crt::core

@@ -2,11 +2,13 @@
 
 #include <algorithm>
 #include <chrono>
+#include <climits>
 #include <cmath>
 #include <tuple>
 
 #include "core/math/float_environment.hpp"
 #include "core/scene/accelerator.hpp"
+#include "core/scene/memory.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/validate.hpp"
@@ -70,8 +72,11 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
     : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
-  scene_ = scene;
-  scene_.entities.clear();
+  scene_ = {.entities = {},
+            .lights = scene.lights,
+            .camera = scene.camera,
+            .background = scene.background,
+            .settings = scene.settings};
 
   if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
     geometry_ = earlier->geometry_;
@@ -90,6 +95,14 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
 }
 
 PreparedData::~PreparedData() = default;
+
+MemoryUse PreparedData::memory() const {
+  MemoryUse use = accelerator_->memory();
+  use.primitives += bytes_of(geometry_->entities);
+  use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + opaque_.capacity() / CHAR_BIT +
+                  textures_.bytes();
+  return use;
+}
 
 RayHit PreparedData::intersect(const WorldRay& ray, RayWorkspace& work) const {
   return accelerator_->nearest(ray, work);
@@ -185,6 +198,10 @@ const Leaf& PreparedData::leaf(const HitPoint& point) const {
 }  // namespace crt::core
 
 namespace crt {
+
+MemoryUse PreparedScene::memory() const {
+  return data_->memory();
+}
 
 PreparedScene prepare(const Scene& scene) {
   const core::FloatEnvironment ieee;

@@ -17,6 +17,7 @@
 #include "core/shading/prepared_background.hpp"
 #include "core/shading/prepared_material.hpp"
 #include "crt/scene.hpp"
+#include "crt/stats.hpp"
 
 namespace crt::core {
 
@@ -120,7 +121,7 @@ class PreparedData {
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
   /// What shading needs of a hit that `ray` found; u and v only if asked for.
-  HitPoint hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
+  HitPoint hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv = true) const;
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
@@ -141,6 +142,7 @@ class PreparedData {
   /// Lights, camera, background and settings as given (and checked); entities are left out.
   const Scene& scene() const { return scene_; }
   double prepare_seconds() const { return prepare_seconds_; }
+  MemoryUse memory() const;
   /// Whether what rays meet was made once for both.
   bool shares_geometry_with(const PreparedData& other) const { return geometry_ == other.geometry_; }
 

@@ -1,7 +1,12 @@
 #include "core/scene/surface_table.hpp"
 
+#include <algorithm>
 #include <bit>
 #include <cmath>
+#include <tuple>
+#include <vector>
+
+#include "core/tasks/parallel.hpp"
 
 namespace crt::core {
 
@@ -34,22 +39,120 @@ CanonicalPlane canonical_plane(const Surface& plane, const Placement& placement)
   const DoubleDouble divisor = world_normal[largest];
   CanonicalPlane result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.numbers[axis] = positive_zero((world_normal[axis] / divisor).value());
+    result.numbers[axis] = (world_normal[axis] / divisor).value();
   }
-  result.numbers[3] = positive_zero((world_offset / divisor).value());
+  result.numbers[3] = (world_offset / divisor).value();
   result.flipped = divisor.hi < 0;
   return result;
 }
 
+/// The words of a key that a placement fills which does more than move come last.
+constexpr std::size_t words_of_surface = 9;
+
+/// A face among all, and what equal surfaces have in common.
+struct HashedFace {
+  std::uint64_t hash;
+  std::uint32_t face;
+  std::uint32_t leaf;
+};
+
+class Numbering {
+ public:
+  Numbering(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
+            std::span<FaceSurface> faces)
+      : leaves_(leaves), programs_(programs), faces_(faces), hashed_(faces.size()) {}
+
+  void run(int threads) {
+    for_ranges(leaves_.size(), items_for_a_thread, threads, [&](std::size_t begin, std::size_t end) {
+      for (std::size_t leaf = begin; leaf < end; ++leaf) hash_faces(static_cast<std::uint32_t>(leaf));
+    });
+    sort_in_parallel(std::span(hashed_), threads, [](const HashedFace& a, const HashedFace& b) {
+      return std::tie(a.hash, a.face) < std::tie(b.hash, b.face);
+    });
+    // A range has the runs of equal hashes that begin in it.
+    for_ranges(hashed_.size(), items_for_a_thread, threads, [&](std::size_t begin, std::size_t end) {
+      while (begin > 0 && begin < end && hashed_[begin].hash == hashed_[begin - 1].hash) ++begin;
+      while (begin < end) {
+        const std::size_t first = begin;
+        while (begin < hashed_.size() && hashed_[begin].hash == hashed_[first].hash) ++begin;
+        number_equal_hashes(std::span<const HashedFace>(hashed_).subspan(first, begin - first));
+      }
+    });
+  }
+
+ private:
+  CanonicalSurface surface_of(std::uint32_t leaf_index, std::uint32_t face) const {
+    const Leaf& leaf = leaves_[leaf_index];
+    return canonical_surface(leaf.shape->surface(face - leaf.first_face), *leaf.placement);
+  }
+
+  void hash_faces(std::uint32_t leaf) {
+    for (std::uint32_t i = 0; i < leaves_[leaf].face_count; ++i) {
+      const std::uint32_t face = leaves_[leaf].first_face + i;
+      const CanonicalSurface surface = surface_of(leaf, face);
+      faces_[face] = {.surface = face, .flipped = surface.flipped};
+      hashed_[face] = {surface.hash(), face, leaf};
+    }
+  }
+
+  /// Equal hashes are nearly always those of equal surfaces, but only their keys say so.
+  void number_equal_hashes(std::span<const HashedFace> faces) {
+    if (faces.size() == 1) return;
+    const auto key_of = [&](const HashedFace& hashed) { return surface_of(hashed.leaf, hashed.face).key; };
+    const CanonicalSurface::Key first_key = key_of(faces[0]);
+    if (std::all_of(faces.begin(), faces.end(),
+                    [&](const HashedFace& face) { return key_of(face) == first_key; })) {
+      number_equal(faces);
+      return;
+    }
+    std::vector<std::pair<CanonicalSurface::Key, HashedFace>> keyed;
+    for (const HashedFace& face : faces) keyed.emplace_back(key_of(face), face);
+    std::sort(keyed.begin(), keyed.end(), [](const auto& a, const auto& b) {
+      return std::tie(a.first, a.second.face) < std::tie(b.first, b.second.face);
+    });
+    std::vector<HashedFace> equal;
+    for (std::size_t i = 0; i < keyed.size(); ++i) {
+      equal.push_back(keyed[i].second);
+      if (i + 1 < keyed.size() && keyed[i + 1].first == keyed[i].first) continue;
+      number_equal(equal);
+      equal.clear();
+    }
+  }
+
+  /// Of faces on one surface, in ascending order: those of one program follow one another.
+  void number_equal(std::span<const HashedFace> faces) {
+    const auto program_of = [&](const HashedFace& face) { return programs_[face.leaf]; };
+    std::size_t begin = 0;
+    for (std::size_t i = 0; i < faces.size(); ++i) {
+      faces_[faces[i].face].surface = faces[0].face;
+      const std::uint32_t program = program_of(faces[i]);
+      if (program != program_of(faces[begin])) begin = i;
+      const bool next_is_of_it = i + 1 < faces.size() && program_of(faces[i + 1]) == program;
+      if (program != no_program && (i > begin || next_is_of_it)) {
+        faces_[faces[i].face].shared = faces[begin].face;
+      }
+    }
+  }
+
+  std::span<const Leaf> leaves_;
+  std::span<const std::uint32_t> programs_;
+  std::span<FaceSurface> faces_;
+  std::vector<HashedFace> hashed_;
+};
+
 }  // namespace
 
-FaceSurface SurfaceTable::find(const Surface& surface, const Placement& placement) {
-  Key key{};
-  key[0] = static_cast<double>(surface.kind);
+CanonicalSurface canonical_surface(const Surface& surface, const Placement& placement) {
+  CanonicalSurface result;
+  const auto set = [&](std::size_t word, double number) {
+    result.key[word] = std::bit_cast<std::uint64_t>(positive_zero(number));
+  };
+  result.key[0] = static_cast<std::uint64_t>(surface.kind);
   if (surface.kind == SurfaceKind::plane) {
     const CanonicalPlane plane = canonical_plane(surface, placement);
-    for (std::size_t i = 0; i < plane.numbers.size(); ++i) key[i + 1] = plane.numbers[i];
-    return {.surface = number(key), .flipped = plane.flipped};
+    for (std::size_t i = 0; i < plane.numbers.size(); ++i) set(i + 1, plane.numbers[i]);
+    result.flipped = plane.flipped;
+    return result;
   }
   const Transform& map = placement.to_world();
   Vec3 position = surface.position;
@@ -57,29 +160,35 @@ FaceSurface SurfaceTable::find(const Surface& surface, const Placement& placemen
     position += map.translation;
   } else {
     const Vec3 rows[] = {map.row_x, map.row_y, map.row_z, map.translation};
-    for (std::size_t i = 0; i < 12; ++i) key[9 + i] = positive_zero(rows[i / 3][static_cast<int>(i % 3)]);
+    for (std::size_t i = 0; i < 12; ++i) set(words_of_surface + i, rows[i / 3][static_cast<int>(i % 3)]);
   }
   for (int axis = 0; axis < 3; ++axis) {
-    key[static_cast<std::size_t>(axis) + 1] = positive_zero(position[axis]);
-    key[static_cast<std::size_t>(axis) + 4] = positive_zero(surface.direction[axis]);
+    set(static_cast<std::size_t>(axis) + 1, position[axis]);
+    set(static_cast<std::size_t>(axis) + 4, surface.direction[axis]);
   }
-  key[7] = surface.sizes[0];
-  key[8] = surface.sizes[1];
-  return {.surface = number(key), .flipped = false};
+  set(7, surface.sizes[0]);
+  set(8, surface.sizes[1]);
+  return result;
 }
 
-std::uint32_t SurfaceTable::number(const Key& key) {
-  return numbers_.try_emplace(key, static_cast<std::uint32_t>(numbers_.size())).first->second;
-}
-
-std::size_t SurfaceTable::KeyHash::operator()(const Key& key) const {
-  // FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits.
+std::uint64_t CanonicalSurface::hash() const {
+  // FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits. Most placements
+  // leave their words 0.
   std::uint64_t hash = 0xcbf29ce484222325u;
-  for (const double value : key) {
-    hash = (hash ^ std::bit_cast<std::uint64_t>(value)) * 0x100000001b3u;
+  const auto mix = [&](std::uint64_t word) {
+    hash = (hash ^ word) * 0x100000001b3u;
     hash ^= hash >> 32;
+  };
+  for (std::size_t i = 0; i < words_of_surface; ++i) mix(key[i]);
+  for (std::size_t i = words_of_surface; i < key.size(); ++i) {
+    if (key[i] != 0) mix(key[i] + i);
   }
-  return static_cast<std::size_t>(hash);
+  return hash;
+}
+
+void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
+                     std::span<FaceSurface> faces, int threads) {
+  Numbering(leaves, programs, faces).run(threads);
 }
 
 }  // namespace crt::core

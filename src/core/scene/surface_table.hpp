@@ -1,8 +1,9 @@
+// Which faces of a scene lie on one surface.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <unordered_map>
+#include <span>
 
 #include "core/csg/placement.hpp"
 #include "core/csg/program.hpp"
@@ -10,22 +11,27 @@
 
 namespace crt::core {
 
-/// Gives every different surface of a scene a number, and equal surfaces (bit-equal after bringing
-/// them to a canonical form in the world) the same one. Opposite planes are the same surface.
-class SurfaceTable {
- public:
-  FaceSurface find(const Surface& surface, const Placement& placement);
+/// A surface in a canonical form in the world: surfaces are equal if their forms are, bit for bit. Opposite
+/// planes are the same surface, one of them turned round.
+struct CanonicalSurface {
+  /// Kind, then up to 8 numbers of the surface and 12 of a placement that does more than move.
+  using Key = std::array<std::uint64_t, 21>;
 
- private:
-  // Kind, then up to 8 numbers of the surface and 12 of a placement that does more than move.
-  using Key = std::array<double, 21>;
-  struct KeyHash {
-    std::size_t operator()(const Key& key) const;
-  };
+  Key key{};
+  bool flipped = false;
 
-  std::uint32_t number(const Key& key);
-
-  std::unordered_map<Key, std::uint32_t, KeyHash> numbers_;
+  std::uint64_t hash() const;
 };
+
+CanonicalSurface canonical_surface(const Surface& surface, const Placement& placement);
+
+/// Fills in the surfaces of all faces: `faces` holds those of the first leaf, then those of the next, and
+/// so on. A surface is called by the number of the first face on it. Where several faces of one program are
+/// on it, their `shared` is the number of the first of those. `programs` has the program of each leaf, or
+/// no_program. O(n log n), on up to `threads` threads (as run_tasks() has it).
+void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
+                     std::span<FaceSurface> faces, int threads);
+
+inline constexpr std::uint32_t no_program = 0xffffffffu;
 
 }  // namespace crt::core

@@ -65,9 +65,13 @@ Color straight(const Color& premultiplied) {
 
 }  // namespace
 
-Texture::Texture(std::shared_ptr<const Image> image, double gamma)
-    : image_(image->display_encoded() && gamma != 1 ? to_linear_light(*image, gamma) : std::move(image)),
-      opaque_(covers_fully(*image_)) {}
+Texture::Texture(std::shared_ptr<const Image> image, double gamma) : image_(std::move(image)) {
+  if (image_->display_encoded() && gamma != 1) {
+    image_ = to_linear_light(*image_, gamma);
+    own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
+  }
+  opaque_ = covers_fully(*image_);
+}
 
 Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const {
   const Neighbours column = neighbours(x, width(), wrap_x);
@@ -77,6 +81,12 @@ Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap
   const Color lower =
       mix(image_->at(column.first, row.second), image_->at(column.second, row.second), column.share);
   return straight(mix(upper, lower, row.share));
+}
+
+std::uint64_t TexturePool::bytes() const {
+  std::uint64_t bytes = 0;
+  for (const auto& [image, texture] : textures_) bytes += texture->bytes();
+  return bytes;
 }
 
 std::shared_ptr<const Texture> TexturePool::get(const std::shared_ptr<const Image>& image) {

@@ -1,6 +1,7 @@
 // Pictures made ready for looking up: in linear light, whatever they were read from.
 #pragma once
 
+#include <cstdint>
 #include <map>
 #include <memory>
 
@@ -21,6 +22,9 @@ class Texture {
   int width() const { return image_->width(); }
   int height() const { return image_->height(); }
 
+  /// Of memory, beside the picture as it was given.
+  std::uint64_t bytes() const { return sizeof *this + own_bytes_; }
+
   /// Whether every texel covers fully.
   bool opaque() const { return opaque_; }
 
@@ -30,6 +34,7 @@ class Texture {
 
  private:
   std::shared_ptr<const Image> image_;
+  std::uint64_t own_bytes_ = 0;
   bool opaque_ = true;
 };
 
@@ -43,6 +48,9 @@ class TexturePool {
   TexturePool(double gamma, const TexturePool* earlier)
       : gamma_(gamma), earlier_(earlier != nullptr && earlier->gamma_ == gamma ? earlier : nullptr) {}
   void settle() { earlier_ = nullptr; }
+
+  /// Of memory, of all its textures.
+  std::uint64_t bytes() const;
 
   std::shared_ptr<const Texture> get(const std::shared_ptr<const Image>& image);
 

@@ -1,4 +1,4 @@
-#include "core/render/tasks.hpp"
+#include "core/tasks/tasks.hpp"
 
 #include <algorithm>
 

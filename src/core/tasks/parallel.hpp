@@ -1,0 +1,44 @@
+// Loops over many small items, and sorting, on several threads. What comes out never depends on how many.
+#pragma once
+
+#include <algorithm>
+#include <span>
+
+#include "core/math/float_environment.hpp"
+#include "core/tasks/tasks.hpp"
+
+namespace crt::core {
+
+/// Few items, of which each is little work, are not worth another thread.
+inline constexpr std::size_t items_for_a_thread = 4096;
+
+/// Calls body(begin, end) for ranges that make up 0 ... count, as run_tasks() does; a single range of up to
+/// `range_size` stays on this thread.
+template <class Body>
+void for_ranges(std::size_t count, std::size_t range_size, int threads, const Body& body) {
+  run_tasks((count + range_size - 1) / range_size, threads, [&](std::size_t range) {
+    const FloatEnvironment ieee;
+    const std::size_t begin = range * range_size;
+    body(begin, std::min(begin + range_size, count));
+  });
+}
+
+/// Sorts; no two items may be equal to `less`, so that there is one order only.
+template <class Item, class Less>
+void sort_in_parallel(std::span<Item> items, int threads, const Less& less) {
+  std::size_t pieces = 1;
+  const auto most_pieces = static_cast<std::size_t>(allowed_threads(threads));
+  while (pieces < most_pieces && items.size() / pieces > 2 * items_for_a_thread) pieces *= 2;
+  const auto border = [&](std::size_t piece) {
+    return items.begin() + static_cast<std::ptrdiff_t>(items.size() * piece / pieces);
+  };
+  run_tasks(pieces, threads, [&](std::size_t piece) { std::sort(border(piece), border(piece + 1), less); });
+  for (std::size_t merged = 1; merged < pieces; merged *= 2) {
+    run_tasks(pieces / (2 * merged), threads, [&](std::size_t pair) {
+      const std::size_t first = 2 * merged * pair;
+      std::inplace_merge(border(first), border(first + merged), border(first + 2 * merged), less);
+    });
+  }
+}
+
+}  // namespace crt::core
