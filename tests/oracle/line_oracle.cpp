@@ -131,8 +131,9 @@ class Solution {
         if (&other == &place) continue;
         const double gap = std::abs((other.x - place.x).value());
         const double approach = approach_at(other);
-        // Within the bounds of both, rounding may take one for the other.
-        const double bounds = 8 * unit_of_rounding * crossing.reach * (1 / approach + 1 / own_approach);
+        // Within the bounds of both, the rounding of either t included, one may be taken for the other.
+        const double bounds = 8 * unit_of_rounding * crossing.reach * (1 / approach + 1 / own_approach) +
+                              2 * unit_of_rounding * std::abs(crossing.t.value());
         if (gap > bounds) continue;
         crossing.approach = std::min(crossing.approach, approach);
         crossing.at_edge = true;

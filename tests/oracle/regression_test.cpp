@@ -130,3 +130,11 @@ TEST_CASE(
   Record record;
   CHECK(measure(truth_of(make_ray(triangle, 7088570)), standard_tier(), 0, record));
 }
+
+TEST_CASE("a cylinder's cap may be taken for its side where the rounding of t does not tell them apart") {
+  const Cylinder cylinder{.from = {0x1.4bce3ea3b8262p-12, 0x1.99e8bf6b2eb07p-12, -0x1.7c26bea915e2fp-12},
+                          .to = {0x1.4bce3ea3b8262p-12, 0x1.6c8e9f9455c1ep-3, -0x1.7c26bea915e2fp-12},
+                          .radius = 0x1.00d45c83a28c6p-2};
+  CHECK(holds(cylinder, {-0x1.312d87400acfap+4, -0x1.38e3c3577ebfep+4, 0x1.878b5df4bfe95p+4},
+              {0x1.2d44abe171883p+4, 0x1.38e55d403e2b1p+4, -0x1.886ed7c68771dp+4}));
+}

@@ -60,6 +60,11 @@ struct CsgProgram {
   std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }
+  /// Whether all of the object is within one of its leaves: a part of an intersection, or what a difference
+  /// takes from.
+  bool is_within(std::uint32_t index, const Leaf& leaf) const {
+    return leaf_parents[index] == 0 && nodes[0].needed > 1 && !leaf.complemented;
+  }
 };
 
 }  // namespace crt::core

@@ -1,5 +1,7 @@
 #include "core/geometry/box.hpp"
 
+#include <limits>
+
 #include "core/geometry/checks.hpp"
 #include "core/math/vector.hpp"
 
@@ -15,12 +17,52 @@ bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const double shortest =
       unit_roundoff * (largest_component(upper_ - lower_) / largest_component(ray.direction));
   Stretch stretch(ray.start, shortest);
-  for (std::uint32_t face = 0; face < 6; face += 2) {
-    faces_[face].clip(ray, face, stretch);
-    faces_[face + 1].clip(ray, face + 1, stretch);
-    if (ray.start.face == no_face && stretch.empty()) return false;
+  if (ray.start.face == no_face) {
+    const unsigned ends = possible_ends(ray);
+    if (ends == 0) return false;
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) {
+      if ((ends >> face & 1u) == 0) continue;
+      faces_[face].clip(ray, face, stretch);
+      if (stretch.empty()) return false;
+    }
+  } else {
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) faces_[face].clip(ray, face, stretch);
   }
   return stretch.finish(out);
+}
+
+unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  std::array<double, 3> enter;
+  std::array<double, 3> leave;
+  std::array<double, 3> error;
+  double last_enter = -infinity;
+  double first_leave = infinity;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    const double inverse = 1 / ray.direction[axis];
+    constexpr double steepest = 0x1p500;
+    if (!(std::abs(inverse) < steepest)) return all_faces;
+    const double lower = (lower_[axis] - ray.origin[axis]) * inverse;
+    const double upper = (upper_[axis] - ray.origin[axis]) * inverse;
+    enter[i] = std::min(lower, upper);
+    leave[i] = std::max(lower, upper);
+    // Of the low parts of origin and direction, and the roundings here.
+    constexpr double slack = 0x1p-48;
+    error[i] = slack * (std::abs(lower) + std::abs(upper) + std::abs(ray.origin[axis] * inverse));
+    last_enter = std::max(last_enter, enter[i] - error[i]);
+    first_leave = std::min(first_leave, leave[i] + error[i]);
+  }
+  if (last_enter > first_leave) return 0;
+  unsigned faces = 0;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool upwards = ray.direction[static_cast<int>(axis)] > 0;
+    const unsigned near = 1u << (2 * axis + (upwards ? 0 : 1));
+    const unsigned far = 1u << (2 * axis + (upwards ? 1 : 0));
+    if (enter[axis] + error[axis] >= last_enter) faces |= near;
+    if (leave[axis] - error[axis] <= first_leave) faces |= far;
+  }
+  return faces;
 }
 
 SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool /*with_uv*/) const {

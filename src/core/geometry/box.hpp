@@ -28,6 +28,11 @@ class BoxShape final : public Shape {
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
+  static constexpr unsigned all_faces = 0x3f;
+  /// The faces, a bit each, through which a ray in free space can enter or leave the box, for all that plain
+  /// doubles tell; none if it surely misses.
+  unsigned possible_ends(const ObjectRay& ray) const;
+
   Vec3 lower_;
   Vec3 upper_;
   std::array<PlaneFace, 6> faces_;

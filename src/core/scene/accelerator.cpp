@@ -42,6 +42,23 @@ bool any_surface_is_shared(const CompiledScene& scene) {
   return false;
 }
 
+std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
+  std::vector<std::uint32_t> enclosed(scene.leaves.size(), nothing);
+  const auto count = static_cast<std::uint32_t>(scene.objects.size());
+  for_ranges(count, items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SceneObject& object = scene.objects[i];
+      const std::uint32_t leaves = object.is_csg() ? scene.programs[object.program].leaf_count() : 1;
+      for (std::uint32_t k = 0; k < leaves; ++k) {
+        const Leaf& leaf = scene.leaves[object.first_leaf + k];
+        const bool holds = !object.is_csg() || scene.programs[object.program].is_within(k, leaf);
+        if (holds && leaf.shape->is_convex()) enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
+      }
+    }
+  });
+  return enclosed;
+}
+
 }  // namespace
 
 Accelerator::Accelerator(CompiledScene compiled)
@@ -59,6 +76,7 @@ Accelerator::Accelerator(CompiledScene compiled)
   }
   bounded_outlines_ = outlines_of(compiled_, bounded_);
   unbounded_outlines_ = outlines_of(compiled_, unbounded_);
+  enclosed_ = enclosed_objects(compiled_);
   if (bounded_.empty()) return;
   std::vector<Bounds> boxes;
   boxes.reserve(bounded_.size());
@@ -71,7 +89,7 @@ Accelerator::~Accelerator() = default;
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
   use.tree = bytes_of(bounded_) + bytes_of(unbounded_) + bytes_of(bounded_outlines_) +
-             bytes_of(unbounded_outlines_) + (tree_ ? tree_->bytes() : 0);
+             bytes_of(unbounded_outlines_) + bytes_of(enclosed_) + (tree_ ? tree_->bytes() : 0);
   return use;
 }
 
@@ -93,11 +111,10 @@ SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, 
 }
 
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
-  if (start.leaf == nothing) return nothing;
+  if (start.leaf == nothing || enclosed_[start.leaf] == nothing) return nothing;
   const Leaf& start_leaf = leaf(start.leaf);
-  if (!start_leaf.shape->is_convex()) return nothing;
   const bool outwards = (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
-  return outwards || !start_leaf.shape->is_solid() ? start.leaf : nothing;
+  return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : nothing;
 }
 
 double certain_end(const WorldRay& ray) {

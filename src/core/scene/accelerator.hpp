@@ -61,7 +61,7 @@ class Accelerator {
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Whether a crossing near the ray's end is of a surface through that end.
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
-  /// The leaf that a ray has left for good when it starts: it cannot meet the leaf again.
+  /// The object that a ray has left for good when it starts: it cannot meet the object again.
   std::uint32_t left_for_good(const StartPoint& start) const;
 
  private:
@@ -80,6 +80,9 @@ class Accelerator {
   std::vector<std::uint32_t> bounded_;    ///< objects, in the order in which Embree numbers them
   std::vector<Outline> unbounded_outlines_;
   std::vector<Outline> bounded_outlines_;
+  /// By leaf: the object that is all within it; nothing if there is none, or if a line may leave the leaf and
+  /// meet it again.
+  std::vector<std::uint32_t> enclosed_;
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
   bool objects_share_surfaces_ = false;
 };

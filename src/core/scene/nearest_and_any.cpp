@@ -74,7 +74,7 @@ enum class Judgement { open, missed, met };
 class OutlinedRay {
  public:
   OutlinedRay(const Accelerator& accelerator, const WorldRay& ray)
-      : start_surface_(ray.start.surface), left_leaf_(accelerator.left_for_good(ray.start)) {
+      : start_surface_(ray.start.surface), left_object_(accelerator.left_for_good(ray.start)) {
     const Vec3& d = ray.direction;
     line_.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
     line_.direction = {d.x, d.y, d.z};
@@ -86,14 +86,14 @@ class OutlinedRay {
     line_.certain_to = std::min(certain_end(ray), largest_end);
   }
 
-  Judgement judge(const Outline& outline, double limit) const {
+  Judgement judge(std::uint32_t object, const Outline& outline, double limit) const {
     double last;
-    return judge(outline, limit, last);
+    return judge(object, outline, limit, last);
   }
 
   /// `last` is set for a plane that is met, to a t not before that.
-  Judgement judge(const Outline& outline, double limit, double& last) const {
-    if (outline.lone_leaf == left_leaf_ && left_leaf_ != nothing) return Judgement::missed;
+  Judgement judge(std::uint32_t object, const Outline& outline, double limit, double& last) const {
+    if (object == left_object_) return Judgement::missed;
     if (outline.kind == Outline::Kind::unknown) return Judgement::open;
     // Of that surface it is known otherwise where the ray meets it.
     if (outline.surface == start_surface_) return Judgement::open;
@@ -105,7 +105,7 @@ class OutlinedRay {
  private:
   OutlineLine<double> line_;
   std::uint32_t start_surface_;
-  std::uint32_t left_leaf_;
+  std::uint32_t left_object_;
 };
 
 /// As a hit there would have it.
@@ -121,7 +121,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
   const OutlinedRay outlined(*this, ray);
   const auto is_done = [&] { return query.limit() <= ray.t_min; };
   const auto test = [&](std::uint32_t object, const Outline& outline) {
-    const Judgement judgement = outlined.judge(outline, query.limit());
+    const Judgement judgement = outlined.judge(object, outline, query.limit());
     if (judgement == Judgement::missed) return;
     if constexpr (Kind::any_will_do) {
       if (judgement == Judgement::met) {
@@ -138,7 +138,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
     const Outline& outline = unbounded_outlines_[i];
     if (planes_last && outline.kind == Outline::Kind::plane) {
       double last = 0;
-      const Judgement judgement = outlined.judge(outline, query.limit(), last);
+      const Judgement judgement = outlined.judge(unbounded_[i], outline, query.limit(), last);
       if (judgement == Judgement::met) query.set_limit(std::min(query.limit(), reach_of_plane(ray, last)));
     } else {
       test(unbounded_[i], outline);
@@ -218,7 +218,7 @@ RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
     lines.certain_to[lane] = std::min(certain_end(ray), largest_end);
     packet.set_limit(i, ray.t_max);
     packet.start_surfaces[i] = ray.start.surface;
-    packet.left_leaves[i] = left_for_good(ray.start);
+    packet.left_objects[i] = left_for_good(ray.start);
   }
   for (OutlineLine<Lanes>& lines : packet.groups) {
     lines.squared_speed = outline_detail::dot(lines.direction, lines.direction);
@@ -242,14 +242,14 @@ class OutlinedPacket {
   explicit OutlinedPacket(RayPacket& packet)
       : packet_(packet),
         starts_on_surface_(packet.all() & ~rays_with(packet.start_surfaces, nothing)),
-        left_some_(packet.all() & ~rays_with(packet.left_leaves, nothing)) {}
+        left_some_(packet.all() & ~rays_with(packet.left_objects, nothing)) {}
 
-  Verdict<RayMask> judge(const Outline& outline, RayMask rays) const {
+  Verdict<RayMask> judge(std::uint32_t object, const Outline& outline, RayMask rays) const {
     std::array<Lanes, RayPacket::group_count> last;
-    return judge(outline, rays, last);
+    return judge(object, outline, rays, last);
   }
 
-  Verdict<RayMask> judge(const Outline& outline, RayMask rays,
+  Verdict<RayMask> judge(std::uint32_t object, const Outline& outline, RayMask rays,
                          std::array<Lanes, RayPacket::group_count>& last) const {
     Verdict<RayMask> verdict{};
     if (outline.kind != Outline::Kind::unknown) {
@@ -268,9 +268,7 @@ class OutlinedPacket {
         verdict.met &= ~open;
       }
     }
-    if ((rays & left_some_) != 0 && outline.lone_leaf != nothing) {
-      verdict.missed |= rays_with(packet_.left_leaves, outline.lone_leaf);
-    }
+    if ((rays & left_some_) != 0) verdict.missed |= rays_with(packet_.left_objects, object);
     verdict.missed &= rays;
     verdict.met &= rays & ~verdict.missed;
     return verdict;
@@ -296,7 +294,7 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
   };
   /// Returns the rays whose limits it changed.
   const auto test = [&](std::uint32_t object, const Outline& outline, RayMask rays) {
-    const Verdict<RayMask> verdict = outlined.judge(outline, rays);
+    const Verdict<RayMask> verdict = outlined.judge(object, outline, rays);
     RayMask changed = 0;
     RayMask open = rays & ~verdict.missed;
     if constexpr (Kind::any_will_do) {
@@ -322,7 +320,7 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
     const Outline& outline = unbounded_outlines_[i];
     if (planes_last && outline.kind == Outline::Kind::plane) {
       std::array<Lanes, RayPacket::group_count> last;
-      for_each_ray(outlined.judge(outline, going, last).met, [&](std::size_t ray) {
+      for_each_ray(outlined.judge(unbounded_[i], outline, going, last).met, [&](std::size_t ray) {
         const double reach =
             reach_of_plane(queries[ray].ray(), last[ray / lane_count][static_cast<int>(ray % lane_count)]);
         queries[ray].set_limit(std::min(queries[ray].limit(), reach));

@@ -23,6 +23,13 @@ double even_scale(const Transform& transform) {
   return std::sqrt(square);
 }
 
+/// Squares of such sizes, and of what matters beside them, are normal numbers.
+bool has_fair_size(double size) {
+  constexpr double smallest = 0x1p-300;
+  constexpr double largest = 0x1p300;
+  return size > smallest && size < largest;
+}
+
 /// Outlines of spheres and planes are where the objects are to the last bit, or there are none.
 bool place_exactly(const Surface& surface, const Placement& placement, Outline& outline) {
   if (!placement.is_translation()) return false;
@@ -52,20 +59,37 @@ bool place_torus(const Surface& surface, const Placement& placement, Outline& ou
   return true;
 }
 
+/// That of the smallest sphere that has the object within it, a little larger than that: crossings of other
+/// solids on its rim are known less well.
+Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
+  Outline smallest;
+  const CsgProgram& program = scene.programs[object.program];
+  for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
+    const Leaf& leaf = scene.leaves[program.first_leaf + i];
+    if (!program.is_within(i, leaf) || leaf.face_count != 1) continue;
+    const Surface surface = leaf.shape->surface(0);
+    if (surface.kind != SurfaceKind::sphere) continue;
+    Outline outline;
+    constexpr double room = 1 + 0x1p-20;
+    outline.radius = surface.sizes[0] * room;
+    if (!has_fair_size(outline.radius) || !place_exactly(surface, *leaf.placement, outline)) continue;
+    if (smallest.kind != Outline::Kind::unknown && !(outline.radius < smallest.radius)) continue;
+    outline.kind = Outline::Kind::sphere;
+    outline.encloses = true;
+    smallest = outline;
+  }
+  return smallest;
+}
+
 }  // namespace
 
 Outline outline_of(const CompiledScene& scene, const SceneObject& object) {
   Outline outline;
-  if (object.is_csg()) return outline;
-  outline.lone_leaf = object.first_leaf;
+  if (object.is_csg()) return outline_of_csg(scene, object);
   const Leaf& leaf = scene.leaves[object.first_leaf];
   if (!leaf.shape->is_solid() || leaf.face_count != 1) return outline;
   const Surface surface = leaf.shape->surface(0);
   outline.surface = scene.face_surfaces[leaf.first_face].surface;
-  // Squares of such sizes, and of what matters beside them, are normal numbers.
-  constexpr double smallest = 0x1p-300;
-  constexpr double largest = 0x1p300;
-  const auto has_fair_size = [&](double size) { return size > smallest && size < largest; };
   switch (surface.kind) {
     case SurfaceKind::sphere:
       outline.radius = surface.sizes[0];

@@ -20,8 +20,8 @@ struct Outline {
   double radius = 0;     ///< the torus's is that of its ring
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
   std::uint32_t surface = nothing;  ///< its whole surface
-  /// The leaf of an object that has but one; no ray that left it for good meets it again.
-  std::uint32_t lone_leaf = nothing;
+  /// The object is somewhere within: only what misses it is sure.
+  bool encloses = false;
 };
 
 struct CompiledScene;
@@ -109,6 +109,11 @@ auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Re
   const Real to_end = up_to(line.certain_to);
   const auto before_end = (to_end > 0.0) | (to_end * to_end * line.squared_speed < room - error);
   using Mask = decltype((room < error) & (error < room));
+  if (sphere.encloses) {
+    return Verdict<Mask>{
+        .missed = (longest < 0.0) | beyond_chord(from(limit)) | beyond_chord(up_to(line.begin)),
+        .met = room < room};
+  }
   return Verdict<Mask>{
       .missed = (longest < 0.0) | beyond_chord(from(limit)) | beyond_chord(up_to(line.begin)),
       .met = (room > error) & beyond_chord(from(line.certain_from)) & before_end};

@@ -42,8 +42,8 @@ struct RayPacket {
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
   std::array<std::uint32_t, packet_size> start_surfaces;
-  /// The lone leaf that a ray has left for good.
-  std::array<std::uint32_t, packet_size> left_leaves;
+  /// The object that a ray has left for good.
+  std::array<std::uint32_t, packet_size> left_objects;
 
   RayMask all() const { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
   double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
