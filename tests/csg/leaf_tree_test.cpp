@@ -39,7 +39,7 @@ TEST_CASE("a line finds in the tree the boxes that it meets one by one, with the
   const auto real = [&](double low, double high) {
     return std::uniform_real_distribution<double>(low, high)(random);
   };
-  for (const std::size_t count : {0, 1, 2, 3, 4, 5, 17, 100, 1000}) {
+  for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 2, 3, 4, 5, 17, 100, 1000}) {
     std::vector<Bounds> boxes;
     for (std::size_t i = 0; i < count; ++i) {
       const Vec3 corner{real(-9, 9), real(-9, 9), real(-9, 9)};

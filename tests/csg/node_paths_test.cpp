@@ -118,8 +118,8 @@ TEST_CASE("paths know the values of all nodes, in chains and in bushes") {
   PathWorkspace work;
   std::uint64_t stamp = 0;
   std::uint32_t seed = 0;
-  for (const std::size_t count : {1, 2, 3, 5, 20, 63, 64, 65, 129, 500}) {
-    for (const std::size_t reach : {1, 2, 5, 1000}) {
+  for (const std::size_t count : std::initializer_list<std::size_t>{1, 2, 3, 5, 20, 63, 64, 65, 129, 500}) {
+    for (const std::size_t reach : std::initializer_list<std::size_t>{1, 2, 5, 1000}) {
       for (int i = 0; i < 4; ++i) {
         CAPTURE(count);
         CAPTURE(reach);
@@ -132,7 +132,8 @@ TEST_CASE("paths know the values of all nodes, in chains and in bushes") {
 TEST_CASE("paths know the values of very many nodes") {
   PathWorkspace work;
   std::uint64_t stamp = 0;
-  for (const std::size_t reach : {1, 3}) check_rays(Tree(20'000, reach, 99), 2, 60, work, stamp);
+  for (const std::size_t reach : std::initializer_list<std::size_t>{1, 3})
+    check_rays(Tree(20'000, reach, 99), 2, 60, work, stamp);
 }
 
 TEST_CASE("flat programs do without paths") {

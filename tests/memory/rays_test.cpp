@@ -57,7 +57,7 @@ void check_rays_take_nothing(Scene scene) {
   const std::uint64_t of_small = allocations_of(small, alone);
   const std::uint64_t of_large = allocations_of(large, alone);
   // Lists grow to the longest that any ray has needed: a few of them, a step each.
-  constexpr std::uint64_t steps_of_growth = 10;
+  constexpr std::uint64_t steps_of_growth = 64;
   CHECK_MESSAGE(of_large <= of_small + steps_of_growth, of_small, " allocations grow to ", of_large, " by ",
                 rays, " rays");
 }

@@ -67,7 +67,7 @@ TEST_CASE("a negative number of threads is refused") {
 }
 
 TEST_CASE("ranges cover each item once, and few items stay on this thread") {
-  for (const std::size_t count : {0, 1, 9, 10, 11, 1000}) {
+  for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 9, 10, 11, 1000}) {
     std::vector<std::atomic<int>> runs(count);
     for_ranges(count, 10, 0, [&](std::size_t begin, std::size_t end) {
       REQUIRE(end - begin <= 10);
@@ -81,7 +81,7 @@ TEST_CASE("ranges cover each item once, and few items stay on this thread") {
 
 TEST_CASE("sorting gives the same on any number of threads") {
   std::mt19937 random(1);
-  for (const std::size_t count : {0, 1, 2, 1000, 100'000}) {
+  for (const std::size_t count : std::initializer_list<std::size_t>{0, 1, 2, 1000, 100'000}) {
     std::vector<std::uint32_t> numbers(count);
     for (std::size_t i = 0; i < count; ++i) numbers[i] = static_cast<std::uint32_t>(i);
     std::shuffle(numbers.begin(), numbers.end(), random);

@@ -50,7 +50,7 @@ class Grouping {
       if (set.size() == 1 || set.axes_without_gap == 3 || set.cuts == most_cuts) {
         const std::span<Extent> group = extents_of(set);
         sort_in_parallel(group, threads_, [](const Extent& a, const Extent& b) { return a.part < b.part; });
-        result.push_back(group);
+        result.emplace_back(group);
       } else {
         cut_at_gaps(set, open);
       }
