@@ -1,0 +1,143 @@
+"""Runs the benchmarks and writes what they measured into docs/speed.md:  run.py --build build/release [OPTION...]
+
+A part that was measured with the same programs is not measured again, so a run that was interrupted goes on where it
+stopped. Quick runs print their tables and leave the documents alone.
+"""
+
+import argparse
+import fnmatch
+import hashlib
+import json
+import os
+import pathlib
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+
+sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
+from povray import catalogue, measure  # noqa: E402
+from povray.programs import Failed, Size  # noqa: E402
+from report import page, tables  # noqa: E402
+
+SOURCE = pathlib.Path(__file__).resolve().parents[2]
+FULL_SIZE, QUICK_SIZE = Size(1920, 1440), Size(640, 480)
+GOOGLE_BENCHMARKS = ("render", "queries")
+OWN_PROGRAMS = ("embree", "curves")
+
+
+class Bench:
+    def __init__(self, options: argparse.Namespace) -> None:
+        self.options = options
+        self.bin = options.build.resolve() / "bin"
+        self.folder = SOURCE / "build/bench" / ("quick" if options.quick else "full")
+        self.begin = time.monotonic()
+
+    def say(self, text: str) -> None:
+        print(f"[{time.monotonic() - self.begin:7.1f} s] {text}", flush=True)
+
+    def parts(self) -> dict[str, Callable[[], dict]]:
+        scenes = catalogue.QUICK if self.options.quick else catalogue.SCENES
+        return {
+            **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
+            **{name: (lambda name=name: self.own(name)) for name in OWN_PROGRAMS},
+            **{name: (lambda name=name: self.google(name)) for name in GOOGLE_BENCHMARKS},
+            "python": self.python,
+        }
+
+    def povray(self, name: str) -> dict:
+        quick = self.options.quick
+        plan = measure.Plan(
+            crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
+            rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
+            longest=4 if quick else 60, say=self.say)
+        return measure.measure(name, catalogue.SCENES[name](), plan)
+
+    def own(self, name: str) -> dict:
+        """A program of ours that writes JSON to standard output and its progress to standard error."""
+        command = [self.bin / f"bench_{name}", *(["--quick"] if self.options.quick else [])]
+        return json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout)
+
+    def google(self, name: str) -> dict:
+        results = self.folder / f"{name}-google.json"
+        time_each = ["--benchmark_min_time=0.1"] if self.options.quick else []
+        subprocess.run([self.bin / f"bench_{name}", *time_each, f"--benchmark_out={results}"], check=True)
+        return json.loads(results.read_text())
+
+    def python(self) -> dict:
+        library = self.bin.parent / "lib/libcrt.so"
+        done = subprocess.run(
+            [sys.executable, SOURCE / "tests/bench/ray_queries.py", self.bin / "ray_queries"],
+            stdout=subprocess.PIPE, check=True, text=True, env={**os.environ, "CRT_LIBRARY": str(library)})
+        print(done.stdout, end="")
+        return {"text": done.stdout}
+
+    def chosen(self) -> dict[str, Callable[[], dict]]:
+        patterns = self.options.only
+        return {name: part for name, part in self.parts().items()
+                if not patterns or any(name.startswith(p) or fnmatch.fnmatch(name, p) for p in patterns)}
+
+    def programs(self) -> str:
+        """Tells one build from another."""
+        digest = hashlib.sha256()
+        for program in sorted(self.bin.glob("bench_*")) + [self.bin / "crt"]:
+            digest.update(program.read_bytes())
+        return digest.hexdigest()
+
+    def result_file(self, part: str) -> pathlib.Path:
+        return self.folder / "results" / (part.replace("/", "-") + ".json")
+
+    def results(self) -> dict[str, dict]:
+        files = {part: self.result_file(part) for part in self.parts()}
+        return {part: json.loads(file.read_text())["result"] for part, file in files.items() if file.exists()}
+
+    def is_measured(self, part: str, programs: str) -> bool:
+        file = self.result_file(part)
+        return not self.options.again and file.exists() and json.loads(file.read_text())["programs"] == programs
+
+    def run(self) -> list[str]:
+        """The parts that failed."""
+        programs, failed = self.programs(), []
+        (self.folder / "results").mkdir(parents=True, exist_ok=True)
+        chosen = self.chosen()
+        for index, (name, part) in enumerate(chosen.items()):
+            if self.is_measured(name, programs):
+                self.say(f"{name} was measured before (--again measures it again)")
+                continue
+            self.say(f"part {index + 1} of {len(chosen)}: {name}")
+            try:
+                result = part()
+            except (Failed, measure.DifferentPictures, subprocess.SubprocessError, OSError) as error:
+                failed.append(name)
+                self.say(f"FAILED: {name}: {error}")
+                continue
+            self.result_file(name).write_text(json.dumps({"programs": programs, "result": result}, indent=1))
+        return failed
+
+
+def main() -> int:
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--build", type=pathlib.Path, required=True, help="where bin/ and lib/ are")
+    parser.add_argument("--quick", action="store_true", help="small pictures, few rounds: some three minutes")
+    parser.add_argument("--only", action="append", help="parts whose names begin so or match this pattern (repeatable)")
+    parser.add_argument("--rounds", type=int, help="how often both programs take turns (5; quick: 1)")
+    parser.add_argument("--again", action="store_true", help="also what was measured with these programs before")
+    parser.add_argument("--list", action="store_true", help="tells the parts and ends")
+    parser.add_argument("--report", action="store_true", help="only writes the tables of what was measured")
+    bench = Bench(parser.parse_args())
+    if bench.options.list:
+        print("\n".join(bench.chosen()))
+        return 0
+    failed = [] if bench.options.report else bench.run()
+    results = bench.results()
+    print("\n" + tables.all_tables(results))
+    if not bench.options.quick:
+        page.write(SOURCE / "docs", results)
+        bench.say("wrote docs/speed.md and its plots")
+    if failed:
+        bench.say(f"FAILED: {', '.join(failed)}")
+    return 1 if failed else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())
