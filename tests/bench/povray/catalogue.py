@@ -52,7 +52,7 @@ def tunnel(count: int) -> Scene:
     """Each ray in the middle passes all holes: they overlap, and the narrow places are 0.8 of their radius wide."""
     radius, step = 1.2, 0.72 * 2
     centers = np.array([(0, 0, step * i) for i in range(count)])
-    block = Box((-2, -1.5, 0), (2, 1.5, step * (count - 1)), WOOD)
+    block = Box((-2.003, -1.503, 0), (2.003, 1.503, step * (count - 1)), WOOD)
     camera = Camera(position=(0, 0, -5), pointing=(0, 0, 0), orthographic_height=3.2, focal_distance=1)
     lights = (PointLight((3, 4, -40)),)
     return Scene(f"a box minus {count} spheres in a row along the ray",
