@@ -55,8 +55,9 @@ inline Real nearest_crossing(const Rays<Real, N>& rays, const Equation<Real>& ba
   }
   const Real discriminant = along * along - speed * (distance - ball.radius_squared);
   const Real root = std::sqrt(discriminant > 0 ? discriminant : 0);
-  const Real first = (along - root) / speed;
-  const Real second = (along + root) / speed;
+  const Real per_speed = 1 / speed;
+  const Real first = (along - root) * per_speed;
+  const Real second = (along + root) * per_speed;
   const Real t = first > rays.t_min[lane] ? first : second;
   const bool nearer = (discriminant > 0) & (t > rays.t_min[lane]) & (t < rays.t[lane]);
   return nearer ? t : rays.t[lane];
@@ -79,20 +80,41 @@ void meet_one(const RTCIntersectFunctionNArguments& arguments) {
   ray_hit.hit.geomID = arguments.geomID;
 }
 
+/// Finds the lanes whose rays the ball stops, 1 or 0 for each; false if there are none. Loops over lanes here
+/// and below are written so that they become vector code.
+template <class Real>
+bool stopped_lanes(const Rays<Real, lanes>& rays, const Equation<Real>& ball, const int* valid,
+                   Real (&found)[lanes], int (&stopped)[lanes]) {
+  int any = 0;
+  for (unsigned lane = 0; lane < lanes; ++lane) found[lane] = nearest_crossing(rays, ball, lane);
+  for (unsigned lane = 0; lane < lanes; ++lane) stopped[lane] = found[lane] < rays.t[lane] ? -valid[lane] : 0;
+  for (unsigned lane = 0; lane < lanes; ++lane) any |= stopped[lane];
+  return any != 0;
+}
+
+template <class Number, class Other>
+void replace(Number (&numbers)[lanes], const int (&where)[lanes], const Other (&by)[lanes]) {
+  for (unsigned lane = 0; lane < lanes; ++lane) {
+    numbers[lane] = where[lane] != 0 ? static_cast<Number>(by[lane]) : numbers[lane];
+  }
+}
+
+template <class Number>
+void replace(Number (&numbers)[lanes], const int (&where)[lanes], Number by) {
+  for (unsigned lane = 0; lane < lanes; ++lane) numbers[lane] = where[lane] != 0 ? by : numbers[lane];
+}
+
 template <class Real>
 void meet_packet(const RTCIntersectFunctionNArguments& arguments) {
   auto& rays = *reinterpret_cast<Rays<Real, lanes>*>(arguments.context);
-  const Equation<Real>& ball = ball_of<Real, lanes>(arguments);
   alignas(64) Real found[lanes];
-  for (unsigned lane = 0; lane < lanes; ++lane) found[lane] = nearest_crossing(rays, ball, lane);
+  alignas(64) int stopped[lanes];
+  if (!stopped_lanes(rays, ball_of<Real, lanes>(arguments), arguments.valid, found, stopped)) return;
   auto& ray_hit = *reinterpret_cast<RTCRayHit16*>(arguments.rayhit);
-  for (unsigned lane = 0; lane < lanes; ++lane) {
-    if (!(found[lane] < rays.t[lane]) || arguments.valid[lane] == 0) continue;
-    rays.t[lane] = found[lane];
-    ray_hit.ray.tfar[lane] = static_cast<float>(found[lane]);
-    ray_hit.hit.primID[lane] = arguments.primID;
-    ray_hit.hit.geomID[lane] = arguments.geomID;
-  }
+  replace(rays.t, stopped, found);
+  replace(ray_hit.ray.tfar, stopped, found);
+  replace(ray_hit.hit.primID, stopped, arguments.primID);
+  replace(ray_hit.hit.geomID, stopped, arguments.geomID);
 }
 
 template <class Real>
@@ -110,14 +132,10 @@ void hide_one(const RTCOccludedFunctionNArguments& arguments) {
 template <class Real>
 void hide_packet(const RTCOccludedFunctionNArguments& arguments) {
   const auto& rays = *reinterpret_cast<const Rays<Real, lanes>*>(arguments.context);
-  const Equation<Real>& ball = ball_of<Real, lanes>(arguments);
   alignas(64) Real found[lanes];
-  for (unsigned lane = 0; lane < lanes; ++lane) found[lane] = nearest_crossing(rays, ball, lane);
-  auto& ray = *reinterpret_cast<RTCRay16*>(arguments.ray);
-  for (unsigned lane = 0; lane < lanes; ++lane) {
-    const bool hidden = found[lane] < rays.t[lane] && arguments.valid[lane] != 0;
-    if (hidden) ray.tfar[lane] = -std::numeric_limits<float>::infinity();
-  }
+  alignas(64) int stopped[lanes];
+  if (!stopped_lanes(rays, ball_of<Real, lanes>(arguments), arguments.valid, found, stopped)) return;
+  replace(reinterpret_cast<RTCRay16*>(arguments.ray)->tfar, stopped, -std::numeric_limits<float>::infinity());
 }
 
 template <class Real>
