@@ -18,12 +18,15 @@ from collections.abc import Callable
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
 from povray import catalogue, measure  # noqa: E402
 from povray.programs import Failed, Size  # noqa: E402
-from report import page, tables  # noqa: E402
+from report import machine, page, tables  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FULL_SIZE, QUICK_SIZE = Size(1920, 1440), Size(640, 480)
-GOOGLE_BENCHMARKS = ("render", "queries")
-OWN_PROGRAMS = ("embree", "curves")
+BUSY = 0.5  # load
+OWN_PARTS = ("embree", "curves")
+GOOGLE_PARTS = ("render", "queries")
+PROGRAMS = {"python": "ray_queries", **{part: f"bench_{part}" for part in OWN_PARTS + GOOGLE_PARTS}}
+QUICK_GOOGLE = ["--benchmark_min_time=0.1", "--benchmark_filter=-plate"]  # the slowest is left out
 
 
 class Bench:
@@ -40,8 +43,8 @@ class Bench:
         scenes = catalogue.QUICK if self.options.quick else catalogue.SCENES
         return {
             **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
-            **{name: (lambda name=name: self.own(name)) for name in OWN_PROGRAMS},
-            **{name: (lambda name=name: self.google(name)) for name in GOOGLE_BENCHMARKS},
+            **{name: (lambda name=name: self.own(name)) for name in OWN_PARTS},
+            **{name: (lambda name=name: self.google(name)) for name in GOOGLE_PARTS},
             "python": self.python,
         }
 
@@ -50,18 +53,18 @@ class Bench:
         plan = measure.Plan(
             crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
-            longest=4 if quick else 60, say=self.say)
+            longest=4 if quick else 60, patience=10 if quick else 240, say=self.say)
         return measure.measure(name, catalogue.SCENES[name](), plan)
 
     def own(self, name: str) -> dict:
         """A program of ours that writes JSON to standard output and its progress to standard error."""
-        command = [self.bin / f"bench_{name}", *(["--quick"] if self.options.quick else [])]
+        command = [self.bin / PROGRAMS[name], *(["--quick"] if self.options.quick else [])]
         return json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout)
 
     def google(self, name: str) -> dict:
         results = self.folder / f"{name}-google.json"
-        time_each = ["--benchmark_min_time=0.1"] if self.options.quick else []
-        subprocess.run([self.bin / f"bench_{name}", *time_each, f"--benchmark_out={results}"], check=True)
+        quick = QUICK_GOOGLE if self.options.quick else []
+        subprocess.run([self.bin / PROGRAMS[name], *quick, f"--benchmark_out={results}"], check=True)
         return json.loads(results.read_text())
 
     def python(self) -> dict:
@@ -77,31 +80,38 @@ class Bench:
         return {name: part for name, part in self.parts().items()
                 if not patterns or any(name.startswith(p) or fnmatch.fnmatch(name, p) for p in patterns)}
 
-    def programs(self) -> str:
-        """Tells one build from another."""
+    def programs(self, part: str) -> str:
+        """Tells one build of what the part measures from another."""
         digest = hashlib.sha256()
-        for program in sorted(self.bin.glob("bench_*")) + [self.bin / "crt"]:
-            digest.update(program.read_bytes())
+        for file in ["bin/crt"] if part.startswith("povray/") else ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]:
+            digest.update((self.bin.parent / file).read_bytes())
         return digest.hexdigest()
 
     def result_file(self, part: str) -> pathlib.Path:
         return self.folder / "results" / (part.replace("/", "-") + ".json")
 
     def results(self) -> dict[str, dict]:
-        files = {part: self.result_file(part) for part in self.parts()}
-        return {part: json.loads(file.read_text())["result"] for part, file in files.items() if file.exists()}
+        """Of the programs as they are now."""
+        return {part: json.loads(self.result_file(part).read_text())["result"]
+                for part in self.parts() if self.is_measured(part)}
 
-    def is_measured(self, part: str, programs: str) -> bool:
+    def machine_file(self) -> pathlib.Path:
+        return self.folder / "machine.txt"
+
+    def is_measured(self, part: str) -> bool:
         file = self.result_file(part)
-        return not self.options.again and file.exists() and json.loads(file.read_text())["programs"] == programs
+        return file.exists() and json.loads(file.read_text())["programs"] == self.programs(part)
 
     def run(self) -> list[str]:
         """The parts that failed."""
-        programs, failed = self.programs(), []
+        failed = []
         (self.folder / "results").mkdir(parents=True, exist_ok=True)
         chosen = self.chosen()
+        if os.getloadavg()[0] > BUSY:
+            self.say(f"this machine is busy (load {os.getloadavg()[0]:.1f}): the times will be too long")
+        self.machine_file().write_text(machine.described(SOURCE))
         for index, (name, part) in enumerate(chosen.items()):
-            if self.is_measured(name, programs):
+            if self.is_measured(name) and not self.options.again:
                 self.say(f"{name} was measured before (--again measures it again)")
                 continue
             self.say(f"part {index + 1} of {len(chosen)}: {name}")
@@ -111,7 +121,7 @@ class Bench:
                 failed.append(name)
                 self.say(f"FAILED: {name}: {error}")
                 continue
-            self.result_file(name).write_text(json.dumps({"programs": programs, "result": result}, indent=1))
+            self.result_file(name).write_text(json.dumps({"programs": self.programs(name), "result": result}, indent=1))
         return failed
 
 
@@ -132,7 +142,7 @@ def main() -> int:
     results = bench.results()
     print("\n" + tables.all_tables(results))
     if not bench.options.quick:
-        page.write(SOURCE / "docs", results)
+        page.write(SOURCE / "docs", results, bench.machine_file().read_text())
         bench.say("wrote docs/speed.md and its plots")
     if failed:
         bench.say(f"FAILED: {', '.join(failed)}")

@@ -3,6 +3,7 @@
 import pathlib
 import statistics
 import subprocess
+import time
 from collections.abc import Callable
 from dataclasses import dataclass
 
@@ -27,6 +28,7 @@ class Plan:
     rounds: int
     threads: tuple[int, ...]
     longest: float  # seconds: what would take longer is measured on a smaller picture
+    patience: float  # seconds: no further round begins after that
     say: Callable[[str], None]
 
 
@@ -90,7 +92,10 @@ def measure(name: str, scene: Scene, plan: Plan) -> dict:
     result = {"about": scene.about, "width": plan.size.width, "height": plan.size.height,
               "different_pixels": difference.share, "mean_steps": difference.mean, "threads": {}}
     seconds: dict[int, list[tuple[float, float]]] = {threads: [] for threads in plan.threads}
+    begin = time.monotonic()
     for turn in range(plan.rounds):
+        if turn > 0 and time.monotonic() - begin > plan.patience:
+            break
         for threads in plan.threads:
             pair = tuple(
                 program.trace(plan.size.divided(divisor), threads, picture)
@@ -105,5 +110,5 @@ def measure(name: str, scene: Scene, plan: Plan) -> dict:
             "povray": statistics.median(pair[1] for pair in pairs),
             "ratio": statistics.median(pair[1] / pair[0] for pair in pairs),
         }
-    result["crt_divisor"], result["pov_divisor"], result["rounds"] = crt_divisor, pov_divisor, plan.rounds
+    result["crt_divisor"], result["pov_divisor"], result["rounds"] = crt_divisor, pov_divisor, len(pairs)
     return result

@@ -1,6 +1,6 @@
 """What a scene is before it is written in either language. Both worlds are left-handed with y up."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 import numpy as np
 
@@ -132,4 +132,3 @@ class Scene:
     grid: int = 1  # rays a pixel: grid * grid
     lens_samples: int = 1
     noisy: bool = False  # pictures agree but for noise
-    bulk: bool = field(default=False)  # too large for the quick run

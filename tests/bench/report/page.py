@@ -3,19 +3,27 @@
 import pathlib
 import re
 
-from . import tables
+from . import plots, tables
 
 
-def fill(page: str, name: str, text: str) -> str:
+def filled(page: str, name: str, text: str) -> str:
     begin, end = f"<!-- measured: {name} -->", f"<!-- end: {name} -->"
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
+    if not pattern.search(page):
+        raise ValueError(f"the page has no place for {name}: no {begin} ... {end}")
     return pattern.sub(lambda _: f"{begin}\n{text}\n{end}", page)
 
 
-def write(folder: pathlib.Path, results: dict) -> None:
+def write(folder: pathlib.Path, results: dict, machine: str) -> None:
+    texts = {"machine": machine, "povray": tables.povray_table(results), "embree": tables.embree_table(results),
+             "curves": tables.curves_table(results)}
     path = folder / "speed.md"
     page = path.read_text()
-    for name, text in {"povray": tables.povray_table(results)}.items():
+    for name, text in texts.items():
         if text:
-            page = fill(page, name, text)
+            page = filled(page, name, text)
     path.write_text(page)
+    if texts["povray"]:
+        (folder / "speed.svg").write_text(plots.ratio_bars(results))
+    if texts["curves"]:
+        (folder / "speed_curves.svg").write_text(plots.cost_curves(results))
