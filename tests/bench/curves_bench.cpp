@@ -122,13 +122,14 @@ Point measured(Scene scene, int side, int rounds) {
   scene.settings.width = scene.settings.height = side;
   Point point;
   PreparedScene prepared = prepare({});
-  point.prepare_seconds = seconds([&] { prepared = prepare(scene); });
+  point.prepare_seconds = processor_seconds_of([&] { prepared = prepare(scene); });
   for (int round = -1; round < rounds; ++round) {
-    const RenderStats stats = render(prepared, {.threads = 1}).stats();
+    RenderStats stats;
+    const double taken = processor_seconds_of([&] { stats = render(prepared, {.threads = 1}).stats(); });
     const auto rays = static_cast<double>(stats.camera_rays);
     point.tests = static_cast<double>(stats.intersection_tests) / rays;
     point.events = static_cast<double>(stats.interval_events) / rays;
-    if (round >= 0) point.nanoseconds.push_back(stats.trace_seconds / rays * 1e9);
+    if (round >= 0) point.nanoseconds.push_back(taken / rays * 1e9);
   }
   return point;
 }

@@ -1,7 +1,6 @@
-// What the measuring programs share: a clock, turns, medians, random numbers.
+// What the measuring programs share: the time taken, turns, medians, random numbers.
 #pragma once
 
-#include <chrono>
 #include <cstdint>
 #include <functional>
 #include <string>
@@ -9,11 +8,15 @@
 
 namespace crt::bench {
 
+/// The processor's time that this program has had since it began. Unlike a clock it stands still while other
+/// programs run, which matters for what takes one thread.
+double processor_seconds();
+
 template <class Call>
-double seconds(const Call& call) {
-  const auto begin = std::chrono::steady_clock::now();
+double processor_seconds_of(const Call& call) {
+  const double begin = processor_seconds();
   call();
-  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+  return processor_seconds() - begin;
 }
 
 /// One of those that are compared, which does its work when called.
@@ -22,8 +25,8 @@ struct Contender {
   std::function<void()> work;
 };
 
-/// The seconds of each contender in each round; in a round each has its turn, so that what else the machine
-/// does falls on all. A first round, to warm caches up, does not count.
+/// The processor's seconds of each contender in each round; in a round each has its turn, so that what else
+/// the machine does falls on all. A first round, to warm caches up, does not count.
 std::vector<std::vector<double>> take_turns(const std::vector<Contender>& contenders, int rounds);
 
 double median(std::vector<double> values);

@@ -2,7 +2,6 @@
 
 import statistics
 
-THREADS_OF_CURVES = "one thread"
 # What our queries are held against: the best that double precision gets from Embree on such rays.
 YARDSTICKS = {"coherent": "Embree, double callback, packets of 16", "scattered": "Embree, double callback, one by one"}
 
@@ -95,7 +94,7 @@ def embree_table(results: dict) -> str:
     speeds = [[name] + [speed(column[name]) if name in column else "" for column in columns.values()] for name in names]
     ratios = [[name] + [f"**{ratio_to_yardstick(column, flow, name)}**" if name in column else ""
                         for (_, flow), column in columns.items()] for name in names if "CRT" in name]
-    return ("Millions of rays a second, one thread:\n\n" + table(head, speeds)
+    return ("Millions of rays in a second of one processor:\n\n" + table(head, speeds)
             + "\n\nOurs against Embree with the double-precision callback (packets for coherent rays, one by one for"
             " scattered ones):\n\n" + table(head, ratios))
 
@@ -123,8 +122,8 @@ def curves_table(results: dict) -> str:
     prepare = [line(n, lambda point: point["prepare_seconds"]) for n in sizes]
     head = ["N", *curves]
     about = "\n".join(f"- {name}: {next(iter(points.values()))['about']}" for name, points in curves.items())
-    return (f"{about}\n\nNanoseconds a ray, {THREADS_OF_CURVES}:\n\n{table(head, times)}"
-            f"\n\nSeconds to prepare the scene, on all threads:\n\n{table(head, prepare)}")
+    return (f"{about}\n\nNanoseconds a ray, one thread:\n\n{table(head, times)}"
+            f"\n\nSeconds of one processor to prepare the scene (all threads together):\n\n{table(head, prepare)}")
 
 
 def all_tables(results: dict) -> str:
