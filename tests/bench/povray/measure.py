@@ -14,7 +14,8 @@ from .programs import Crt, PovRay, Size
 STEPS = 6  # 8-bit steps that a pixel may differ by
 MOST_DIFFERENT = 0.01  # of the pixels: rims, where the programs' roundings decide
 NOISE_BLOCK, NOISE_STEPS = 16, 3  # of noisy pictures blocks of pixels are compared
-FIRST_DIVISOR = 32  # of the sides of the picture that a program's speed is guessed from
+FIRST_DIVISOR = 32  # of the sides of the first picture that a program's speed is guessed from
+TELLING = 0.5  # seconds from which on a guess is good
 LONGEST_PROBE = 120.0  # seconds
 
 
@@ -27,7 +28,7 @@ class Plan:
     size: Size
     rounds: int
     threads: tuple[int, ...]
-    longest: float  # seconds: what would take longer is measured on a smaller picture
+    longest: float  # seconds; what would take longer is measured on a smaller picture, in a quarter of that
     patience: float  # seconds: no further round begins after that
     say: Callable[[str], None]
 
@@ -47,21 +48,24 @@ def write_scripts(scene: Scene, name: str, plan: Plan) -> tuple[Crt, PovRay]:
 
 
 def fitting_divisor(program: Crt | PovRay, picture: pathlib.Path, plan: Plan) -> int:
-    """By how much the picture's sides must be divided for one thread to end in time; found on ever larger pictures."""
+    """By what the picture's sides must be divided so that one thread does not take too long; 1 if it can be whole."""
     divisor = FIRST_DIVISOR
-    while divisor > 1:
+    while True:
         try:
             seconds = program.trace(plan.size.divided(divisor), 1, picture, LONGEST_PROBE)
         except subprocess.TimeoutExpired:
-            divisor *= 4
-            if divisor > plan.size.height // 4:
+            if divisor > FIRST_DIVISOR:
                 raise
+            divisor *= 4
             continue
-        if seconds * 4 > plan.longest:
+        if divisor == 1 or seconds > TELLING:
             break
-        # Start-up counts in small pictures: guess from what took a while.
-        divisor //= 4 if seconds * 32 < plan.longest else 2
-        divisor = max(divisor, 1)
+        divisor = max(1, divisor // (4 if 16 * seconds < TELLING else 2))
+    if seconds * divisor**2 <= plan.longest:
+        return 1
+    while divisor > 1 and 4 * seconds <= plan.longest / 4:
+        divisor //= 2
+        seconds *= 4
     return divisor
 
 

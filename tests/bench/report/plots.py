@@ -43,10 +43,10 @@ def ratio_bars(results: dict) -> str:
     """How many times as long POV-Ray takes, a bar for each number of threads."""
     scenes = tables.povray_results(results)
     threads = list(next(iter(scenes.values()))["threads"])
-    bar, gap, left, top, wide = 9, 9, 120, 44, 560
+    bar, gap, left, top, wide = 12, 8, 120, 44, 560
     row = bar * len(threads) + gap
     ratios = [times["ratio"] for scene in scenes.values() for times in scene["threads"].values()]
-    low = min(-1, math.floor(math.log10(min(ratios))))
+    low = min(0, math.floor(math.log10(min(ratios))))
     high = math.ceil(math.log10(max(ratios)))
 
     def place(ratio: float) -> float:
@@ -68,7 +68,7 @@ def ratio_bars(results: dict) -> str:
         for nth, count in enumerate(threads):
             x = place(scene["threads"][count]["ratio"])
             drawing.rectangle(min(x, place(1)), y + bar * nth, abs(x - place(1)), bar - 1, COLORS[nth])
-            drawing.text(max(x, place(1)) + 4, y + bar * nth + 8, tables.rounded(scene["threads"][count]["ratio"]))
+            drawing.text(max(x, place(1)) + 4, y + bar * nth + 9, tables.rounded(scene["threads"][count]["ratio"]))
     return drawing.svg()
 
 
