@@ -41,19 +41,21 @@ class Bench:
 
     def parts(self) -> dict[str, Callable[[], dict]]:
         scenes = catalogue.QUICK if self.options.quick else catalogue.SCENES
+        bsp = () if self.options.quick else catalogue.BSP
         return {
             **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
+            **{f"povray-bsp/{name}": (lambda name=name: self.povray(name, tree=2)) for name in bsp},
             **{name: (lambda name=name: self.own(name)) for name in OWN_PARTS},
             **{name: (lambda name=name: self.google(name)) for name in GOOGLE_PARTS},
             "python": self.python,
         }
 
-    def povray(self, name: str) -> dict:
+    def povray(self, name: str, tree: int = 1) -> dict:
         quick = self.options.quick
         plan = measure.Plan(
             crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
-            longest=4 if quick else 60, patience=10 if quick else 240, say=self.say)
+            longest=4 if quick else 60, patience=10 if quick else 240, say=self.say, tree=tree)
         return measure.measure(name, catalogue.SCENES[name](), plan)
 
     def own(self, name: str) -> dict:
@@ -83,7 +85,7 @@ class Bench:
     def programs(self, part: str) -> str:
         """Tells one build of what the part measures from another."""
         digest = hashlib.sha256()
-        for file in ["bin/crt"] if part.startswith("povray/") else ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]:
+        for file in ["bin/crt"] if part.startswith("povray") else ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]:
             digest.update((self.bin.parent / file).read_bytes())
         return digest.hexdigest()
 

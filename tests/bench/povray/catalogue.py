@@ -68,6 +68,11 @@ def lens_union(count: int) -> Scene:
     return Scene(f"one union of {count} lenses", (Union((lens_cloud(count),)), Plane(-4, FLOOR)), STUDIO)
 
 
+def lens_cut(count: int) -> Scene:
+    cloud = Difference(Union((lens_cloud(count),)), (Box((0, -5, -5), (5, 5, 0), HOLE),))
+    return Scene(f"a union of {count} lenses minus a box", (cloud, Plane(-4, FLOOR)), STUDIO)
+
+
 def lenses(count: int) -> Scene:
     return Scene(f"{count} lenses, each by itself", (lens_cloud(count), Plane(-4, FLOOR)), STUDIO)
 
@@ -140,6 +145,7 @@ SCENES = {
     **{f"plate-{name}": (lambda n=n: plate(n)) for n, name in powers(1, 4)},
     **{f"tunnel-{name}": (lambda n=n: tunnel(n)) for n, name in powers(1, 3)},
     **{f"lens-union-{name}": (lambda n=n: lens_union(n)) for n, name in powers(2, 4)},
+    **{f"lens-cut-{name}": (lambda n=n: lens_cut(n)) for n, name in powers(2, 3)},
     "lenses-1e4": lambda: lenses(10**4),
     "mirror-room": mirror_room,
     "tori-300": lambda: tori(300),
@@ -151,3 +157,5 @@ SCENES = {
 }
 QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4", "mirror-room", "tori-300",
          "glass", "depth-of-field", "antialiased", "nested-50")
+# Those that POV-Ray is asked for with its other tree as well.
+BSP = ("spheres-1e4", "spheres-1e6", "lenses-1e4", "plate-1e3")

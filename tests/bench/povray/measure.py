@@ -31,6 +31,7 @@ class Plan:
     longest: float  # seconds; what would take longer is measured on a smaller picture, in a quarter of that
     patience: float  # seconds: no further round begins after that
     say: Callable[[str], None]
+    tree: int = 1  # POV-Ray's bounding method
 
 
 class DifferentPictures(Exception):
@@ -44,7 +45,7 @@ def write_scripts(scene: Scene, name: str, plan: Plan) -> tuple[Crt, PovRay]:
         crt_writer.Writer(scene).write(out)
     with open(pov_script, "w") as out:
         pov_writer.Writer(scene, plan.size.width / plan.size.height).write(out)
-    return Crt(plan.crt, crt_script), PovRay(pov_script, scene.grid)
+    return Crt(plan.crt, crt_script), PovRay(pov_script, scene.grid, plan.tree)
 
 
 def fitting_divisor(program: Crt | PovRay, picture: pathlib.Path, plan: Plan) -> int:

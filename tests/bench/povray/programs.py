@@ -54,11 +54,12 @@ class Crt:
 class PovRay:
     script: pathlib.Path
     grid: int
+    tree: int  # its bounding method: 1 is a hierarchy of boxes, the default; 2 a BSP tree
 
     def trace(self, size: Size, threads: int, picture: pathlib.Path, timeout: float | None = None) -> float:
         samples = ["-A"] if self.grid == 1 else ["+AM1", "+A0.0", "-J", f"+R{self.grid}"]
         output = run(["povray", f"+I{self.script.name}", f"+O{picture.name}", "+FP8", "File_Gamma=1",
-                      f"+W{size.width}", f"+H{size.height}", f"+WT{threads}", *samples, "-D", "-V"],
+                      f"+W{size.width}", f"+H{size.height}", f"+WT{threads}", *samples, f"+BM{self.tree}", "-D", "-V"],
                      timeout, picture.parent)
         found = TRACE_TIME.search(output)
         if found is None:

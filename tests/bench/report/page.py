@@ -15,7 +15,8 @@ def filled(page: str, name: str, text: str) -> str:
 
 
 def write(folder: pathlib.Path, results: dict, machine: str) -> None:
-    texts = {"machine": machine, "povray": tables.povray_table(results), "embree": tables.embree_table(results),
+    texts = {"machine": machine, "povray": tables.povray_table(results),
+             "povray, BSP tree": tables.bsp_table(results), "embree": tables.embree_table(results),
              "curves": tables.curves_table(results)}
     path = folder / "speed.md"
     page = path.read_text()

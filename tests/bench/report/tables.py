@@ -26,12 +26,12 @@ def plural(threads: str) -> str:
 # ---- CRT and POV-Ray ----------------------------------------------------------------------------
 
 
-def povray_results(results: dict) -> dict[str, dict]:
-    return {part.removeprefix("povray/"): result for part, result in results.items() if part.startswith("povray/")}
+def povray_results(results: dict, prefix: str = "povray/") -> dict[str, dict]:
+    return {part.removeprefix(prefix): result for part, result in results.items() if part.startswith(prefix)}
 
 
-def povray_table(results: dict) -> str:
-    scenes = povray_results(results)
+def povray_table(results: dict, prefix: str = "povray/") -> str:
+    scenes = povray_results(results, prefix)
     if not scenes:
         return ""
     threads = list(next(iter(scenes.values()))["threads"])
@@ -49,6 +49,10 @@ def povray_table(results: dict) -> str:
         gain = result["threads"][threads[0]]["crt"] / result["threads"][threads[-1]]["crt"]
         rows.append(row + [f"{gain:.2f}", f"{result['different_pixels']:.3%}"])
     return f"{table(head, rows)}\n\n{povray_summary(scenes, threads)}"
+
+
+def bsp_table(results: dict) -> str:
+    return povray_table(results, "povray-bsp/")
 
 
 def povray_summary(scenes: dict, threads: list[str]) -> str:
@@ -127,4 +131,4 @@ def curves_table(results: dict) -> str:
 
 
 def all_tables(results: dict) -> str:
-    return "\n\n".join(filter(None, (make(results) for make in (povray_table, embree_table, curves_table))))
+    return "\n\n".join(filter(None, (make(results) for make in (povray_table, bsp_table, embree_table, curves_table))))
