@@ -55,7 +55,7 @@ class Bench:
         plan = measure.Plan(
             crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
-            longest=4 if quick else 60, patience=10 if quick else 240, say=self.say, tree=tree)
+            longest=4 if quick else 60, patience=10 if quick else 150, say=self.say, tree=tree)
         return measure.measure(name, catalogue.SCENES[name](), plan)
 
     def own(self, name: str) -> dict:
@@ -119,8 +119,9 @@ class Bench:
             self.say(f"part {index + 1} of {len(chosen)}: {name}")
             try:
                 result = part()
-            except (Failed, measure.DifferentPictures, subprocess.SubprocessError, OSError) as error:
+            except (Failed, ValueError, measure.DifferentPictures, subprocess.SubprocessError, OSError) as error:
                 failed.append(name)
+                self.result_file(name).unlink(missing_ok=True)
                 self.say(f"FAILED: {name}: {error}")
                 continue
             self.result_file(name).write_text(json.dumps({"programs": self.programs(name), "result": result}, indent=1))
@@ -137,6 +138,8 @@ def main() -> int:
     parser.add_argument("--list", action="store_true", help="tells the parts and ends")
     parser.add_argument("--report", action="store_true", help="only writes the tables of what was measured")
     bench = Bench(parser.parse_args())
+    if not bench.chosen():
+        parser.error(f"no part is called {', '.join(bench.options.only)}; --list tells all")
     if bench.options.list:
         print("\n".join(bench.chosen()))
         return 0

@@ -57,8 +57,8 @@ background {{ rgb {vector(scene.background)} }}
         scene, camera = self.scene, self.scene.camera
         if camera.orthographic_height is not None:
             height = camera.orthographic_height
-            return (f"camera {{ orthographic location {vector(camera.position)} right x * {number(self.aspect * height)}"
-                    f" up y * {number(height)} direction z look_at {vector(camera.pointing)} }}")
+            return (f"camera {{ orthographic location {vector(camera.position)}"
+                    f" right x * {number(self.aspect * height)} up y * {number(height)} direction z look_at {vector(camera.pointing)} }}")
         length = 0.5 / math.tan(math.radians(camera.fov) / 2)
         lens = ""
         if camera.aperture > 0:
