@@ -16,7 +16,7 @@ RENDERED = ("tunnel-1e1", "lens-union-1e2", "mirror-room", "glass", "nested-50")
 
 
 def main() -> int:
-    crt, folder = pathlib.Path(sys.argv[1]), pathlib.Path(sys.argv[2])
+    crt, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
     plan = measure.Plan(crt=crt, folder=folder, size=Size(12, 9), rounds=1, threads=(1,), longest=1, patience=1,
                         say=print)
     for name, make in catalogue.SCENES.items():
