@@ -1,0 +1,48 @@
+// The least that one must write to ask Embree for spheres: what our own queries are measured against.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "query_rays.hpp"
+
+namespace crt::bench {
+
+/// What stands for the spheres.
+enum class Stand {
+  double_callback,  ///< user geometry, the sphere's equation in double
+  float_callback,   ///< the same in float
+  sphere_point,     ///< RTC_GEOMETRY_TYPE_SPHERE_POINT, Embree's own
+  triangles,        ///< one triangle in each sphere's place
+};
+
+enum class Flow { coherent, scattered };
+
+struct Answer {
+  double t;          ///< infinite if nothing is hit
+  std::uint32_t id;  ///< of the sphere
+};
+
+class BareEmbree {
+ public:
+  BareEmbree(std::span<const Ball> balls, Stand stand);
+  ~BareEmbree();
+  BareEmbree(BareEmbree&&) noexcept;
+  BareEmbree& operator=(BareEmbree&&) noexcept;
+
+  /// The nearest hit of each ray by rtcIntersect1, or by rtcIntersect16 for 16 at a time.
+  void intersect_one_by_one(std::span<const crt_ray> rays, Flow flow, std::span<Answer> answers) const;
+  void intersect_packets(std::span<const crt_ray> rays, Flow flow, std::span<Answer> answers) const;
+
+  /// Whether a ray hits anything, by rtcOccluded1 and rtcOccluded16.
+  void occluded_one_by_one(std::span<const crt_ray> rays, Flow flow, std::span<std::uint8_t> answers) const;
+  void occluded_packets(std::span<const crt_ray> rays, Flow flow, std::span<std::uint8_t> answers) const;
+
+ private:
+  class World;
+  std::unique_ptr<World> world_;
+};
+
+}  // namespace crt::bench

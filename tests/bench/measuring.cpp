@@ -1,0 +1,45 @@
+#include "measuring.hpp"
+
+#include <algorithm>
+#include <ctime>
+#include <stdexcept>
+#include <string_view>
+
+namespace crt::bench {
+
+double processor_seconds() {
+  timespec time{};
+  clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &time);
+  return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+std::vector<std::vector<double>> take_turns(const std::vector<Contender>& contenders, int rounds) {
+  std::vector<std::vector<double>> result(contenders.size());
+  for (int round = -1; round < rounds; ++round) {
+    for (std::size_t i = 0; i < contenders.size(); ++i) {
+      const double taken = processor_seconds_of(contenders[i].work);
+      if (round >= 0) result[i].push_back(taken);
+    }
+  }
+  return result;
+}
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double Stream::between(double low, double high) {
+  constexpr double largest = 4294967295;
+  state_ = state_ * 1812433253U + 12345U;
+  return low + (high - low) * (state_ / largest);
+}
+
+bool wants_quick(int argc, char** argv) {
+  if (argc == 1) return false;
+  if (argc == 2 && std::string_view(argv[1]) == "--quick") return true;
+  throw std::invalid_argument(std::string("usage: ") + argv[0] + " [--quick]");
+}
+
+}  // namespace crt::bench

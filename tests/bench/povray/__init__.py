@@ -1,0 +1,1 @@
+"""CRT beside POV-Ray: the same scenes in both languages, the same pictures, and what each took."""

@@ -1,0 +1,161 @@
+"""The scenes that CRT and POV-Ray both render, by name."""
+
+import math
+
+import numpy as np
+
+from .model import (
+    Alternating, Box, Camera, Checker, Difference, Lenses, Material, Plane, PointLight, Scene, Sphere, Spheres, Torus,
+    Union,
+)
+from .stream import Stream
+
+SHINY = Material(color=(0.6, 0.6, 0.6), diffuse=0.8, specular=0.5, shininess=30)
+FLOOR = Material(color=(0.5, 0.6, 0.5))
+TILES = Material(color=Checker((0.8, 0.8, 0.7), (0.2, 0.25, 0.3), 1, (0.013, 0.3, 0.017)))
+WOOD = Material(color=(0.7, 0.45, 0.25))
+HOLE = Material(color=(0.3, 0.5, 0.7))
+STUDIO = Camera(position=(3, 6, -11), pointing=(0, 0, 0))
+FRONT = Camera(position=(1, 2, -11), pointing=(0, 0, 0))
+
+
+def spheres(count: int) -> Scene:
+    """As many spheres in the same space; their share of it stays the same."""
+    centers = Stream(1).points(count, (-4, -3, -4), (4, 3, 4))
+    balls = Spheres(centers, 1.4 / count ** (1 / 3), SHINY)
+    return Scene(f"{count} spheres over a plane", (balls, Plane(-4, FLOOR)), STUDIO)
+
+
+def rows_and_columns(count: int) -> tuple[int, int]:
+    columns = math.ceil(math.sqrt(count))
+    while count % columns:
+        columns += 1
+    return columns, count // columns
+
+
+def cells(count: int, width: float, height: float) -> tuple[np.ndarray, float]:
+    """The centres of a grid in the plane z = 0, and the shorter side of a cell."""
+    columns, rows = rows_and_columns(count)
+    x = width * ((np.arange(columns) + 0.5) / columns - 0.5)
+    y = height * ((np.arange(rows) + 0.5) / rows - 0.5)
+    centers = np.array([(a, b, 0) for b in y for a in x])
+    return centers, min(width / columns, height / rows)
+
+
+def plate(count: int) -> Scene:
+    centers, side = cells(count, 8, 6)
+    drilled = Difference(Box((-4, -3, 0), (4, 3, 1), WOOD), (Spheres(centers, 0.4 * side, HOLE),))
+    return Scene(f"a box minus {count} spheres side by side", (drilled, Plane(-4, FLOOR)), FRONT)
+
+
+def tunnel(count: int) -> Scene:
+    """Each ray in the middle passes all holes: they overlap, and the narrow places are 0.8 of their radius wide."""
+    radius, step = 1.2, 0.72 * 2
+    centers = np.array([(0, 0, step * i) for i in range(count)])
+    block = Box((-2.003, -1.503, 0), (2.003, 1.503, step * (count - 1)), WOOD)
+    camera = Camera(position=(0, 0, -5), pointing=(0, 0, 0), orthographic_height=3.2, focal_distance=1)
+    lights = (PointLight((3, 4, -40)),)
+    return Scene(f"a box minus {count} spheres in a row along the ray",
+                 (Difference(block, (Spheres(centers, radius, HOLE),)),), camera, lights)
+
+
+def lens_cloud(count: int) -> Lenses:
+    size = 2 / count ** (1 / 3)
+    return Lenses(Stream(3).points(count, (-4, -3, -4), (4, 3, 4)), size, 0.7 * size, SHINY)
+
+
+def lens_union(count: int) -> Scene:
+    return Scene(f"one union of {count} lenses", (Union((lens_cloud(count),)), Plane(-4, FLOOR)), STUDIO)
+
+
+def lens_cut(count: int) -> Scene:
+    cloud = Difference(Union((lens_cloud(count),)), (Box((0, -5, -5), (5, 5, 0), HOLE),))
+    return Scene(f"a union of {count} lenses minus a box", (cloud, Plane(-4, FLOOR)), STUDIO)
+
+
+def lenses(count: int) -> Scene:
+    return Scene(f"{count} lenses, each by itself", (lens_cloud(count), Plane(-4, FLOOR)), STUDIO)
+
+
+def mirror_room() -> Scene:
+    walls = Material(color=(0.5, 0.5, 0.5), diffuse=0.3, reflectivity=0.7)
+    tiles = Material(color=TILES.color, diffuse=0.7, reflectivity=0.3)
+    stream = Stream(5)
+    balls = tuple(
+        Sphere((stream.between(-4, 4), stream.between(-2.2, 1), stream.between(-3, 4)), 0.7,
+               Material(color=(0.6, 0.6, 0.6), diffuse=0.6, specular=0.3, shininess=40, reflectivity=0.4))
+        for _ in range(12))
+    room = (
+        Box((-6, -4, -6), (6, -3, 6), tiles), Box((-6, 3, -6), (6, 4, 6), WOOD),
+        Box((-6, -3, -6), (-5, 3, 6), walls), Box((5, -3, -6), (6, 3, 6), walls),
+        Box((-5, -3, 5), (5, 3, 6), walls), Box((-5, -3, -6), (5, 3, -5), walls),
+    )
+    camera = Camera(position=(3.9, 1.5, -4.5), pointing=(-1, -1, 1), fov=60)
+    lights = (PointLight((-3, 2.5, -3), (0.6, 0.6, 0.6)), PointLight((3, 2.6, 2), (0.4, 0.4, 0.4)))
+    return Scene("a room of mirrors, 10 bounces, 2 lights", room + balls, camera, lights, depth=10)
+
+
+def tori(count: int) -> Scene:
+    stream = Stream(7)
+    size = 3 / count ** (1 / 3)
+    rings = tuple(
+        Torus(tuple(center), size, 0.3 * size, (stream.between(0, 180), stream.between(0, 180), 0), SHINY)
+        for center in Stream(11).points(count, (-4, -3, -4), (4, 3, 4)))
+    return Scene(f"{count} tori over a plane", rings + (Plane(-4, FLOOR),), STUDIO)
+
+
+def glass() -> Scene:
+    """No ambient light: in POV-Ray glass has no share of it, in CRT it has."""
+    crystal = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refractive_index=1.5)
+    stream = Stream(13)
+    balls = tuple(
+        Sphere((2.2 * (i % 4) - 3.3, 0.8 * (i // 4), 2.2 * (i // 4) - 2), stream.between(0.7, 1), crystal)
+        for i in range(12))
+    return Scene("12 glass balls over tiles, 10 bounces", balls + (Plane(-1.5, TILES),),
+                 Camera(position=(1, 4, -9), pointing=(0, 0, 0)), ambient=0, depth=10)
+
+
+def depth_of_field() -> Scene:
+    scene = spheres(100)
+    camera = Camera(position=STUDIO.position, pointing=STUDIO.pointing, aperture=0.3, focal_distance=11)
+    return Scene("100 spheres, a lens, 50 samples a pixel", scene.things, camera, lens_samples=50, noisy=True)
+
+
+def antialiased() -> Scene:
+    return Scene("1000 spheres, 3 x 3 rays a pixel", spheres(1000).things, STUDIO, grid=3)
+
+
+def nested(levels: int) -> Scene:
+    """A plate to which balls are added and from which balls are cut, by turns, each level a place further."""
+    centers, side = cells(levels, 8, 6)
+    parts = tuple(
+        Sphere(tuple(center), 0.45 * side, SHINY if level % 2 == 0 else HOLE)
+        for level, center in enumerate(centers))
+    body = Alternating(Box((-4, -3, 0), (4, 3, 1), WOOD), parts)
+    return Scene(f"unions and differences nested {levels} deep", (body, Plane(-4, FLOOR)), FRONT)
+
+
+def powers(first: int, last: int) -> list[tuple[int, str]]:
+    return [(10**k, f"1e{k}") for k in range(first, last + 1)]
+
+
+# Each scene by its name, made when asked for: a million spheres take a while.
+SCENES = {
+    **{f"spheres-{name}": (lambda n=n: spheres(n)) for n, name in powers(2, 6)},
+    **{f"plate-{name}": (lambda n=n: plate(n)) for n, name in powers(1, 4)},
+    **{f"tunnel-{name}": (lambda n=n: tunnel(n)) for n, name in powers(1, 3)},
+    **{f"lens-union-{name}": (lambda n=n: lens_union(n)) for n, name in powers(2, 4)},
+    **{f"lens-cut-{name}": (lambda n=n: lens_cut(n)) for n, name in powers(2, 3)},
+    "lenses-1e4": lambda: lenses(10**4),
+    "mirror-room": mirror_room,
+    "tori-300": lambda: tori(300),
+    "glass": glass,
+    "depth-of-field": depth_of_field,
+    "antialiased": antialiased,
+    "nested-50": lambda: nested(50),
+    "nested-500": lambda: nested(500),
+}
+QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4", "mirror-room", "tori-300",
+         "glass", "depth-of-field", "antialiased", "nested-50")
+# Those that POV-Ray is asked for with its other tree as well.
+BSP = ("spheres-1e4", "spheres-1e6", "lenses-1e4", "plate-1e3")

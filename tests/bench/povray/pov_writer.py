@@ -1,0 +1,142 @@
+"""Scenes in POV-Ray's language, such that its formulas give what CRT's do."""
+
+import math
+from typing import TextIO
+
+from .model import (
+    Alternating, Box, Checker, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus, Union,
+)
+
+# Of POV-Ray's `aperture` to the radius of its lens; found by the size of a spot out of focus.
+APERTURE_FOR_RADIUS = 4.0
+
+
+def number(value: float) -> str:
+    return f"{value:.10g}"
+
+
+def vector(values) -> str:
+    return f"<{', '.join(map(number, values))}>"
+
+
+def rows(centers, before: str, after: str) -> str:
+    return "\n".join(f"{before}<{x:.5f}, {y:.5f}, {z:.5f}>{after}" for x, y, z in centers.tolist())
+
+
+class Writer:
+    def __init__(self, scene: Scene, aspect: float) -> None:
+        self.scene = scene
+        self.aspect = aspect
+        self.declarations: list[str] = []
+        self.materials: dict[Material, str] = {}
+
+    def write(self, out: TextIO) -> None:
+        things = [self.text(thing) for thing in self.scene.things]
+        out.write(f"// {self.scene.about}\n#version 3.7;\n")
+        out.write(self.settings())
+        for declaration in self.declarations:
+            out.write(declaration + "\n")
+        for thing in things:
+            out.write(thing + "\n")
+
+    def settings(self) -> str:
+        scene = self.scene
+        lights = "".join(
+            f"light_source {{ {vector(light.origin)}, rgb {vector(light.color)} }}\n" for light in scene.lights)
+        return f"""global_settings {{
+  assumed_gamma 1
+  ambient_light 1
+  max_trace_level {scene.depth + 1}  // counts the camera's ray
+  adc_bailout 1 / 1024
+}}
+{self.camera()}
+background {{ rgb {vector(scene.background)} }}
+{lights}"""
+
+    def camera(self) -> str:
+        scene, camera = self.scene, self.scene.camera
+        if camera.orthographic_height is not None:
+            height = camera.orthographic_height
+            return (f"camera {{ orthographic location {vector(camera.position)}"
+                    f" right x * {number(self.aspect * height)} up y * {number(height)} direction z look_at {vector(camera.pointing)} }}")
+        length = 0.5 / math.tan(math.radians(camera.fov) / 2)
+        lens = ""
+        if camera.aperture > 0:
+            view = [b - a for a, b in zip(camera.position, camera.pointing)]
+            reach = camera.focal_distance / math.hypot(*view)
+            focus = [a + reach * v for a, v in zip(camera.position, view)]
+            lens = (f" aperture {number(APERTURE_FOR_RADIUS * camera.aperture)} focal_point {vector(focus)}"
+                    f" blur_samples {scene.lens_samples} variance 0")
+        return (f"camera {{ perspective location {vector(camera.position)} right x * {number(self.aspect)} up y"
+                f" direction z * {number(length)} look_at {vector(camera.pointing)}{lens} }}")
+
+    def material(self, material: Material) -> str:
+        """CRT's ambient light is not tinted by the surface: here it is divided by the colour to that end."""
+        if material in self.materials:
+            return self.materials[material]
+        ambient = [0, 0, 0]
+        if self.scene.lights:
+            ambient = [self.scene.ambient * (1 - material.reflectivity) * c for c in self.scene.lights[0].color]
+        name = f"T{len(self.materials) + 1}"
+        self.declarations.append(f"#declare {name} = texture {{ {self.paint(material, ambient)} }}")
+        self.materials[material] = name
+        return name
+
+    def paint(self, material: Material, ambient: list[float]) -> str:
+        paint = material.color
+        if isinstance(paint, Checker):
+            return self.checker(material, paint, ambient)
+        kept = f"rgbf <{', '.join(map(number, (*paint, material.transparency)))}>"
+        return f"pigment {{ {kept} }} {self.finish(material, paint, ambient)}"
+
+    def checker(self, material: Material, paint: Checker, ambient: list[float]) -> str:
+        tiles = (f"texture {{ pigment {{ rgb {vector(shade)} }} {self.finish(material, shade, ambient)} }}"
+                 for shade in (paint.color_a, paint.color_b))
+        return f"checker {', '.join(tiles)} scale {number(paint.scale)} translate {vector(paint.offset)}"
+
+    def finish(self, material: Material, shade, ambient: list[float]) -> str:
+        tinted = [a / max(c, 1e-9) for a, c in zip(ambient, shade)]
+        text = f"finish {{ ambient rgb {vector(tinted)} diffuse {number(material.diffuse)}"
+        if material.specular:
+            text += f" phong {number(material.specular * shade[0])} phong_size {number(material.shininess)}"
+        if material.transparency:
+            text += " reflection { 0, 1 fresnel on } conserve_energy"
+        elif material.reflectivity:
+            text += f" reflection {number(material.reflectivity)}"
+        return text + " }"
+
+    def look(self, material: Material) -> str:
+        text = f" texture {{ {self.material(material)} }}"
+        if material.transparency:
+            text += f" interior {{ ior {number(material.refractive_index)} }}"
+        return text
+
+    def text(self, thing) -> str:
+        if isinstance(thing, Spheres):
+            return rows(thing.centers, "sphere {", f", {number(thing.radius)}{self.look(thing.material)}}}")
+        if isinstance(thing, Lenses):
+            half = (f"sphere {{ {sign}z * {number(thing.half_gap)}, {number(thing.radius)} }}" for sign in "-+")
+            self.declarations.append(f"#declare Lens = intersection {{ {' '.join(half)}{self.look(thing.material)} }}")
+            return rows(thing.centers, "object { Lens translate ", " }")
+        if isinstance(thing, Sphere):
+            return f"sphere {{ {vector(thing.center)}, {number(thing.radius)}{self.look(thing.material)} }}"
+        if isinstance(thing, Box):
+            return f"box {{ {vector(thing.low)}, {vector(thing.high)}{self.look(thing.material)} }}"
+        if isinstance(thing, Plane):
+            return f"plane {{ y, {number(thing.height)}{self.look(thing.material)} }}"
+        if isinstance(thing, Torus):
+            return (f"torus {{ {number(thing.radius)}, {number(thing.thickness)} rotate {vector(thing.turn)}"
+                    f" translate {vector(thing.center)}{self.look(thing.material)} }}")
+        if isinstance(thing, Union):
+            return self.csg("union", thing.parts)
+        if isinstance(thing, Difference):
+            return self.csg("difference", (thing.base, *thing.cutters))
+        if isinstance(thing, Alternating):
+            text = self.text(thing.base)
+            for level, part in enumerate(thing.parts):
+                text = f"{('union', 'difference')[level % 2]} {{ {text}\n{self.text(part)} }}"
+            return text
+        raise TypeError(f"no {type(thing).__name__} in POV-Ray's language")
+
+    def csg(self, operation: str, parts) -> str:
+        return f"{operation} {{\n" + "\n".join(map(self.text, parts)) + "\n}"
