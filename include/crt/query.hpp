@@ -11,6 +11,7 @@
 #include <limits>
 #include <memory>
 #include <optional>
+#include <span>
 #include <vector>
 
 namespace crt {
@@ -63,6 +64,13 @@ class RayQueries {
   std::optional<Hit> intersect(const Ray& ray);
   /// Whether anything at all is hit.
   bool occluded(const Ray& ray);
+
+  /// The same for each of several rays, into as many places. Rays that go nearly the same way and follow one
+  /// another, such as those through neighbouring pixels, are answered together, and faster than one by one;
+  /// the answers are the same. Throws Error (invalid_argument) also where there are fewer places than rays.
+  void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
+  void occluded(std::span<const Ray> rays, std::span<bool> occluded);
+
   /// Every crossing in order, in place of what `out` holds.
   void crossings(const Ray& ray, std::vector<Hit>& out);
 

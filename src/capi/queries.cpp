@@ -1,11 +1,14 @@
 // Ray queries of the C interface: rays and hits stay in the caller's memory.
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <atomic>
 #include <cstddef>
 #include <cstring>
 #include <limits>
 #include <optional>
+#include <span>
 
 #include "capi/structs.hpp"
 #include "crt/query.hpp"
@@ -115,6 +118,20 @@ crt_hit to_hit(const std::optional<Hit>& hit) {
   return out;
 }
 
+/// Rays that are copied out of the caller's memory at a time.
+constexpr std::size_t piece_size = 64;
+
+/// Calls ask(begin, rays) for piece after piece of the rays first ... last - 1.
+template <class Ask>
+void for_pieces(const Rays& questions, std::size_t first, std::size_t last, const Ask& ask) {
+  std::array<Ray, piece_size> rays;
+  for (std::size_t begin = first; begin < last; begin += piece_size) {
+    const std::size_t count = std::min(piece_size, last - begin);
+    for (std::size_t i = 0; i < count; ++i) rays[i] = questions[begin + i];
+    ask(begin, std::span<const Ray>(rays).first(count));
+  }
+}
+
 }  // namespace
 
 }  // namespace crt::capi
@@ -131,10 +148,14 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
     questions.validate_all(prepared->value);
     crt::query_in_parallel(prepared->value, count,
                            [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-                             for (std::size_t i = first; i < last; ++i) {
-                               const crt_hit hit = to_hit(queries.intersect(questions[i]));
-                               std::memcpy(answers[i], &hit, sizeof hit);
-                             }
+                             std::array<std::optional<crt::Hit>, piece_size> found;
+                             for_pieces(questions, first, last, [&](std::size_t begin, auto piece) {
+                               queries.intersect(piece, found);
+                               for (std::size_t i = 0; i < piece.size(); ++i) {
+                                 const crt_hit hit = to_hit(found[i]);
+                                 std::memcpy(answers[begin + i], &hit, sizeof hit);
+                               }
+                             });
                            });
   });
 }
@@ -148,9 +169,13 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     questions.validate_all(prepared->value);
     crt::query_in_parallel(prepared->value, count,
                            [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-                             for (std::size_t i = first; i < last; ++i) {
-                               occluded[i] = queries.occluded(questions[i]) ? 1 : 0;
-                             }
+                             std::array<bool, piece_size> found{};
+                             for_pieces(questions, first, last, [&](std::size_t begin, auto piece) {
+                               queries.occluded(piece, found);
+                               for (std::size_t i = 0; i < piece.size(); ++i) {
+                                 occluded[begin + i] = found[i] ? 1 : 0;
+                               }
+                             });
                            });
   });
 }

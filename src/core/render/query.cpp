@@ -1,6 +1,7 @@
 #include "crt/query.hpp"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 #include <limits>
@@ -62,8 +63,11 @@ class Query {
             .t_max = lengthen * std::min(ray.t_max, largest)};
   }
 
-  std::optional<Hit> nearest() const {
-    const RayHit hit = data_.intersect(ray_, work_);
+  const WorldRay& ray() const { return ray_; }
+
+  std::optional<Hit> nearest() const { return described_if_found(data_.intersect(ray_, work_)); }
+
+  std::optional<Hit> described_if_found(const RayHit& hit) const {
     if (!hit.found()) return std::nullopt;
     return described(hit);
   }
@@ -94,6 +98,59 @@ class Query {
   int exponent_;
   WorldRay ray_;
 };
+
+/// Up to packet_size queries, asked together if they go nearly the same way.
+class QueryPacket {
+ public:
+  QueryPacket(const PreparedData& data, std::span<const Ray> rays, RayWorkspace& work)
+      : data_(data), work_(work), count_(rays.size()) {
+    for (std::size_t i = 0; i < count_; ++i) {
+      validate(rays[i]);
+      queries_[i].emplace(data, rays[i], work);
+      rays_[i] = queries_[i]->ray();
+    }
+  }
+
+  void nearest(std::span<std::optional<Hit>> hits) {
+    const std::span<const WorldRay> rays = std::span(rays_).first(count_);
+    std::array<RayHit, packet_size> found;
+    const bool together = go_together(rays);
+    if (together) data_.intersect(rays, found, work_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      hits[i] = together ? queries_[i]->described_if_found(found[i]) : queries_[i]->nearest();
+    }
+  }
+
+  void occluded(std::span<bool> occluded) {
+    const std::span<const WorldRay> rays = std::span(rays_).first(count_);
+    const bool together = go_together(rays);
+    const RayMask found = together ? data_.occluded(rays, work_) : 0;
+    for (std::size_t i = 0; i < count_; ++i) {
+      occluded[i] = together ? (found >> i & 1u) != 0 : queries_[i]->occluded();
+    }
+  }
+
+ private:
+  const PreparedData& data_;
+  RayWorkspace& work_;
+  std::size_t count_;
+  std::array<std::optional<Query>, packet_size> queries_;
+  std::array<WorldRay, packet_size> rays_;
+};
+
+/// Calls ask(packet, answers) for packet after packet.
+template <class Answer, class Ask>
+void ask_in_packets(const PreparedData& data, std::span<const Ray> rays, std::span<Answer> answers,
+                    RayWorkspace& work, const Ask& ask) {
+  if (answers.size() < rays.size()) {
+    throw Error(ErrorCode::invalid_argument, "there are fewer places for answers than rays", "rays");
+  }
+  for (std::size_t first = 0; first < rays.size(); first += packet_size) {
+    const std::size_t count = std::min(packet_size, rays.size() - first);
+    QueryPacket packet(data, rays.subspan(first, count), work);
+    ask(packet, answers.subspan(first, count));
+  }
+}
 
 /// Calls `ask`, with failures to allocate as the library's own errors.
 template <class Ask>
@@ -140,6 +197,8 @@ class RayQueries::State {
     return {scene_.data(), ray, work_};
   }
   std::vector<core::RayHit>& found() { return found_; }
+  const core::PreparedData& data() const { return scene_.data(); }
+  core::RayWorkspace& work() { return work_; }
 
  private:
   PreparedScene scene_;
@@ -161,6 +220,22 @@ std::optional<Hit> RayQueries::intersect(const Ray& ray) {
 bool RayQueries::occluded(const Ray& ray) {
   const core::FloatEnvironment ieee;
   return core::answered([&] { return state_->query(ray).occluded(); });
+}
+
+void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
+  const core::FloatEnvironment ieee;
+  core::answered([&] {
+    core::ask_in_packets(state_->data(), rays, hits, state_->work(),
+                         [](core::QueryPacket& packet, auto answers) { packet.nearest(answers); });
+  });
+}
+
+void RayQueries::occluded(std::span<const Ray> rays, std::span<bool> occluded) {
+  const core::FloatEnvironment ieee;
+  core::answered([&] {
+    core::ask_in_packets(state_->data(), rays, occluded, state_->work(),
+                         [](core::QueryPacket& packet, auto answers) { packet.occluded(answers); });
+  });
 }
 
 void RayQueries::crossings(const Ray& ray, std::vector<Hit>& out) {

@@ -1,6 +1,5 @@
 #include "core/render/tracer.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <optional>
@@ -38,16 +37,6 @@ double lamp_error(const Vec3& point, const LightSample& sample) {
 /// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
 Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
   return glm::dot(direction, side) < 0 ? mirrored(direction, side) : direction;
-}
-
-/// Whether rays go so nearly the same way that a packet of them pays.
-bool go_together(std::span<const WorldRay> rays) {
-  constexpr std::size_t fewest = 3;
-  if (rays.size() < fewest) return false;
-  constexpr double widest = 0.9;  // the cosine
-  const Vec3& first = rays.front().direction;
-  return std::all_of(rays.begin(), rays.end(),
-                     [&](const WorldRay& ray) { return glm::dot(ray.direction, first) > widest; });
 }
 
 }  // namespace

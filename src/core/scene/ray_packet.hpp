@@ -52,4 +52,7 @@ struct RayPacket {
   }
 };
 
+/// Whether up to packet_size rays go so nearly the same way that a packet of them pays.
+bool go_together(std::span<const WorldRay> rays);
+
 }  // namespace crt::core

@@ -1,0 +1,185 @@
+// What spares rays exact tests, cheap tests and packets, changes no answer.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <random>
+#include <vector>
+
+#include "core/scene/prepared_data.hpp"
+
+using namespace crt;
+using namespace crt::core;
+
+namespace {
+
+class Numbers {
+ public:
+  double within(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
+  int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(engine_); }
+  Vec3 point(double size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
+  Vec3 direction() {
+    Vec3 v = point(1);
+    while (glm::dot(v, v) < 0.01) v = point(1);
+    return glm::normalize(v);
+  }
+  /// Of very different sizes.
+  double size(double low, double high) { return low * std::pow(high / low, within(0, 1)); }
+
+ private:
+  std::mt19937_64 engine_{20261121};
+};
+
+/// A place to aim at, and how far its rim is from it.
+struct Target {
+  Vec3 center;
+  double reach;
+};
+
+struct Crowd {
+  Scene scene;
+  std::vector<Target> targets;
+
+  void add(const Entity& entity, const Vec3& center, double reach) {
+    scene.entities.push_back(entity);
+    targets.push_back({center, reach});
+  }
+};
+
+Crowd crowd(Numbers& numbers, Precision precision) {
+  Crowd crowd;
+  crowd.scene.settings.precision = precision;
+  for (int i = 0; i < 40; ++i) {
+    const Vec3 center = numbers.point(4);
+    const double size = numbers.size(0.01, 1.5);
+    crowd.add(Sphere{.center = center, .radius = size}, center, size);
+    // One that coincides with it, and one that is turned as well.
+    if (i % 8 == 0) crowd.add(Sphere{.center = center, .radius = size}, center, size);
+    const Transform turned = rotate(numbers.point(180));
+    if (i % 5 == 0) crowd.add(Entity(Sphere{.radius = size}).transformed(turned), Vec3(0), size);
+  }
+  for (int i = 0; i < 20; ++i) {
+    const Vec3 center = numbers.point(4);
+    const double ring = numbers.size(0.1, 1.5);
+    const double tube = ring * numbers.size(0.02, 1.5);
+    const double factor = numbers.size(0.2, 3);
+    Entity torus = Entity(Torus{.axis = numbers.direction(), .radius = ring, .thickness = tube})
+                       .transformed(scale(i % 4 == 0 ? Vec3(factor, 1, 1) : Vec3(factor)))
+                       .transformed(rotate(numbers.point(180)))
+                       .transformed(translate(center));
+    crowd.add(torus, center, factor * (ring + (i % 2 == 0 ? tube : -tube)));
+  }
+  for (int i = 0; i < 10; ++i) {
+    const Vec3 center = numbers.point(4);
+    const double size = numbers.size(0.05, 0.8);
+    const Entity box = Box{.corner_a = center - Vec3(size), .corner_b = center + Vec3(size, size / 2, size)};
+    const Entity ball = Sphere{.center = center + Vec3(size / 2), .radius = size};
+    const Entity other = Sphere{.center = center - Vec3(size / 2), .radius = size};
+    crowd.add(i % 3 == 0 ? box : i % 3 == 1 ? box - ball : ball ^ other, center, size);
+    crowd.add(Disc{.center = center, .normal = numbers.direction(), .radius = 2 * size}, center, 2 * size);
+  }
+  crowd.scene.entities.emplace_back(Plane{.normal = {0, 1, 0}, .position = {0, -3, 0}});
+  crowd.scene.entities.emplace_back(Plane{.normal = {0.3, 1, -0.2}, .position = {0, -2, 0}});
+  return crowd;
+}
+
+/// Rays that go nearly the same way, some of them along the very rim of what they are aimed at, or from a
+/// surface.
+std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Numbers& numbers,
+                                RayWorkspace& work) {
+  const Vec3 eye = numbers.point(numbers.below(4) == 0 ? 1000 : 8);
+  const Target& target =
+      crowd.targets[static_cast<std::size_t>(numbers.below(static_cast<int>(crowd.targets.size())))];
+  const double spread = numbers.size(1e-6, 2);
+  std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+  for (WorldRay& ray : rays) {
+    const Vec3 way = target.center - eye;
+    const Vec3 across = glm::normalize(glm::cross(way, numbers.direction()));
+    const double off = numbers.below(2) == 0 ? 1 + numbers.size(1e-17, 0.1) * (numbers.below(2) == 0 ? 1 : -1)
+                                             : numbers.within(0, 1 + spread);
+    ray.origin = eye;
+    ray.direction = glm::normalize(way + off * target.reach * across);
+    const int kind = numbers.below(4);
+    if (kind == 0) ray.t_max = numbers.within(0, 2) * glm::length(way);
+    if (kind != 1) continue;
+    const RayHit hit = data.intersect(ray, work);
+    if (!hit.found()) continue;
+    const Side side = numbers.below(2) == 0 ? Side::outside : Side::inside;
+    const HitPoint point = data.hit_point(ray, hit, false);
+    const StartPoint start = data.start_point(ray, hit, side);
+    ray.origin = point.position;
+    ray.direction = numbers.direction();
+    if ((glm::dot(ray.direction, point.normal) > 0) != (side == Side::outside))
+      ray.direction = -ray.direction;
+    ray.start = start;
+  }
+  return rays;
+}
+
+bool same(const RayHit& a, const RayHit& b) {
+  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.object == b.object && a.leaf == b.leaf &&
+         a.face == b.face && a.surface == b.surface && a.root == b.root && a.entering == b.entering &&
+         a.has_company == b.has_company;
+}
+
+void check_packets(Precision precision, int packets) {
+  Numbers numbers;
+  for (int round = 0; round < 4; ++round) {
+    const Crowd crowd = ::crowd(numbers, precision);
+    const PreparedData data(crowd.scene);
+    RayWorkspace work;
+    std::vector<RayHit> line;
+    std::array<RayHit, packet_size> hits;
+    int met = 0;
+    for (int i = 0; i < packets; ++i) {
+      std::vector<WorldRay> rays = some_rays(crowd, data, numbers, work);
+      data.intersect(rays, hits, work);
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        const RayHit alone = data.intersect(rays[k], work);
+        REQUIRE(same(alone, hits[k]));
+        // The crossings are found without any cheap test.
+        data.crossings(rays[k], false, line, work);
+        REQUIRE(alone.found() == !line.empty());
+        if (!alone.found()) continue;
+        ++met;
+        REQUIRE((alone.has_company || (alone.t == line.front().t && alone.leaf == line.front().leaf)));
+      }
+      for (WorldRay& ray : rays) {
+        if (std::isfinite(ray.t_max)) ray.end_error = 1e-14;
+      }
+      const RayMask hidden = data.occluded(rays, work);
+      for (std::size_t k = 0; k < rays.size(); ++k) {
+        data.crossings(rays[k], false, line, work);
+        REQUIRE(data.occluded(rays[k], work) == !line.empty());
+        REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
+      }
+    }
+    CHECK(met > packets);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a ray finds the same alone, in a packet, and without cheap tests") {
+  check_packets(Precision::standard, 5000);
+}
+
+TEST_CASE("so it does in the exact tier") {
+  check_packets(Precision::exact, 300);
+}
+
+TEST_CASE("rays go together that go nearly the same way") {
+  std::vector<WorldRay> rays(4);
+  for (WorldRay& ray : rays) ray.direction = {0, 0, 1};
+  CHECK(go_together(rays));
+  rays[1].direction = {0.1, 0, 3};
+  CHECK(go_together(rays));
+  rays[2].direction = {0, 0, -1};
+  CHECK_FALSE(go_together(rays));
+  rays[2].direction = {1, 0, 1};
+  CHECK_FALSE(go_together(rays));
+  CHECK_FALSE(go_together(std::span(rays).first(2)));
+}
