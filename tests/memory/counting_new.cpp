@@ -1,5 +1,6 @@
 #include "memory/counting_new.hpp"
 
+#include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <cstdlib>
@@ -14,15 +15,22 @@ std::atomic<std::int64_t> in_use = 0;
 constexpr std::size_t header = alignof(std::max_align_t);
 static_assert(header >= sizeof(std::size_t));
 
-void* take(std::size_t size, std::size_t alignment) {
+void* take_if_there_is(std::size_t size, std::size_t alignment) noexcept {
   const std::size_t front = alignment > header ? alignment : header;
-  const std::size_t whole = (front + size + front - 1) / front * front;
+  // One byte at least, so that the address given is within the block: leaks are told by that.
+  const std::size_t whole = (front + std::max<std::size_t>(size, 1) + front - 1) / front * front;
   void* block = std::aligned_alloc(front, whole);
-  if (block == nullptr) throw std::bad_alloc();
+  if (block == nullptr) return nullptr;
   ++count;
   in_use += static_cast<std::int64_t>(size);
   char* memory = static_cast<char*>(block) + front;
   reinterpret_cast<std::size_t*>(memory)[-1] = size;
+  return memory;
+}
+
+void* take(std::size_t size, std::size_t alignment) {
+  void* memory = take_if_there_is(size, alignment);
+  if (memory == nullptr) throw std::bad_alloc();
   return memory;
 }
 
@@ -47,22 +55,59 @@ std::int64_t bytes_in_use() {
 
 }  // namespace crt::test
 
-// The array and nothrow forms of the standard library call these.
+// All forms, as sanitizers have their own of those that are not here.
 void* operator new(std::size_t size) {
+  return take(size, header);
+}
+void* operator new[](std::size_t size) {
   return take(size, header);
 }
 void* operator new(std::size_t size, std::align_val_t alignment) {
   return take(size, static_cast<std::size_t>(alignment));
 }
+void* operator new[](std::size_t size, std::align_val_t alignment) {
+  return take(size, static_cast<std::size_t>(alignment));
+}
+void* operator new(std::size_t size, const std::nothrow_t&) noexcept {
+  return take_if_there_is(size, header);
+}
+void* operator new[](std::size_t size, const std::nothrow_t&) noexcept {
+  return take_if_there_is(size, header);
+}
+void* operator new(std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return take_if_there_is(size, static_cast<std::size_t>(alignment));
+}
+void* operator new[](std::size_t size, std::align_val_t alignment, const std::nothrow_t&) noexcept {
+  return take_if_there_is(size, static_cast<std::size_t>(alignment));
+}
+
 void operator delete(void* memory) noexcept {
+  give_back(memory, header);
+}
+void operator delete[](void* memory) noexcept {
   give_back(memory, header);
 }
 void operator delete(void* memory, std::size_t) noexcept {
   give_back(memory, header);
 }
+void operator delete[](void* memory, std::size_t) noexcept {
+  give_back(memory, header);
+}
 void operator delete(void* memory, std::align_val_t alignment) noexcept {
+  give_back(memory, static_cast<std::size_t>(alignment));
+}
+void operator delete[](void* memory, std::align_val_t alignment) noexcept {
   give_back(memory, static_cast<std::size_t>(alignment));
 }
 void operator delete(void* memory, std::size_t, std::align_val_t alignment) noexcept {
   give_back(memory, static_cast<std::size_t>(alignment));
+}
+void operator delete[](void* memory, std::size_t, std::align_val_t alignment) noexcept {
+  give_back(memory, static_cast<std::size_t>(alignment));
+}
+void operator delete(void* memory, const std::nothrow_t&) noexcept {
+  give_back(memory, header);
+}
+void operator delete[](void* memory, const std::nothrow_t&) noexcept {
+  give_back(memory, header);
 }
