@@ -33,10 +33,14 @@ class Numbers {
   std::mt19937_64 engine_{20261121};
 };
 
-/// A place to aim at, and how far its rim is from it.
+/// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a sphere) lines
+/// can be laid along its surface.
 struct Target {
   Vec3 center;
   double reach;
+  Vec3 axis{0, 0, 0};
+  double ring = 0;
+  double tube = 0;
 };
 
 struct Crowd {
@@ -56,6 +60,8 @@ Crowd crowd(Numbers& numbers, Precision precision) {
     const Vec3 center = numbers.point(4);
     const double size = numbers.size(0.01, 1.5);
     crowd.add(Sphere{.center = center, .radius = size}, center, size);
+    crowd.targets.back().axis = {0, 1, 0};
+    crowd.targets.back().tube = size;
     // One that coincides with it, and one that is turned as well.
     if (i % 8 == 0) crowd.add(Sphere{.center = center, .radius = size}, center, size);
     const Transform turned = rotate(numbers.point(180));
@@ -66,11 +72,18 @@ Crowd crowd(Numbers& numbers, Precision precision) {
     const double ring = numbers.size(0.1, 1.5);
     const double tube = ring * numbers.size(0.02, 1.5);
     const double factor = numbers.size(0.2, 3);
-    Entity torus = Entity(Torus{.axis = numbers.direction(), .radius = ring, .thickness = tube})
+    const Transform turned = rotate(numbers.point(180));
+    const Vec3 axis = numbers.direction();
+    Entity torus = Entity(Torus{.axis = axis, .radius = ring, .thickness = tube})
                        .transformed(scale(i % 4 == 0 ? Vec3(factor, 1, 1) : Vec3(factor)))
-                       .transformed(rotate(numbers.point(180)))
+                       .transformed(turned)
                        .transformed(translate(center));
-    crowd.add(torus, center, factor * (ring + (i % 2 == 0 ? tube : -tube)));
+    crowd.add(torus, center, factor * (ring + tube));
+    if (i % 4 == 0) continue;
+    Target& target = crowd.targets.back();
+    target.axis = {glm::dot(turned.row_x, axis), glm::dot(turned.row_y, axis), glm::dot(turned.row_z, axis)};
+    target.ring = factor * ring;
+    target.tube = factor * tube;
   }
   for (int i = 0; i < 10; ++i) {
     const Vec3 center = numbers.point(4);
@@ -84,6 +97,18 @@ Crowd crowd(Numbers& numbers, Precision precision) {
   crowd.scene.entities.emplace_back(Plane{.normal = {0, 1, 0}, .position = {0, -3, 0}});
   crowd.scene.entities.emplace_back(Plane{.normal = {0.3, 1, -0.2}, .position = {0, -2, 0}});
   return crowd;
+}
+
+/// Along the surface of a torus or sphere, a little outside or inside.
+WorldRay grazing_ray(const Target& target, Numbers& numbers) {
+  const Vec3 radial = glm::normalize(glm::cross(target.axis, numbers.direction()));
+  const double turn = numbers.below(3) == 0 ? 3.14159265358979 : numbers.within(0, 6.3);
+  const Vec3 normal = std::cos(turn) * radial + std::sin(turn) * target.axis;
+  const double off = 1 + numbers.size(1e-12, 0.1) * (numbers.below(2) == 0 ? 1 : -1);
+  const Vec3 place = target.center + target.ring * radial + off * target.tube * normal;
+  const Vec3 along = numbers.below(2) == 0 && turn > 3.14 ? target.axis : numbers.direction();
+  const Vec3 tangent = glm::normalize(along - glm::dot(along, normal) * normal);
+  return {.origin = place - numbers.size(0.1, 100) * tangent, .direction = tangent};
 }
 
 /// Rays that go nearly the same way, some of them along the very rim of what they are aimed at, or from a
@@ -103,6 +128,7 @@ std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Nu
     ray.origin = eye;
     ray.direction = glm::normalize(way + off * target.reach * across);
     const int kind = numbers.below(4);
+    if (kind == 2 && target.tube > 0) ray = grazing_ray(target, numbers);
     if (kind == 0) ray.t_max = numbers.within(0, 2) * glm::length(way);
     if (kind != 1) continue;
     const RayHit hit = data.intersect(ray, work);
