@@ -38,18 +38,27 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
   std::array<double, 3> error;
   double last_enter = -infinity;
   double first_leave = infinity;
+  // Of the low parts of origin and direction, and the roundings here.
+  constexpr double slack = 0x1p-48;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
+    const double origin = ray.origin[axis];
+    enter[i] = -infinity;
+    leave[i] = infinity;
+    error[i] = 0;
+    if (ray.direction[axis] == 0 && ray.direction_low[axis] == 0) {
+      const double room = slack * std::abs(origin);
+      if (lower_[axis] + room < origin && origin < upper_[axis] - room) continue;
+      return all_faces;
+    }
     const double inverse = 1 / ray.direction[axis];
     constexpr double steepest = 0x1p500;
     if (!(std::abs(inverse) < steepest)) return all_faces;
-    const double lower = (lower_[axis] - ray.origin[axis]) * inverse;
-    const double upper = (upper_[axis] - ray.origin[axis]) * inverse;
+    const double lower = (lower_[axis] - origin) * inverse;
+    const double upper = (upper_[axis] - origin) * inverse;
     enter[i] = std::min(lower, upper);
     leave[i] = std::max(lower, upper);
-    // Of the low parts of origin and direction, and the roundings here.
-    constexpr double slack = 0x1p-48;
-    error[i] = slack * (std::abs(lower) + std::abs(upper) + std::abs(ray.origin[axis] * inverse));
+    error[i] = slack * (std::abs(lower) + std::abs(upper) + std::abs(origin * inverse));
     last_enter = std::max(last_enter, enter[i] - error[i]);
     first_leave = std::min(first_leave, leave[i] + error[i]);
   }

@@ -55,12 +55,18 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
     SampleWork& work = work_.samples[i];
     work.media.release(camera_media_mark_);
     work.pending.clear();
-    work.pending.push_back(first_path(rays[i], work.media));
-    work.rays = 0;
+    work.rays = 1;
     samples[i] = {};
+    Seen& seen = round_[i];
+    seen.work = &work;
+    seen.sample = &samples[i];
+    start_path(rays[i], work.media, seen.path);
   }
-  const std::span<Sample> traced = samples.first(rays.size());
-  while (const std::size_t count = take_round(traced)) follow(std::span(round_).first(count));
+  std::size_t count = rays.size();
+  do {
+    follow(std::span(round_).first(count));
+    count = take_round(samples.first(rays.size()));
+  } while (count > 0);
 }
 
 std::size_t Tracer::take_round(std::span<Sample> samples) {
@@ -83,16 +89,13 @@ std::size_t Tracer::take_round(std::span<Sample> samples) {
   return count;
 }
 
-PathRay Tracer::first_path(const CameraRay& camera_ray, MediaLists& media) {
-  PathRay path;
-  path.ray = Frame::eye_ray(camera_ray);
-  path.media = camera_media_;
+void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, PathRay& path) {
+  path = {.ray = Frame::eye_ray(camera_ray), .media = camera_media_};
   if (frame_.features().transparency && !frame_.one_viewpoint()) {
     find_surrounding_media(data_, path.ray, work_.surrounding, work_);
     path.media = nested(media, work_.surrounding);
   }
   path.media_mark = media.mark();
-  return path;
 }
 
 void Tracer::follow(std::span<Seen> round) {

@@ -51,7 +51,7 @@ class Tracer {
     WorldRay shadow_ray;
   };
 
-  PathRay first_path(const CameraRay& camera_ray, MediaLists& media);
+  void start_path(const CameraRay& camera_ray, MediaLists& media, PathRay& path);
   /// Takes the next ray of each sample that has one, and says of how many.
   std::size_t take_round(std::span<Sample> samples);
   void follow(std::span<Seen> round);

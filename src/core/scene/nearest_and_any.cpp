@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstring>
 #include <limits>
 #include <tuple>
 
@@ -204,26 +205,41 @@ RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, R
 RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
   RayPacket packet;
   packet.count = rays.size();
+  // By component first, so that vectors are loaded and not put together lane by lane.
+  enum Column { origin_x, direction_x = 3, begin = 6, certain_from, certain_to, limit, column_count };
+  alignas(sizeof(Lanes)) std::array<std::array<double, packet_size>, column_count> columns;
   for (std::size_t i = 0; i < packet_size; ++i) {
     // What is beyond the last ray is made like it, so that no lane holds nonsense.
     const WorldRay& ray = rays[std::min(i, rays.size() - 1)];
-    OutlineLine<Lanes>& lines = packet.groups[i / lane_count];
-    const auto lane = static_cast<int>(i % lane_count);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      lines.origin[axis][lane] = ray.origin[static_cast<int>(axis)];
-      lines.direction[axis][lane] = ray.direction[static_cast<int>(axis)];
+      columns[origin_x + axis][i] = ray.origin[static_cast<int>(axis)];
+      columns[direction_x + axis][i] = ray.direction[static_cast<int>(axis)];
     }
-    lines.begin[lane] = ray.t_min;
-    lines.certain_from[lane] = farthest_start(ray);
-    lines.certain_to[lane] = std::min(certain_end(ray), largest_end);
-    packet.set_limit(i, ray.t_max);
+    columns[begin][i] = ray.t_min;
+    columns[certain_from][i] = farthest_start(ray);
+    columns[certain_to][i] = std::min(certain_end(ray), largest_end);
+    columns[limit][i] = ray.t_max;
     packet.start_surfaces[i] = ray.start.surface;
     packet.left_objects[i] = left_for_good(ray.start);
   }
-  for (OutlineLine<Lanes>& lines : packet.groups) {
+  for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+    const auto lanes = [&](std::size_t column) {
+      Lanes result;
+      std::memcpy(&result, &columns[column][group * lane_count], sizeof result);
+      return result;
+    };
+    OutlineLine<Lanes>& lines = packet.groups[group];
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      lines.origin[axis] = lanes(origin_x + axis);
+      lines.direction[axis] = lanes(direction_x + axis);
+    }
     lines.squared_speed = outline_detail::dot(lines.direction, lines.direction);
     lines.inverse_squared_speed = 1.0 / lines.squared_speed;
     lines.inverse_speed = sqrt(lines.inverse_squared_speed);
+    lines.begin = lanes(begin);
+    lines.certain_from = lanes(certain_from);
+    lines.certain_to = lanes(certain_to);
+    packet.limits[group] = lanes(limit);
   }
   return packet;
 }
