@@ -138,3 +138,12 @@ TEST_CASE("a cylinder's cap may be taken for its side where the rounding of t do
   CHECK(holds(cylinder, {-0x1.312d87400acfap+4, -0x1.38e3c3577ebfep+4, 0x1.878b5df4bfe95p+4},
               {0x1.2d44abe171883p+4, 0x1.38e55d403e2b1p+4, -0x1.886ed7c68771dp+4}));
 }
+
+TEST_CASE("a cone is left beside its apex where it is") {
+  const Cone cone{.from = {0x1.2ba9809a7ae84p+22, 0x1.a63de6498b22bp+23, -0x1.19371acd756dap+21},
+                  .to = {0x1.2ba9809a7ae85p+22, 0x1.a63de6498b22bp+23, -0x1.19371acd756d9p+21},
+                  .radius = 0x1.51bbd2af5ffc3p-30,
+                  .radius2 = 0};
+  CHECK(holds(cone, {0x1.2ba9805bc679bp+22, 0x1.a63de67aa2f22p+23, -0x1.19371b627fe32p+21},
+              {0x1.d04b12657cd4ap-2, -0x1.6b8171170c82bp-1, 0x1.13e3fba30ea81p-1}));
+}

@@ -115,12 +115,30 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   if (!std::isfinite(crossing.t)) return crossing;
   NearLine at_root = line;
   at_root.move_to(ray, narrow_, line.to_precise_t(root.x));
-  const Vec3& p = at_root.point;
-  const double distance = cosine_ * (glm::length(accurate_cross(p, axis_)) - narrow_radius_) -
-                          sine_ * accurate_dot(p, axis_).value();
+  const double distance = distance_from_side(at_root.point);
+  double step = root.entering ? distance / rate : -distance / rate;
   Crossing result = crossing;
-  result.t = at_root.to_t(root.entering ? distance / rate : -distance / rate);
+  result.t = at_root.to_t(step);
+  // Beside the apex the side bends away within such a step: the next ones take the slope that is there.
+  constexpr double straight = 0x1p-30;
+  constexpr int most_steps = 8;
+  for (int i = 0; i < most_steps && std::abs(step) * std::sqrt(line.squared_speed) > straight * reach; ++i) {
+    at_root.move_to(ray, narrow_, at_root.to_precise_t(step));
+    const Vec3 along = glm::dot(at_root.point, axis_) * axis_;
+    const Vec3 across = at_root.point - along;
+    if (largest_component(across) == 0) break;
+    const double slope = cosine_ * glm::dot(unit_vector(across), at_root.direction) -
+                         sine_ * glm::dot(axis_, at_root.direction);
+    if ((slope < 0) != root.entering || !(std::abs(slope) > squarely)) break;
+    step = -distance_from_side(at_root.point) / slope;
+    result.t = at_root.to_t(step);
+  }
   return result;
+}
+
+double FrustumShape::distance_from_side(const Vec3& p) const {
+  return cosine_ * (glm::length(accurate_cross(p, axis_)) - narrow_radius_) -
+         sine_ * accurate_dot(p, axis_).value();
 }
 
 Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, double x,

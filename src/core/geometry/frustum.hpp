@@ -55,6 +55,8 @@ class FrustumShape : public Shape {
     bool entering;
     std::uint8_t number;
   };
+  /// Of a point in units, relative to the narrow end.
+  double distance_from_side(const Vec3& p) const;
   Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                     const Root& root) const;
   Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
