@@ -13,21 +13,19 @@ namespace crt::core {
 /// Is told of the boxes that a ray may meet.
 class BoxVisitor {
  public:
+  virtual ~BoxVisitor() = default;
+
   /// Returns the t beyond which nothing matters any more (below t_min: stop).
   virtual double visit(std::uint32_t box) = 0;
-
- protected:
-  ~BoxVisitor() = default;
 };
 
 /// Is told of the boxes that rays of a packet may meet.
 class PacketVisitor {
  public:
+  virtual ~PacketVisitor() = default;
+
   /// Returns for which of these rays the packet's limit has changed (below t_min: stop).
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
-
- protected:
-  ~PacketVisitor() = default;
 };
 
 /// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved

@@ -99,8 +99,8 @@ class OutlinedRay {
     // Of that surface it is known otherwise where the ray meets it.
     if (outline.surface == start_surface_) return Judgement::open;
     const auto verdict = judge_outline(outline, line_, limit, last);
-    if (verdict.missed != 0) return Judgement::missed;
-    return verdict.met != 0 ? Judgement::met : Judgement::open;
+    if (verdict.missed) return Judgement::missed;
+    return verdict.met ? Judgement::met : Judgement::open;
   }
 
  private:

@@ -55,6 +55,24 @@ namespace outline_detail {
 /// otherwise, with room to spare.
 inline constexpr double slack = 0x1p-46;
 
+// Comparing doubles gives a bool, and comparing lanes a mask of lanes.
+inline bool both(bool a, bool b) {
+  return a && b;
+}
+inline LaneMask both(const LaneMask& a, const LaneMask& b) {
+  return a & b;
+}
+inline bool either(bool a, bool b) {
+  return a || b;
+}
+inline LaneMask either(const LaneMask& a, const LaneMask& b) {
+  return a | b;
+}
+template <class Mask, class... More>
+Mask either(const Mask& a, const Mask& b, const More&... more) {
+  return either(either(a, b), more...);
+}
+
 template <class Real>
 Real size_of(const Real& x) {
   return x < 0.0 ? -x : x;
@@ -101,22 +119,18 @@ auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Re
 
   const Real reach = size_of(closest) + sphere.radius * line.inverse_speed;
   const auto beyond_chord = [&](const Real& distance) {
-    return (distance > 0.0) & (distance * distance * line.squared_speed > longest);
+    return both(distance > 0.0, distance * distance * line.squared_speed > longest);
   };
   const auto from = [&](const Real& t) { return (closest - t) - slack * (reach + size_of(t)); };
   const auto up_to = [&](const Real& t) { return (t - closest) - slack * (reach + size_of(t)); };
 
   const Real to_end = up_to(line.certain_to);
-  const auto before_end = (to_end > 0.0) | (to_end * to_end * line.squared_speed < room - error);
-  using Mask = decltype((room < error) & (error < room));
-  if (sphere.encloses) {
-    return Verdict<Mask>{
-        .missed = (longest < 0.0) | beyond_chord(from(limit)) | beyond_chord(up_to(line.begin)),
-        .met = room < room};
-  }
-  return Verdict<Mask>{
-      .missed = (longest < 0.0) | beyond_chord(from(limit)) | beyond_chord(up_to(line.begin)),
-      .met = (room > error) & beyond_chord(from(line.certain_from)) & before_end};
+  const auto before_end = either(to_end > 0.0, to_end * to_end * line.squared_speed < room - error);
+  using Mask = decltype(room < error);
+  const Mask missed = either(longest < 0.0, beyond_chord(from(limit)), beyond_chord(up_to(line.begin)));
+  if (sphere.encloses) return Verdict<Mask>{.missed = missed, .met = {}};
+  return Verdict<Mask>{.missed = missed,
+                       .met = both(both(room > error, beyond_chord(from(line.certain_from))), before_end)};
 }
 
 /// A plane likewise; `last` is set to a t up to which it surely has been met, if it is met at all.
@@ -137,9 +151,9 @@ auto judge_plane(const Outline& plane, const OutlineLine<Real>& line, const Real
   constexpr double flattest = 0x1p-30;
   const auto known = size_of(rate) > flattest * speed;
   last = t + error;
-  using Mask = decltype((t < error) & (error < t));
-  return Verdict<Mask>{.missed = known & ((last < line.begin) | (t - error > limit)),
-                       .met = known & (t - error > line.certain_from) & (last < line.certain_to)};
+  using Mask = decltype(t < error);
+  return Verdict<Mask>{.missed = both(known, either(last<line.begin, t - error> limit)),
+                       .met = both(both(known, t - error > line.certain_from), last < line.certain_to)};
 }
 
 /// From farther away than so many sizes the roundings are not covered by what outlines are larger than
@@ -182,15 +196,14 @@ auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real
   };
   const double hole = torus.radius - torus.thickness;
   const double squared_hole = hole > 0 ? hole * hole : 0;
-  using Mask = decltype((room < half) & (half < room));
-  const auto through_hole = (squared_distance(from) < squared_hole) & (squared_distance(to) < squared_hole);
+  using Mask = decltype(room < half);
+  const Mask through_hole = both(squared_distance(from) < squared_hole, squared_distance(to) < squared_hole);
   // More than the bound on the error of a root that is grazed.
   const Real gap = 0x1p-20 * ball * line.inverse_speed;
   const auto known = squared_way < farthest_outline * farthest_outline * ball * ball;
-  return Verdict<Mask>{
-      .missed = known & ((room < 0.0) | (from > to) | through_hole | (closest - half - gap > limit) |
-                         (closest + half + gap < line.begin)),
-      .met = room < room};
+  const Mask missed = either(room<0.0, from> to, through_hole, closest - half - gap > limit,
+                             closest + half + gap < line.begin);
+  return Verdict<Mask>{.missed = both(known, missed), .met = {}};
 }
 
 /// Whatever it is, if it is known; `last` as of planes.
