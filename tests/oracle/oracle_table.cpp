@@ -1,7 +1,11 @@
 // Measures the accuracy of every primitive, and of trees of them, and writes docs/accuracy.md and its plot.
-// usage: oracle_table RAYS PAGE PLOT
+// usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...]
+// With names of primitives ("half plane") only those are measured, and their rows in the page replaced; the
+// plot and everything else stays as it is.
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <chrono>
 #include <cstdio>
 #include <cstdlib>
@@ -220,6 +224,39 @@ bool write(const char* path, const std::string& text) {
   return static_cast<bool>(file.flush());
 }
 
+/// Puts what was measured in place of a primitive's rows in a page that is there already.
+bool replace_rows(const char* path, const Measured& of, const Record& placed) {
+  std::ifstream file(path);
+  // The page's tables in their order, by what comes before each.
+  const std::array<std::pair<std::string, std::string>, 4> tables = {
+      {{"# Accuracy, measured", rows(of)},
+       {"## By kind of ray", ulps_by_kind(of)},
+       {"The share of close calls", close_calls_by_kind(of)},
+       {"## Transformed primitives", placed_row(of.kind, placed)}}};
+  const std::string row_begin = fmt::format("| {} |", name_of_primitive(of.kind));
+  std::size_t table = 0;
+  std::size_t replaced = 0;
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    for (std::size_t i = 0; i < tables.size(); ++i) {
+      if (line.rfind(tables[i].first, 0) == 0) table = i;
+    }
+    if (line.rfind(row_begin, 0) != 0) {
+      text += line + "\n";
+    } else if (replaced == table) {
+      text += tables[table].second;
+      ++replaced;
+    }
+  }
+  return replaced == tables.size() && write(path, text);
+}
+
+std::size_t kind_of(const std::string& name) {
+  std::size_t kind = 0;
+  while (kind < primitive_kinds && name_of_primitive(kind) != name) ++kind;
+  return kind;
+}
+
 /// Prints the rays that broke a promise; whether there were none.
 bool kept(std::size_t kind, const Record& record, const char* tier, RayMaker maker) {
   for (const std::uint64_t failure : record.failures)
@@ -231,22 +268,35 @@ bool kept(std::size_t kind, const Record& record, const char* tier, RayMaker mak
 }  // namespace
 
 int main(int argc, char** argv) {
-  if (argc != 4) {
-    fmt::print(stderr, "usage: oracle_table RAYS PAGE PLOT\n");
+  if (argc < 4) {
+    fmt::print(stderr, "usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...]\n");
     return 2;
   }
   const std::uint64_t rays = std::strtoull(argv[1], nullptr, 10);
+  const std::vector<std::string> names(argv + 4, argv + argc);
+  for (const std::string& name : names) {
+    if (kind_of(name) < primitive_kinds) continue;
+    fmt::print(stderr, "there is no primitive \"{}\"\n", name);
+    return 2;
+  }
   std::vector<Measured> all;
   std::vector<Record> placed;
   bool good = true;
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
+    if (!names.empty() && std::find(names.begin(), names.end(), name_of_primitive(kind)) == names.end())
+      continue;
     all.push_back(measured(kind, rays));
     fmt::print("{}", rows(all.back()));
     for (std::size_t tier = 0; tier < 2; ++tier)
       good = kept(kind, all.back().tiers[tier].record, all.back().tiers[tier].name.c_str(), make_ray) && good;
     placed.push_back(measure_all(kind, 0, rays / placed_share, {exact_tier()}, make_placed_ray)[0]);
     good = kept(kind, placed.back(), "exact, transformed", make_placed_ray) && good;
+    if (!names.empty() && !replace_rows(argv[2], all.back(), placed.back())) {
+      fmt::print(stderr, "cannot replace the rows of {} in {}\n", name_of_primitive(kind), argv[2]);
+      return 1;
+    }
   }
+  if (!names.empty()) return good ? 0 : 1;
   const CsgRecord csg =
       measure_csg(0, std::max<std::uint64_t>(1, rays / csg_share / rays_per_tree), rays_per_tree);
   fmt::print("{}", csg_rows(csg));
