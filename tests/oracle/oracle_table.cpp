@@ -1,7 +1,7 @@
 // Measures the accuracy of every primitive, and of trees of them, and writes docs/accuracy.md and its plot.
 // usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...]
-// With names of primitives ("half plane") only those are measured, and their rows in the page replaced; the
-// plot and everything else stays as it is.
+// With names of primitives ("half plane"), or "trees", only those are measured, and their rows in the page
+// replaced; the plot and everything else stays as it is.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -28,6 +28,7 @@ constexpr std::uint64_t most_naive_rays = 1'000'000;
 constexpr std::uint64_t placed_share = 10;
 constexpr std::uint64_t csg_share = 10;
 constexpr std::uint64_t rays_per_tree = 200;
+constexpr const char* trees = "trees";
 
 /// Nanoseconds a ray: the best of many rounds, as other work may disturb some.
 template <class Intersect>
@@ -251,6 +252,24 @@ bool replace_rows(const char* path, const Measured& of, const Record& placed) {
   return replaced == tables.size() && write(path, text);
 }
 
+/// The same for trees.
+bool replace_rows(const char* path, const CsgRecord& csg) {
+  std::ifstream file(path);
+  bool is_last_table = false;
+  int replaced = 0;
+  std::string text;
+  for (std::string line; std::getline(file, line);) {
+    is_last_table = is_last_table || line == "## Trees of solids";
+    const bool is_row = line.rfind("| standard |", 0) == 0 || line.rfind("| exact |", 0) == 0;
+    if (!is_last_table || !is_row) {
+      text += line + "\n";
+    } else if (replaced++ == 0) {
+      text += csg_rows(csg);
+    }
+  }
+  return replaced == 2 && write(path, text);
+}
+
 std::size_t kind_of(const std::string& name) {
   std::size_t kind = 0;
   while (kind < primitive_kinds && name_of_primitive(kind) != name) ++kind;
@@ -274,8 +293,11 @@ int main(int argc, char** argv) {
   }
   const std::uint64_t rays = std::strtoull(argv[1], nullptr, 10);
   const std::vector<std::string> names(argv + 4, argv + argc);
+  const auto is_wanted = [&](std::string_view name) {
+    return names.empty() || std::find(names.begin(), names.end(), name) != names.end();
+  };
   for (const std::string& name : names) {
-    if (kind_of(name) < primitive_kinds) continue;
+    if (name == trees || kind_of(name) < primitive_kinds) continue;
     fmt::print(stderr, "there is no primitive \"{}\"\n", name);
     return 2;
   }
@@ -283,8 +305,7 @@ int main(int argc, char** argv) {
   std::vector<Record> placed;
   bool good = true;
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
-    if (!names.empty() && std::find(names.begin(), names.end(), name_of_primitive(kind)) == names.end())
-      continue;
+    if (!is_wanted(name_of_primitive(kind))) continue;
     all.push_back(measured(kind, rays));
     fmt::print("{}", rows(all.back()));
     for (std::size_t tier = 0; tier < 2; ++tier)
@@ -296,12 +317,15 @@ int main(int argc, char** argv) {
       return 1;
     }
   }
-  if (!names.empty()) return good ? 0 : 1;
+  if (!is_wanted(trees)) return good ? 0 : 1;
   const CsgRecord csg =
       measure_csg(0, std::max<std::uint64_t>(1, rays / csg_share / rays_per_tree), rays_per_tree);
   fmt::print("{}", csg_rows(csg));
   for (const std::string& failure : csg.failures) fmt::print("broken: {}\n", failure);
-  if (!write(argv[2], page(all, placed, csg)) || !write(argv[3], accuracy_plot(all))) {
+  const bool written = names.empty()
+                           ? write(argv[2], page(all, placed, csg)) && write(argv[3], accuracy_plot(all))
+                           : replace_rows(argv[2], csg);
+  if (!written) {
     fmt::print(stderr, "cannot write {} or {}\n", argv[2], argv[3]);
     return 1;
   }
