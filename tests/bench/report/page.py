@@ -14,10 +14,17 @@ def filled(page: str, name: str, text: str) -> str:
     return pattern.sub(lambda _: f"{begin}\n{text}\n{end}", page)
 
 
+def with_plot(caption: str, file: str, table: str) -> str:
+    return f"![{caption}]({file})\n\n{table}" if table else ""
+
+
 def write(folder: pathlib.Path, results: dict, machine: str) -> None:
-    texts = {"machine": machine, "povray": tables.povray_table(results),
+    texts = {"machine": machine,
+             "povray": with_plot("How many times as long POV-Ray traces, for each scene", "speed.svg",
+                                 tables.povray_table(results)),
              "povray, BSP tree": tables.bsp_table(results), "embree": tables.embree_table(results),
-             "curves": tables.curves_table(results)}
+             "curves": with_plot("Nanoseconds a ray against the number of solids", "speed_curves.svg",
+                                 tables.curves_table(results))}
     path = folder / "speed.md"
     page = path.read_text()
     for name, text in texts.items():
