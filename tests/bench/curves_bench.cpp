@@ -134,7 +134,7 @@ Point measured(Scene scene, int side, int rounds) {
   return point;
 }
 
-void run(bool quick) {
+std::vector<std::string> run(bool quick) {
   const int rounds = quick ? 1 : 5;
   std::vector<std::string> rows;
   for (const Curve& curve : curves) {
@@ -148,16 +148,13 @@ void run(bool quick) {
           fmt::join(point.nanoseconds, ", ")));
     }
   }
-  std::cout << fmt::format("{{\"rows\": [\n{}\n]}}\n", fmt::join(rows, ",\n"));
+  return rows;
 }
 
 }  // namespace
 
 }  // namespace crt::bench
 
-int main(int argc, char** argv) try {
-  crt::bench::run(crt::bench::wants_quick(argc, argv));
-} catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 1;
+int main(int argc, char** argv) {
+  return crt::bench::measured_main(argc, argv, crt::bench::run);
 }

@@ -168,7 +168,7 @@ class Comparison {
   std::vector<std::uint8_t> hidden_;
 };
 
-void run(bool quick) {
+std::vector<std::string> run(bool quick) {
   const tbb::global_control one_thread(tbb::global_control::max_allowed_parallelism, 1);
   const int side = quick ? 400 : 1000;
   const int rounds = quick ? 3 : 11;
@@ -182,16 +182,13 @@ void run(bool quick) {
       for (std::string& row : comparison.run(flow, rounds)) rows.push_back(std::move(row));
     }
   }
-  std::cout << fmt::format("{{\"rows\": [\n{}\n]}}\n", fmt::join(rows, ",\n"));
+  return rows;
 }
 
 }  // namespace
 
 }  // namespace crt::bench
 
-int main(int argc, char** argv) try {
-  crt::bench::run(crt::bench::wants_quick(argc, argv));
-} catch (const std::exception& error) {
-  std::cerr << error.what() << '\n';
-  return 1;
+int main(int argc, char** argv) {
+  return crt::bench::measured_main(argc, argv, crt::bench::run);
 }

@@ -1,11 +1,26 @@
 #include "measuring.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <ctime>
+#include <exception>
+#include <iostream>
 #include <stdexcept>
 #include <string_view>
 
 namespace crt::bench {
+
+namespace {
+
+/// Any other argument is an error.
+bool wants_quick(int argc, char** argv) {
+  if (argc == 1) return false;
+  if (argc == 2 && std::string_view(argv[1]) == "--quick") return true;
+  throw std::invalid_argument(std::string("usage: ") + argv[0] + " [--quick]");
+}
+
+}  // namespace
 
 double processor_seconds() {
   timespec time{};
@@ -36,10 +51,12 @@ double Stream::between(double low, double high) {
   return low + (high - low) * (state_ / largest);
 }
 
-bool wants_quick(int argc, char** argv) {
-  if (argc == 1) return false;
-  if (argc == 2 && std::string_view(argv[1]) == "--quick") return true;
-  throw std::invalid_argument(std::string("usage: ") + argv[0] + " [--quick]");
+int measured_main(int argc, char** argv, const std::function<std::vector<std::string>(bool quick)>& run) try {
+  std::cout << fmt::format("{{\"rows\": [\n{}\n]}}\n", fmt::join(run(wants_quick(argc, argv)), ",\n"));
+  return 0;
+} catch (const std::exception& error) {
+  std::cerr << error.what() << '\n';
+  return 1;
 }
 
 }  // namespace crt::bench

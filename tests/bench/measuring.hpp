@@ -41,7 +41,9 @@ class Stream {
   std::uint32_t state_;
 };
 
-/// Whether the command line says --quick; any other argument is an error, told to the user.
-bool wants_quick(int argc, char** argv);
+/// What main() returns of a program that measures: it calls run(quick), where the command line may say
+/// --quick and nothing else, and writes the rows that come back to standard output, as JSON; errors to
+/// standard error.
+int measured_main(int argc, char** argv, const std::function<std::vector<std::string>(bool quick)>& run);
 
 }  // namespace crt::bench

@@ -16,27 +16,23 @@ TorusLine::TorusLine(const Vec3& point, const Vec3& direction, double ring, doub
       passing_(std::abs(difference_of_products(point.x, direction.y, point.y, direction.x))),
       on_surface_(on_surface) {}
 
-double TorusLine::level(const Vec3& p) const {
-  const double outward = std::sqrt(p.x * p.x + p.y * p.y) - ring_;
-  return outward * outward - (tube_ - p.z) * (tube_ + p.z);
+TorusLine::Level TorusLine::level(const Vec3& p) const {
+  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
+  const double outward = rho - ring_;
+  const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
+  return {.value = outward * outward - (tube_ - p.z) * (tube_ + p.z),
+          .half_slope = outward * rho_rate + p.z * direction_.z};
 }
 
 double TorusLine::value(double x) const {
   const Vec3 p = point_ + x * direction_;
-  if (!on_surface_) return level(p);
+  if (!on_surface_) return level(p).value;
   const Vec3 sum = p + point_;
   const double rho_sum =
       std::sqrt(p.x * p.x + p.y * p.y) + std::sqrt(point_.x * point_.x + point_.y * point_.y);
   const double lateral = sum.x * direction_.x + sum.y * direction_.y;
   const double pull = rho_sum > 0 ? lateral - 2 * ring_ * (lateral / rho_sum) : 0;
   return x * (pull + sum.z * direction_.z);
-}
-
-double TorusLine::half_slope(double x) const {
-  const Vec3 p = point_ + x * direction_;
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
-  return (rho - ring_) * rho_rate + p.z * direction_.z;
 }
 
 double TorusLine::half_curvature(double x) const {
@@ -152,15 +148,6 @@ TorusLine::Search TorusLine::find_sign(double low, double high, double sign) con
   return {std::nullopt, false};
 }
 
-TorusLine::Level TorusLine::level_and_slope(double x) const {
-  const Vec3 p = point_ + x * direction_;
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  const double outward = rho - ring_;
-  const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
-  return {.value = outward * outward - (tube_ - p.z) * (tube_ + p.z),
-          .half_slope = outward * rho_rate + p.z * direction_.z};
-}
-
 /// Newton, and bisection where it would leave the bounds or does not halve them fast enough.
 double TorusLine::root(const Bracket& bracket) const {
   double negative = bracket.negative;
@@ -170,12 +157,12 @@ double TorusLine::root(const Bracket& bracket) const {
   double x = negative + (positive - negative) / 2;
   double step_before = std::abs(positive - negative);
   for (int step = 0; step < most_steps; ++step) {
-    const Level level = on_surface_ ? Level{value(x), half_slope(x)} : level_and_slope(x);
-    const double height = level.value;
+    const Level here = on_surface_ ? Level{value(x), half_slope(x)} : level(point_ + x * direction_);
+    const double height = here.value;
     if (height == 0) return x;
     (height < 0 ? negative : positive) = x;
     // With the known root divided out, so is its slope: G = x H, H' = (G' - H) / x.
-    const double slope = 2 * level.half_slope;
+    const double slope = 2 * here.half_slope;
     const double newton = on_surface_ ? height / (slope - height / x) : height / slope;
     double next = x - newton;
     const double low = std::min(negative, positive);

@@ -51,16 +51,24 @@ class TorusLine {
   Dips dips();
 
   double value(double x) const;  ///< G; less what it is at x = 0, if the point is on the surface
-  double level_at_start() const { return level(point_); }  ///< what G is at x = 0 all the same, by rounding
-  double half_slope(double x) const;                       ///< G' / 2
-  double half_curvature(double x) const;                   ///< G'' / 2
+  double level_at_start() const {
+    return level(point_).value;
+  }  ///< what G is at x = 0 all the same, by rounding
+  double half_slope(double x) const { return level(point_ + x * direction_).half_slope; }  ///< G' / 2
+  double half_curvature(double x) const;                                                   ///< G'' / 2
 
  private:
+  /// G and G' / 2.
+  struct Level {
+    double value;
+    double half_slope;
+  };
+  Level level(const Vec3& p) const;
+
   struct Range {
     double low;
     double high;
   };
-  double level(const Vec3& p) const;
   std::optional<Range> range() const;
   Range concave_part(const Range& range) const;
   /// A point where a sign was found, and whether rounding cannot have hidden one.
@@ -72,12 +80,6 @@ class TorusLine {
   double value_error(double x) const;
   double slope_error() const;
   double inflection_error(const Range& concave) const;
-  /// G and G' / 2 off the surface.
-  struct Level {
-    double value;
-    double half_slope;
-  };
-  Level level_and_slope(double x) const;
 
   Vec3 point_;
   Vec3 direction_;

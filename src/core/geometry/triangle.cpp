@@ -16,14 +16,6 @@ PreciseVec3 difference(const Vec3& to, const Vec3& from, double scale) {
   return result;
 }
 
-PreciseVec3 cross(const PreciseVec3& a, const PreciseVec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
-Vec3 rounded(const PreciseVec3& v) {
-  return {v[0].value(), v[1].value(), v[2].value()};
-}
-
 double inverse_length_scale(const Vec3& v) {
   return 1 / power_of_two_below(largest_component(v));
 }
@@ -70,7 +62,7 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
     offset[i] = -(origin + direction[i] * DoubleDouble(t / direction_scale * scale));
   }
   const PreciseVec3 moment = cross(difference(to, from, scale), direction);
-  const DoubleDouble precise = offset[0] * moment[0] + offset[1] * moment[1] + offset[2] * moment[2];
+  const DoubleDouble precise = dot(offset, moment);
   constexpr double rounding = 0x1p-96;
   if (std::abs(precise.hi) <= rounding) return 0;
   return precise.hi > 0 ? 1 : -1;
@@ -121,8 +113,8 @@ PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
     offset[i] = exact + DoubleDouble(ray.origin_low[axis]);
   }
   const PreciseVec3& n = precise_normal_;
-  const DoubleDouble rate = n[0] * direction[0] + n[1] * direction[1] + n[2] * direction[2];
-  const DoubleDouble height = n[0] * offset[0] + n[1] * offset[1] + n[2] * offset[2];
+  const DoubleDouble rate = dot(n, direction);
+  const DoubleDouble height = dot(n, offset);
   PlaneFace::Meeting result = meeting;
   result.rate = rate.hi;
   const DoubleDouble t = -height / rate;

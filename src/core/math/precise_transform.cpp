@@ -4,24 +4,12 @@ namespace crt::core {
 
 namespace {
 
-DoubleDouble dot(const PreciseVec3& a, const PreciseVec3& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
-}
-
-PreciseVec3 cross(const PreciseVec3& a, const PreciseVec3& b) {
-  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
-}
-
 PreciseVec3 column(const PreciseTransform& transform, std::size_t index) {
   return {transform.rows[0][index], transform.rows[1][index], transform.rows[2][index]};
 }
 
 PreciseVec3 precise(const Vec3& v) {
   return {v.x, v.y, v.z};
-}
-
-Vec3 rounded(const PreciseVec3& v) {
-  return {v[0].value(), v[1].value(), v[2].value()};
 }
 
 }  // namespace

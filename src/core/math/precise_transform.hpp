@@ -11,6 +11,20 @@ namespace crt::core {
 /// A vector of double-doubles.
 using PreciseVec3 = std::array<DoubleDouble, 3>;
 
+// By the operators of double-double; geometry/exact_ray.hpp has faster ones for the exact tier.
+inline DoubleDouble dot(const PreciseVec3& a, const PreciseVec3& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
+}
+
+inline PreciseVec3 cross(const PreciseVec3& a, const PreciseVec3& b) {
+  return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
+}
+
+/// Each component to the nearest double.
+inline Vec3 rounded(const PreciseVec3& v) {
+  return {v[0].value(), v[1].value(), v[2].value()};
+}
+
 /// An affine map with entries of about 106 bits: what nested transforms are composed in.
 struct PreciseTransform {
   std::array<PreciseVec3, 3> rows{PreciseVec3{1.0, 0.0, 0.0}, PreciseVec3{0.0, 1.0, 0.0},

@@ -112,22 +112,14 @@ class QueryPacket {
   }
 
   void nearest(std::span<std::optional<Hit>> hits) {
-    const std::span<const WorldRay> rays = std::span(rays_).first(count_);
     std::array<RayHit, packet_size> found;
-    const bool together = go_together(rays);
-    if (together) data_.intersect(rays, found, work_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      hits[i] = together ? queries_[i]->described_if_found(found[i]) : queries_[i]->nearest();
-    }
+    data_.intersect_each(std::span(rays_).first(count_), found, work_);
+    for (std::size_t i = 0; i < count_; ++i) hits[i] = queries_[i]->described_if_found(found[i]);
   }
 
   void occluded(std::span<bool> occluded) {
-    const std::span<const WorldRay> rays = std::span(rays_).first(count_);
-    const bool together = go_together(rays);
-    const RayMask found = together ? data_.occluded(rays, work_) : 0;
-    for (std::size_t i = 0; i < count_; ++i) {
-      occluded[i] = together ? (found >> i & 1u) != 0 : queries_[i]->occluded();
-    }
+    const RayMask found = data_.occluded_each(std::span(rays_).first(count_), work_);
+    for (std::size_t i = 0; i < count_; ++i) occluded[i] = (found >> i & 1u) != 0;
   }
 
  private:

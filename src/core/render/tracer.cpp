@@ -197,19 +197,10 @@ void Tracer::add_light(std::span<Seen*> seen) {
     }
     work_.stats.shadow_rays += count;
     tick(static_cast<unsigned>(count));
-    const RayMask hidden = hidden_of(std::span(rays).first(count));
+    const RayMask hidden = data_.occluded_each(std::span(rays).first(count), work_.rays);
     for (std::size_t i = 0; i < count; ++i)
       lit[i]->light += lights[i] * light_share_of(rays[i], *lit[i], (hidden >> i & 1u) != 0);
   }
-}
-
-RayMask Tracer::hidden_of(std::span<const WorldRay> rays) {
-  if (go_together(rays)) return data_.occluded(rays, work_.rays);
-  RayMask hidden = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hidden |= static_cast<RayMask>(data_.occluded(rays[i], work_.rays)) << i;
-  }
-  return hidden;
 }
 
 Rgb Tracer::light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden) {

@@ -63,8 +63,6 @@ class Tracer {
 
   /// Adds the light of all lights that the surfaces send back along the paths.
   void add_light(std::span<Seen*> seen);
-  /// Which of the rays meet anything at all.
-  RayMask hidden_of(std::span<const WorldRay> rays);
   /// What gets through along the way to a light, of which it is known whether anything is met there.
   Rgb light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden);
   std::optional<Unhidden> unhidden(const PreparedLight& source, Seen& seen) const;

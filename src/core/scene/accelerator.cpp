@@ -30,8 +30,7 @@ bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
     const SceneObject& solid = scene.objects[object];
-    const std::uint32_t count = solid.is_csg() ? scene.programs[solid.program].leaf_count() : 1;
-    for (const Leaf& leaf : std::span(scene.leaves).subspan(solid.first_leaf, count)) {
+    for (const Leaf& leaf : scene.leaves_of(solid)) {
       for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
         std::uint32_t& owner = owners[scene.face_surfaces[leaf.first_face + face].surface];
         if (owner != nothing && owner != object) return true;
@@ -48,9 +47,9 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
   for_ranges(count, items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SceneObject& object = scene.objects[i];
-      const std::uint32_t leaves = object.is_csg() ? scene.programs[object.program].leaf_count() : 1;
-      for (std::uint32_t k = 0; k < leaves; ++k) {
-        const Leaf& leaf = scene.leaves[object.first_leaf + k];
+      const std::span<const Leaf> leaves = scene.leaves_of(object);
+      for (std::uint32_t k = 0; k < leaves.size(); ++k) {
+        const Leaf& leaf = leaves[k];
         const bool holds = !object.is_csg() || scene.programs[object.program].is_within(k, leaf);
         if (holds && leaf.shape->is_convex()) enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
       }
@@ -140,21 +139,11 @@ void Accelerator::traverse(Kind& query) const {
     query.test(object);
   }
   if (!tree_ || query.limit() <= query.ray().t_min) return;
-  class Visitor final : public BoxVisitor {
-   public:
-    Visitor(Kind& query, const std::vector<std::uint32_t>& objects) : query_(query), objects_(objects) {}
-    double visit(std::uint32_t box) override {
-      query_.test(objects_[box]);
-      return query_.limit();
-    }
-
-   private:
-    Kind& query_;
-    const std::vector<std::uint32_t>& objects_;
-  };
-  Visitor visitor(query, bounded_);
   const WorldRay& ray = query.ray();
-  tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), visitor);
+  tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), [&](std::uint32_t box) {
+    query.test(bounded_[box]);
+    return query.limit();
+  });
 }
 
 namespace {

@@ -30,6 +30,11 @@ struct CompiledScene {
   std::vector<CsgProgram> programs;
   std::vector<SharedMaterial> materials;
   std::uint64_t shape_bytes = 0;  ///< of all leaves together
+
+  std::span<const Leaf> leaves_of(const SceneObject& object) const {
+    const std::uint32_t count = object.is_csg() ? programs[object.program].leaf_count() : 1;
+    return std::span(leaves).subspan(object.first_leaf, count);
+  }
 };
 
 /// Flattens entities: unions at the top become objects of their own as far as their parts keep

@@ -47,8 +47,37 @@ class EmbreeTree {
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                 BoxVisitor& visitor) const;
 
+  /// The same with visit(box) for a visitor.
+  template <class Visit>
+  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+                const Visit& visit) const {
+    class Caller final : public BoxVisitor {
+     public:
+      explicit Caller(const Visit& call) : call_(call) {}
+      double visit(std::uint32_t box) override { return call_(box); }
+
+     private:
+      const Visit& call_;
+    };
+    Caller caller(visit);
+    traverse(origin, direction, t_min, t_max, static_cast<BoxVisitor&>(caller));
+  }
+
   /// The same for those of a packet's rays, up to their limits.
   void traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const;
+  template <class Visit>
+  void traverse(const RayPacket& packet, RayMask rays, const Visit& visit) const {
+    class Caller final : public PacketVisitor {
+     public:
+      explicit Caller(const Visit& call) : call_(call) {}
+      RayMask visit(std::uint32_t box, RayMask met) override { return call_(box, met); }
+
+     private:
+      const Visit& call_;
+    };
+    Caller caller(visit);
+    traverse(packet, rays, static_cast<PacketVisitor&>(caller));
+  }
 
  private:
   struct Handles;

@@ -146,22 +146,10 @@ void Accelerator::traverse_filtered(Kind& query) const {
     }
   }
   if (tree_ && !is_done()) {
-    class Visitor final : public BoxVisitor {
-     public:
-      Visitor(const Accelerator& accelerator, Kind& kind, const decltype(test)& tester)
-          : accelerator_(accelerator), kind_(kind), test_(tester) {}
-      double visit(std::uint32_t box) override {
-        test_(accelerator_.bounded_[box], accelerator_.bounded_outlines_[box]);
-        return kind_.limit();
-      }
-
-     private:
-      const Accelerator& accelerator_;
-      Kind& kind_;
-      const decltype(test)& test_;
-    };
-    Visitor visitor(*this, query, test);
-    tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), visitor);
+    tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), [&](std::uint32_t box) {
+      test(bounded_[box], bounded_outlines_[box]);
+      return query.limit();
+    });
   }
   if (!planes_last) return;
   for (std::size_t i = 0; i < unbounded_.size(); ++i) {
@@ -347,20 +335,9 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
     }
   }
   if (tree_ && going != 0) {
-    class Visitor final : public PacketVisitor {
-     public:
-      Visitor(const Accelerator& accelerator, const decltype(test)& tester)
-          : accelerator_(accelerator), test_(tester) {}
-      RayMask visit(std::uint32_t box, RayMask rays) override {
-        return test_(accelerator_.bounded_[box], accelerator_.bounded_outlines_[box], rays);
-      }
-
-     private:
-      const Accelerator& accelerator_;
-      const decltype(test)& test_;
-    };
-    Visitor visitor(*this, test);
-    tree_->traverse(packet, going, visitor);
+    tree_->traverse(packet, going, [&](std::uint32_t box, RayMask rays) {
+      return test(bounded_[box], bounded_outlines_[box], rays);
+    });
   }
   if (!planes_last) return;
   for (std::size_t i = 0; i < unbounded_.size(); ++i) {

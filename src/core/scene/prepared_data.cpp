@@ -121,6 +121,19 @@ RayMask PreparedData::occluded(std::span<const WorldRay> rays, RayWorkspace& wor
   return accelerator_->any(rays, work);
 }
 
+void PreparedData::intersect_each(std::span<const WorldRay> rays, std::span<RayHit> hits,
+                                  RayWorkspace& work) const {
+  if (go_together(rays)) return intersect(rays, hits, work);
+  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i], work);
+}
+
+RayMask PreparedData::occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
+  if (go_together(rays)) return occluded(rays, work);
+  RayMask found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(occluded(rays[i], work)) << i;
+  return found;
+}
+
 bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
                              RayWorkspace& work) const {
   out.clear();

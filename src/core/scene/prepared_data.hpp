@@ -106,6 +106,10 @@ class PreparedData {
   void intersect(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
   RayMask occluded(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
+  /// The same for up to packet_size rays that may go anywhere: together only where that pays.
+  void intersect_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
+  RayMask occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const;
+
   /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
   /// others are entered. With `stop_at_opaque`, returns false as soon as one of an opaque
   /// material is found (the list is then of no use); otherwise true.
