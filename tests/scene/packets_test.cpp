@@ -134,7 +134,7 @@ std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Nu
     const RayHit hit = data.intersect(ray, work);
     if (!hit.found()) continue;
     const Side side = numbers.below(2) == 0 ? Side::outside : Side::inside;
-    const HitPoint point = data.hit_point(ray, hit, false);
+    const HitPoint point = data.hit_point(ray, hit);
     const StartPoint start = data.start_point(ray, hit, side);
     ray.origin = point.position;
     ray.direction = numbers.direction();

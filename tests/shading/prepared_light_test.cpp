@@ -14,14 +14,14 @@ namespace {
 
 LightSample sampled(const crt::Light& light, const Vec3& point, double path_length = 0,
                     FalloffModel model = FalloffModel::light) {
-  const auto sample = PreparedLight(light, model).sample(point, path_length);
-  REQUIRE(sample.has_value());
-  return *sample;
+  LightSample sample;
+  REQUIRE(PreparedLight(light, model).sample(point, path_length, sample));
+  return sample;
 }
 
 bool shines_on(const crt::Light& light, const Vec3& point) {
-  const auto sample = PreparedLight(light, FalloffModel::light).sample(point, 0);
-  return sample && sample->intensity > 0;
+  LightSample sample;
+  return PreparedLight(light, FalloffModel::light).sample(point, 0, sample) && sample.intensity > 0;
 }
 
 constexpr double pi = std::numbers::pi;
@@ -44,7 +44,7 @@ TEST_CASE("falloff divides by the square of the way: to the light, or over the w
 
 TEST_CASE("a point at the light itself gets none, and one next to it a finite amount") {
   const crt::PointLight light{.origin = {1, 1, 1}, .falloff = 1};
-  CHECK_FALSE(PreparedLight(light, FalloffModel::light).sample({1, 1, 1}, 0).has_value());
+  CHECK_FALSE(shines_on(light, {1, 1, 1}));
   CHECK(std::isfinite(sampled(crt::PointLight{.falloff = 1}, {1e-200, 0, 0}).intensity));
 }
 

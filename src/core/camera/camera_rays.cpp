@@ -51,60 +51,73 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
 }
 
 CameraRay CameraRays::ray(double x, double y) const {
-  const CentralRay central = central_ray(x, y);
-  return {central.origin, central.direction};
+  CameraRay result;
+  ray(x, y, result);
+  return result;
 }
 
 CameraRay CameraRays::ray(double x, double y, const LensPoint& lens_point) const {
-  const CentralRay central = central_ray(x, y);
-  const Vec3 offset = lens_radius_ * (lens_point.x * right_ + lens_point.y * up_);
-  const Vec3 to_focus = central.to_focus - offset;
-  // A lens wider than the focal distance of a spherical camera can hold the point in focus itself.
-  if (to_focus == Vec3(0)) return {central.origin + offset, central.direction};
-  return {central.origin + offset, unit(to_focus)};
+  CameraRay result;
+  ray(x, y, lens_point, result);
+  return result;
 }
 
-CameraRays::CentralRay CameraRays::central_ray(double x, double y) const {
-  const double nx = 2 * x / width_ - 1;
-  const double ny = 1 - 2 * y / height_;
+void CameraRays::ray(double x, double y, CameraRay& ray) const {
+  const double nx = across(x);
+  const double ny = upwards(y);
   switch (projection_) {
     case Projection::pinhole:
-      return pinhole_ray(nx, ny);
+      ray.origin = position_;
+      ray.direction = unit(to_plane(nx, ny));
+      break;
     case Projection::spherical:
-      return spherical_ray(nx, ny);
+      spherical_ray(nx, ny, ray);
+      break;
     case Projection::cylindrical:
-      return cylindrical_ray(nx, ny);
+      cylindrical_ray(nx, ny, ray);
+      break;
     case Projection::orthographic:
-      return orthographic_ray(nx, ny);
+      orthographic_ray(nx, ny, ray);
+      break;
   }
-  return {position_, forward_, focal_distance_ * forward_};
 }
 
-CameraRays::CentralRay CameraRays::pinhole_ray(double nx, double ny) const {
-  // Its part along `forward` is 1: times the focal distance it ends on the focal plane.
-  const Vec3 to_plane = forward_ + (nx * half_across_) * right_ + (ny * half_up_) * up_;
-  return {position_, unit(to_plane), focal_distance_ * to_plane};
+void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay& central) const {
+  ray(x, y, central);
+  // A pinhole camera's way along `forward` is 1: times the focal distance it ends on the focal plane.
+  const bool is_pinhole = projection_ == Projection::pinhole;
+  const Vec3 in_focus = focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : central.direction);
+  const Vec3 offset = lens_radius_ * (lens_point.x * right_ + lens_point.y * up_);
+  const Vec3 to_focus = in_focus - offset;
+  central.origin += offset;
+  // A lens wider than the focal distance of a spherical camera can hold the point in focus itself.
+  if (to_focus != Vec3(0)) central.direction = unit(to_focus);
 }
 
-CameraRays::CentralRay CameraRays::spherical_ray(double nx, double ny) const {
+Vec3 CameraRays::to_plane(double nx, double ny) const {
+  return forward_ + (nx * half_across_) * right_ + (ny * half_up_) * up_;
+}
+
+void CameraRays::spherical_ray(double nx, double ny, CameraRay& ray) const {
   const double longitude = nx * half_across_;
   const double latitude = ny * half_up_;
   const Vec3 level = std::cos(longitude) * forward_ + std::sin(longitude) * right_;
-  const Vec3 direction = unit(std::cos(latitude) * level + std::sin(latitude) * up_);
-  return {position_, direction, focal_distance_ * direction};
+  ray.origin = position_;
+  ray.direction = unit(std::cos(latitude) * level + std::sin(latitude) * up_);
 }
 
-CameraRays::CentralRay CameraRays::cylindrical_ray(double nx, double ny) const {
+void CameraRays::cylindrical_ray(double nx, double ny, CameraRay& ray) const {
   const double longitude = nx * half_across_;
   const Vec3 level = std::cos(longitude) * forward_ + std::sin(longitude) * right_;
-  const Vec3 direction = unit(level + (ny * half_up_) * up_);
-  return {position_, direction, focal_distance_ * direction};
+  ray.origin = position_;
+  ray.direction = unit(level + (ny * half_up_) * up_);
 }
 
-CameraRays::CentralRay CameraRays::orthographic_ray(double nx, double ny) const {
-  const double across = nx * half_across_ * focal_distance_;
-  const double upwards = ny * half_up_ * focal_distance_;
-  return {position_ + across * right_ + upwards * up_, forward_, focal_distance_ * forward_};
+void CameraRays::orthographic_ray(double nx, double ny, CameraRay& ray) const {
+  const double right = nx * half_across_ * focal_distance_;
+  const double up = ny * half_up_ * focal_distance_;
+  ray.origin = position_ + right * right_ + up * up_;
+  ray.direction = forward_;
 }
 
 }  // namespace crt::core

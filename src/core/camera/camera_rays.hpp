@@ -24,11 +24,13 @@ class CameraRays {
 
   /// The ray through the middle of the lens.
   CameraRay ray(double x, double y) const;
+  void ray(double x, double y, CameraRay& ray) const;
 
   /// The ray from a point of the lens (see aperture_point) to where the ray through its middle is in
   /// focus: on the plane at the focal distance for pinhole and orthographic cameras. Spherical and
   /// cylindrical ones look backwards too, where no such plane is; they are in focus at the focal
   /// distance along each ray, that is on a sphere.
+  void ray(double x, double y, const LensPoint& lens_point, CameraRay& ray) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
   /// The lens point of two numbers in [0, 1).
@@ -42,19 +44,13 @@ class CameraRays {
   const Vec3& forward() const { return forward_; }
 
  private:
-  /// A ray through the middle of the lens and how it goes on: `to_focus` leads from its origin to
-  /// the point in focus.
-  struct CentralRay {
-    Vec3 origin;
-    Vec3 direction;
-    Vec3 to_focus;
-  };
-
-  CentralRay central_ray(double x, double y) const;
-  CentralRay pinhole_ray(double nx, double ny) const;
-  CentralRay spherical_ray(double nx, double ny) const;
-  CentralRay cylindrical_ray(double nx, double ny) const;
-  CentralRay orthographic_ray(double nx, double ny) const;
+  /// Leads from the lens's middle to the plane at distance 1.
+  Vec3 to_plane(double nx, double ny) const;
+  void spherical_ray(double nx, double ny, CameraRay& ray) const;
+  void cylindrical_ray(double nx, double ny, CameraRay& ray) const;
+  void orthographic_ray(double nx, double ny, CameraRay& ray) const;
+  double across(double x) const { return 2 * x / width_ - 1; }
+  double upwards(double y) const { return 1 - 2 * y / height_; }
 
   Vec3 position_;
   Vec3 right_;

@@ -46,10 +46,7 @@ namespace {
 /// Of a line with one surface, a torus.
 constexpr std::size_t most_roots = 4;
 
-/// For heaps that have the nearest on top.
-constexpr auto is_later = [](const CsgCrossing& a, const CsgCrossing& b) {
-  return std::tie(a.t, a.t_low, a.leaf, a.entering) > std::tie(b.t, b.t_low, b.leaf, b.entering);
-};
+/// For a heap that has the nearest on top.
 constexpr auto is_opened_later = [](const auto& a, const auto& b) {
   return a.enter != b.enter ? a.enter > b.enter : b.child < a.child;
 };
@@ -81,14 +78,15 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     work_.shared_.resize(most_roots * program.shared_surfaces);
   }
   work_.openings_.clear();
-  work_.crossings_.clear();
+  work_.met_.clear();
+  work_.to_come_.clear();
   for (const std::uint32_t leaf : program.tree.unbounded()) {
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
     if (!span.empty()) meet(LeafTree::Child::leaf(leaf), span.enter, span.leave);
   }
   if (program.tree.has_root()) program.tree.visit(0, slabs_, [&](auto... met) { meet(met...); });
   open_up_to(farthest_start(ray_));
-  while (!work_.crossings_.empty() && work_.crossings_.front().t <= ray_.t_min) {
+  while (!work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min) {
     open_what_may_coincide();
     gather_cluster();
     flip_cluster();
@@ -116,8 +114,15 @@ void CsgEvaluation::open_up_to(double t) {
   }
 }
 
+bool CsgEvaluation::is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::ToCome& b) const {
+  if (a.t != b.t) return a.t > b.t;
+  const CsgCrossing& one = work_.met_[a.index];
+  const CsgCrossing& other = work_.met_[b.index];
+  return std::tie(one.t_low, one.leaf, one.entering) > std::tie(other.t_low, other.leaf, other.entering);
+}
+
 bool CsgEvaluation::find_crossing() {
-  while (work_.crossings_.empty()) {
+  while (work_.to_come_.empty()) {
     if (work_.openings_.empty()) return false;
     open_up_to(work_.openings_.front().enter);
   }
@@ -128,7 +133,7 @@ bool CsgEvaluation::find_crossing() {
 void CsgEvaluation::open_what_may_coincide() {
   // What is opened may bring a crossing that is nearer still.
   while (!work_.openings_.empty()) {
-    const CsgCrossing& first = work_.crossings_.front();
+    const CsgCrossing& first = next_crossing();
     const double next_enter = work_.openings_.front().enter;
     if (!(next_enter <= first.t + first.error)) return;
     open_up_to(next_enter);
@@ -140,7 +145,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   // Leaves that are placed alike often follow one another: the ray is taken to their space once.
   if (leaf.placement != placement_) {
     placement_ = leaf.placement;
-    object_ray_ = placement_->to_object(ray_.origin, ray_.direction);
+    placement_->to_object(ray_.origin, ray_.direction, object_ray_);
   }
   object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
   work_.leaf_crossings_.clear();
@@ -148,33 +153,32 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   work_.events += work_.leaf_crossings_.size();
   for (const Crossing& crossing : work_.leaf_crossings_) {
     const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
-    CsgCrossing met{.t = crossing.t,
-                    .error = crossing.error,
-                    .t_low = crossing.t_low,
-                    .enter = enter,
-                    .leaf = index,
-                    .face = crossing.face,
-                    .surface = surface.surface,
-                    .root = crossing.root,
-                    .entering = crossing.entering,
-                    .shared = surface.shared};
-    if (crossing.t < enter) {
-      // Before the box nothing of it matters, but the crossing may be in the box for all that is known.
-      if (crossing.t + crossing.error < enter) {
-        inside = crossing.entering;
-        continue;
-      }
-      met.t = enter;
-      met.t_low = 0;
+    const bool before_box = crossing.t < enter;
+    // Before the box nothing of it matters, but the crossing may be in the box for all that is known.
+    if (before_box && crossing.t + crossing.error < enter) {
+      inside = crossing.entering;
+      continue;
     }
+    const auto place = static_cast<std::uint32_t>(work_.met_.size());
+    CsgCrossing& met = work_.met_.emplace_back();
+    met.t = before_box ? enter : crossing.t;
+    met.error = crossing.error;
+    met.t_low = before_box ? 0 : crossing.t_low;
+    met.enter = enter;
+    met.leaf = index;
+    met.face = crossing.face;
+    met.surface = surface.surface;
+    met.root = crossing.root;
+    met.entering = crossing.entering;
+    met.shared = surface.shared;
     if (met.surface != ray_.start.surface && met.t > ray_.t_min && enter <= farthest_start(ray_) &&
         is_at_start(leaf, ray_, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
     }
     if (met.shared != FaceSurface::not_shared) ++shared_state(met).to_come;
-    work_.crossings_.push_back(met);
-    std::push_heap(work_.crossings_.begin(), work_.crossings_.end(), is_later);
+    work_.to_come_.push_back({met.t, place});
+    std::push_heap(work_.to_come_.begin(), work_.to_come_.end(), later());
   }
   if (!inside) return;
   ++work_.stamp_;
@@ -182,23 +186,23 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
 }
 
 void CsgEvaluation::gather_cluster() {
-  auto& crossings = work_.crossings_;
+  auto& to_come = work_.to_come_;
   auto& cluster = work_.cluster_;
   cluster.clear();
   ++work_.stamp_;
   do {
-    add_to_cluster(crossings.front());
-    std::pop_heap(crossings.begin(), crossings.end(), is_later);
-    crossings.pop_back();
-  } while (!crossings.empty() && coincides(cluster.front(), crossings.front()));
-  const bool some_to_come = std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing& crossing) {
-    return crossing.shared != FaceSurface::not_shared && shared_state(crossing).to_come > 0;
+    add_to_cluster(next_crossing());
+    std::pop_heap(to_come.begin(), to_come.end(), later());
+    to_come.pop_back();
+  } while (!to_come.empty() && coincides(*cluster.front(), next_crossing()));
+  const bool some_to_come = std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing* crossing) {
+    return crossing->shared != FaceSurface::not_shared && shared_state(*crossing).to_come > 0;
   });
   if (some_to_come) gather_shared();
 }
 
 void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
-  work_.cluster_.push_back(crossing);
+  work_.cluster_.push_back(&crossing);
   if (crossing.shared == FaceSurface::not_shared) return;
   SharedState& shared = shared_state(crossing);
   --shared.to_come;
@@ -206,13 +210,14 @@ void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
 }
 
 void CsgEvaluation::gather_shared() {
-  auto& crossings = work_.crossings_;
-  const auto others = std::partition(crossings.begin(), crossings.end(), [&](const CsgCrossing& crossing) {
+  auto& to_come = work_.to_come_;
+  const auto others = std::partition(to_come.begin(), to_come.end(), [&](const auto& waiting) {
+    const CsgCrossing& crossing = work_.met_[waiting.index];
     return crossing.shared == FaceSurface::not_shared || shared_state(crossing).cluster != work_.stamp_;
   });
-  for (auto other = others; other != crossings.end(); ++other) add_to_cluster(*other);
-  crossings.erase(others, crossings.end());
-  std::make_heap(crossings.begin(), crossings.end(), is_later);
+  for (auto other = others; other != to_come.end(); ++other) add_to_cluster(work_.met_[other->index]);
+  to_come.erase(others, to_come.end());
+  std::make_heap(to_come.begin(), to_come.end(), later());
 }
 
 CsgEvaluation::SharedState& CsgEvaluation::shared_state(const CsgCrossing& crossing) {
@@ -239,7 +244,7 @@ bool CsgEvaluation::leaf_inside(std::uint32_t leaf) const {
 bool CsgEvaluation::flip_cluster() {
   const bool before = root_value();
   if (paths_) paths_->begin_cluster();
-  for (const CsgCrossing& crossing : work_.cluster_) flip_leaf(crossing.leaf);
+  for (const CsgCrossing* crossing : work_.cluster_) flip_leaf(crossing->leaf);
   return root_value() != before;
 }
 
@@ -281,13 +286,14 @@ void CsgEvaluation::find_causes() {
   const bool now = root_value();
   auto& causes = work_.causes_;
   causes.clear();
-  for (const CsgCrossing& crossing : work_.cluster_) {
+  for (const CsgCrossing* crossing : work_.cluster_) {
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
-    const bool inside = leaf_inside(crossing.leaf);
-    if (crossing.entering != inside || (inside != leaves_[crossing.leaf].complemented) != now) continue;
-    const bool has_changed = paths_ ? paths_->is_all(program_.leaf_parents[crossing.leaf], now)
-                                    : is_changed_up_to_root(crossing.leaf, now);
-    if (has_changed) causes.push_back(&crossing);
+    const std::uint32_t leaf = crossing->leaf;
+    const bool inside = leaf_inside(leaf);
+    if (crossing->entering != inside || (inside != leaves_[leaf].complemented) != now) continue;
+    const bool has_changed =
+        paths_ ? paths_->is_all(program_.leaf_parents[leaf], now) : is_changed_up_to_root(leaf, now);
+    if (has_changed) causes.push_back(crossing);
   }
   if (!paths_) return;
   paths_->toggle_cluster();
@@ -298,7 +304,7 @@ void CsgEvaluation::find_causes() {
 }
 
 CsgHit CsgEvaluation::blame() {
-  const CsgCrossing& first = work_.cluster_.front();
+  const CsgCrossing* first = work_.cluster_.front();
   const CsgCrossing* cause = nullptr;
   // What changed the root and is known best tells the place: others may be known far worse, where the ray
   // grazes them.
@@ -310,8 +316,8 @@ CsgHit CsgEvaluation::blame() {
       place = crossing;
     }
   }
-  if (cause == nullptr) cause = &first;
-  if (place == nullptr || !(place->t < ray_.t_max)) place = &first;
+  if (cause == nullptr) cause = first;
+  if (place == nullptr || !(place->t < ray_.t_max)) place = first;
   return {.t = place->t,
           .error = cause->error,
           .t_low = place->t_low,
@@ -323,7 +329,7 @@ CsgHit CsgEvaluation::blame() {
 }
 
 bool CsgEvaluation::next(CsgHit& hit) {
-  while (find_crossing() && work_.crossings_.front().t < ray_.t_max) {
+  while (find_crossing() && work_.to_come_.front().t < ray_.t_max) {
     gather_cluster();
     if (!flip_cluster()) continue;
     hit = blame();

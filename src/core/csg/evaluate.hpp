@@ -98,12 +98,18 @@ class CsgWorkspace {
     double enter = 0;
     LeafTree::Child child;
   };
+  /// One of met_.
+  struct ToCome {
+    double t = 0;
+    std::uint32_t index = 0;
+  };
 
   std::uint64_t stamp_ = 0;
   CrossingList leaf_crossings_;
-  std::vector<Opening> openings_;       ///< a heap, the nearest first
-  std::vector<CsgCrossing> crossings_;  ///< a heap, the nearest first
-  std::vector<CsgCrossing> cluster_;
+  std::vector<Opening> openings_;  ///< a heap, the nearest first
+  std::vector<CsgCrossing> met_;   ///< all crossings of this ray so far
+  std::vector<ToCome> to_come_;    ///< a heap, the nearest first
+  std::vector<const CsgCrossing*> cluster_;
   std::vector<const CsgCrossing*> causes_;
   std::vector<NodeState> nodes_;
   PathWorkspace paths_;  ///< in the place of nodes_, of deep programs
@@ -181,6 +187,12 @@ class CsgEvaluation {
   bool find_crossing();
   void open_what_may_coincide();
   void open_leaf(std::uint32_t index, double enter);
+  const CsgCrossing& next_crossing() const { return work_.met_[work_.to_come_.front().index]; }
+  bool is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::ToCome& b) const;
+  /// For the heap of what is to come.
+  auto later() const {
+    return [this](const auto& a, const auto& b) { return is_later(a, b); };
+  }
   /// Takes what coincides with the next crossing from those to come.
   void gather_cluster();
   void add_to_cluster(const CsgCrossing& crossing);

@@ -23,7 +23,12 @@ class Placement {
   const Transform& to_world() const { return to_world_; }
 
   /// The ray origin + t * direction in object space, with the same t.
-  ObjectRay to_object(const Vec3& origin, const Vec3& direction) const;
+  ObjectRay to_object(const Vec3& origin, const Vec3& direction) const {
+    ObjectRay ray;
+    to_object(origin, direction, ray);
+    return ray;
+  }
+  void to_object(const Vec3& origin, const Vec3& direction, ObjectRay& ray) const;
 
   /// The same as the exact tier takes it; `ray` is what to_object() says, and where it starts.
   ExactRay to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const;

@@ -119,17 +119,8 @@ void PlaneFace::emit(const Meeting& meeting, CrossingList& out) {
 }
 
 Vec3 PlaneFace::onto_plane(const Vec3& relative) const {
-  Vec3 result = relative;
-  if (axis_ >= 0) {
-    result[axis_] = 0;
-  } else {
-    result -= accurate_dot(unit_normal_, relative).value() * unit_normal_;
-  }
-  return result;
-}
-
-Vec3 PlaneFace::absolute(const Vec3& relative) const {
-  return position_ + relative;
+  if (axis_ < 0) return relative - accurate_dot(unit_normal_, relative).value() * unit_normal_;
+  return {axis_ == 0 ? 0 : relative.x, axis_ == 1 ? 0 : relative.y, axis_ == 2 ? 0 : relative.z};
 }
 
 Surface PlaneFace::surface() const {

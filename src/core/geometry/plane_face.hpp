@@ -50,7 +50,7 @@ class PlaneFace {
   Vec3 onto_plane(const Vec3& relative) const;
 
   /// position + relative, exactly on the plane where the plane is across a coordinate axis.
-  Vec3 absolute(const Vec3& relative) const;
+  Vec3 absolute(const Vec3& relative) const { return position_ + relative; }
 
   const Vec3& position() const { return position_; }
   const Vec3& unit_normal() const { return unit_normal_; }

@@ -65,15 +65,10 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   }
   if (!features().transparency || features().lens) return;
   if (data.scene().camera.projection == Projection::orthographic) return;
-  const WorldRay middle = eye_ray(camera_.ray(0.5 * settings.width, 0.5 * settings.height));
+  WorldRay middle;
+  eye_ray(camera_.ray(0.5 * settings.width, 0.5 * settings.height), middle);
   one_viewpoint_ = !is_on_surface(data, middle.origin, work);
   if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
-}
-
-WorldRay Frame::eye_ray(const CameraRay& camera_ray) {
-  return {.origin = camera_ray.origin,
-          .direction = camera_ray.direction,
-          .start = {.t_error = start_rounding * largest_component(camera_ray.origin)}};
 }
 
 void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::vector<Medium>& out,

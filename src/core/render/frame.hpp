@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "core/camera/camera_rays.hpp"
+#include "core/math/vector.hpp"
 #include "core/render/workspace.hpp"
 #include "core/shading/prepared_light.hpp"
 
@@ -25,7 +26,12 @@ class Frame {
 
   /// A camera's ray in the world. What is at its very start, to rounding, is passed: an eye on a surface sees
   /// what is before it, or from within what is behind it.
-  static WorldRay eye_ray(const CameraRay& camera_ray);
+  static void eye_ray(const CameraRay& camera_ray, WorldRay& ray) {
+    ray = {};
+    ray.origin = camera_ray.origin;
+    ray.direction = camera_ray.direction;
+    ray.start.t_error = start_rounding * largest_component(camera_ray.origin);
+  }
 
   /// Whether all camera rays start at one point off all surfaces, so that the same solids surround them all;
   /// those are then camera_media(), the outermost first.

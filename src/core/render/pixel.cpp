@@ -20,8 +20,9 @@ class SampleSums {
  public:
   SampleSums(Tracer& tracer, int lens_points) : tracer_(tracer), lens_points_(lens_points) {}
 
-  void take(const CameraRay& ray, Tracer::Sample& pixel) {
-    rays_[count_] = ray;
+  /// Where the next ray is to go, and then that it is there.
+  CameraRay& next() { return rays_[count_]; }
+  void take(Tracer::Sample& pixel) {
     pixels_[count_] = &pixel;
     if (++count_ == packet_size) trace();
   }
@@ -62,12 +63,14 @@ void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& s
       const double place_x = x + (column + 0.5) / grid;
       const double place_y = y + (row + 0.5) / grid;
       if (!frame.features().lens) {
-        sums.take(camera.ray(place_x, place_y), pixel);
+        camera.ray(place_x, place_y, sums.next());
+        sums.take(pixel);
         continue;
       }
       for (int i = 0; i < lens_points; ++i, ++use.sample) {
         const auto [u, v] = random_pair(frame.settings().seed, use);
-        sums.take(camera.ray(place_x, place_y, camera.lens_point(u, v)), pixel);
+        camera.ray(place_x, place_y, camera.lens_point(u, v), sums.next());
+        sums.take(pixel);
       }
     }
   }

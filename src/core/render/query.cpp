@@ -83,7 +83,7 @@ class Query {
 
  private:
   Hit described(const RayHit& hit) const {
-    const HitPoint point = data_.hit_point(ray_, hit, true);
+    const HitPoint point = data_.hit_point(ray_, hit);
     return {.t = PowerOfTwo(-exponent_) * hit.t,
             .position = point.position,
             .normal = point.normal,

@@ -40,28 +40,38 @@ double left_of(double absorption, double length) {
 void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
              SurfaceHit& surface) {
   const PreparedMaterial& material = data.materials()[data.hit_material(hit)];
-  surface.point = data.hit_point(ray, hit, material.pattern || material.bump);
-  const HitPoint& point = surface.point;
+  HitPoint& point = surface.point;
+  PhongSurface& phong = surface.phong;
+  data.hit_point(ray, hit, material.pattern || material.bump, point);
   surface.material = &material;
 
   const Color color = material_color(material, point, work.stats);
-  surface.color = rgb(color);
+  phong.color = rgb(color);
   surface.transparency = material.opaque ? 0 : material.transparency(color.a);
+  phong.diffuse = material.diffuse(surface.transparency);
+  phong.specular = material.description->specular;
+  phong.shininess = material.description->shininess;
+  phong.view = ray.direction;
 
   const double to_viewer = point.entering ? 1 : -1;
   surface.viewer_side = point.entering ? Side::outside : Side::inside;
   surface.face_normal = to_viewer * point.normal;
-  surface.normal = surface.face_normal;
   if (material.bump) {
-    surface.normal = visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction);
+    phong.normal = visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction);
+  } else {
+    phong.normal = to_viewer * point.normal;
   }
 }
 
 CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
                                RenderStats& stats) {
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
-  const Color color = material.pattern ? material_color(material, data.hit_point(ray, crossing, true), stats)
-                                       : material.color;
+  Color color = material.color;
+  if (material.pattern) {
+    HitPoint point;
+    data.hit_point(ray, crossing, true, point);
+    color = material_color(material, point, stats);
+  }
   return {.transparency = material.transparency(color.a), .color = rgb(color)};
 }
 

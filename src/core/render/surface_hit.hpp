@@ -2,16 +2,16 @@
 #pragma once
 
 #include "core/render/workspace.hpp"
+#include "core/shading/phong.hpp"
 
 namespace crt::core {
 
 struct SurfaceHit {
   HitPoint point;
   const PreparedMaterial* material = nullptr;
-  Rgb color{0, 0, 0};
   double transparency = 0;
   Vec3 face_normal{0, 1, 0};  ///< of the geometry, turned to the viewer
-  Vec3 normal{0, 1, 0};       ///< the same, tilted by bumps
+  PhongSurface phong;         ///< its normal is that tilted by bumps
   Side viewer_side = Side::outside;
 };
 

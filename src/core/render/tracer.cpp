@@ -2,7 +2,6 @@
 
 #include <cmath>
 #include <limits>
-#include <optional>
 
 #include "core/math/vector.hpp"
 #include "core/render/media_order.hpp"
@@ -48,6 +47,10 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
     camera_media_ = nested(sample.media, frame.camera_media());
     camera_media_mark_ = sample.media.mark();
   }
+  for (std::size_t i = 0; i < packet_size; ++i) {
+    round_[i].ray = &rays_[i];
+    round_[i].hit = &hits_[i];
+  }
 }
 
 void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
@@ -60,7 +63,7 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
     Seen& seen = round_[i];
     seen.work = &work;
     seen.sample = &samples[i];
-    start_path(rays[i], work.media, seen.path);
+    start_path(rays[i], work.media, rays_[i], seen.path);
   }
   std::size_t count = rays.size();
   do {
@@ -79,39 +82,39 @@ std::size_t Tracer::take_round(std::span<Sample> samples) {
       work.pending.clear();
       continue;
     }
-    Seen& seen = round_[count++];
+    Seen& seen = round_[count];
     seen.work = &work;
     seen.sample = &samples[i];
-    seen.path = work.pending.back();
+    seen.path = work.pending.back().path;
+    rays_[count++] = work.pending.back().ray;
     work.pending.pop_back();
     work.media.release(seen.path.media_mark);
   }
   return count;
 }
 
-void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, PathRay& path) {
-  path = {.ray = Frame::eye_ray(camera_ray), .media = camera_media_};
+void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path) {
+  Frame::eye_ray(camera_ray, ray);
+  path = {.media = camera_media_};
   if (frame_.features().transparency && !frame_.one_viewpoint()) {
-    find_surrounding_media(data_, path.ray, work_.surrounding, work_);
+    find_surrounding_media(data_, ray, work_.surrounding, work_);
     path.media = nested(media, work_.surrounding);
   }
   path.media_mark = media.mark();
 }
 
 void Tracer::follow(std::span<Seen> round) {
-  std::array<WorldRay, packet_size> rays;
-  std::array<RayHit, packet_size> hits;
-  for (std::size_t i = 0; i < round.size(); ++i) rays[i] = round[i].path.ray;
+  const std::span<const WorldRay> rays = std::span(rays_).first(round.size());
   tick(static_cast<unsigned>(round.size()));
-  const bool together = go_together(std::span(rays).first(round.size()));
-  if (together) data_.intersect(std::span(rays).first(round.size()), hits, work_.rays);
+  const bool together = go_together(rays);
+  if (together) data_.intersect(rays, hits_, work_.rays);
 
   std::array<Seen*, packet_size> on_surface;
   std::size_t count = 0;
   for (std::size_t i = 0; i < round.size(); ++i) {
     Seen& seen = round[i];
-    const bool ask_alone = !together || (hits[i].has_company && frame_.features().transparency);
-    seen.hit = ask_alone ? data_.intersect(rays[i], work_.rays) : hits[i];
+    const bool ask_alone = !together || (hits_[i].has_company && frame_.features().transparency);
+    if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
     if (see(seen)) on_surface[count++] = &seen;
   }
   add_light(std::span(on_surface).first(count));
@@ -123,41 +126,34 @@ void Tracer::follow(std::span<Seen> round) {
 }
 
 bool Tracer::see(Seen& seen) {
-  const PathRay& path = seen.path;
+  const PathState& path = seen.path;
   RenderStats& stats = work_.stats;
   ++(path.kind == RayKind::camera       ? stats.camera_rays
      : path.kind == RayKind::reflection ? stats.reflection_rays
                                         : stats.refraction_rays);
-  if (seen.hit.has_company && frame_.features().transparency) seen.hit = seen_of(path, seen.hit);
+  if (seen.hit->has_company && frame_.features().transparency) *seen.hit = seen_of(*seen.ray, *seen.hit);
   seen.weight = path.weight;
   if (!pass_medium(seen)) return false;
-  if (!seen.hit.found()) {
+  if (!seen.hit->found()) {
     see_background(seen);
     return false;
   }
-  look_up(data_, path.ray, seen.hit, work_, seen.surface);
+  look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
   const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
   seen.light = ambient_light(frame_.ambient(), material.reflectivity);
-  seen.phong = {.color = surface.color,
-                .diffuse = surface.material->diffuse(surface.transparency),
-                .specular = material.specular,
-                .shininess = material.shininess,
-                .normal = surface.normal,
-                .view = path.ray.direction};
-  seen.start.reset();
   return true;
 }
 
 bool Tracer::pass_medium(Seen& seen) const {
   if (!frame_.features().absorption || seen.path.media == MediaLists::empty) return true;
   const Medium& medium = seen.work->media.innermost(seen.path.media);
-  seen.weight *= transmittance(data_.materials()[medium.material], seen.hit.t);
+  seen.weight *= transmittance(data_.materials()[medium.material], seen.hit->t);
   return !is_black(seen.weight);
 }
 
 void Tracer::see_background(Seen& seen) const {
-  const Color background = data_.background().color(seen.path.ray.direction);
+  const Color background = data_.background().color(seen.ray->direction);
   if (seen.path.kind == RayKind::camera) {
     seen.sample->alpha = background.a;
     seen.sample->color += background.a * seen.weight * rgb(background);
@@ -166,40 +162,36 @@ void Tracer::see_background(Seen& seen) const {
   }
 }
 
-std::optional<Tracer::Unhidden> Tracer::unhidden(const PreparedLight& source, Seen& seen) const {
-  if (seen.phong.diffuse <= 0 && seen.phong.specular <= 0) return std::nullopt;
+bool Tracer::reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const {
+  const PhongSurface& phong = seen.surface.phong;
+  if (phong.diffuse <= 0 && phong.specular <= 0) return false;
   const Vec3& position = seen.surface.point.position;
-  const std::optional<LightSample> sample = source.sample(position, seen.path.path_length + seen.hit.t);
-  if (!sample || glm::dot(sample->direction, seen.surface.face_normal) <= 0) return std::nullopt;
-  const Rgb light = direct_light(seen.phong, *sample, source.color());
-  if (is_black(light)) return std::nullopt;
-  if (!seen.start) seen.start = data_.start_point(seen.path.ray, seen.hit, seen.surface.viewer_side);
-  return Unhidden{.light = light,
-                  .shadow_ray = {.origin = position,
-                                 .direction = sample->direction,
-                                 .t_max = sample->distance,
-                                 .start = *seen.start,
-                                 .end_error = lamp_error(position, *sample)}};
+  LightSample sample;
+  if (!source.sample(position, seen.path.path_length + seen.hit->t, sample)) return false;
+  if (glm::dot(sample.direction, seen.surface.face_normal) <= 0) return false;
+  light = direct_light(phong, sample, source.color());
+  if (is_black(light)) return false;
+  shadow_ray.origin = position;
+  shadow_ray.direction = sample.direction;
+  shadow_ray.t_max = sample.distance;
+  data_.start_point(*seen.ray, *seen.hit, seen.surface.viewer_side, shadow_ray.start);
+  shadow_ray.end_error = lamp_error(position, sample);
+  return true;
 }
 
 void Tracer::add_light(std::span<Seen*> seen) {
-  std::array<WorldRay, packet_size> rays;
   std::array<Seen*, packet_size> lit;
   std::array<Rgb, packet_size> lights;
   for (const PreparedLight& source : frame_.lights()) {
     std::size_t count = 0;
     for (Seen* surface : seen) {
-      const std::optional<Unhidden> reaching = unhidden(source, *surface);
-      if (!reaching) continue;
-      rays[count] = reaching->shadow_ray;
-      lights[count] = reaching->light;
-      lit[count++] = surface;
+      if (reaches(source, *surface, lights[count], shadow_rays_[count])) lit[count++] = surface;
     }
     work_.stats.shadow_rays += count;
     tick(static_cast<unsigned>(count));
-    const RayMask hidden = data_.occluded_each(std::span(rays).first(count), work_.rays);
+    const RayMask hidden = data_.occluded_each(std::span(shadow_rays_).first(count), work_.rays);
     for (std::size_t i = 0; i < count; ++i)
-      lit[i]->light += lights[i] * light_share_of(rays[i], *lit[i], (hidden >> i & 1u) != 0);
+      lit[i]->light += lights[i] * light_share_of(shadow_rays_[i], *lit[i], (hidden >> i & 1u) != 0);
   }
 }
 
@@ -215,70 +207,70 @@ Rgb Tracer::light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hi
 
 void Tracer::split(Seen& seen) {
   const SurfaceHit& surface = seen.surface;
+  const Vec3& normal = surface.phong.normal;
   double mirror_share = surface.material->description->reflectivity;
   if (mirror_share <= 0 && surface.transparency <= 0) return;
 
-  const PathRay& path = seen.path;
-  const RayHit& hit = seen.hit;
+  const WorldRay& ray = *seen.ray;
   MediaLists& media = seen.work->media;
-  PathRay next;
-  next.ray.origin = surface.point.position;
-  next.bounces = path.bounces + 1;
-  next.path_length = path.path_length + hit.t;
-
-  PathRay mirror = next;
-  mirror.media = path.media;
-  mirror.media_mark = media.mark();
-
-  PathRay through = next;
-  through.weight = Rgb(0);
+  const std::uint32_t mirror_media_mark = media.mark();
+  StartPoint behind;
+  Passage open;
+  Refraction refraction;
+  Rgb through_weight(0);
   if (surface.transparency > 0) {
     const Side far_side = surface.viewer_side == Side::outside ? Side::inside : Side::outside;
-    through.ray.start = data_.start_point(path.ray, hit, far_side);
-    const Passage open = passage(seen, through.ray.start);
-    through.media = open.media;
-    through.media_mark = media.mark();
-    const Refraction refraction =
-        refract(path.ray.direction, surface.normal, refractive_index(media, path.media),
-                refractive_index(media, through.media));
+    data_.start_point(ray, *seen.hit, far_side, behind);
+    pass(seen, behind, open);
+    refraction = refract(ray.direction, normal, refractive_index(media, seen.path.media),
+                         refractive_index(media, open.media));
     mirror_share += open.transparency * refraction.reflectance;
-    through.weight = open.transparency * (1 - refraction.reflectance) * seen.weight * open.color;
-    through.ray.direction = kept_on_side(refraction.direction, -surface.face_normal);
+    through_weight = open.transparency * (1 - refraction.reflectance) * seen.weight * open.color;
   }
 
   // The last one pushed is followed first; media lists made for it are dropped before the other's turn.
   if (mirror_share > 0) {
-    mirror.kind = RayKind::reflection;
-    mirror.weight = mirror_share * seen.weight;
-    mirror.ray.direction = kept_on_side(mirrored(path.ray.direction, surface.normal), surface.face_normal);
-    mirror.ray.start = data_.start_point(path.ray, hit, surface.viewer_side);
-    push(*seen.work, mirror);
+    if (PathRay* mirror = push(seen, RayKind::reflection, mirror_share * seen.weight)) {
+      mirror->ray.direction = kept_on_side(mirrored(ray.direction, normal), surface.face_normal);
+      data_.start_point(ray, *seen.hit, surface.viewer_side, mirror->ray.start);
+      mirror->path.media = seen.path.media;
+      mirror->path.media_mark = mirror_media_mark;
+    }
   }
-  if (!is_black(through.weight)) {
-    through.kind = RayKind::refraction;
-    if (push(*seen.work, through) && surface.point.solid) ++work_.stats.media_changes;
+  if (is_black(through_weight)) return;
+  if (PathRay* through = push(seen, RayKind::refraction, through_weight)) {
+    through->ray.direction = kept_on_side(refraction.direction, -surface.face_normal);
+    through->ray.start = behind;
+    through->path.media = open.media;
+    through->path.media_mark = media.mark();
+    if (surface.point.solid) ++work_.stats.media_changes;
   }
 }
 
-bool Tracer::push(SampleWork& work, const PathRay& path) {
+PathRay* Tracer::push(const Seen& seen, RayKind kind, const Rgb& weight) {
   const double least = frame_.settings().min_weight;
-  if (path.weight.x < least && path.weight.y < least && path.weight.z < least) {
+  if (weight.x < least && weight.y < least && weight.z < least) {
     ++work_.stats.rays_below_min_weight;
-    return false;
+    return nullptr;
   }
-  if (path.bounces > frame_.settings().recursion_depth) {
+  if (seen.path.bounces >= frame_.settings().recursion_depth) {
     ++work_.stats.rays_beyond_depth;
-    return false;
+    return nullptr;
   }
-  work.pending.push_back(path);
-  return true;
+  PathRay& next = seen.work->pending.emplace_back();
+  next.ray.origin = seen.surface.point.position;
+  next.path.kind = kind;
+  next.path.bounces = seen.path.bounces + 1;
+  next.path.path_length = seen.path.path_length + seen.hit->t;
+  next.path.weight = weight;
+  return &next;
 }
 
-RayHit Tracer::seen_of(const PathRay& path, const RayHit& hit) {
+RayHit Tracer::seen_of(const WorldRay& ray, const RayHit& hit) {
   RayHit seen = hit;
   double least = std::numeric_limits<double>::infinity();
   for (const RayHit& crossing : work_.rays.here) {
-    const double transparency = crossing_filter(data_, path.ray, crossing, work_.stats).transparency;
+    const double transparency = crossing_filter(data_, ray, crossing, work_.stats).transparency;
     if (!(transparency < least)) continue;
     least = transparency;
     seen = crossing;
@@ -287,30 +279,34 @@ RayHit Tracer::seen_of(const PathRay& path, const RayHit& hit) {
   return seen;
 }
 
-Tracer::Passage Tracer::passage(const Seen& seen, const StartPoint& behind) {
+void Tracer::pass(const Seen& seen, const StartPoint& behind, Passage& passage) {
   const SurfaceHit& surface = seen.surface;
-  const PathRay& path = seen.path;
+  const MediaLists::List before = seen.path.media;
   MediaLists& media = seen.work->media;
-  Passage passage{.transparency = surface.transparency, .color = surface.color, .media = path.media};
-  const WorldRay ray = {.origin = surface.point.position, .direction = path.ray.direction, .start = behind};
-  if (seen.hit.has_company) {
-    pass_company(ray, seen, passage);
+  passage.transparency = surface.transparency;
+  passage.color = surface.phong.color;
+  passage.media = before;
+  const auto ray_behind = [&] {
+    return WorldRay{.origin = surface.point.position, .direction = seen.ray->direction, .start = behind};
+  };
+  if (seen.hit->has_company) {
+    pass_company(ray_behind(), seen, passage);
   } else if (surface.point.solid) {
-    const auto exit_of = [&](std::uint32_t object) { return data_.stay(ray, object, work_.rays).exit; };
+    const auto exit_of = [&](std::uint32_t object) {
+      return data_.stay(ray_behind(), object, work_.rays).exit;
+    };
     const Medium medium{surface.point.object, surface.point.material};
-    passage.media = surface.point.entering ? entered_in_order(media, path.media, medium, exit_of)
-                                           : media.left(path.media, medium.object);
+    passage.media = surface.point.entering ? entered_in_order(media, before, medium, exit_of)
+                                           : media.left(before, medium.object);
   }
-  return passage;
 }
 
 // A ray that starts at the hit finds some crossings next to it behind itself, whatever rounding makes of
 // their order: which of them it has passed is told by what it starts inside of.
 void Tracer::pass_company(const WorldRay& behind, const Seen& seen, Passage& passage) {
-  const PathRay& path = seen.path;
-  const RayHit& hit = seen.hit;
+  const RayHit& hit = *seen.hit;
   MediaLists& media = seen.work->media;
-  data_.intersect(path.ray, work_.rays);  // once more: others have been asked for since then
+  data_.intersect(*seen.ray, work_.rays);  // once more: others have been asked for since then
   std::vector<RayHit>& entered = work_.entered;
   entered.clear();
   const auto pass = [&](const RayHit& crossing, bool at_place) {
@@ -319,13 +315,13 @@ void Tracer::pass_company(const WorldRay& behind, const Seen& seen, Passage& pas
                               : at_place || crossing.t - hit.t <= behind.start.t_error;
     if (!passed) return;
     if (crossing.leaf != hit.leaf || crossing.face != hit.face || crossing.root != hit.root) {
-      const CrossingFilter filter = crossing_filter(data_, path.ray, crossing, work_.stats);
+      const CrossingFilter filter = crossing_filter(data_, *seen.ray, crossing, work_.stats);
       passage.transparency *= filter.transparency;
       passage.color *= filter.color;
     }
     if (!solid) return;
     if (crossing.entering) {
-      const bool is_new = !media.holds(path.media, crossing.object);
+      const bool is_new = !media.holds(seen.path.media, crossing.object);
       if (is_new && entered.size() < most_media_at_once) entered.push_back(crossing);
     } else {
       passage.media = media.left(passage.media, crossing.object);

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <array>
-#include <optional>
 #include <span>
 
 #include "core/render/frame.hpp"
@@ -37,21 +36,15 @@ class Tracer {
   struct Seen {
     SampleWork* work = nullptr;
     Sample* sample = nullptr;
-    PathRay path;
-    RayHit hit;
+    const WorldRay* ray = nullptr;  ///< of the round
+    RayHit* hit = nullptr;
+    PathState path;
     SurfaceHit surface;
-    PhongSurface phong;
     Rgb weight{0, 0, 0};
     Rgb light{0, 0, 0};
-    std::optional<StartPoint> start;  ///< of rays that leave to the viewer's side
-  };
-  /// A light as it reaches a surface if nothing hides it.
-  struct Unhidden {
-    Rgb light;
-    WorldRay shadow_ray;
   };
 
-  void start_path(const CameraRay& camera_ray, MediaLists& media, PathRay& path);
+  void start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path);
   /// Takes the next ray of each sample that has one, and says of how many.
   std::size_t take_round(std::span<Sample> samples);
   void follow(std::span<Seen> round);
@@ -65,16 +58,17 @@ class Tracer {
   void add_light(std::span<Seen*> seen);
   /// What gets through along the way to a light, of which it is known whether anything is met there.
   Rgb light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden);
-  std::optional<Unhidden> unhidden(const PreparedLight& source, Seen& seen) const;
+  /// A light as it reaches a surface if nothing hides it, and the ray that finds out; false if it cannot.
+  bool reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const;
 
   /// Puts the mirrored and the refracted ray on the stack, if they are worth it.
   void split(Seen& seen);
-  /// Whether the path was worth it.
-  bool push(SampleWork& work, const PathRay& path);
+  /// Puts a ray on the stack that has done one bounce more, if it is worth it, for the caller to fill in.
+  PathRay* push(const Seen& seen, RayKind kind, const Rgb& weight);
 
   /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
   /// several the one whose object was written first.
-  RayHit seen_of(const PathRay& path, const RayHit& hit);
+  RayHit seen_of(const WorldRay& ray, const RayHit& hit);
 
   /// What a ray that goes on through a hit's place finds.
   struct Passage {
@@ -82,7 +76,7 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  Passage passage(const Seen& seen, const StartPoint& behind);
+  void pass(const Seen& seen, const StartPoint& behind, Passage& passage);
   /// Adds what other objects at the place do.
   void pass_company(const WorldRay& behind, const Seen& seen, Passage& passage);
   double refractive_index(const MediaLists& lists, MediaLists::List media) const;
@@ -99,7 +93,11 @@ class Tracer {
   /// Of the lists that all camera rays need.
   std::uint32_t camera_media_mark_ = 0;
   unsigned ticks_ = 0;
+  // The rays of this round and what they hit, apart from the rest: together they are asked for.
+  std::array<WorldRay, packet_size> rays_;
+  std::array<RayHit, packet_size> hits_;
   std::array<Seen, packet_size> round_;
+  std::array<WorldRay, packet_size> shadow_rays_;
 };
 
 }  // namespace crt::core

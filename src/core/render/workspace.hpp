@@ -14,9 +14,8 @@ namespace crt::core {
 
 enum class RayKind : std::uint8_t { camera, reflection, refraction };
 
-/// A ray on its way, and what it is worth.
-struct PathRay {
-  WorldRay ray;  ///< its direction has unit length
+/// What a ray has behind it, and what it is worth.
+struct PathState {
   RayKind kind = RayKind::camera;
   int bounces = 0;         ///< before this ray
   double path_length = 0;  ///< from the camera to the ray's origin
@@ -24,6 +23,11 @@ struct PathRay {
   MediaLists::List media = MediaLists::empty;
   /// MediaLists::mark() when it was put aside: lists made later are of no use to it.
   std::uint32_t media_mark = 0;
+};
+
+struct PathRay {
+  WorldRay ray;  ///< its direction has unit length
+  PathState path;
 };
 
 /// One of the samples that are traced side by side.

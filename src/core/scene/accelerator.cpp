@@ -94,7 +94,8 @@ MemoryUse Accelerator::memory() const {
 
 ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) const {
   const Leaf& leaf = compiled_.leaves[index];
-  ObjectRay result = leaf.placement->to_object(ray.origin, ray.direction);
+  ObjectRay result;
+  leaf.placement->to_object(ray.origin, ray.direction, result);
   result.start = start_on_leaf(leaf, index, compiled_.face_surfaces, ray.start);
   return result;
 }
@@ -114,14 +115,6 @@ std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
   const Leaf& start_leaf = leaf(start.leaf);
   const bool outwards = (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
   return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : nothing;
-}
-
-double certain_end(const WorldRay& ray) {
-  if (!(ray.end_error > 0)) return ray.t_max;
-  // How far before the end the crossing of a surface through it may be; the flatter the ray, the farther.
-  constexpr double relative_width = 0x1p-26;
-  return ray.t_max - relative_width *
-                         std::fma(ray.t_max, largest_component(ray.direction), largest_component(ray.origin));
 }
 
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {

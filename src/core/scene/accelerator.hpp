@@ -1,10 +1,12 @@
 // The objects of a scene made ready for rays: which of them a ray meets, and where.
 #pragma once
 
+#include <cmath>
 #include <memory>
 #include <span>
 #include <vector>
 
+#include "core/math/vector.hpp"
 #include "core/scene/compile.hpp"
 #include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
@@ -71,7 +73,7 @@ class Accelerator {
   void traverse_filtered(Kind& query) const;
   template <class Kind>
   void traverse_filtered(RayPacket& packet, std::span<Kind> queries) const;
-  RayPacket packet_of(std::span<const WorldRay> rays) const;
+  void fill_packet(std::span<const WorldRay> rays, RayPacket& packet) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
@@ -88,6 +90,12 @@ class Accelerator {
 };
 
 /// Crossings before that are surely not of a surface through the ray's end.
-double certain_end(const WorldRay& ray);
+inline double certain_end(const WorldRay& ray) {
+  if (!(ray.end_error > 0)) return ray.t_max;
+  // How far before the end the crossing of a surface through it may be; the flatter the ray, the farther.
+  constexpr double relative_width = 0x1p-26;
+  return ray.t_max - relative_width *
+                         std::fma(ray.t_max, largest_component(ray.direction), largest_component(ray.origin));
+}
 
 }  // namespace crt::core

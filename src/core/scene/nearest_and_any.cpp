@@ -21,25 +21,30 @@ constexpr double largest_end = 0x1p900;
 /// How far along the ray from a hit other crossings may be and yet be at its place, or at the start of a ray
 /// that goes on from it, whose origin is rounded. Wide, as the next ray may meet at right angles what
 /// this one grazes: it only decides where to look.
-double company_width(const WorldRay& ray, const RayHit& hit) {
+double company_width(const WorldRay& ray, double t, double error) {
   constexpr double error_factor = 4;
   constexpr double relative_width = 0x1p-40;
   const double farthest =
-      std::fma(std::abs(hit.t), largest_component(ray.direction), largest_component(ray.origin));
-  return error_factor * hit.error + relative_width * farthest;
+      std::fma(std::abs(t), largest_component(ray.direction), largest_component(ray.origin));
+  return error_factor * error + relative_width * farthest;
 }
 
 class Nearest final : public ObjectQuery<Nearest> {
  public:
-  using ObjectQuery::ObjectQuery;
   static constexpr bool takes_one = true;
   static constexpr bool any_will_do = false;
-  RayHit best;
+
+  void start(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work, RayHit& best) {
+    ObjectQuery::start(accelerator, ray, work);
+    best_ = &best;
+    best = {};
+  }
 
   bool take(const RayHit& hit) {
     if (!(hit.t < ray().t_max)) return false;
+    RayHit& best = *best_;
     if (std::tie(hit.t, hit.t_low, hit.object) < std::tie(best.t, best.t_low, best.object)) {
-      const double reach = hit.t + company_width(ray(), hit);
+      const double reach = hit.t + company_width(ray(), hit.t, hit.error);
       const bool has_company = best.t <= reach;
       best = hit;
       best.has_company = has_company;
@@ -49,6 +54,9 @@ class Nearest final : public ObjectQuery<Nearest> {
     }
     return false;
   }
+
+ private:
+  RayHit* best_ = nullptr;
 };
 
 class Any final : public ObjectQuery<Any> {
@@ -111,7 +119,7 @@ class OutlinedRay {
 
 /// As a hit there would have it.
 double reach_of_plane(const WorldRay& ray, double last) {
-  return last + company_width(ray, {.t = last});
+  return last + company_width(ray, last, 0);
 }
 
 }  // namespace
@@ -158,9 +166,12 @@ void Accelerator::traverse_filtered(Kind& query) const {
 }
 
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
-  Nearest query(*this, ray, work);
+  RayHit best;
+  Nearest query;
+  query.start(*this, ray, work, best);
   traverse_filtered(query);
-  return query.best.has_company ? gather_company(ray, query.best, work) : query.best;
+  if (best.has_company) best = gather_company(ray, best, work);
+  return best;
 }
 
 bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
@@ -171,7 +182,8 @@ bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
 
 RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const {
   WorldRay piece = ray;
-  piece.t_max = std::min(ray.t_max, std::nextafter(nearest.t + company_width(ray, nearest), infinity));
+  piece.t_max =
+      std::min(ray.t_max, std::nextafter(nearest.t + company_width(ray, nearest.t, nearest.error), infinity));
   std::vector<RayHit>& here = work.here;
   std::vector<RayHit>& near = work.near;
   here.clear();
@@ -190,8 +202,7 @@ RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, R
   return first;
 }
 
-RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
-  RayPacket packet;
+void Accelerator::fill_packet(std::span<const WorldRay> rays, RayPacket& packet) const {
   packet.count = rays.size();
   // By component first, so that vectors are loaded and not put together lane by lane.
   enum Column { origin_x, direction_x = 3, begin = 6, certain_from, certain_to, limit, column_count };
@@ -229,7 +240,6 @@ RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
     lines.certain_to = lanes(certain_to);
     packet.limits[group] = lanes(limit);
   }
-  return packet;
 }
 
 namespace {
@@ -349,21 +359,22 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
 
 void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
   if (rays.empty()) return;
-  RayPacket packet = packet_of(rays);
+  RayPacket packet;
+  fill_packet(rays, packet);
   std::array<Nearest, packet_size> queries;
-  for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = Nearest(*this, rays[i], work);
+  for (std::size_t i = 0; i < rays.size(); ++i) queries[i].start(*this, rays[i], work, hits[i]);
   traverse_filtered(packet, std::span<Nearest>(queries));
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    const RayHit& best = queries[i].best;
-    hits[i] = best.has_company ? gather_company(rays[i], best, work) : best;
+    if (hits[i].has_company) hits[i] = gather_company(rays[i], hits[i], work);
   }
 }
 
 RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {
   if (rays.empty()) return 0;
-  RayPacket packet = packet_of(rays);
+  RayPacket packet;
+  fill_packet(rays, packet);
   std::array<Any, packet_size> queries;
-  for (std::size_t i = 0; i < rays.size(); ++i) queries[i] = Any(*this, rays[i], work);
+  for (std::size_t i = 0; i < rays.size(); ++i) queries[i].start(*this, rays[i], work);
   traverse_filtered(packet, std::span<Any>(queries));
   RayMask found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(queries[i].found) << i;

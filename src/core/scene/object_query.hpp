@@ -19,8 +19,15 @@ template <class Kind>
 class ObjectQuery {
  public:
   ObjectQuery() = default;
-  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
-      : accelerator_(&accelerator), ray_(&ray), work_(&work), limit_(ray.t_max) {}
+  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work) {
+    start(accelerator, ray, work);
+  }
+  void start(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work) {
+    accelerator_ = &accelerator;
+    ray_ = &ray;
+    work_ = &work;
+    limit_ = ray.t_max;
+  }
 
   /// Nothing at t > limit() matters any more; below t_min, the query is done.
   double limit() const { return limit_; }

@@ -158,10 +158,9 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
   return accelerator_->stay(ray, object, work);
 }
 
-HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
   const SurfacePoint surface = accelerator_->surface_point(ray, hit, with_uv);
-  HitPoint point;
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);
   point.object_position = surface.position;
@@ -177,7 +176,6 @@ HitPoint PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool wi
   point.face = hit.face;
   point.entering = hit.entering;
   point.solid = is_solid(hit);
-  return point;
 }
 
 std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
@@ -188,7 +186,7 @@ bool PreparedData::is_solid(const RayHit& hit) const {
   return accelerator_->object(hit.object).solid;
 }
 
-StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
+void PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side, StartPoint& start) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
   const FaceSurface& face = accelerator_->face_surface(leaf, hit.face);
   // `side` is of the object; a cutter and a flipped face each turn it round once.
@@ -197,11 +195,11 @@ StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Sid
   for (int axis = 0; axis < 3; ++axis) {
     farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
   }
-  return {.leaf = hit.leaf,
-          .face = hit.face,
-          .surface = face.surface,
-          .side = side,
-          .t_error = start_rounding * farthest};
+  start.leaf = hit.leaf;
+  start.face = hit.face;
+  start.surface = face.surface;
+  start.side = side;
+  start.t_error = start_rounding * farthest;
 }
 
 const Leaf& PreparedData::leaf(const HitPoint& point) const {

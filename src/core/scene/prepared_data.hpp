@@ -124,8 +124,14 @@ class PreparedData {
   /// Whether the ray starts inside a solid object (just after its start, as above), and where it leaves it.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
-  /// What shading needs of a hit that `ray` found; u and v only if asked for.
-  HitPoint hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv = true) const;
+  /// What shading needs of a hit that `ray` found; u and v only if asked for. Filled in where it stays, as a
+  /// copy of what has just been written waits until that has reached the cache.
+  void hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const;
+  HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const {
+    HitPoint point;
+    hit_point(ray, hit, true, point);
+    return point;
+  }
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
@@ -135,7 +141,12 @@ class PreparedData {
 
   /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
   /// have unit length.
-  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
+  void start_point(const WorldRay& ray, const RayHit& hit, Side side, StartPoint& start) const;
+  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
+    StartPoint start;
+    start_point(ray, hit, side, start);
+    return start;
+  }
 
   /// The primitive in its place that a hit is of: bumps ask for it.
   const Leaf& leaf(const HitPoint& point) const;

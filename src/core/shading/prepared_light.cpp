@@ -56,30 +56,35 @@ PreparedLight::PreparedLight(const CylinderLight& light)
       axis_(direction_and_length(light.pointing - light.origin).direction),
       radius_(light.radius) {}
 
-std::optional<LightSample> PreparedLight::sample(const Vec3& point, double path_length) const {
-  if (kind_ == Kind::parallel) return LightSample{-axis_, std::numeric_limits<double>::infinity(), 1};
-
-  std::optional<LightSample> result = kind_ == Kind::cylinder ? in_cylinder(point) : from_point(point);
-  if (!result || !(result->distance > 0)) return std::nullopt;
-  if (kind_ == Kind::spot) result->intensity = cone_share(result->direction);
-  if (falloff_ != 0) {
-    const double way = counts_path_ ? path_length + result->distance : result->distance;
-    result->intensity *= std::min(falloff_ / (way * way), largest_intensity);
+bool PreparedLight::sample(const Vec3& point, double path_length, LightSample& light) const {
+  light.intensity = 1;
+  if (kind_ == Kind::parallel) {
+    light.direction = -axis_;
+    light.distance = std::numeric_limits<double>::infinity();
+    return true;
   }
-  return result;
+  if (kind_ == Kind::cylinder) {
+    light.direction = -axis_;
+    light.distance = way_in_cylinder(point);
+  } else {
+    const DirectionAndLength to_light = direction_and_length(origin_ - point);
+    light.direction = to_light.direction;
+    light.distance = to_light.length;
+  }
+  if (!(light.distance > 0)) return false;
+  if (kind_ == Kind::spot) light.intensity = cone_share(light.direction);
+  if (falloff_ != 0) {
+    const double way = counts_path_ ? path_length + light.distance : light.distance;
+    light.intensity *= std::min(falloff_ / (way * way), largest_intensity);
+  }
+  return true;
 }
 
-LightSample PreparedLight::from_point(const Vec3& point) const {
-  const DirectionAndLength to_light = direction_and_length(origin_ - point);
-  return {to_light.direction, to_light.length, 1};
-}
-
-std::optional<LightSample> PreparedLight::in_cylinder(const Vec3& point) const {
+double PreparedLight::way_in_cylinder(const Vec3& point) const {
   const Vec3 from_origin = point - origin_;
   const double along = glm::dot(from_origin, axis_);
   const Vec3 from_axis = from_origin - along * axis_;
-  if (!(along > 0) || !(glm::dot(from_axis, from_axis) <= radius_ * radius_)) return std::nullopt;
-  return LightSample{-axis_, along, 1};
+  return glm::dot(from_axis, from_axis) <= radius_ * radius_ ? along : 0;
 }
 
 double PreparedLight::cone_share(const Vec3& to_light) const {

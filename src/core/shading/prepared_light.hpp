@@ -1,8 +1,6 @@
 // Lights, as a point that may be lit sees them.
 #pragma once
 
-#include <optional>
-
 #include "core/shading/rgb.hpp"
 #include "crt/light.hpp"
 #include "crt/settings.hpp"
@@ -25,9 +23,9 @@ class PreparedLight {
   /// What every point gets of it, lit or not, if it mirrors nothing.
   Rgb ambient() const { return ambient_ * color_; }
 
-  /// The light at a point; nothing where it does not shine. `path_length` is the way from the camera
-  /// to the point, over all bounces.
-  std::optional<LightSample> sample(const Vec3& point, double path_length) const;
+  /// The light at a point; false where it does not shine. `path_length` is the way from the camera to the
+  /// point, over all bounces.
+  bool sample(const Vec3& point, double path_length, LightSample& light) const;
 
  private:
   explicit PreparedLight(const PointLight& light);
@@ -37,8 +35,8 @@ class PreparedLight {
 
   enum class Kind { point, parallel, spot, cylinder };
 
-  LightSample from_point(const Vec3& point) const;
-  std::optional<LightSample> in_cylinder(const Vec3& point) const;
+  /// From where the light comes in; 0 beside the cylinder and before its begin.
+  double way_in_cylinder(const Vec3& point) const;
   double cone_share(const Vec3& to_light) const;
 
   Kind kind_;
