@@ -197,6 +197,37 @@ TEST_CASE("so it does in the exact tier") {
   check_packets(Precision::exact, 300);
 }
 
+TEST_CASE("so it does at lenses however far from the origin they are") {
+  Numbers numbers;
+  RayWorkspace work;
+  std::vector<RayHit> line;
+  for (int exponent = 0; exponent <= 44; exponent += 4) {
+    const double far = std::ldexp(1.0, exponent);
+    const Vec3 center(far, -far, far);
+    const Entity lens = Sphere{.center = center - Vec3(0.5, 0, 0), .radius = 1} ^
+                        Sphere{.center = center + Vec3(0.5, 0, 0), .radius = 1};
+    const Entity sheet = Disc{.center = center + Vec3(0, 0.5, 0), .normal = {0, 1, 0}, .radius = 4};
+    Scene scene;
+    scene.entities = {lens, sheet};
+    const PreparedData data(scene);
+    int hidden = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 d = numbers.direction();
+      const WorldRay ray{.origin = center + numbers.point(3) - numbers.size(1e-3, 100) * d, .direction = d};
+      const RayHit hit = data.intersect(ray, work);
+      data.crossings(ray, false, line, work);
+      REQUIRE(hit.found() == !line.empty());
+      if (!hit.found()) continue;
+      WorldRay onwards{.origin = data.hit_point(ray, hit).position, .direction = numbers.direction()};
+      onwards.start = data.start_point(ray, hit, numbers.below(2) == 0 ? Side::outside : Side::inside);
+      data.crossings(onwards, false, line, work);
+      REQUIRE(data.occluded(onwards, work) == !line.empty());
+      hidden += line.empty() ? 0 : 1;
+    }
+    CHECK(hidden > 40);
+  }
+}
+
 TEST_CASE("rays go together that go nearly the same way") {
   std::vector<WorldRay> rays(4);
   for (WorldRay& ray : rays) ray.direction = {0, 0, 1};

@@ -73,9 +73,13 @@ Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
     constexpr double room = 1 + 0x1p-20;
     outline.radius = surface.sizes[0] * room;
     if (!has_fair_size(outline.radius) || !place_exactly(surface, *leaf.placement, outline)) continue;
+    // Farther from the origin the rounding of where rays start is not small beside that room.
+    constexpr double most_sizes = 0x1p20;
+    if (!(largest_component(outline.place) < most_sizes * outline.radius)) continue;
     if (smallest.kind != Outline::Kind::unknown && !(outline.radius < smallest.radius)) continue;
     outline.kind = Outline::Kind::sphere;
     outline.encloses = true;
+    outline.surface = scene.face_surfaces[leaf.first_face].surface;
     smallest = outline;
   }
   return smallest;

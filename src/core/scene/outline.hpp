@@ -19,7 +19,7 @@ struct Outline {
   Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus
   double radius = 0;     ///< the torus's is that of its ring
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
-  std::uint32_t surface = nothing;  ///< its whole surface
+  std::uint32_t surface = nothing;  ///< its whole surface, or that of what encloses it
   /// The object is somewhere within: only what misses it is sure.
   bool encloses = false;
 };
