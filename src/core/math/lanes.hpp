@@ -2,6 +2,7 @@
 // one by one. Vectors of GCC and Clang, which turn them into what the machine has.
 #pragma once
 
+#include <array>
 #include <cmath>
 
 #ifdef __AVX__
@@ -37,6 +38,18 @@ inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
   Lanes result;
   for (int i = 0; i < lane_count; ++i) result[i] = std::fma(a[i], b[i], c[i]);
   return result;
+}
+
+/// The absolute value, of a double or of lanes.
+template <class Real>
+Real size_of(const Real& x) {
+  return x < 0.0 ? -x : x;
+}
+
+/// Of vectors by component, of doubles or of lanes.
+template <class Real>
+Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
+  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 /// Four numbers of about 106 bits; the operators are those of double_double.hpp.

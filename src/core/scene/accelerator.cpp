@@ -18,14 +18,6 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-std::vector<Outline> outlines_of(const CompiledScene& scene, std::span<const std::uint32_t> objects) {
-  std::vector<Outline> outlines(objects.size());
-  for_ranges(objects.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) outlines[i] = outline_of(scene, scene.objects[objects[i]]);
-  });
-  return outlines;
-}
-
 bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
   for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
@@ -63,23 +55,25 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
 Accelerator::Accelerator(CompiledScene compiled)
     : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
-  bounded_.reserve(compiled_.objects.size());
+  std::vector<std::uint32_t> bounded;
+  std::vector<std::uint32_t> unbounded;
+  bounded.reserve(compiled_.objects.size());
   for (std::uint32_t i = 0; i < compiled_.objects.size(); ++i) {
     const Bounds& bounds = compiled_.objects[i].bounds;
     if (bounds.finite()) {
-      bounded_.push_back(i);
+      bounded.push_back(i);
       total.include(bounds);
     } else {
-      unbounded_.push_back(i);
+      unbounded.push_back(i);
     }
   }
-  bounded_outlines_ = outlines_of(compiled_, bounded_);
-  unbounded_outlines_ = outlines_of(compiled_, unbounded_);
+  bounded_ = Outlines(compiled_, bounded);
+  unbounded_ = Outlines(compiled_, unbounded);
   enclosed_ = enclosed_objects(compiled_);
-  if (bounded_.empty()) return;
+  if (bounded.empty()) return;
   std::vector<Bounds> boxes;
-  boxes.reserve(bounded_.size());
-  for (const std::uint32_t object : bounded_) boxes.push_back(compiled_.objects[object].bounds);
+  boxes.reserve(bounded.size());
+  for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
   tree_ = std::make_unique<EmbreeTree>(boxes, total);
 }
 
@@ -87,8 +81,10 @@ Accelerator::~Accelerator() = default;
 
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
-  use.tree = bytes_of(bounded_) + bytes_of(unbounded_) + bytes_of(bounded_outlines_) +
-             bytes_of(unbounded_outlines_) + bytes_of(enclosed_) + (tree_ ? tree_->bytes() : 0);
+  for (const Outlines* outlines : {&bounded_, &unbounded_}) {
+    use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes);
+  }
+  use.tree += bytes_of(enclosed_) + (tree_ ? tree_->bytes() : 0);
   return use;
 }
 
@@ -127,14 +123,14 @@ bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
 
 template <class Kind>
 void Accelerator::traverse(Kind& query) const {
-  for (const std::uint32_t object : unbounded_) {
+  for (const Outline& outline : unbounded_.list) {
     if (query.limit() <= query.ray().t_min) return;
-    query.test(object);
+    query.test(outline.object);
   }
   if (!tree_ || query.limit() <= query.ray().t_min) return;
   const WorldRay& ray = query.ray();
   tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), [&](std::uint32_t box) {
-    query.test(bounded_[box]);
+    query.test(bounded_.list[box].object);
     return query.limit();
   });
 }

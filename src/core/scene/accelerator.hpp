@@ -78,10 +78,8 @@ class Accelerator {
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
   CompiledScene compiled_;
-  std::vector<std::uint32_t> unbounded_;  ///< objects
-  std::vector<std::uint32_t> bounded_;    ///< objects, in the order in which Embree numbers them
-  std::vector<Outline> unbounded_outlines_;
-  std::vector<Outline> bounded_outlines_;
+  Outlines unbounded_;
+  Outlines bounded_;  ///< in the order in which Embree numbers them
   /// By leaf: the object that is all within it; nothing if there is none, or if a line may leave the leaf and
   /// meet it again.
   std::vector<std::uint32_t> enclosed_;

@@ -279,9 +279,9 @@ void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leav
     const Lanes second = (total_.upper[axis] - lines.origin[i]) * inverse;
     const Lanes low = min(first, second);
     const Lanes high = max(first, second);
-    enter = max(enter, low - RaySlabs::slack * outline_detail::size_of(low));
-    leave = min(leave, high + RaySlabs::slack * outline_detail::size_of(high));
-    steep |= outline_detail::size_of(inverse) > RaySlabs::largest_inverse;
+    enter = max(enter, low - RaySlabs::slack * size_of(low));
+    leave = min(leave, high + RaySlabs::slack * size_of(high));
+    steep |= size_of(inverse) > RaySlabs::largest_inverse;
   }
   for_each_ray(mask_of(steep), [&](std::size_t ray) {
     const auto i = static_cast<int>(ray);

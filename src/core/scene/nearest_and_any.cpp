@@ -95,18 +95,19 @@ class OutlinedRay {
     line_.certain_to = std::min(certain_end(ray), largest_end);
   }
 
-  Judgement judge(std::uint32_t object, const Outline& outline, double limit) const {
+  Judgement judge(const Outline& outline, std::span<const OutlineAxis> axes, double limit) const {
     double last;
-    return judge(object, outline, limit, last);
+    return judge(outline, axes, limit, last);
   }
 
   /// `last` is set for a plane that is met, to a t not before that.
-  Judgement judge(std::uint32_t object, const Outline& outline, double limit, double& last) const {
-    if (object == left_object_) return Judgement::missed;
+  Judgement judge(const Outline& outline, std::span<const OutlineAxis> axes, double limit,
+                  double& last) const {
+    if (outline.object == left_object_) return Judgement::missed;
     if (outline.kind == Outline::Kind::unknown) return Judgement::open;
     // Of that surface it is known otherwise where the ray meets it.
     if (outline.surface == start_surface_) return Judgement::open;
-    const auto verdict = judge_outline(outline, line_, limit, last);
+    const auto verdict = judge_outline(outline, axes, line_, limit, last);
     if (verdict.missed) return Judgement::missed;
     return verdict.met ? Judgement::met : Judgement::open;
   }
@@ -129,8 +130,8 @@ void Accelerator::traverse_filtered(Kind& query) const {
   const WorldRay& ray = query.ray();
   const OutlinedRay outlined(*this, ray);
   const auto is_done = [&] { return query.limit() <= ray.t_min; };
-  const auto test = [&](std::uint32_t object, const Outline& outline) {
-    const Judgement judgement = outlined.judge(object, outline, query.limit());
+  const auto test = [&](const Outline& outline, std::span<const OutlineAxis> axes) {
+    const Judgement judgement = outlined.judge(outline, axes, query.limit());
     if (judgement == Judgement::missed) return;
     if constexpr (Kind::any_will_do) {
       if (judgement == Judgement::met) {
@@ -138,30 +139,30 @@ void Accelerator::traverse_filtered(Kind& query) const {
         return;
       }
     }
-    query.test(object);
+    query.test(outline);
   };
 
   // A plane that is met bounds what else matters; where exactly is only asked if nothing is before it.
   constexpr bool planes_last = !Kind::any_will_do;
-  for (std::size_t i = 0; i < unbounded_.size() && !is_done(); ++i) {
-    const Outline& outline = unbounded_outlines_[i];
+  for (const Outline& outline : unbounded_.list) {
+    if (is_done()) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
       double last = 0;
-      const Judgement judgement = outlined.judge(unbounded_[i], outline, query.limit(), last);
+      const Judgement judgement = outlined.judge(outline, unbounded_.axes, query.limit(), last);
       if (judgement == Judgement::met) query.set_limit(std::min(query.limit(), reach_of_plane(ray, last)));
     } else {
-      test(unbounded_[i], outline);
+      test(outline, unbounded_.axes);
     }
   }
   if (tree_ && !is_done()) {
     tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), [&](std::uint32_t box) {
-      test(bounded_[box], bounded_outlines_[box]);
+      test(bounded_.list[box], bounded_.axes);
       return query.limit();
     });
   }
   if (!planes_last) return;
-  for (std::size_t i = 0; i < unbounded_.size(); ++i) {
-    if (unbounded_outlines_[i].kind == Outline::Kind::plane) test(unbounded_[i], unbounded_outlines_[i]);
+  for (const Outline& outline : unbounded_.list) {
+    if (outline.kind == Outline::Kind::plane) test(outline, unbounded_.axes);
   }
 }
 
@@ -232,7 +233,7 @@ void Accelerator::fill_packet(std::span<const WorldRay> rays, RayPacket& packet)
       lines.origin[axis] = lanes(origin_x + axis);
       lines.direction[axis] = lanes(direction_x + axis);
     }
-    lines.squared_speed = outline_detail::dot(lines.direction, lines.direction);
+    lines.squared_speed = dot(lines.direction, lines.direction);
     lines.inverse_squared_speed = 1.0 / lines.squared_speed;
     lines.inverse_speed = sqrt(lines.inverse_squared_speed);
     lines.begin = lanes(begin);
@@ -258,12 +259,12 @@ class OutlinedPacket {
         starts_on_surface_(packet.all() & ~rays_with(packet.start_surfaces, nothing)),
         left_some_(packet.all() & ~rays_with(packet.left_objects, nothing)) {}
 
-  Verdict<RayMask> judge(std::uint32_t object, const Outline& outline, RayMask rays) const {
+  Verdict<RayMask> judge(const Outline& outline, std::span<const OutlineAxis> axes, RayMask rays) const {
     std::array<Lanes, RayPacket::group_count> last;
-    return judge(object, outline, rays, last);
+    return judge(outline, axes, rays, last);
   }
 
-  Verdict<RayMask> judge(std::uint32_t object, const Outline& outline, RayMask rays,
+  Verdict<RayMask> judge(const Outline& outline, std::span<const OutlineAxis> axes, RayMask rays,
                          std::array<Lanes, RayPacket::group_count>& last) const {
     Verdict<RayMask> verdict{};
     if (outline.kind != Outline::Kind::unknown) {
@@ -272,7 +273,7 @@ class OutlinedPacket {
         if ((rays >> first & group_mask) == 0) continue;
         const OutlineLine<Lanes>& lines = packet_.groups[group];
         const Lanes& limits = packet_.limits[group];
-        const Verdict<LaneMask> of_lanes = judge_outline(outline, lines, limits, last[group]);
+        const Verdict<LaneMask> of_lanes = judge_outline(outline, axes, lines, limits, last[group]);
         verdict.missed |= mask_of(of_lanes.missed) << first;
         verdict.met |= mask_of(of_lanes.met) << first;
       }
@@ -282,7 +283,7 @@ class OutlinedPacket {
         verdict.met &= ~open;
       }
     }
-    if ((rays & left_some_) != 0) verdict.missed |= rays_with(packet_.left_objects, object);
+    if ((rays & left_some_) != 0) verdict.missed |= rays_with(packet_.left_objects, outline.object);
     verdict.missed &= rays;
     verdict.met &= rays & ~verdict.missed;
     return verdict;
@@ -307,8 +308,8 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
     if (queries[ray].limit() <= queries[ray].ray().t_min) going &= ~(RayMask{1} << ray);
   };
   /// Returns the rays whose limits it changed.
-  const auto test = [&](std::uint32_t object, const Outline& outline, RayMask rays) {
-    const Verdict<RayMask> verdict = outlined.judge(object, outline, rays);
+  const auto test = [&](const Outline& outline, std::span<const OutlineAxis> axes, RayMask rays) {
+    const Verdict<RayMask> verdict = outlined.judge(outline, axes, rays);
     RayMask changed = 0;
     RayMask open = rays & ~verdict.missed;
     if constexpr (Kind::any_will_do) {
@@ -321,7 +322,7 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
     }
     for_each_ray(open, [&](std::size_t ray) {
       const double before = queries[ray].limit();
-      queries[ray].test(object);
+      queries[ray].test(outline);
       if (queries[ray].limit() == before) return;
       settle(ray);
       changed |= RayMask{1} << ray;
@@ -330,30 +331,28 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
   };
 
   constexpr bool planes_last = !Kind::any_will_do;
-  for (std::size_t i = 0; i < unbounded_.size() && going != 0; ++i) {
-    const Outline& outline = unbounded_outlines_[i];
+  for (const Outline& outline : unbounded_.list) {
+    if (going == 0) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
       std::array<Lanes, RayPacket::group_count> last;
-      for_each_ray(outlined.judge(unbounded_[i], outline, going, last).met, [&](std::size_t ray) {
+      for_each_ray(outlined.judge(outline, unbounded_.axes, going, last).met, [&](std::size_t ray) {
         const double reach =
             reach_of_plane(queries[ray].ray(), last[ray / lane_count][static_cast<int>(ray % lane_count)]);
         queries[ray].set_limit(std::min(queries[ray].limit(), reach));
         settle(ray);
       });
     } else {
-      test(unbounded_[i], outline, going);
+      test(outline, unbounded_.axes, going);
     }
   }
   if (tree_ && going != 0) {
     tree_->traverse(packet, going, [&](std::uint32_t box, RayMask rays) {
-      return test(bounded_[box], bounded_outlines_[box], rays);
+      return test(bounded_.list[box], bounded_.axes, rays);
     });
   }
   if (!planes_last) return;
-  for (std::size_t i = 0; i < unbounded_.size(); ++i) {
-    if (unbounded_outlines_[i].kind == Outline::Kind::plane) {
-      test(unbounded_[i], unbounded_outlines_[i], going);
-    }
+  for (const Outline& outline : unbounded_.list) {
+    if (outline.kind == Outline::Kind::plane) test(outline, unbounded_.axes, going);
   }
 }
 

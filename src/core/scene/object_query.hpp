@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/geometry/sphere.hpp"
 #include "core/scene/accelerator.hpp"
 
 namespace crt::core {
@@ -34,6 +35,15 @@ class ObjectQuery {
   void set_limit(double limit) { limit_ = limit; }
   const WorldRay& ray() const { return *ray_; }
 
+  void test(const Outline& outline) {
+    const bool outline_will_do = outline.kind == Outline::Kind::sphere && outline.detail != nothing;
+    if (outline_will_do && ray_->start.surface != outline.surface) {
+      test_sphere(outline);
+    } else {
+      test(outline.object);
+    }
+  }
+
   void test(std::uint32_t object_index) {
     ++work_->intersection_tests;
     const SceneObject& object = accelerator_->object(object_index);
@@ -59,6 +69,19 @@ class ObjectQuery {
   Kind& kind() { return static_cast<Kind&>(*this); }
   void test_leaf(std::uint32_t object_index, const SceneObject& object);
   void test_csg(std::uint32_t object_index, const SceneObject& object);
+  /// As test_leaf() does it, without a look at anything else that would have to be fetched from memory.
+  void test_sphere(const Outline& sphere);
+
+  /// A leaf that is an object of its own, whose crossings are in the workspace.
+  struct LoneLeaf {
+    std::uint32_t object;
+    std::uint32_t index;
+    const Leaf& leaf;
+    const ObjectRay& object_ray;
+    bool solid;
+  };
+  template <class SurfaceOf>
+  void follow(const LoneLeaf& lone, bool inside, const SurfaceOf& surface_of);
 
   const Accelerator* accelerator_ = nullptr;
   const WorldRay* ray_ = nullptr;
@@ -76,31 +99,56 @@ void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject&
   constexpr double more_than_rounding = 0x1p-50;
   const double start = farthest_start(*ray_);
   if (Kind::takes_one) object_ray.first_above = start + more_than_rounding * std::abs(start);
-  bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
+  const bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
+  follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside,
+         [&](std::uint32_t face) { return accelerator_->face_surface(leaf, face).surface; });
+}
+
+template <class Kind>
+void ObjectQuery<Kind>::test_sphere(const Outline& sphere) {
+  ++work_->intersection_tests;
+  const Leaf& leaf = accelerator_->leaf(sphere.detail);
+  ObjectRay object_ray;
+  object_ray.origin = ray_->origin;
+  object_ray.direction = ray_->direction;
+  work_->crossings.clear();
+  const SphereShape shape({.center = sphere.place, .radius = sphere.radius});
+  const bool inside = shape.crossings(object_ray, work_->crossings);
+  follow({sphere.object, sphere.detail, leaf, object_ray, true}, inside,
+         [&](std::uint32_t) { return sphere.surface; });
+}
+
+template <class Kind>
+template <class SurfaceOf>
+void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside, const SurfaceOf& surface_of) {
+  const CrossingList& crossings = work_->crossings;
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
-  const bool starts_here = object_ray.start.face != no_face;
+  const bool starts_here = lone.object_ray.start.face != no_face;
   std::size_t index = 0;
   for (; index < crossings.size(); ++index) {
     const Crossing& crossing = crossings[index];
-    if (crossing.t > ray_->t_min && (starts_here || !is_at_start(leaf, *ray_, object_ray, crossing))) break;
+    if (crossing.t > ray_->t_min &&
+        (starts_here || !is_at_start(lone.leaf, *ray_, lone.object_ray, crossing))) {
+      break;
+    }
     inside = crossing.entering;
   }
-  if (!kind().begin(object_index, inside && object.solid)) return;
+  if (!kind().begin(lone.object, inside && lone.solid)) return;
   for (; index < crossings.size() && crossings[index].t <= limit_; ++index) {
     const Crossing& crossing = crossings[index];
     inside = crossing.entering;
     const RayHit hit{.t = crossing.t,
                      .error = crossing.error,
                      .t_low = crossing.t_low,
-                     .object = object_index,
-                     .leaf = object.first_leaf,
+                     .object = lone.object,
+                     .leaf = lone.index,
                      .face = crossing.face,
-                     .surface = accelerator_->face_surface(leaf, crossing.face).surface,
+                     .surface = surface_of(crossing.face),
                      .root = crossing.root,
                      .entering = crossing.entering};
     if (!kind().take(hit)) return;
   }
-  kind().end(object_index, object.first_leaf, inside && object.solid);
+  kind().end(lone.object, lone.index, inside && lone.solid);
 }
 
 template <class Kind>

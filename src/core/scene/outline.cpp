@@ -4,6 +4,7 @@
 
 #include "core/math/vector.hpp"
 #include "core/scene/compile.hpp"
+#include "core/tasks/parallel.hpp"
 
 namespace crt::core {
 
@@ -42,7 +43,8 @@ bool place_exactly(const Surface& surface, const Placement& placement, Outline& 
 }
 
 /// That of a torus is thicker by more than all roundings.
-bool place_torus(const Surface& surface, const Placement& placement, Outline& outline) {
+bool place_torus(const Surface& surface, const Placement& placement, Outline& outline,
+                 OutlineAxis& of_torus) {
   const double scale = even_scale(placement.to_world());
   outline.place = placement.point_to_world(surface.position);
   const Vec3 tip = placement.point_to_world(surface.position + surface.direction);
@@ -52,10 +54,10 @@ bool place_torus(const Surface& surface, const Placement& placement, Outline& ou
   constexpr double most_sizes = 0x1p12;
   if (!(largest_component(outline.place) < most_sizes * size) || !(largest_component(axis) > 0)) return false;
   if (!(largest_component(outline.place) < most_sizes * largest_component(axis))) return false;
-  outline.normal = unit_vector(axis);
+  of_torus.normal = unit_vector(axis);
   constexpr double roundings = 0x1p-30;
   outline.radius = scale * surface.sizes[0];
-  outline.thickness = scale * surface.sizes[1] + roundings * size;
+  of_torus.thickness = scale * surface.sizes[1] + roundings * size;
   return true;
 }
 
@@ -85,9 +87,7 @@ Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
   return smallest;
 }
 
-}  // namespace
-
-Outline outline_of(const CompiledScene& scene, const SceneObject& object) {
+Outline outline_of(const CompiledScene& scene, const SceneObject& object, OutlineAxis& axis) {
   Outline outline;
   if (object.is_csg()) return outline_of_csg(scene, object);
   const Leaf& leaf = scene.leaves[object.first_leaf];
@@ -97,16 +97,16 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object) {
   switch (surface.kind) {
     case SurfaceKind::sphere:
       outline.radius = surface.sizes[0];
-      if (has_fair_size(outline.radius) && place_exactly(surface, *leaf.placement, outline)) {
-        outline.kind = Outline::Kind::sphere;
-      }
+      if (!has_fair_size(outline.radius) || !place_exactly(surface, *leaf.placement, outline)) break;
+      outline.kind = Outline::Kind::sphere;
+      if (!leaf.exact && leaf.placement->is_identity()) outline.detail = object.first_leaf;
       break;
     case SurfaceKind::plane:
-      outline.normal = scaled_to_one(surface.direction);
+      axis.normal = scaled_to_one(surface.direction);
       if (place_exactly(surface, *leaf.placement, outline)) outline.kind = Outline::Kind::plane;
       break;
     case SurfaceKind::torus:
-      if (place_torus(surface, *leaf.placement, outline) && has_fair_size(outline.thickness) &&
+      if (place_torus(surface, *leaf.placement, outline, axis) && has_fair_size(axis.thickness) &&
           has_fair_size(outline.radius)) {
         outline.kind = Outline::Kind::torus;
       }
@@ -115,6 +115,25 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object) {
       break;
   }
   return outline;
+}
+
+}  // namespace
+
+Outlines::Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects)
+    : list(objects.size()) {
+  std::vector<OutlineAxis> axis_of(objects.size());
+  for_ranges(objects.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      list[i] = outline_of(scene, scene.objects[objects[i]], axis_of[i]);
+      list[i].object = objects[i];
+    }
+  });
+  for (std::size_t i = 0; i < list.size(); ++i) {
+    if (list[i].kind != Outline::Kind::plane && list[i].kind != Outline::Kind::torus) continue;
+    list[i].detail = static_cast<std::uint32_t>(axes.size());
+    axes.push_back(axis_of[i]);
+  }
+  axes.shrink_to_fit();
 }
 
 }  // namespace crt::core

@@ -3,6 +3,8 @@
 
 #include <array>
 #include <cstdint>
+#include <span>
+#include <vector>
 
 #include "core/csg/evaluate.hpp"
 #include "core/math/lanes.hpp"
@@ -10,25 +12,38 @@
 namespace crt::core {
 
 /// An object as the cheap tests see it. Few objects have an outline: those that scenes have many of and
-/// whose exact test costs much more.
+/// whose exact test costs much more. Small, as rays come by many of them.
 struct Outline {
   enum class Kind : std::uint8_t { unknown, sphere, plane, torus };
 
   Kind kind = Kind::unknown;
-  Vec3 place{0, 0, 0};   ///< the center, or a point of the plane
-  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus
-  double radius = 0;     ///< the torus's is that of its ring
-  double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
-  std::uint32_t surface = nothing;  ///< its whole surface, or that of what encloses it
   /// The object is somewhere within: only what misses it is sure.
   bool encloses = false;
+  std::uint32_t object = nothing;
+  std::uint32_t surface = nothing;  ///< its whole surface, or that of what encloses it
+  /// Of a sphere its leaf, if the outline alone tells its crossings (in the standard tier, without a
+  /// transform); of planes and tori the number of their OutlineAxis.
+  std::uint32_t detail = nothing;
+  Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
+  double radius = 0;    ///< the torus's is that of its ring
+};
+
+/// What more there is to tell of planes and tori.
+struct OutlineAxis {
+  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus
+  double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
 };
 
 struct CompiledScene;
-struct SceneObject;
 
-/// The outline of an object, of unknown kind where it has none.
-Outline outline_of(const CompiledScene& scene, const SceneObject& object);
+struct Outlines {
+  std::vector<Outline> list;
+  std::vector<OutlineAxis> axes;
+
+  /// Those of some objects, in their order; of unknown kind where there is none.
+  Outlines() = default;
+  Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects);
+};
 
 /// One line, or as many side by side as a Real has lanes.
 template <class Real>
@@ -73,21 +88,11 @@ Mask either(const Mask& a, const Mask& b, const More&... more) {
   return either(either(a, b), more...);
 }
 
-template <class Real>
-Real size_of(const Real& x) {
-  return x < 0.0 ? -x : x;
-}
-
 inline double square_root(double x) {
   return std::sqrt(x);
 }
 inline Lanes square_root(const Lanes& x) {
   return sqrt(x);
-}
-
-template <class Real>
-Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
-  return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
 
 template <class Real>
@@ -135,10 +140,11 @@ auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Re
 
 /// A plane likewise; `last` is set to a t up to which it surely has been met, if it is met at all.
 template <class Real>
-auto judge_plane(const Outline& plane, const OutlineLine<Real>& line, const Real& limit, Real& last) {
+auto judge_plane(const Outline& plane, const OutlineAxis& axis, const OutlineLine<Real>& line,
+                 const Real& limit, Real& last) {
   using namespace outline_detail;
   const std::array<Real, 3> way = way_to(line, plane.place);
-  const Vec3& n = plane.normal;
+  const Vec3& n = axis.normal;
   const Real rate = n.x * line.direction[0] + n.y * line.direction[1] + n.z * line.direction[2];
   const Real t = (n.x * way[0] + n.y * way[1] + n.z * way[2]) / rate;
   const auto sum_of_sizes = [](const std::array<Real, 3>& v) {
@@ -163,7 +169,8 @@ inline constexpr double farthest_outline = 0x1p16;
 /// A torus: only whether it is missed, because the line passes by the ball and the slab around it, or through
 /// the hole in its middle. The outline is thicker than the torus by more than all roundings here.
 template <class Real>
-auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real& limit) {
+auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const OutlineLine<Real>& line,
+                 const Real& limit) {
   using namespace outline_detail;
   const std::array<Real, 3> way = way_to(line, torus.place);
   const Real closest = dot(way, line.direction) * line.inverse_squared_speed;
@@ -171,11 +178,12 @@ auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real
   const std::array<Real, 3> across = {closest * line.direction[0] - way[0],
                                       closest * line.direction[1] - way[1],
                                       closest * line.direction[2] - way[2]};
-  const Vec3& axis = torus.normal;
+  const Vec3& axis = of_torus.normal;
+  const double thickness = of_torus.thickness;
   const auto along_axis = [&](const std::array<Real, 3>& v) {
     return axis.x * v[0] + axis.y * v[1] + axis.z * v[2];
   };
-  const double ball = torus.radius + torus.thickness;
+  const double ball = torus.radius + thickness;
   const Real squared_across = dot(across, across);
   const Real squared_way = dot(way, way);
   const Real room = ball * ball - squared_across;
@@ -184,8 +192,8 @@ auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real
   // quotients are huge or no numbers, and comparing leaves the ball's.
   const Real height = along_axis(across);
   const Real climb = along_axis(line.direction);
-  const Real first = (-torus.thickness - height) / climb;
-  const Real second = (torus.thickness - height) / climb;
+  const Real first = (-thickness - height) / climb;
+  const Real second = (thickness - height) / climb;
   const Real low = first < second ? first : second;
   const Real high = first < second ? second : first;
   const Real from = low > -half ? low : -half;
@@ -194,7 +202,7 @@ auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real
     const Real at = height + x * climb;
     return squared_across + x * x * line.squared_speed - at * at;
   };
-  const double hole = torus.radius - torus.thickness;
+  const double hole = torus.radius - thickness;
   const double squared_hole = hole > 0 ? hole * hole : 0;
   using Mask = decltype(room < half);
   const Mask through_hole = both(squared_distance(from) < squared_hole, squared_distance(to) < squared_hole);
@@ -208,14 +216,15 @@ auto judge_torus(const Outline& torus, const OutlineLine<Real>& line, const Real
 
 /// Whatever it is, if it is known; `last` as of planes.
 template <class Real>
-auto judge_outline(const Outline& outline, const OutlineLine<Real>& line, const Real& limit, Real& last) {
+auto judge_outline(const Outline& outline, std::span<const OutlineAxis> axes, const OutlineLine<Real>& line,
+                   const Real& limit, Real& last) {
   switch (outline.kind) {
     case Outline::Kind::sphere:
       return judge_sphere(outline, line, limit);
     case Outline::Kind::torus:
-      return judge_torus(outline, line, limit);
+      return judge_torus(outline, axes[outline.detail], line, limit);
     default:
-      return judge_plane(outline, line, limit, last);
+      return judge_plane(outline, axes[outline.detail], line, limit, last);
   }
 }
 
