@@ -30,6 +30,9 @@ struct RenderOptions {
   std::function<bool(double)> progress{};
   /// Takes the place of Settings::seed.
   std::optional<std::uint64_t> seed{};
+  /// Above 0: renders so many passes (RenderStats::passes) and no more, whatever the time budget; with
+  /// neither target error nor time budget in the settings as with a time budget. Not negative.
+  int passes = 0;
   /// Gets what there is to tell of the render, a line each without its end. From the thread that calls
   /// render().
   std::function<void(LogLevel, std::string_view)> log{};

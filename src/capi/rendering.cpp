@@ -16,6 +16,7 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
     result.region = Region{given.region_x, given.region_y, given.region_width, given.region_height};
   }
   if (given.seed != 0) result.seed = given.seed;
+  result.passes = given.passes;
   if (given.progress != nullptr) {
     result.progress = [call = given.progress, user = given.progress_user, cancel_value](double fraction) {
       const int answer = call(fraction, user);

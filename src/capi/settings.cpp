@@ -29,6 +29,12 @@ crt_settings to_c(const Settings& settings) {
   out.date = settings.date.c_str();
   out.notes = settings.notes.c_str();
   out.precision = static_cast<std::int32_t>(settings.precision);
+  out.target_error = settings.target_error;
+  out.time_budget = settings.time_budget;
+  out.filter_width = settings.filter_width;
+  out.min_samples = settings.min_samples;
+  out.max_samples = settings.max_samples;
+  out.filter = static_cast<std::int32_t>(settings.filter);
   return out;
 }
 
@@ -43,6 +49,8 @@ static_assert(static_cast<int>(FalloffModel::path) == CRT_FALLOFF_PATH);
 static_assert(static_cast<int>(FalloffModel::light) == CRT_FALLOFF_LIGHT);
 static_assert(static_cast<int>(Precision::standard) == CRT_PRECISION_STANDARD);
 static_assert(static_cast<int>(Precision::exact) == CRT_PRECISION_EXACT);
+static_assert(static_cast<int>(PixelFilter::box) == CRT_FILTER_BOX);
+static_assert(static_cast<int>(PixelFilter::blackman_harris) == CRT_FILTER_BLACKMAN_HARRIS);
 
 Settings to_settings(const crt_settings* settings) {
   const auto given = taken(settings, "settings");
@@ -63,6 +71,12 @@ Settings to_settings(const crt_settings* settings) {
   result.date = text_or_empty(given.date);
   result.notes = text_or_empty(given.notes);
   result.precision = to_enum(given.precision, Precision::exact, "settings.precision", "crt_precision");
+  result.target_error = given.target_error;
+  result.time_budget = given.time_budget;
+  result.filter_width = given.filter_width;
+  result.min_samples = given.min_samples;
+  result.max_samples = given.max_samples;
+  result.filter = to_enum(given.filter, PixelFilter::blackman_harris, "settings.filter", "crt_pixel_filter");
   return result;
 }
 
@@ -91,6 +105,17 @@ crt_render_stats to_c(const RenderStats& stats) {
   out.csg_bytes = stats.memory.csg;
   out.tree_bytes = stats.memory.tree;
   out.material_bytes = stats.memory.materials;
+  out.samples_min = stats.samples_min;
+  out.samples_mean = stats.samples_mean;
+  out.samples_max = stats.samples_max;
+  out.passes = stats.passes;
+  out.half_width_rms = stats.half_width_rms;
+  out.half_width_95 = stats.half_width_95;
+  out.half_width_max = stats.half_width_max;
+  out.pixels_unresolved = stats.pixels_unresolved;
+  out.unseen_share = stats.unseen_share;
+  out.cutoff_mean = stats.cutoff_mean;
+  out.cutoff_max = stats.cutoff_max;
   return out;
 }
 

@@ -61,12 +61,14 @@ template <>
 std::span<const std::size_t> field_ends<crt_settings>() {
   using S = crt_settings;
   static constexpr std::array ends = {
-      CRT_END(S, width),       CRT_END(S, height),          CRT_END(S, supersampling),
-      CRT_END(S, dof_samples), CRT_END(S, recursion_depth), CRT_END(S, gamma),
-      CRT_END(S, min_weight),  CRT_END(S, falloff_model),   CRT_END(S, show_clip),
-      CRT_END(S, seed),        CRT_END(S, title),           CRT_END(S, author),
-      CRT_END(S, date),        CRT_END(S, notes),           CRT_END(S, precision),
-      CRT_END(S, reserved)};
+      CRT_END(S, width),        CRT_END(S, height),          CRT_END(S, supersampling),
+      CRT_END(S, dof_samples),  CRT_END(S, recursion_depth), CRT_END(S, gamma),
+      CRT_END(S, min_weight),   CRT_END(S, falloff_model),   CRT_END(S, show_clip),
+      CRT_END(S, seed),         CRT_END(S, title),           CRT_END(S, author),
+      CRT_END(S, date),         CRT_END(S, notes),           CRT_END(S, precision),
+      CRT_END(S, reserved),     CRT_END(S, target_error),    CRT_END(S, time_budget),
+      CRT_END(S, filter_width), CRT_END(S, min_samples),     CRT_END(S, max_samples),
+      CRT_END(S, filter),       CRT_END(S, reserved_2)};
   return ends;
 }
 
@@ -123,7 +125,7 @@ std::span<const std::size_t> field_ends<crt_render_options>() {
   static constexpr std::array ends = {
       CRT_END(S, threads),       CRT_END(S, region_x), CRT_END(S, region_y), CRT_END(S, region_width),
       CRT_END(S, region_height), CRT_END(S, seed),     CRT_END(S, progress), CRT_END(S, progress_user),
-      CRT_END(S, log),           CRT_END(S, log_user)};
+      CRT_END(S, log),           CRT_END(S, log_user), CRT_END(S, passes),   CRT_END(S, reserved)};
   return ends;
 }
 
@@ -151,7 +153,19 @@ std::span<const std::size_t> field_ends<crt_render_stats>() {
                                       CRT_END(S, primitive_bytes),
                                       CRT_END(S, csg_bytes),
                                       CRT_END(S, tree_bytes),
-                                      CRT_END(S, material_bytes)};
+                                      CRT_END(S, material_bytes),
+                                      CRT_END(S, samples_min),
+                                      CRT_END(S, samples_mean),
+                                      CRT_END(S, samples_max),
+                                      CRT_END(S, passes),
+                                      CRT_END(S, reserved),
+                                      CRT_END(S, half_width_rms),
+                                      CRT_END(S, half_width_95),
+                                      CRT_END(S, half_width_max),
+                                      CRT_END(S, pixels_unresolved),
+                                      CRT_END(S, unseen_share),
+                                      CRT_END(S, cutoff_mean),
+                                      CRT_END(S, cutoff_max)};
   return ends;
 }
 

@@ -103,6 +103,13 @@ constexpr SettingOption setting_options[] = {
     {"gamma", SettingKind::number, "8-bit files store value^(1/gamma)"},
     {"supersampling", SettingKind::integer, "n x n rays for each pixel"},
     {"dofsamples", SettingKind::integer, "points of the lens for each of them"},
+    {"targeterror", SettingKind::number,
+     "samples until pixels are this near the truth; 0.004 is an 8-bit step"},
+    {"timebudget", SettingKind::number, "samples for so many seconds of tracing"},
+    {"minsamples", SettingKind::integer, "of a pixel, with one of these two: a power of 2"},
+    {"maxsamples", SettingKind::integer, "likewise"},
+    {"filter", SettingKind::text, "what a pixel is the mean of: box or blackmanharris"},
+    {"filterwidth", SettingKind::number, "pixels across, of filters other than the box"},
     {"recursiondepth", SettingKind::integer, "bounces followed after the camera's ray"},
     {"minweight", SettingKind::number, "rays that add less than this share are not followed"},
     {"falloffmodel", SettingKind::text, "distance that dims a light: path or light"},
@@ -280,6 +287,16 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
             }
           },
           "threads at most (default: all cores)")
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--passes",
+          [&request](const std::string& value) {
+            if (!parse_whole(value, request.render.passes) || request.render.passes < 0) {
+              throw wrong_value("--passes", "a whole number, 0 for as many as it takes", value);
+            }
+          },
+          "stops after so many passes: with what --stats told, the same picture again")
       ->type_name("N");
   command
       .add_option("--stats", request.stats, "writes what the rendering did as JSON; '-' is standard output")

@@ -113,6 +113,10 @@ std::string name_of(Precision precision) {
   return precision == Precision::exact ? "exact" : "standard";
 }
 
+std::string name_of(PixelFilter filter) {
+  return filter == PixelFilter::box ? "box" : "blackmanharris";
+}
+
 std::string settings_json(const Settings& settings, Projection projection, int level) {
   return ObjectWriter(level)
       .add("title", settings.title)
@@ -124,6 +128,12 @@ std::string settings_json(const Settings& settings, Projection projection, int l
       .add("gamma", settings.gamma)
       .add("supersampling", settings.supersampling)
       .add("dofsamples", settings.dof_samples)
+      .add("targeterror", settings.target_error)
+      .add("timebudget", settings.time_budget)
+      .add("minsamples", settings.min_samples)
+      .add("maxsamples", settings.max_samples)
+      .add("filter", name_of(settings.filter))
+      .add("filterwidth", settings.filter_width)
       .add("recursiondepth", settings.recursion_depth)
       .add("minweight", settings.min_weight)
       .add("falloffmodel", name_of(settings.falloff_model))
@@ -163,6 +173,22 @@ std::string rays_json(const RenderStats& stats, int level) {
       .text();
 }
 
+std::string accuracy_json(const RenderStats& stats, int level) {
+  return ObjectWriter(level)
+      .add("passes", stats.passes)
+      .add("samples_min", stats.samples_min)
+      .add("samples_mean", stats.samples_mean)
+      .add("samples_max", stats.samples_max)
+      .add("half_width_rms", stats.half_width_rms)
+      .add("half_width_95", stats.half_width_95)
+      .add("half_width_max", stats.half_width_max)
+      .add("pixels_unresolved", stats.pixels_unresolved)
+      .add("unseen_share", stats.unseen_share)
+      .add("cutoff_mean", stats.cutoff_mean)
+      .add("cutoff_max", stats.cutoff_max)
+      .text();
+}
+
 std::string counters_json(const RenderStats& stats, int level) {
   return ObjectWriter(level)
       .add("samples_over_ray_bound", stats.samples_over_ray_bound)
@@ -189,6 +215,7 @@ std::string report_json(const PictureReport& report, int level) {
       .add("threads", report.stats.threads)
       .add_raw("seconds", seconds_json(report.stats, level + 1))
       .add_raw("memory_bytes", memory_json(report.stats.memory, level + 1))
+      .add_raw("accuracy", accuracy_json(report.stats, level + 1))
       .add_raw("rays", rays_json(report.stats, level + 1))
       .add_raw("counters", counters_json(report.stats, level + 1))
       .add_raw("settings", settings_json(report.settings, report.projection, level + 1))

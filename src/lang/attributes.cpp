@@ -165,6 +165,12 @@ void convert(const Given& given, Context&, Precision& field) {
   choose(given, std::array{Choice{"standard", standard}, Choice{"exact", exact}}, field);
 }
 
+void convert(const Given& given, Context&, PixelFilter& field) {
+  using enum PixelFilter;
+  using Choice = std::pair<std::string_view, PixelFilter>;
+  choose(given, std::array{Choice{"box", box}, Choice{"blackmanharris", blackman_harris}}, field);
+}
+
 void convert(const Given& given, Context&, Camera& field) {
   field = *get<std::shared_ptr<const Camera>>(given);
 }

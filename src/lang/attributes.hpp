@@ -36,6 +36,7 @@ void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
 void convert(const Given& given, Context& context, FalloffModel& field);
 void convert(const Given& given, Context& context, Precision& field);
+void convert(const Given& given, Context& context, PixelFilter& field);
 void convert(const Given& given, Context& context, Camera& field);
 void convert(const Given& given, Context& context, std::vector<Light>& field);
 void convert(const Given& given, Context& context, Background& field);
@@ -96,6 +97,9 @@ constexpr std::string_view type_text(const FalloffModel*) {
   return "String";
 }
 constexpr std::string_view type_text(const Precision*) {
+  return "String";
+}
+constexpr std::string_view type_text(const PixelFilter*) {
   return "String";
 }
 constexpr std::string_view type_text(const Camera*) {

@@ -34,18 +34,20 @@ class Prepared(Handle):
         threads: int = 0,
         region: Region | None = None,
         seed: int = 0,
+        passes: int = 0,
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> Image:
         """Renders a picture.
 
         `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
-        `seed` takes the place of the settings', unless it is 0. `progress` is told the share that is done,
+        `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
+        unless it is 0, whatever the settings' time budget. `progress` is told the share that is done,
         `log` what there is to tell; they may be called from other threads, one at a time. What progress
         raises cancels the render and comes out of here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(guard, threads, region, seed, progress, log)
+        options = _options(guard, threads, region, seed, passes, progress, log)
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
 
@@ -55,12 +57,13 @@ class Prepared(Handle):
         threads: int = 0,
         region: Region | None = None,
         seed: int = 0,
+        passes: int = 0,
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> "Job":
         """Starts to render in the background; as render() otherwise."""
         guard = Guard()
-        options = _options(guard, threads, region, seed, progress, log)
+        options = _options(guard, threads, region, seed, passes, progress, log)
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
     def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
@@ -194,10 +197,18 @@ class _RenderOptions(Struct):
     progress_user: Pointer
     log: Annotated[Any, LOG]
     log_user: Pointer
+    passes: Int
+    reserved: Int
 
 
 def _options(
-    guard: Guard, threads: int, region: Region | None, seed: int, progress: Progress | None, log: Log | None
+    guard: Guard,
+    threads: int,
+    region: Region | None,
+    seed: int,
+    passes: int,
+    progress: Progress | None,
+    log: Log | None,
 ) -> _RenderOptions:
     def tell_progress(fraction: float) -> None:
         if progress is not None:
@@ -207,7 +218,7 @@ def _options(
         if log is not None:
             log(line.decode())
 
-    options = _RenderOptions(threads=threads, seed=seed)
+    options = _RenderOptions(threads=threads, seed=seed, passes=passes)
     if region is not None:
         x, y, width, height = region
         options.set(region_x=x, region_y=y, region_width=width, region_height=height)

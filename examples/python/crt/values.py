@@ -204,6 +204,11 @@ class Background(Struct):
         return cls(type=type, image=image, **fields)
 
 
+class PixelFilter(enum.IntEnum):
+    BOX = 0
+    BLACKMAN_HARRIS = 1
+
+
 @growable("crt_settings")
 class Settings(Struct):
     """How a scene is rendered."""
@@ -224,6 +229,13 @@ class Settings(Struct):
     notes: Text
     precision: Int
     reserved: Int
+    target_error: Double
+    time_budget: Double
+    filter_width: Double
+    min_samples: Int
+    max_samples: Int
+    filter: Int
+    reserved_2: Int
 
 
 @growable("crt_render_stats", has_init=False)
@@ -252,3 +264,15 @@ class RenderStats(Struct):
     csg_bytes: Long
     tree_bytes: Long
     material_bytes: Long
+    samples_min: Long
+    samples_mean: Double
+    samples_max: Long
+    passes: Int
+    reserved: Int
+    half_width_rms: Double
+    half_width_95: Double
+    half_width_max: Double
+    pixels_unresolved: Long
+    unseen_share: Double
+    cutoff_mean: Double
+    cutoff_max: Double

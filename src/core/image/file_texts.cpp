@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <initializer_list>
 #include <string_view>
 
 #include "crt/version.hpp"
@@ -24,10 +25,24 @@ void add(FileTexts& texts, std::string_view name, std::string value) {
   if (!value.empty()) texts.emplace_back(name, std::move(value));
 }
 
+/// How pixels were sampled, of what differs from the defaults.
+void add_sampling(FileTexts& texts, const Settings& settings) {
+  if (settings.target_error > 0) add(texts, "crt:targeterror", fmt::format("{}", settings.target_error));
+  if (settings.time_budget > 0) add(texts, "crt:timebudget", fmt::format("{}", settings.time_budget));
+  if (settings.target_error > 0 || settings.time_budget > 0) {
+    add(texts, "crt:minsamples", fmt::format("{}", settings.min_samples));
+    add(texts, "crt:maxsamples", fmt::format("{}", settings.max_samples));
+  }
+  if (settings.filter == PixelFilter::box) return;
+  add(texts, "crt:filter", "blackmanharris");
+  add(texts, "crt:filterwidth", fmt::format("{}", settings.filter_width));
+}
+
 void add_settings(FileTexts& texts, const Settings& settings) {
   add(texts, "crt:gamma", fmt::format("{}", settings.gamma));
   add(texts, "crt:supersampling", fmt::format("{}", settings.supersampling));
   add(texts, "crt:dofsamples", fmt::format("{}", settings.dof_samples));
+  add_sampling(texts, settings);
   add(texts, "crt:recursiondepth", fmt::format("{}", settings.recursion_depth));
   add(texts, "crt:minweight", fmt::format("{}", settings.min_weight));
   add(texts, "crt:falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light");
@@ -47,6 +62,21 @@ std::string shortened(std::string text) {
   while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xc0) == 0x80) --end;
   text.resize(end);
   return text;
+}
+
+/// How near to the truth a picture is that was rendered pass by pass.
+void add_accuracy(FileTexts& texts, const RenderStats& stats) {
+  if (stats.passes == 0) return;
+  const auto add_numbers = [&](std::string_view name, std::initializer_list<double> numbers) {
+    add(texts, name, fmt::format("{:.6g}", fmt::join(numbers, " ")));
+  };
+  add(texts, "crt:passes", fmt::format("{}", stats.passes));
+  add_numbers("crt:samples", {static_cast<double>(stats.samples_min), stats.samples_mean,
+                              static_cast<double>(stats.samples_max)});
+  add_numbers("crt:halfwidth", {stats.half_width_rms, stats.half_width_95, stats.half_width_max});
+  add(texts, "crt:unresolvedpixels", fmt::format("{}", stats.pixels_unresolved));
+  add_numbers("crt:unseenshare", {stats.unseen_share});
+  add_numbers("crt:cutoff", {stats.cutoff_mean, stats.cutoff_max});
 }
 
 /// The counts that do not depend on how the work was done.
@@ -71,6 +101,7 @@ FileTexts file_texts(const Image& image, bool reproducible) {
   add(texts, notes_name, settings.notes);
   add(texts, software_name, std::string("CRT ") + version());
   add_settings(texts, settings);
+  add_accuracy(texts, image.stats());
   add_counts(texts, image.stats());
   const double seconds = image.stats().prepare_seconds + image.stats().trace_seconds;
   if (!reproducible && seconds > 0) add(texts, "crt:renderseconds", fmt::format("{:.3f}", seconds));

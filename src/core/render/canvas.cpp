@@ -23,6 +23,16 @@ void Canvas::put(const Region& tile, std::span<const float> pixels) {
   }
 }
 
+void Canvas::put(std::span<const PlacedPixel> pixels) {
+  const std::lock_guard lock(mutex_);
+  for (const PlacedPixel& pixel : pixels) {
+    const auto place =
+        static_cast<std::size_t>(pixel.y - region_.y) * static_cast<std::size_t>(region_.width) +
+        static_cast<std::size_t>(pixel.x - region_.x);
+    std::copy_n(pixel.values.begin(), 4, image_.pixels().begin() + static_cast<std::ptrdiff_t>(place * 4));
+  }
+}
+
 void Canvas::set_stats(const RenderStats& stats) {
   const std::lock_guard lock(mutex_);
   image_.stats() = stats;

@@ -1,6 +1,7 @@
 // The picture while it is being rendered: tiles come in from any thread, and anyone may look.
 #pragma once
 
+#include <array>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -8,6 +9,12 @@
 #include "crt/render.hpp"
 
 namespace crt::core {
+
+struct PlacedPixel {
+  int x = 0;
+  int y = 0;
+  std::array<float, 4> values{};
+};
 
 class Canvas {
  public:
@@ -18,6 +25,9 @@ class Canvas {
 
   /// Puts in the pixels of a tile (in picture coordinates): rows of RGBA from the top.
   void put(const Region& tile, std::span<const float> pixels);
+
+  /// Puts in single pixels of the region.
+  void put(std::span<const PlacedPixel> pixels);
 
   void set_stats(const RenderStats& stats);
 

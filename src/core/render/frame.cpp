@@ -57,7 +57,10 @@ bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work)
 }  // namespace
 
 Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work)
-    : data_(data), settings_(settings), camera_(data.scene().camera, settings.width, settings.height) {
+    : data_(data),
+      settings_(settings),
+      camera_(data.scene().camera, settings.width, settings.height),
+      filter_(settings) {
   lights_.reserve(data.scene().lights.size());
   for (const Light& light : data.scene().lights) {
     lights_.emplace_back(light, settings.falloff_model);

@@ -6,6 +6,7 @@
 #include "core/camera/camera_rays.hpp"
 #include "core/math/vector.hpp"
 #include "core/render/workspace.hpp"
+#include "core/sampling/pixel_filter.hpp"
 #include "core/shading/prepared_light.hpp"
 
 namespace crt::core {
@@ -19,6 +20,7 @@ class Frame {
   const Settings& settings() const { return settings_; }
   const Features& features() const { return data_.features(); }
   const CameraRays& camera() const { return camera_; }
+  const FilterPlaces& filter() const { return filter_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
 
   /// What all lights together give every point.
@@ -42,6 +44,7 @@ class Frame {
   const PreparedData& data_;
   const Settings& settings_;
   CameraRays camera_;
+  FilterPlaces filter_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
   bool one_viewpoint_ = false;

@@ -1,6 +1,8 @@
 #include "core/render/pixel.hpp"
 
 #include "core/math/random.hpp"
+#include "core/sampling/schedule.hpp"
+#include "core/sampling/sequence.hpp"
 
 namespace crt::core {
 
@@ -12,6 +14,7 @@ constexpr std::uint32_t lens_dimension = 0;
 void add(Tracer::Sample& sum, const Tracer::Sample& sample) {
   sum.color += sample.color;
   sum.alpha += sample.alpha;
+  sum.dropped += sample.dropped;
 }
 
 /// Gathers camera rays until a packet is full. A pixel's sum is that of its subpixels' sums over the lens, in
@@ -50,6 +53,48 @@ class SampleSums {
   int lens_point_ = 0;
 };
 
+/// Gathers the rays of passes, pixel by pixel and pass by pass, and hands on each pass of a pixel as a whole.
+class PassSums {
+ public:
+  explicit PassSums(Tracer& tracer) : tracer_(tracer) {}
+
+  /// Where the next ray is to go, and then that it is there: of a pixel that has `count` samples before the
+  /// pass and gets `size` more in it.
+  CameraRay& next() { return rays_[taken_]; }
+  void take(PixelSamples& pixel, std::int64_t count, std::int64_t size) {
+    places_[taken_] = {&pixel, count, size};
+    if (++taken_ == packet_size) trace();
+  }
+
+  void trace() {
+    tracer_.trace(std::span(rays_.data(), taken_), samples_);
+    for (std::size_t i = 0; i < taken_; ++i) {
+      const Tracer::Sample& sample = samples_[i];
+      sum_.add({sample.color.x, sample.color.y, sample.color.z, sample.alpha}, sample.identity,
+               sample.dropped);
+      const Place& place = places_[i];
+      if (sum_.count < place.size) continue;
+      place.pixel->add_pass(place.count, sum_);
+      sum_ = {};
+    }
+    taken_ = 0;
+  }
+
+ private:
+  struct Place {
+    PixelSamples* pixel = nullptr;
+    std::int64_t count = 0;
+    std::int64_t size = 0;
+  };
+
+  Tracer& tracer_;
+  std::size_t taken_ = 0;
+  std::array<CameraRay, packet_size> rays_;
+  std::array<Place, packet_size> places_;
+  std::array<Tracer::Sample, packet_size> samples_;
+  SampleSum sum_;
+};
+
 /// Takes the rays through one pixel.
 void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& sums, Tracer::Sample& pixel) {
   const CameraRays& camera = frame.camera();
@@ -60,8 +105,8 @@ void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& s
                    .dimension = lens_dimension};
   for (int row = 0; row < grid; ++row) {
     for (int column = 0; column < grid; ++column) {
-      const double place_x = x + (column + 0.5) / grid;
-      const double place_y = y + (row + 0.5) / grid;
+      const double place_x = x + frame.filter()((column + 0.5) / grid);
+      const double place_y = y + frame.filter()((row + 0.5) / grid);
       if (!frame.features().lens) {
         camera.ray(place_x, place_y, sums.next());
         sums.take(pixel);
@@ -96,10 +141,38 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
   const auto pixel_count = static_cast<std::uint64_t>(pixel - pixels.begin());
   const double samples_per_pixel = static_cast<double>(grid) * grid * lens_points;
   for (Tracer::Sample& done : pixels.first(pixel_count)) {
-    done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel};
+    done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel, done.dropped / samples_per_pixel};
   }
   stats.pixels += pixel_count;
   if (lens) stats.lens_samples += pixel_count * static_cast<std::uint64_t>(samples_per_pixel);
+}
+
+void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range,
+                  Tracer& tracer, RenderStats& stats) {
+  const CameraRays& camera = frame.camera();
+  const FilterPlaces& filter = frame.filter();
+  const bool lens = frame.features().lens;
+  PassSums sums(tracer);
+  for (const PixelPlace& pixel : pixels) {
+    const PixelSequence sequence(frame.settings().seed, pixel.x, pixel.y);
+    std::int64_t size = 0;
+    for (std::int64_t count = range.begin; count < range.end; count += size) {
+      size = samples_of_next_pass(count);
+      for (std::int64_t i = count; i < count + size; ++i) {
+        const SequencePoint point = sequence.point(static_cast<std::uint32_t>(i));
+        const double x = pixel.x + filter(point.pixel_u);
+        const double y = pixel.y + filter(point.pixel_v);
+        if (lens) {
+          camera.ray(x, y, camera.lens_point(point.lens_u, point.lens_v), sums.next());
+        } else {
+          camera.ray(x, y, sums.next());
+        }
+        sums.take(*pixel.samples, count, size);
+      }
+    }
+  }
+  sums.trace();
+  if (lens) stats.lens_samples += pixels.size() * static_cast<std::uint64_t>(range.end - range.begin);
 }
 
 }  // namespace crt::core

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "core/render/tracer.hpp"
+#include "core/sampling/pixel_samples.hpp"
 #include "crt/render.hpp"
 
 namespace crt::core {
@@ -11,5 +12,23 @@ namespace crt::core {
 /// scene and of its place alone. Neighbouring rays are traced together.
 void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<Tracer::Sample> pixels,
                   RenderStats& stats);
+
+/// A pixel, and what is kept of its samples.
+struct PixelPlace {
+  int x = 0;
+  int y = 0;
+  PixelSamples* samples = nullptr;
+};
+
+/// Of the samples of a pixel's sequence those from `begin` to before `end`, both of which end a pass.
+struct SampleRange {
+  std::int64_t begin = 0;
+  std::int64_t end = 0;
+};
+
+/// Adds samples to pixels that have had those before. What a pixel gets is a function of the scene, of its
+/// place and of the range alone, and it makes no difference if a range is cut into several.
+void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range,
+                  Tracer& tracer, RenderStats& stats);
 
 }  // namespace crt::core

@@ -18,8 +18,7 @@ constexpr std::chrono::milliseconds longest_silence{100};
 
 }  // namespace
 
-Progress::Progress(const std::function<bool(double)>& callback, std::size_t task_count)
-    : callback_(callback), task_count_(static_cast<double>(task_count)) {}
+Progress::Progress(const std::function<bool(double)>& callback) : callback_(callback) {}
 
 void Progress::begin() {
   if (stopped_) throw_cancelled();
@@ -27,16 +26,27 @@ void Progress::begin() {
   if (callback_) call(0);
 }
 
+void Progress::begin_part(std::size_t task_count, double share_after) {
+  share_before_ = share_;
+  share_of_part_ = share_after - share_before_;
+  task_count_ = static_cast<double>(task_count);
+  tasks_done_ = 0;
+}
+
 void Progress::finish() {
+  share_ = 1;
   if (callback_) call(1);
 }
 
-double Progress::share() const {
-  return static_cast<double>(tasks_done_.load()) / task_count_;
+void Progress::raise_share(double share) {
+  double before = share_;
+  while (before < share && !share_.compare_exchange_weak(before, share)) {
+  }
 }
 
 void Progress::task_done() {
-  ++tasks_done_;
+  const auto done = static_cast<double>(++tasks_done_);
+  raise_share(share_before_ + share_of_part_ * (done / task_count_));
   if (stopped_) throw_cancelled();
   if (callback_) report(false);
 }

@@ -13,11 +13,15 @@ namespace crt::core {
 class Progress {
  public:
   /// An empty callback is one that never stops anything.
-  Progress(const std::function<bool(double)>& callback, std::size_t task_count);
+  explicit Progress(const std::function<bool(double)>& callback);
 
   /// Before the first and after the last task; both throw Error (cancelled) if the callback says no.
   void begin();
   void finish();
+
+  /// Before the first of some tasks, with all before them done: how many come, and what share of everything
+  /// is done after them.
+  void begin_part(std::size_t task_count, double share_after);
 
   /// After each task. Throws Error (cancelled) if the callback says no, now or before.
   void task_done();
@@ -28,8 +32,8 @@ class Progress {
   /// Makes every thread's next call throw: the caller has cancelled, or something has gone wrong.
   void stop() { stopped_ = true; }
 
-  /// Of the tasks, how many are done: from 0 to 1.
-  double share() const;
+  /// How much is done: from 0 to 1, never falling.
+  double share() const { return share_; }
 
  private:
   using Clock = std::chrono::steady_clock;
@@ -37,10 +41,16 @@ class Progress {
   /// Calls the callback, unless another thread is at it or there is nothing new to say.
   void report(bool even_without_news);
   void call(double share);
+  void raise_share(double share);
 
   std::function<bool(double)> callback_;
-  double task_count_;
+  // Of this part.
+  double share_before_ = 0;
+  double share_of_part_ = 0;
+  double task_count_ = 0;
   std::atomic<std::size_t> tasks_done_ = 0;
+
+  std::atomic<double> share_ = 0;
   std::atomic<bool> stopped_ = false;
   /// Not a mutex: a callback may run other tasks of this very render on its thread.
   std::atomic_flag reporting_;

@@ -11,6 +11,7 @@
 #include <new>
 
 #include "core/math/float_environment.hpp"
+#include "core/render/accuracy.hpp"
 #include "core/render/pixel.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
@@ -41,6 +42,22 @@ Settings chosen_settings(const RenderOptions& options, const Settings& settings)
   return chosen;
 }
 
+void check_passes(const RenderOptions& options, const Settings& settings, const Region& region) {
+  if (options.passes < 0) {
+    throw Error(ErrorCode::invalid_argument, "passes must not be negative; 0 means as many as it takes",
+                "passes");
+  }
+  // Each pixel takes some 200 bytes while it is worked on.
+  constexpr std::int64_t most_pixels = std::int64_t{1} << 25;
+  if (asks_for_passes(settings, options.passes) && std::int64_t{region.width} * region.height > most_pixels) {
+    throw Error(
+        ErrorCode::limit,
+        fmt::format("{} x {} pixels are too many at once with a target error, a time budget or passes: "
+                    "render regions of up to 2^25 pixels",
+                    region.width, region.height));
+  }
+}
+
 /// A channel as the image's floats hold it.
 float float_range(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
@@ -49,18 +66,18 @@ float float_range(double value) {
 
 }  // namespace
 
-Rendering::Rendering(const PreparedData& data, RenderOptions options)
+Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock::Seconds seconds)
     : data_(data),
       options_(std::move(options)),
       settings_(chosen_settings(options_, data.scene().settings)),
       canvas_(chosen_region(options_, settings_), settings_),
-      tiles_(canvas_.region()),
-      progress_(options_.progress, tiles_.count()) {
+      progress_(options_.progress),
+      seconds_(std::move(seconds)) {
   allowed_threads(options_.threads);  // throws for a number that is none
+  check_passes(options_, settings_, canvas_.region());
 }
 
 void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& work) {
-  const FloatEnvironment ieee;
   Tracer tracer(frame, work, progress_);
   constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
   std::array<Tracer::Sample, most_pixels> samples;
@@ -71,25 +88,22 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
   for (const Tracer::Sample& sample : std::span(samples).first(count)) {
     for (int channel = 0; channel < 3; ++channel) *next++ = float_range(sample.color[channel]);
     *next++ = static_cast<float>(sample.alpha);
+    work.cutoff.add(sample.dropped);
   }
   canvas_.put(tile, std::span(pixels.data(), next));
 }
 
-RenderStats Rendering::render_tiles() {
-  WorkspacePool pool;
-  const Frame frame = [&] {
-    WorkspacePool::Loan work(pool);
-    return Frame(data_, settings_, *work);
-  }();
-  // Once a tile has failed the others end as if cancelled: what counts is what failed first.
+void Rendering::run(std::size_t count, WorkspacePool& pool,
+                    const std::function<void(std::size_t, Workspace&, Progress&)>& task) {
+  // Once a task has failed the others end as if cancelled: what counts is what failed first.
   std::atomic_flag failed;
   std::exception_ptr failure;
-  progress_.begin();
   try {
-    run_tasks(tiles_.count(), options_.threads, [&](std::size_t index) {
+    run_tasks(count, options_.threads, [&](std::size_t index) {
       try {
+        const FloatEnvironment ieee;
         WorkspacePool::Loan work(pool);
-        render_tile(frame, tiles_.tile(index), *work);
+        task(index, *work, progress_);
         progress_.task_done();
       } catch (...) {
         if (!failed.test_and_set()) failure = std::current_exception();
@@ -101,8 +115,51 @@ RenderStats Rendering::render_tiles() {
     if (failure) std::rethrow_exception(failure);
     throw;
   }
+}
+
+void Rendering::render_grid(const Frame& frame, const TaskRunner& run_tasks) {
+  const Tiles tiles(canvas_.region());
+  run_tasks(tiles.count(), 1, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
+    render_tile(frame, tiles.tile(index), work);
+  });
+}
+
+RenderStats Rendering::render_picture() {
+  PassClock clock(settings_.time_budget, seconds_);
+  WorkspacePool pool;
+  const Frame frame = [&] {
+    WorkspacePool::Loan work(pool);
+    return Frame(data_, settings_, *work);
+  }();
+  const TaskRunner run_tasks = [&](std::size_t count, double share_after, const auto& task) {
+    progress_.begin_part(count, share_after);
+    run(count, pool, task);
+  };
+  progress_.begin();
+  int passes = 0;
+  const bool by_passes = asks_for_passes(settings_, options_.passes);
+  if (by_passes) {
+    Passes rendering(frame, canvas_.region(), options_.passes, clock, canvas_);
+    rendering.run(run_tasks);
+    measures_ = rendering.take_measures();
+    passes = rendering.passes();
+  } else {
+    render_grid(frame, run_tasks);
+  }
+  RenderStats stats = pool.total_stats();
+  stats.passes = passes;
+  if (by_passes) {
+    report_measures(measures_, stats);
+  } else {
+    report_grid(settings_, frame.features().lens, stats);
+  }
+  report_cutoff(pool.total_cutoff(), data_.scene().background, stats);
   progress_.finish();
-  return pool.total_stats();
+  return stats;
+}
+
+double Rendering::steady_seconds() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
 }
 
 void Rendering::run() {
@@ -110,7 +167,7 @@ void Rendering::run() {
   const FloatEnvironment ieee;  // of this thread; others have their own for each tile
   const Clock::time_point begin = Clock::now();
   try {
-    RenderStats stats = render_tiles();
+    RenderStats stats = render_picture();
     stats.threads = allowed_threads(options_.threads);
     stats.prepare_seconds = data_.prepare_seconds();
     stats.memory = data_.memory();

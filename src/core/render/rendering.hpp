@@ -5,6 +5,7 @@
 
 #include "core/render/canvas.hpp"
 #include "core/render/frame.hpp"
+#include "core/render/passes.hpp"
 #include "core/render/progress.hpp"
 #include "core/render/tiles.hpp"
 #include "core/scene/prepared_data.hpp"
@@ -14,14 +15,18 @@ namespace crt::core {
 
 class Rendering {
  public:
-  /// Checks the options; throws Error (invalid_argument, out_of_memory). `data` must outlive it.
-  Rendering(const PreparedData& data, RenderOptions options);
+  /// Checks the options; throws Error (invalid_argument, limit, out_of_memory). `data` must outlive it.
+  /// `seconds` is what a time budget goes by.
+  Rendering(const PreparedData& data, RenderOptions options, PassClock::Seconds seconds = steady_seconds);
 
   /// Renders on this thread and those that the options allow. Once. Throws Error: cancelled, out_of_memory.
   void run();
 
   /// The picture, which is then no longer here. After run().
   Image take() { return canvas_.take(); }
+
+  /// What is known of each of its pixels. After run().
+  const PixelMeasures& measures() const { return measures_; }
 
   // From any thread, before, during and after run():
 
@@ -31,7 +36,12 @@ class Rendering {
   void cancel() { progress_.stop(); }
 
  private:
-  RenderStats render_tiles();
+  static double steady_seconds();
+  RenderStats render_picture();
+  void render_grid(const Frame& frame, const TaskRunner& run_tasks);
+  /// Runs tasks on the threads that the options allow.
+  void run(std::size_t count, WorkspacePool& pool,
+           const std::function<void(std::size_t, Workspace&, Progress&)>& task);
   void render_tile(const Frame& frame, const Region& tile, Workspace& work);
   void tell(const RenderStats& stats) const;
   void log(LogLevel level, const std::string& line) const;
@@ -40,8 +50,9 @@ class Rendering {
   RenderOptions options_;
   Settings settings_;
   Canvas canvas_;
-  Tiles tiles_;
   Progress progress_;
+  PassClock::Seconds seconds_;
+  PixelMeasures measures_;
 };
 
 }  // namespace crt::core

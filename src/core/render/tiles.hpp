@@ -21,6 +21,14 @@ class Tiles {
 
   std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
 
+  /// Of the tile that a pixel of the region is in.
+  std::size_t index(int x, int y) const {
+    const int column = (x - region_.x) / side;
+    const int row = (y - region_.y) / side;
+    return static_cast<std::size_t>(row) * static_cast<std::size_t>(columns_) +
+           static_cast<std::size_t>(column);
+  }
+
   /// In picture coordinates; smaller at the right and lower edge where the region is.
   Region tile(std::size_t index) const {
     const int column = static_cast<int>(index % static_cast<std::size_t>(columns_));

@@ -33,6 +33,27 @@ double lamp_error(const Vec3& point, const LightSample& sample) {
          std::fma(sample.distance, largest_component(sample.direction), largest_component(point));
 }
 
+/// Takes one more thing that a sample has met into its identity.
+void note(Tracer::Sample& sample, std::uint64_t thing) {
+  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;  // 2^64 / the golden ratio
+  const std::uint64_t mixed = (sample.identity ^ thing) * factor;
+  sample.identity = mixed ^ mixed >> 29;
+}
+
+/// A surface as it is met: a primitive, the triangles of a mesh all alike.
+std::uint64_t met(const HitPoint& point, RayKind kind) {
+  constexpr std::uint64_t is_surface = std::uint64_t{1} << 32;
+  constexpr std::uint64_t is_entered = std::uint64_t{1} << 33;
+  constexpr int place_of_kind = 34;
+  return (point.solid ? point.leaf : is_surface | point.entity_id) | (point.entering ? is_entered : 0) |
+         static_cast<std::uint64_t>(kind) << place_of_kind;
+}
+
+/// A lamp's shadow.
+std::uint64_t shaded_from(std::size_t lamp) {
+  return std::uint64_t{1} << 40 | lamp;
+}
+
 /// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
 Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
   return glm::dot(direction, side) < 0 ? mirrored(direction, side) : direction;
@@ -79,6 +100,8 @@ std::size_t Tracer::take_round(std::span<Sample> samples) {
     if (work.pending.empty()) continue;
     if (work.rays++ == most_rays_per_sample) {
       ++work_.stats.samples_over_ray_bound;
+      for (const PathRay& dropped : work.pending)
+        samples[i].dropped += largest_component(dropped.path.weight);
       work.pending.clear();
       continue;
     }
@@ -139,6 +162,7 @@ bool Tracer::see(Seen& seen) {
     return false;
   }
   look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
+  note(*seen.sample, met(seen.surface.point, seen.path.kind));
   const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
   seen.light = ambient_light(frame_.ambient(), material.reflectivity);
@@ -153,6 +177,7 @@ bool Tracer::pass_medium(Seen& seen) const {
 }
 
 void Tracer::see_background(Seen& seen) const {
+  note(*seen.sample, nothing);
   const Color background = data_.background().color(seen.ray->direction);
   if (seen.path.kind == RayKind::camera) {
     seen.sample->alpha = background.a;
@@ -182,6 +207,7 @@ bool Tracer::reaches(const PreparedLight& source, const Seen& seen, Rgb& light, 
 void Tracer::add_light(std::span<Seen*> seen) {
   std::array<Seen*, packet_size> lit;
   std::array<Rgb, packet_size> lights;
+  std::size_t lamp = 0;
   for (const PreparedLight& source : frame_.lights()) {
     std::size_t count = 0;
     for (Seen* surface : seen) {
@@ -190,8 +216,12 @@ void Tracer::add_light(std::span<Seen*> seen) {
     work_.stats.shadow_rays += count;
     tick(static_cast<unsigned>(count));
     const RayMask hidden = data_.occluded_each(std::span(shadow_rays_).first(count), work_.rays);
-    for (std::size_t i = 0; i < count; ++i)
-      lit[i]->light += lights[i] * light_share_of(shadow_rays_[i], *lit[i], (hidden >> i & 1u) != 0);
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool is_hidden = (hidden >> i & 1u) != 0;
+      if (is_hidden) note(*lit[i]->sample, shaded_from(lamp));
+      lit[i]->light += lights[i] * light_share_of(shadow_rays_[i], *lit[i], is_hidden);
+    }
+    ++lamp;
   }
 }
 
@@ -251,10 +281,12 @@ PathRay* Tracer::push(const Seen& seen, RayKind kind, const Rgb& weight) {
   const double least = frame_.settings().min_weight;
   if (weight.x < least && weight.y < least && weight.z < least) {
     ++work_.stats.rays_below_min_weight;
+    seen.sample->dropped += largest_component(weight);
     return nullptr;
   }
   if (seen.path.bounces >= frame_.settings().recursion_depth) {
     ++work_.stats.rays_beyond_depth;
+    seen.sample->dropped += largest_component(weight);
     return nullptr;
   }
   PathRay& next = seen.work->pending.emplace_back();

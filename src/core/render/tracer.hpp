@@ -26,6 +26,11 @@ class Tracer {
   struct Sample {
     Rgb color{0, 0, 0};  ///< premultiplied with alpha
     double alpha = 1;
+    /// The weight of rays that were not followed, of the channel that lost most.
+    double dropped = 0;
+    /// Samples that meet the same things on the same ways have the same, others most likely not: what was
+    /// hit, from which side, after how many mirrors and refractions, in which lamps' shadows.
+    std::uint64_t identity = 0;
   };
 
   /// Traces up to packet_size camera rays. Throws Error (cancelled) soon after the progress says so.

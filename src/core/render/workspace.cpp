@@ -10,7 +10,8 @@ void add_counts(RenderStats& total, const Workspace& workspace) {
        {&RenderStats::camera_rays, &RenderStats::shadow_rays, &RenderStats::reflection_rays,
         &RenderStats::refraction_rays, &RenderStats::rays_below_min_weight, &RenderStats::rays_beyond_depth,
         &RenderStats::samples_over_ray_bound, &RenderStats::media_lookups, &RenderStats::media_changes,
-        &RenderStats::pattern_lookups, &RenderStats::lens_samples, &RenderStats::pixels}) {
+        &RenderStats::pattern_lookups, &RenderStats::lens_samples, &RenderStats::pixels,
+        &RenderStats::pixels_unresolved}) {
     total.*count += part.*count;
   }
   total.intersection_tests += workspace.rays.intersection_tests;
@@ -23,6 +24,12 @@ void add_counts(RenderStats& total, const Workspace& workspace) {
 RenderStats WorkspacePool::total_stats() const {
   RenderStats total;
   for (const std::unique_ptr<Workspace>& workspace : all_) add_counts(total, *workspace);
+  return total;
+}
+
+CutoffSum WorkspacePool::total_cutoff() const {
+  CutoffSum total;
+  for (const std::unique_ptr<Workspace>& workspace : all_) total.add(workspace->cutoff);
   return total;
 }
 

@@ -1,7 +1,9 @@
 // What one thread works with: memory that it reuses from ray to ray, and its counts.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <memory>
 #include <mutex>
 #include <vector>
@@ -37,9 +39,31 @@ struct SampleWork {
   int rays = 0;                  ///< followed so far
 };
 
+/// The weight of rays that were not followed, of some pixels.
+struct CutoffSum {
+  static constexpr double unit = 0x1p-24;
+  static constexpr double most_of_pixel = 256;
+
+  /// In units, so that the order does not matter.
+  std::uint64_t units = 0;
+  double most = 0;
+
+  void add(double pixel) {
+    const double weight = std::min(pixel, most_of_pixel);
+    units += static_cast<std::uint64_t>(std::ceil(weight / unit));
+    most = std::max(most, weight);
+  }
+  void add(const CutoffSum& other) {
+    units += other.units;
+    most = std::max(most, other.most);
+  }
+  double total() const { return unit * static_cast<double>(units); }
+};
+
 struct Workspace {
   RayWorkspace rays;
   RenderStats stats;
+  CutoffSum cutoff;
   std::array<SampleWork, packet_size> samples;
   std::vector<RayHit> crossings;
   std::vector<RayHit> entered;
@@ -67,6 +91,7 @@ class WorkspacePool {
 
   /// All counts together; while nothing is on loan.
   RenderStats total_stats() const;
+  CutoffSum total_cutoff() const;
 
  private:
   Workspace* take();

@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <bit>
 #include <cmath>
 #include <numbers>
 #include <string_view>
@@ -15,6 +16,8 @@ namespace {
 
 constexpr double largest_coordinate = 1e100;
 constexpr double largest_factor = 1e30;
+constexpr int fewest_samples = 4;
+constexpr int most_samples = 65536;
 constexpr double pi = std::numbers::pi;
 
 [[noreturn]] void reject(std::string_view field, const std::string& what) {
@@ -30,6 +33,14 @@ void require_between(std::string_view field, double value, double lowest, double
     reject(field, fmt::format("must be at most {} (it is {})", highest, value));
   }
   reject(field, fmt::format("must be between {} and {} (it is {})", lowest, highest, value));
+}
+
+/// 2^n, in [lowest, highest].
+void require_power_of_two(std::string_view field, int value, int lowest, int highest) {
+  require_between(field, value, lowest, highest);
+  if (!std::has_single_bit(static_cast<unsigned>(value))) {
+    reject(field, fmt::format("must be a power of 2, such as 16 or 64 (it is {})", value));
+  }
 }
 
 /// A number in (0, highest].
@@ -225,6 +236,15 @@ void validate(const Settings& settings) {
   require_between("gamma", settings.gamma, 0.1, 10);
   require_between("supersampling", settings.supersampling, 1, 64);
   require_between("dof_samples", settings.dof_samples, 1, 65536);
+  require_between("target_error", settings.target_error, 0, 1);
+  require_between("time_budget", settings.time_budget, 0, 1e6);
+  require_power_of_two("min_samples", settings.min_samples, fewest_samples, most_samples);
+  require_power_of_two("max_samples", settings.max_samples, fewest_samples, most_samples);
+  if (settings.max_samples < settings.min_samples) {
+    reject("max_samples", fmt::format("must not be less than min_samples ({}), but is {}",
+                                      settings.min_samples, settings.max_samples));
+  }
+  require_between("filter_width", settings.filter_width, 1, 16);
   require_between("recursion_depth", settings.recursion_depth, 0, 256);
   require_between("min_weight", settings.min_weight, 0, 1);
 }

@@ -1,0 +1,73 @@
+#include "core/render/accuracy.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+namespace crt::core {
+
+namespace {
+
+/// The share of a pixel that N samples may all miss is, in 95 of 100 cases, below this divided by N: the
+/// "rule of three". Source: Hanley and Lippman-Hand, If nothing goes wrong, is everything all right?, JAMA
+/// 249(13), 1983. Samples that are spread evenly miss less.
+constexpr double rule_of_three = 3;
+
+void report_unseen(RenderStats& stats) {
+  stats.unseen_share = std::min(1.0, rule_of_three / static_cast<double>(stats.samples_min));
+}
+
+/// The brightest channel that a ray which hits nothing can see, or white if that is brighter.
+struct Brightness {
+  static constexpr double white = 1;
+
+  static double of(const Color& color) { return std::max({white, color.r, color.g, color.b}); }
+
+  double operator()(const SolidBackground& background) const { return of(background.color); }
+  double operator()(const GradientBackground& background) const {
+    return std::max(of(background.horizon), of(background.sky));
+  }
+  double operator()(const PanoramaBackground& background) const {
+    const std::span<const float> values = background.image->pixels();
+    return std::max(white, double{*std::max_element(values.begin(), values.end())});
+  }
+};
+
+}  // namespace
+
+void report_measures(const PixelMeasures& measures, RenderStats& stats) {
+  const auto [least, most] = std::minmax_element(measures.samples.begin(), measures.samples.end());
+  stats.samples_min = *least;
+  stats.samples_max = *most;
+  const auto pixels = static_cast<double>(measures.samples.size());
+  std::uint64_t samples = 0;
+  for (const std::uint32_t count : measures.samples) samples += count;
+  stats.samples_mean = static_cast<double>(samples) / pixels;
+  report_unseen(stats);
+
+  double squares = 0;
+  for (const float half_width : measures.half_widths) squares += double{half_width} * double{half_width};
+  stats.half_width_rms = std::sqrt(squares / pixels);
+  std::vector<float> sorted = measures.half_widths;
+  constexpr double share = 0.95;
+  const auto place = static_cast<std::ptrdiff_t>(std::ceil(share * pixels)) - 1;
+  std::nth_element(sorted.begin(), sorted.begin() + place, sorted.end());
+  stats.half_width_95 = double{sorted[static_cast<std::size_t>(place)]};
+  stats.half_width_max = double{*std::max_element(sorted.begin(), sorted.end())};
+}
+
+void report_grid(const Settings& settings, bool lens, RenderStats& stats) {
+  const auto rays = static_cast<std::uint64_t>(settings.supersampling * settings.supersampling);
+  stats.samples_min = stats.samples_max =
+      rays * (lens ? static_cast<std::uint64_t>(settings.dof_samples) : std::uint64_t{1});
+  stats.samples_mean = static_cast<double>(stats.samples_min);
+  report_unseen(stats);
+}
+
+void report_cutoff(const CutoffSum& cutoff, const Background& background, RenderStats& stats) {
+  if (cutoff.most == 0) return;
+  const double brightest = std::visit(Brightness{}, background);
+  stats.cutoff_mean = brightest * cutoff.total() / static_cast<double>(stats.pixels);
+  stats.cutoff_max = brightest * cutoff.most;
+}
+
+}  // namespace crt::core

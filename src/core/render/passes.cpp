@@ -1,0 +1,200 @@
+#include "core/render/passes.hpp"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+
+#include "core/sampling/schedule.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Without a target error pixels go on until nobody could see the difference, be it in 10 bits.
+constexpr double finest_error = 0.25 / 255;
+
+/// Of what is left to be done at most, how much a step is taken for that may not be the last.
+constexpr double share_of_step = 0.5;
+
+constexpr std::size_t most_tile_pixels = std::size_t{Tiles::side} * Tiles::side;
+
+/// The region and the pixels around it that are in the picture.
+Region with_margin(const Region& region, const Settings& settings) {
+  const int left = std::max(region.x - 1, 0);
+  const int top = std::max(region.y - 1, 0);
+  const int right = std::min(region.x + region.width + 1, settings.width);
+  const int bottom = std::min(region.y + region.height + 1, settings.height);
+  return {left, top, right - left, bottom - top};
+}
+
+float as_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(value, -largest, largest));
+}
+
+}  // namespace
+
+bool asks_for_passes(const Settings& settings, int passes) {
+  return settings.target_error > 0 || settings.time_budget > 0 || passes > 0;
+}
+
+Passes::Passes(const Frame& frame, const Region& region, int most_passes, PassClock& clock, Canvas& canvas)
+    : frame_(frame),
+      region_(region),
+      worked_on_(with_margin(region, frame.settings())),
+      grid_(worked_on_),
+      most_samples_(frame.settings().max_samples),
+      by_clock_(most_passes == 0 && clock.has_budget()),
+      clock_(clock),
+      canvas_(canvas),
+      scale_(frame.settings().gamma),
+      target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error) {
+  if (most_passes > 0 && most_passes < passes_until(most_samples_))
+    most_samples_ = samples_after(most_passes);
+  const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
+  measures_.samples.resize(pixels);
+  measures_.half_widths.resize(pixels);
+  tiles_.resize(grid_.count());
+  active_.resize(tiles_.size());
+  for (std::size_t i = 0; i < tiles_.size(); ++i) {
+    Tile& tile = tiles_[i];
+    tile.region = grid_.tile(i);
+    tile.samples.resize(static_cast<std::size_t>(tile.region.width * tile.region.height));
+    tile.places.resize(tile.samples.size());
+    for (std::size_t k = 0; k < tile.places.size(); ++k) tile.places[k] = static_cast<std::uint8_t>(k);
+    active_[i] = i;
+  }
+}
+
+int Passes::passes() const {
+  return passes_until(count_);
+}
+
+std::uint64_t Passes::pixels_left() const {
+  std::uint64_t count = 0;
+  for (const std::size_t index : active_) count += tiles_[index].places.size();
+  return count;
+}
+
+std::int64_t Passes::next_stop() const {
+  if (by_clock_) return std::min(count_ + samples_of_next_pass(count_), most_samples_);
+  const std::int64_t least = frame_.settings().min_samples;
+  return std::min(count_ < least ? least : 2 * count_, most_samples_);
+}
+
+void Passes::run(const TaskRunner& run_tasks) {
+  const std::int64_t least = frame_.settings().min_samples;
+  while (true) {
+    const std::int64_t stop = next_stop();
+    const auto samples = static_cast<std::uint64_t>(stop - count_) * pixels_left();
+    if (by_clock_ && count_ > 0 && !clock_.has_time_for(samples)) break;
+    share_ =
+        std::max(share_, by_clock_ ? clock_.share_after(samples) : share_ + share_of_step * (1 - share_));
+    trace(run_tasks, stop);
+    clock_.pass_done(samples);
+    if (count_ == least) exchange_notes(run_tasks);
+    if (count_ == most_samples_) break;
+    const bool is_doubled = std::has_single_bit(static_cast<std::uint64_t>(count_));
+    if (count_ < least || !is_doubled) continue;
+    settle(run_tasks, false);
+    if (active_.empty()) break;
+  }
+  settle(run_tasks, true);
+}
+
+void Passes::trace(const TaskRunner& run_tasks, std::int64_t until) {
+  const SampleRange range = {count_, until};
+  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
+    Tile& tile = tiles_[active_[index]];
+    Tracer tracer(frame_, work, progress);
+    std::array<PixelPlace, most_tile_pixels> pixels;
+    for (std::size_t i = 0; i < tile.places.size(); ++i) {
+      const auto [x, y] = place_of(tile, i);
+      pixels[i] = {.x = x, .y = y, .samples = &tile.samples[i]};
+    }
+    trace_passes(frame_, std::span(pixels).first(tile.places.size()), range, tracer, work.stats);
+    show(tile, until);
+  });
+  count_ = until;
+}
+
+Passes::Place Passes::place_of(const Tile& tile, std::size_t index) {
+  const int place = tile.places[index];
+  return {tile.region.x + place % tile.region.width, tile.region.y + place / tile.region.width};
+}
+
+bool Passes::is_in_region(const Place& place) const {
+  return place.x >= region_.x && place.x < region_.x + region_.width && place.y >= region_.y &&
+         place.y < region_.y + region_.height;
+}
+
+void Passes::show(const Tile& tile, std::int64_t count) {
+  std::array<PlacedPixel, most_tile_pixels> pixels;
+  std::size_t shown = 0;
+  for (std::size_t i = 0; i < tile.places.size(); ++i) {
+    const Place place = place_of(tile, i);
+    if (!is_in_region(place)) continue;
+    const std::array<double, pixel_channels> mean = tile.samples[i].mean(count);
+    PlacedPixel& pixel = pixels[shown++];
+    pixel = {.x = place.x, .y = place.y, .values = {}};
+    for (std::size_t c = 0; c < pixel_channels; ++c) pixel.values[c] = as_float(mean[c]);
+  }
+  canvas_.put(std::span(pixels).first(shown));
+}
+
+void Passes::exchange_notes(const TaskRunner& run_tasks) {
+  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& /*work*/, Progress& /*progress*/) {
+    Tile& tile = tiles_[active_[index]];
+    for (std::size_t i = 0; i < tile.places.size(); ++i) {
+      const Place place = place_of(tile, i);
+      if (is_in_region(place)) take_notes(place, tile.samples[i]);
+    }
+  });
+}
+
+void Passes::take_notes(const Place& place, PixelSamples& samples) const {
+  const int right = std::min(place.x + 1, worked_on_.x + worked_on_.width - 1);
+  const int bottom = std::min(place.y + 1, worked_on_.y + worked_on_.height - 1);
+  for (int y = std::max(place.y - 1, worked_on_.y); y <= bottom; ++y) {
+    for (int x = std::max(place.x - 1, worked_on_.x); x <= right; ++x) {
+      const Tile& tile = tiles_[grid_.index(x, y)];
+      const int inside = (y - tile.region.y) * tile.region.width + x - tile.region.x;
+      samples.take_note(tile.samples[static_cast<std::size_t>(inside)]);
+    }
+  }
+}
+
+void Passes::settle(const TaskRunner& run_tasks, bool at_end) {
+  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
+    settle_tile(tiles_[active_[index]], at_end, work);
+  });
+  std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
+}
+
+void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
+  std::size_t kept = 0;
+  for (std::size_t i = 0; i < tile.places.size(); ++i) {
+    const Place place = place_of(tile, i);
+    if (!is_in_region(place)) continue;
+    const double half_width = tile.samples[i].half_width(count_, scale_);
+    if (half_width > target_ && !at_end) {
+      tile.samples[kept] = tile.samples[i];
+      tile.places[kept++] = tile.places[i];
+      continue;
+    }
+    const std::size_t pixel =
+        static_cast<std::size_t>(place.y - region_.y) * static_cast<std::size_t>(region_.width) +
+        static_cast<std::size_t>(place.x - region_.x);
+    measures_.samples[pixel] = static_cast<std::uint32_t>(count_);
+    measures_.half_widths[pixel] = static_cast<float>(half_width);
+    work.cutoff.add(tile.samples[i].dropped(count_));
+    ++work.stats.pixels;
+    if (half_width > target_) ++work.stats.pixels_unresolved;
+  }
+  tile.samples.resize(kept);
+  tile.samples.shrink_to_fit();
+  tile.places.resize(kept);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,88 @@
+// Rendering pass by pass: each gives the pixels that are not yet good enough some more samples.
+//
+// After min_samples, and at each doubling from then on, all threads wait for each other, and it is decided
+// which pixels go on: those whose half-width is above the target error. What a pixel's neighbours saw counts
+// as well, but only in their first min_samples samples, which all pixels get. So a decision depends on the
+// samples of the pixel and on the first ones of its neighbours alone, and a part of the picture is rendered
+// like the whole if its margin, one pixel wide, gets the first samples too.
+#pragma once
+
+#include <functional>
+#include <vector>
+
+#include "core/render/canvas.hpp"
+#include "core/render/pass_clock.hpp"
+#include "core/render/pixel.hpp"
+#include "core/render/tiles.hpp"
+
+namespace crt::core {
+
+/// What is known of each pixel of the picture when it is done: rows from the top.
+struct PixelMeasures {
+  std::vector<std::uint32_t> samples;
+  std::vector<float> half_widths;  ///< in display units; empty for the plain grid
+};
+
+/// Calls task(0) to task(count - 1), on several threads, with a workspace each; `share` is how much of the
+/// picture will be done after them.
+using TaskRunner = std::function<void(std::size_t count, double share,
+                                      const std::function<void(std::size_t, Workspace&, Progress&)>& task)>;
+
+/// Whether settings and options ask for it, and not for the plain grid.
+bool asks_for_passes(const Settings& settings, int passes);
+
+class Passes {
+ public:
+  /// `most_passes`: 0 for as many as it takes. All but the region must outlive it.
+  Passes(const Frame& frame, const Region& region, int most_passes, PassClock& clock, Canvas& canvas);
+
+  /// Renders. Once.
+  void run(const TaskRunner& run_tasks);
+
+  int passes() const;
+  PixelMeasures take_measures() { return std::move(measures_); }
+
+ private:
+  /// The pixels of a tile that are still worked on.
+  struct Tile {
+    Region region;
+    std::vector<PixelSamples> samples;
+    std::vector<std::uint8_t> places;  ///< in the tile, row by row
+  };
+  struct Place {
+    int x = 0;
+    int y = 0;
+  };
+  static Place place_of(const Tile& tile, std::size_t index);
+  bool is_in_region(const Place& place) const;
+
+  /// With what number of samples the passes end that come before there is something to be decided.
+  std::int64_t next_stop() const;
+  std::uint64_t pixels_left() const;
+  void trace(const TaskRunner& run_tasks, std::int64_t until);
+  void show(const Tile& tile, std::int64_t count);
+  /// Tells the pixels what their neighbours have seen; while all pixels are still there.
+  void exchange_notes(const TaskRunner& run_tasks);
+  void take_notes(const Place& place, PixelSamples& samples) const;
+  /// Takes leave of the pixels that are good enough, at the end of all.
+  void settle(const TaskRunner& run_tasks, bool at_end);
+  void settle_tile(Tile& tile, bool at_end, Workspace& work);
+
+  const Frame& frame_;
+  Region region_;
+  Region worked_on_;  ///< the region and its margin
+  Tiles grid_;
+  std::int64_t most_samples_;
+  bool by_clock_;
+  PassClock& clock_;
+  Canvas& canvas_;
+  DisplayScale scale_;
+  double target_;
+  std::vector<Tile> tiles_;
+  std::vector<std::size_t> active_;  ///< of the tiles
+  std::int64_t count_ = 0;           ///< samples of every pixel that is left
+  double share_ = 0;
+  PixelMeasures measures_;
+};
+
+}  // namespace crt::core

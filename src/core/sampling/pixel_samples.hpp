@@ -1,0 +1,83 @@
+// What is kept of a pixel's samples while more are to come: their sum, by blocks, and what tells how far the
+// mean may be from the truth.
+//
+// How: the samples are one sequence cut into 4 to 8 blocks of equal length, each of which is spread over the
+// pixel as evenly as its length allows. Means of such blocks differ more than independent estimates of the
+// same quality as the whole would (together the blocks are spread better than any one of them), so that the
+// interval from their variance and Student's t covers the truth more often than it says. Where the blocks
+// agree by chance, or as the sampling is regular, the floor below holds. See docs/trade.md for what was
+// measured.
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+namespace crt::core {
+
+/// Red, green, blue, alpha.
+inline constexpr int pixel_channels = 4;
+using Channels = std::array<float, pixel_channels>;
+
+/// Some samples together.
+struct SampleSum {
+  std::array<double, pixel_channels> sum{};
+  Channels low{};   ///< of each channel the least
+  Channels high{};  ///< and the greatest
+  double dropped = 0;
+  std::uint64_t identity = 0;  ///< of the first
+  bool mixed = false;          ///< not all have the same
+  std::int64_t count = 0;
+
+  void add(const std::array<double, pixel_channels>& values, std::uint64_t sample_identity, double lost);
+};
+
+/// What a viewer sees of a channel.
+class DisplayScale {
+ public:
+  explicit DisplayScale(double gamma) : exponent_(1 / gamma) {}
+
+  /// From 0 to 1.
+  double shown(double value) const;
+  /// The farthest that anything within `half_width` of a colour (or alpha) is from it on a display.
+  double half_width(double value, double half_width, bool is_alpha) const;
+
+ private:
+  double exponent_;
+};
+
+class PixelSamples {
+ public:
+  /// Adds the samples of one pass (see schedule.hpp) to the `count` that are here.
+  void add_pass(std::int64_t count, const SampleSum& pass);
+
+  /// The mean of `count` samples.
+  std::array<double, pixel_channels> mean(std::int64_t count) const;
+  /// The mean share of light that was cut off.
+  double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
+
+  /// Takes note of a neighbour, or of itself: what is seen there may reach in here.
+  void take_note(const PixelSamples& neighbour);
+
+  /// Half of the width of the interval that holds the true mean, in display units, the worst channel's. Of
+  /// one sample nothing is known, and it is 1.
+  double half_width(std::int64_t count, const DisplayScale& scale) const;
+
+ private:
+  static constexpr std::size_t block_count = 8;
+  /// How long a block is when there are `count` samples.
+  static std::int64_t block_size(std::int64_t count);
+  void merge_blocks();
+
+  std::array<Channels, block_count> blocks_{};  ///< sums
+  Channels low_{};
+  Channels high_{};
+  Channels low_around_{};  ///< here and in the neighbours, after the first samples
+  Channels high_around_{};
+  float dropped_ = 0;
+  std::uint32_t identity_ = 0;
+  bool mixed_ = false;
+  bool edge_ = false;  ///< things of several identities are here or in the neighbours
+  bool has_notes_ = false;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,125 @@
+// Points of a pixel's samples: a sequence in four dimensions for each pixel, of which every beginning is
+// spread evenly and every point is a function of the seed, the pixel and its index alone.
+//
+// Sources: Sobol, On the distribution of points in a cube and the approximate evaluation of integrals, 1967;
+// Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections, 2008 (the direction
+// numbers); Owen, Randomly permuted (t,m,s)-nets and (t,s)-sequences, 1995 (the scrambling); Laine and
+// Karras, Stratified sampling for stochastic transparency, 2011, and Burley, Practical hash-based Owen
+// scrambling, 2020 (scrambling by a hash whose bits depend on the bits before them alone).
+#pragma once
+
+#include <array>
+#include <cstdint>
+
+#include "core/math/random.hpp"
+
+namespace crt::core {
+
+/// Dimensions of a sample: a place on the pixel's plane, then a point of the lens.
+inline constexpr int sequence_dimensions = 4;
+
+/// What a sample is made of, each in [0, 1).
+struct SequencePoint {
+  double pixel_u = 0;
+  double pixel_v = 0;
+  double lens_u = 0;
+  double lens_v = 0;
+};
+
+namespace sequence_detail {
+
+/// A bit of the index turns over these bits of the coordinates. Written from the lowest bit up, that is in
+/// the order in which scrambling goes through them.
+using Column = std::array<std::uint32_t, sequence_dimensions>;
+inline constexpr int index_bits = 32;
+
+/// The start of a recurrence for direction numbers: a primitive polynomial over two elements, by its degree
+/// and inner coefficients, and the first odd numbers.
+struct Recurrence {
+  int degree;
+  std::uint32_t coefficients;
+  std::array<std::uint32_t, 3> first;
+};
+
+constexpr std::uint32_t reversed(std::uint32_t bits) {
+  bits = (bits >> 1 & 0x55555555u) | (bits & 0x55555555u) << 1;
+  bits = (bits >> 2 & 0x33333333u) | (bits & 0x33333333u) << 2;
+  bits = (bits >> 4 & 0x0f0f0f0fu) | (bits & 0x0f0f0f0fu) << 4;
+  bits = (bits >> 8 & 0x00ff00ffu) | (bits & 0x00ff00ffu) << 8;
+  return bits >> 16 | bits << 16;
+}
+
+constexpr std::array<Column, index_bits> columns() {
+  // The first dimension's numbers are all 1: its coordinates are the index read backwards.
+  constexpr std::array<Recurrence, sequence_dimensions - 1> recurrences = {
+      {{1, 0, {1, 0, 0}}, {2, 1, {1, 3, 0}}, {3, 1, {1, 3, 1}}}};
+  std::array<Column, index_bits> result{};
+  for (int bit = 0; bit < index_bits; ++bit) result[static_cast<std::size_t>(bit)][0] = 1u << bit;
+  for (std::size_t dimension = 1; dimension < sequence_dimensions; ++dimension) {
+    const auto& [degree, coefficients, first] = recurrences[dimension - 1];
+    std::array<std::uint32_t, index_bits> numbers{};  // as fractions: the highest bit is a half
+    for (int i = 0; i < index_bits; ++i) {
+      auto& number = numbers[static_cast<std::size_t>(i)];
+      if (i < degree) {
+        number = first[static_cast<std::size_t>(i)] << (index_bits - 1 - i);
+        continue;
+      }
+      const std::uint32_t back = numbers[static_cast<std::size_t>(i - degree)];
+      number = back ^ back >> degree;
+      for (int k = 1; k < degree; ++k) {
+        if ((coefficients >> (degree - 1 - k) & 1u) != 0) number ^= numbers[static_cast<std::size_t>(i - k)];
+      }
+    }
+    for (std::size_t i = 0; i < index_bits; ++i) result[i][dimension] = reversed(numbers[i]);
+  }
+  return result;
+}
+
+inline constexpr std::array<Column, index_bits> column_table = columns();
+
+/// Turns each bit over or not as a hash of the seed and the bits below it says. Both steps keep to that:
+/// adding and multiplying carry upwards, and an even factor leaves a bit itself out of what it is mixed with.
+constexpr std::uint32_t scrambled_upwards(std::uint32_t bits, std::uint32_t seed) {
+  constexpr std::array<std::uint32_t, 3> even_factors = {0x9e3779baU, 0xbf58476cU, 0x94d049baU};
+  bits += seed;
+  for (const std::uint32_t factor : even_factors) {
+    bits ^= bits * factor;
+    bits *= seed << 1 | 1u;
+    seed = seed >> 7 | seed << 25;
+  }
+  return bits;
+}
+
+}  // namespace sequence_detail
+
+/// The sequence of one pixel.
+class PixelSequence {
+ public:
+  PixelSequence(std::uint64_t seed, int x, int y)
+      : seeds_(philox4x32_10({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, use},
+                             {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)})) {}
+
+  /// Any 2^k points that follow each other from a multiple of 2^k on are spread evenly: on the pixel every
+  /// rectangle of area 2^-k that comes of halving its sides holds one of them, and so does, in every
+  /// dimension by itself, each of 2^k equal parts.
+  SequencePoint point(std::uint32_t index) const {
+    using namespace sequence_detail;
+    Column bits{};
+    for (std::size_t i = 0; index != 0; ++i, index >>= 1) {
+      if ((index & 1u) == 0) continue;
+      for (std::size_t d = 0; d < sequence_dimensions; ++d) bits[d] ^= column_table[i][d];
+    }
+    const auto coordinate = [&](std::size_t d) {
+      return 0x1p-32 * reversed(scrambled_upwards(bits[d], seeds_[d]));
+    };
+    return {coordinate(0), coordinate(1), coordinate(2), coordinate(3)};
+  }
+
+ private:
+  /// Apart from what else random numbers are drawn for at a pixel.
+  static constexpr std::uint32_t use = 0x5e9ce001;
+
+  PhiloxCounter seeds_;
+};
+
+}  // namespace crt::core

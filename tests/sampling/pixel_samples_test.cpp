@@ -1,0 +1,148 @@
+// What is known of a pixel from its samples.
+#include "core/sampling/pixel_samples.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "core/sampling/schedule.hpp"
+#include "core/sampling/sequence.hpp"
+
+using namespace crt::core;
+
+namespace {
+
+/// Gives a pixel its first `end` samples of a grey function.
+template <class Function>
+PixelSamples sampled(const PixelSequence& sequence, std::int64_t end, const Function& function) {
+  PixelSamples pixel;
+  std::int64_t count = 0;
+  while (count < end) {
+    SampleSum pass;
+    const std::int64_t size = samples_of_next_pass(count);
+    for (std::int64_t i = count; i < count + size; ++i) {
+      const double value = function(sequence.point(static_cast<std::uint32_t>(i)));
+      pass.add({value, value, value, 1}, value > 0.5 ? 1 : 2, 0.25);
+    }
+    pixel.add_pass(count, pass);
+    count += size;
+  }
+  return pixel;
+}
+
+const DisplayScale linear(1);
+
+}  // namespace
+
+TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
+  PixelSamples pixel;
+  std::int64_t count = 0;
+  for (int pass = 0; pass < 40; ++pass) {
+    SampleSum sum;
+    for (std::int64_t i = samples_of_next_pass(count); i > 0; --i) sum.add({0.1, 0.2, 1.0 / 3, 1}, 5, 0);
+    pixel.add_pass(count, sum);
+    count += sum.count;
+    const auto mean = pixel.mean(count);
+    CHECK(static_cast<float>(mean[0]) == 0.1f);
+    CHECK(static_cast<float>(mean[1]) == 0.2f);
+    CHECK(static_cast<float>(mean[2]) == static_cast<float>(1.0 / 3));
+    CHECK(mean[3] == 1);
+    CHECK(pixel.half_width(count, linear) < (count == 1 ? 1.1 : 1e-6));
+  }
+}
+
+TEST_CASE("the mean is that of all samples, whatever the pass") {
+  const PixelSequence sequence(3, 1, 4);
+  const auto wave = [](const SequencePoint& p) {
+    return 0.5 + 0.5 * std::sin(7 * p.pixel_u + 3 * p.pixel_v);
+  };
+  for (const std::int64_t count : {1, 5, 8, 9, 16, 18, 30, 64, 72, 1024}) {
+    double sum = 0;
+    for (std::int64_t i = 0; i < count; ++i) sum += wave(sequence.point(static_cast<std::uint32_t>(i)));
+    const PixelSamples pixel = sampled(sequence, count, wave);
+    CHECK(pixel.mean(count)[1] == doctest::Approx(sum / static_cast<double>(count)).epsilon(1e-6));
+    CHECK(pixel.dropped(count) == doctest::Approx(0.25));
+  }
+}
+
+TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its contrast") {
+  const PixelSequence sequence(3, 1, 4);
+  // Halves: the sequence gets them right with every pass, and its blocks agree.
+  const auto halves = [](const SequencePoint& p) { return p.pixel_u < 0.5 ? 0.2 : 0.8; };
+  const auto plain = [](const SequencePoint&) { return 0.2; };
+  PixelSamples pixel = sampled(sequence, 64, halves);
+  CHECK(pixel.half_width(64, linear) == doctest::Approx(2 * 0.6 / 64));
+
+  PixelSamples quiet = sampled(sequence, 16, plain);
+  CHECK(quiet.half_width(16, linear) < 1e-6);
+  quiet.take_note(quiet);
+  CHECK(quiet.half_width(16, linear) < 1e-6);
+  quiet.take_note(sampled(sequence, 16, halves));
+  CHECK(quiet.half_width(16, linear) == doctest::Approx(2 * 0.6 / 16));
+}
+
+TEST_CASE("things that look alike keep a width where they meet") {
+  SampleSum one;
+  SampleSum other;
+  for (int i = 0; i < 1; ++i) {
+    one.add({0.5, 0.5, 0.5, 1}, 1, 0);
+    other.add({0.5, 0.5, 0.5, 1}, 2, 0);
+  }
+  PixelSamples pixel;
+  for (std::int64_t i = 0; i < 8; ++i) pixel.add_pass(i, one);
+  CHECK(pixel.half_width(8, linear) == 0);
+  PixelSamples mixed = pixel;
+  mixed.add_pass(8, other);
+  CHECK(mixed.half_width(9, linear) > 0.01);
+  PixelSamples neighbour;
+  for (std::int64_t i = 0; i < 8; ++i) neighbour.add_pass(i, other);
+  pixel.take_note(neighbour);
+  CHECK(pixel.half_width(8, linear) > 0.01);
+}
+
+TEST_CASE("what a display clips has no width, and dark colours at a high gamma have more") {
+  const DisplayScale scale(2.2);
+  CHECK(linear.half_width(5, 1, false) == 0);
+  CHECK(linear.half_width(0.5, 0.1, false) == doctest::Approx(0.1));
+  CHECK(linear.half_width(0.95, 0.1, false) == doctest::Approx(0.1));
+  CHECK(scale.half_width(0.01, 0.01, false) > 0.1);
+  CHECK(scale.half_width(0.01, 0.01, true) == doctest::Approx(0.01));
+}
+
+TEST_CASE("values beyond all bounds do no harm") {
+  SampleSum sum;
+  sum.add({1e300, -1e300, 0, 1}, 1, 0);
+  PixelSamples pixel;
+  for (std::int64_t i = 0; i < 8; ++i) pixel.add_pass(i, sum);
+  CHECK(std::isfinite(pixel.mean(8)[0]));
+  CHECK(pixel.half_width(8, linear) >= 0);
+  CHECK(pixel.half_width(8, linear) <= 1);
+}
+
+TEST_CASE("at the stopping point the truth lies within the half-width in 95 of 100 pixels with an edge") {
+  constexpr int pixels = 3000;
+  for (const double target : {8.0 / 255, 2.0 / 255}) {
+    int within = 0;
+    for (int i = 0; i < pixels; ++i) {
+      const PixelSequence sequence(11, i, 2);
+      const double angle = 0.001 * i;
+      const double x = std::cos(angle);
+      const double y = std::sin(angle);
+      const double level = 0.4 * std::sin(0.7 * i);
+      const auto edge = [&](const SequencePoint& p) {
+        return x * (p.pixel_u - 0.5) + y * (p.pixel_v - 0.5) < level ? 1.0 : 0.0;
+      };
+      std::int64_t count = 16;
+      PixelSamples pixel = sampled(sequence, count, edge);
+      while (pixel.half_width(count, linear) > target && count < 1024)
+        pixel = sampled(sequence, count *= 2, edge);
+      constexpr int grid = 200;
+      double truth = 0;
+      for (int k = 0; k < grid * grid; ++k)
+        truth += edge({.pixel_u = (k % grid + 0.5) / grid, .pixel_v = (k / grid + 0.5) / grid});
+      truth /= grid * grid;
+      if (std::abs(pixel.mean(count)[0] - truth) <= pixel.half_width(count, linear) + 0.0002) ++within;
+    }
+    CHECK(within >= 0.95 * pixels);
+  }
+}

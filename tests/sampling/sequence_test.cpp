@@ -1,0 +1,145 @@
+// The sequence of a pixel's samples, the schedule of passes, and pixel filters.
+#include "core/sampling/sequence.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <numbers>
+#include <vector>
+
+#include "core/sampling/pixel_filter.hpp"
+#include "core/sampling/schedule.hpp"
+
+using namespace crt;
+using namespace crt::core;
+
+namespace {
+
+/// Whether `count` points from `begin` on hit each of as many equal rectangles in so many columns once.
+bool is_net(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t count, std::uint32_t columns) {
+  std::vector<int> hits(count, 0);
+  const std::uint32_t rows = count / columns;
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const SequencePoint point = sequence.point(begin + i);
+    const auto column = static_cast<std::uint32_t>(point.pixel_u * columns);
+    const auto row = static_cast<std::uint32_t>(point.pixel_v * rows);
+    ++hits[row * columns + column];
+  }
+  for (const int hit : hits) {
+    if (hit != 1) return false;
+  }
+  return true;
+}
+
+/// The root of the mean square error of the mean over `count` points of something whose mean is 0.
+template <class Integrand>
+double spread(std::uint32_t count, const Integrand& integrand) {
+  constexpr int pixels = 2000;
+  double squares = 0;
+  for (int pixel = 0; pixel < pixels; ++pixel) {
+    const PixelSequence sequence(5, pixel, 3);
+    double sum = 0;
+    for (std::uint32_t i = 0; i < count; ++i) sum += integrand(sequence.point(i));
+    squares += sum / count * (sum / count);
+  }
+  return std::sqrt(squares / pixels);
+}
+
+}  // namespace
+
+TEST_CASE("points that follow each other from a multiple of their number on fill the pixel evenly") {
+  for (int pixel = 0; pixel < 20; ++pixel) {
+    const PixelSequence sequence(7, pixel, 100 - pixel);
+    for (const std::uint32_t count : {1u, 2u, 4u, 16u, 64u, 512u}) {
+      for (std::uint32_t block = 0; block < 3; ++block) {
+        for (std::uint32_t columns = 1; columns <= count; columns *= 2)
+          CHECK(is_net(sequence, block * count, count, columns));
+      }
+    }
+  }
+}
+
+TEST_CASE("each coordinate of the lens is spread evenly as well") {
+  const PixelSequence sequence(1, 2, 3);
+  constexpr std::uint32_t count = 64;
+  std::array<int, count> us{};
+  std::array<int, count> vs{};
+  for (std::uint32_t i = 0; i < count; ++i) {
+    const SequencePoint point = sequence.point(i);
+    ++us[static_cast<std::size_t>(point.lens_u * count)];
+    ++vs[static_cast<std::size_t>(point.lens_v * count)];
+  }
+  for (std::size_t i = 0; i < count; ++i) {
+    CHECK(us[i] == 1);
+    CHECK(vs[i] == 1);
+  }
+}
+
+TEST_CASE("points lie in the unit cube, and other pixels and seeds have other ones") {
+  const SequencePoint one = PixelSequence(1, 2, 3).point(9);
+  for (const auto& other : {PixelSequence(2, 2, 3), PixelSequence(1, 3, 3), PixelSequence(1, 2, 4)})
+    CHECK(other.point(9).pixel_u != one.pixel_u);
+  for (std::uint32_t i = 0; i < 100; ++i) {
+    const SequencePoint point = PixelSequence(1, 2, 3).point(i * 1000003u);
+    for (const double u : {point.pixel_u, point.pixel_v, point.lens_u, point.lens_v}) {
+      CHECK(u >= 0);
+      CHECK(u < 1);
+    }
+  }
+}
+
+TEST_CASE("four times the points halve the error at least, on an edge they do better") {
+  const auto edge = [](const SequencePoint& p) {
+    return 0.3 * p.pixel_u + 0.7 * p.pixel_v < 0.5 ? 0.5 : -0.5;
+  };
+  const auto blur = [](const SequencePoint& p) { return p.pixel_u + p.lens_u + p.lens_v < 1.5 ? 0.5 : -0.5; };
+  // Independent points would be at 0.125 with 16 of them.
+  CHECK(spread(16, edge) < 0.06);
+  CHECK(spread(256, edge) < spread(16, edge) / 6);
+  CHECK(spread(16, blur) < 0.1);
+  CHECK(spread(256, blur) < spread(16, blur) / 4);
+}
+
+TEST_CASE("passes add up: one by one, then eight to a doubling") {
+  std::int64_t samples = 0;
+  for (int pass = 1; pass <= 100; ++pass) {
+    samples += samples_of_next_pass(samples);
+    CHECK(samples_after(pass) == samples);
+    CHECK(passes_until(samples) == pass);
+    if (pass > passes_per_doubling) CHECK(samples_of_next_pass(samples) * 8 <= samples);
+  }
+  CHECK(samples_after(8) == 8);
+  CHECK(samples_after(16) == 16);
+  CHECK(samples_after(64) == 1024);
+}
+
+TEST_CASE("the box is the pixel itself") {
+  const FilterPlaces box{Settings{}};
+  for (const double u : {0.0, 0.125, 0.3, 0.9999}) CHECK(box(u) == u);
+}
+
+TEST_CASE("a wide filter's places have its weight as their density") {
+  const Settings settings{.filter = PixelFilter::blackman_harris, .filter_width = 3};
+  const FilterPlaces filter(settings);
+  CHECK(filter(0) == -1);
+  CHECK(filter(0.5) == 0.5);
+  constexpr int count = 1 << 16;
+  double last = filter(0);
+  double mean = 0;
+  double square = 0;
+  for (int i = 0; i < count; ++i) {
+    const double place = filter((i + 0.5) / count);
+    CHECK_MESSAGE(place >= last, i);
+    CHECK_MESSAGE(place <= 2, i);
+    last = place;
+    mean += place / count;
+    square += (place - 0.5) * (place - 0.5) / count;
+  }
+  CHECK(mean == doctest::Approx(0.5));
+  // The window's second moment: a cosine of frequency k weighs x^2 by its integral over [-1/2, 1/2], which is
+  // (-1)^k / (2 pi^2 k^2).
+  const double pi_2 = std::numbers::pi * std::numbers::pi;
+  const double moment =
+      (0.35875 / 12 - 0.48829 / (2 * pi_2) + 0.14128 / (8 * pi_2) - 0.01168 / (18 * pi_2)) / 0.35875;
+  CHECK(square == doctest::Approx(9 * moment).epsilon(1e-3));
+}
