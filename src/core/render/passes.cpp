@@ -19,12 +19,17 @@ constexpr double share_of_step = 0.5;
 
 constexpr std::size_t most_tile_pixels = std::size_t{Tiles::side} * Tiles::side;
 
+/// How far notes of what is seen are passed on, in pixels. Out of focus things fade over many pixels, of
+/// which each has few samples that hit them: more pixels together see what one overlooks.
+constexpr int reach_of_notes = 1;
+constexpr int reach_of_notes_with_lens = 2;
+
 /// The region and the pixels around it that are in the picture.
-Region with_margin(const Region& region, const Settings& settings) {
-  const int left = std::max(region.x - 1, 0);
-  const int top = std::max(region.y - 1, 0);
-  const int right = std::min(region.x + region.width + 1, settings.width);
-  const int bottom = std::min(region.y + region.height + 1, settings.height);
+Region with_margin(const Region& region, int margin, const Settings& settings) {
+  const int left = std::max(region.x - margin, 0);
+  const int top = std::max(region.y - margin, 0);
+  const int right = std::min(region.x + region.width + margin, settings.width);
+  const int bottom = std::min(region.y + region.height + margin, settings.height);
   return {left, top, right - left, bottom - top};
 }
 
@@ -42,7 +47,8 @@ bool asks_for_passes(const Settings& settings, int passes) {
 Passes::Passes(const Frame& frame, const Region& region, int most_passes, PassClock& clock, Canvas& canvas)
     : frame_(frame),
       region_(region),
-      worked_on_(with_margin(region, frame.settings())),
+      reach_(frame.features().lens ? reach_of_notes_with_lens : reach_of_notes),
+      worked_on_(with_margin(region, reach_, frame.settings())),
       grid_(worked_on_),
       most_samples_(frame.settings().max_samples),
       by_clock_(most_passes == 0 && clock.has_budget()),
@@ -154,10 +160,10 @@ void Passes::exchange_notes(const TaskRunner& run_tasks) {
 }
 
 void Passes::take_notes(const Place& place, PixelSamples& samples) const {
-  const int right = std::min(place.x + 1, worked_on_.x + worked_on_.width - 1);
-  const int bottom = std::min(place.y + 1, worked_on_.y + worked_on_.height - 1);
-  for (int y = std::max(place.y - 1, worked_on_.y); y <= bottom; ++y) {
-    for (int x = std::max(place.x - 1, worked_on_.x); x <= right; ++x) {
+  const int right = std::min(place.x + reach_, worked_on_.x + worked_on_.width - 1);
+  const int bottom = std::min(place.y + reach_, worked_on_.y + worked_on_.height - 1);
+  for (int y = std::max(place.y - reach_, worked_on_.y); y <= bottom; ++y) {
+    for (int x = std::max(place.x - reach_, worked_on_.x); x <= right; ++x) {
       const Tile& tile = tiles_[grid_.index(x, y)];
       const int inside = (y - tile.region.y) * tile.region.width + x - tile.region.x;
       samples.take_note(tile.samples[static_cast<std::size_t>(inside)]);

@@ -4,7 +4,7 @@
 // which pixels go on: those whose half-width is above the target error. What a pixel's neighbours saw counts
 // as well, but only in their first min_samples samples, which all pixels get. So a decision depends on the
 // samples of the pixel and on the first ones of its neighbours alone, and a part of the picture is rendered
-// like the whole if its margin, one pixel wide, gets the first samples too.
+// like the whole if its margin, a pixel or two wide, gets the first samples too.
 #pragma once
 
 #include <functional>
@@ -70,6 +70,7 @@ class Passes {
 
   const Frame& frame_;
   Region region_;
+  int reach_;         ///< of notes, in pixels
   Region worked_on_;  ///< the region and its margin
   Tiles grid_;
   std::int64_t most_samples_;

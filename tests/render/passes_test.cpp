@@ -1,0 +1,242 @@
+// Rendering pass by pass: the same bytes however it is done, and what is said of the pixels.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <crt/error.hpp>
+#include <crt/job.hpp>
+
+#include "core/render/rendering.hpp"
+#include "pictures.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+/// Curved silhouettes, glass, a mirror, a shadow, a checked floor and a lens.
+Scene varied_scene() {
+  Scene scene;
+  scene.settings = {
+      .width = 37, .height = 26, .dof_samples = 2, .target_error = 8.0 / 255, .max_samples = 64};
+  scene.camera = {.position = {0.3, 1.5, -5}, .pointing = {0, 0.5, 0}, .aperture = 50, .focal_distance = 5};
+  scene.background = GradientBackground{};
+  scene.lights = {PointLight{.origin = {3, 5, -4}, .falloff = 80, .ambient = 0.05}};
+  const Material tiles{.color = Pattern(Checker{}), .reflectivity = 0.2};
+  scene.entities = {Plane{.material = tiles},
+                    Sphere{.center = {0, 1, 0}, .radius = 1, .material = glass(1.5)},
+                    Sphere{.center = {-1.5, 0.5, 1}, .radius = 0.5}};
+  return scene;
+}
+
+/// A white disc before black: every pixel but those of its edge is of one colour.
+Scene disc_scene(int size) {
+  Scene scene = dark_scene();
+  scene.settings.width = scene.settings.height = size;
+  scene.settings.target_error = 2.0 / 255;
+  scene.camera = {.position = {0, 0, -3}, .pointing = {0, 0, 0}};
+  scene.lights = {glow(1)};
+  scene.entities = {Sphere{.radius = 1, .material = inert()}};
+  return scene;
+}
+
+bool same_part(const Image& part, int left, int top, const Image& whole) {
+  for (int y = 0; y < part.height(); ++y) {
+    for (int x = 0; x < part.width(); ++x) {
+      const Color a = part.at(x, y);
+      const Color b = whole.at(left + x, top + y);
+      if (a.r != b.r || a.g != b.g || a.b != b.b || a.a != b.a) return false;
+    }
+  }
+  return true;
+}
+
+/// A clock that is one second further each time one looks.
+core::PassClock::Seconds ticking_clock() {
+  return [now = 0.0]() mutable { return now++; };
+}
+
+core::PixelMeasures measures_of(const PreparedScene& scene, const RenderOptions& options = {}) {
+  core::Rendering rendering(scene.data(), options);
+  rendering.run();
+  return rendering.measures();
+}
+
+}  // namespace
+
+TEST_CASE("pass by pass, a picture has the same bytes for any number of threads") {
+  const PreparedScene scene = prepare(varied_scene());
+  const Image reference = render(scene, {.threads = 1});
+  CHECK(reference.stats().samples_min < reference.stats().samples_max);
+  for (const int threads : {0, 2, 7}) {
+    const Image image = render(scene, {.threads = threads});
+    CHECK(same_pixels(image, reference));
+    CHECK(image.stats().half_width_rms == reference.stats().half_width_rms);
+    CHECK(image.stats().cutoff_mean == reference.stats().cutoff_mean);
+  }
+}
+
+TEST_CASE("pass by pass, every part of a picture is as in the whole, to its samples") {
+  const PreparedScene scene = prepare(varied_scene());
+  const Image whole = render(scene);
+  const core::PixelMeasures all = measures_of(scene);
+  for (const Region& region : {Region{0, 0, 37, 1}, Region{5, 3, 1, 1}, Region{11, 7, 20, 9},
+                               Region{36, 0, 1, 26}, Region{0, 25, 37, 1}, Region{3, 9, 17, 16}}) {
+    CHECK(same_part(render(scene, {.region = region}), region.x, region.y, whole));
+    const core::PixelMeasures part = measures_of(scene, {.region = region});
+    for (int y = 0; y < region.height; ++y) {
+      for (int x = 0; x < region.width; ++x) {
+        const auto here = static_cast<std::size_t>(y * region.width + x);
+        const auto there = static_cast<std::size_t>((region.y + y) * 37 + region.x + x);
+        CHECK(part.samples[here] == all.samples[there]);
+        CHECK(part.half_widths[here] == all.half_widths[there]);
+      }
+    }
+  }
+}
+
+TEST_CASE("the pass count that a picture tells gives the same picture, whatever ended it") {
+  Scene description = varied_scene();
+  const PreparedScene by_error = prepare(description);
+  const Image image = render(by_error);
+  CHECK(same_pixels(render(by_error, {.passes = image.stats().passes}), image));
+  CHECK(!same_pixels(render(by_error, {.passes = 18}), image));
+
+  for (const double budget : {0.4, 2.0, 7.0, 15.7, 23.0}) {
+    description.settings.time_budget = budget;
+    const PreparedScene by_clock = prepare(description);
+    core::Rendering first(by_clock.data(), {}, ticking_clock());
+    first.run();
+    const Image timed = first.take();
+    const int passes = timed.stats().passes;
+    // As long as all passes are of one size, the end is within half a pass.
+    if (budget < 16) CHECK(passes == std::max(1, static_cast<int>(std::floor(budget + 0.5))));
+    if (budget > 16) CHECK(passes > 16);
+    CHECK(same_pixels(render(by_clock, {.threads = 1, .passes = passes}), timed));
+    CHECK(same_part(render(by_clock, {.region = Region{9, 2, 11, 20}, .passes = passes}), 9, 2, timed));
+  }
+}
+
+TEST_CASE("more passes than it takes change nothing") {
+  const PreparedScene scene = prepare(varied_scene());
+  CHECK(same_pixels(render(scene, {.passes = 1000}), render(scene)));
+}
+
+TEST_CASE("a target error of 0 without a time budget is the plain grid") {
+  Scene scene = varied_scene();
+  scene.settings.target_error = 0;
+  scene.settings.supersampling = 3;
+  const Image grid = render(prepare(scene));
+  CHECK(grid.stats().passes == 0);
+  CHECK(grid.stats().samples_min == 18);
+  CHECK(grid.stats().samples_max == 18);
+  CHECK(grid.stats().camera_rays == 37u * 26 * 18);
+  CHECK(grid.stats().half_width_max == 0);
+  scene.settings.min_samples = 64;
+  CHECK(same_pixels(render(prepare(scene)), grid));
+}
+
+TEST_CASE("the plain grid puts its places where a filter has its weight") {
+  Scene scene = disc_scene(16);
+  scene.settings.target_error = 0;
+  const Image middle = render(prepare(scene));
+  scene.settings.filter = PixelFilter::blackman_harris;
+  CHECK(same_pixels(render(prepare(scene)), middle));
+  scene.settings.supersampling = 8;
+  const Image wide = render(prepare(scene));
+  scene.settings.filter = PixelFilter::box;
+  const Image box = render(prepare(scene));
+  const auto grey_pixels = [](const Image& image) {
+    int count = 0;
+    for (int i = 0; i < 256; ++i) {
+      const double value = image.at(i % 16, i / 16).r;
+      if (value > 0.02 && value < 0.98) ++count;
+    }
+    return count;
+  };
+  CHECK(grey_pixels(wide) > 1.3 * grey_pixels(box));
+}
+
+TEST_CASE("samples go where they are needed") {
+  const PreparedScene scene = prepare(disc_scene(48));
+  const Image image = render(scene);
+  const RenderStats& stats = image.stats();
+  const core::PixelMeasures measures = measures_of(scene);
+  CHECK(measures.samples[0] == 16);
+  CHECK(measures.samples[24 * 48 + 24] == 16);
+  CHECK(stats.samples_min == 16);
+  CHECK(stats.samples_max > 64);
+  CHECK(stats.unseen_share == doctest::Approx(3.0 / 16));
+  CHECK(stats.camera_rays == doctest::Approx(stats.samples_mean * 48 * 48));
+  std::uint64_t unresolved = 0;
+  for (std::size_t i = 0; i < measures.samples.size(); ++i) {
+    const double half_width = double{measures.half_widths[i]};
+    CHECK(half_width <= stats.half_width_max);
+    if (half_width > 2.0 / 255) {
+      ++unresolved;
+      CHECK(measures.samples[i] == 1024);
+    }
+  }
+  CHECK(stats.pixels_unresolved == unresolved);
+  CHECK(stats.half_width_rms < stats.half_width_max);
+}
+
+TEST_CASE("what is smaller than a pixel is found beside what has been seen of it") {
+  // A wire a 12th of a pixel wide, nearly level: every pixel along it must have its share.
+  Scene scene = dark_scene();
+  scene.settings.width = 40;
+  scene.settings.height = 9;
+  scene.settings.target_error = 4.0 / 255;
+  scene.camera = {.position = {0, 0, -3},
+                  .fov = 2 * std::atan(4.5),
+                  .projection = Projection::orthographic,
+                  .focal_distance = 1};
+  scene.lights = {glow(1)};
+  scene.entities = {
+      Box{.corner_a = {-30, -1.0 / 24, -1}, .corner_b = {30, 1.0 / 24, 1}, .material = inert()}};
+  scene.entities[0] = scene.entities[0].transformed(rotate({0, 0, 0.5}));
+  for (std::uint64_t seed = 0; seed < 6; ++seed) {
+    const Image image = render(prepare(scene), {.seed = seed});
+    for (int x = 0; x < 40; ++x) {
+      double column = 0;
+      for (int y = 0; y < 9; ++y) column += image.at(x, y).r;
+      CHECK(column == doctest::Approx(1.0 / 12).epsilon(0.5));
+    }
+  }
+}
+
+TEST_CASE("a job's picture is whole after the first passes, long before the end") {
+  Scene description = varied_scene();
+  description.settings.target_error = 0.5 / 255;
+  const PreparedScene scene = prepare(description);
+  core::Rendering* rendering = nullptr;
+  bool seen = false;
+  core::Rendering watched(scene.data(), {.threads = 2, .progress = [&](double share) {
+                                           if (share < 0.5 || share > 0.7 || seen) return true;
+                                           seen = true;
+                                           const Image image = rendering->picture();
+                                           for (int i = 0; i < 37 * 26; ++i)
+                                             CHECK(image.at(i % 37, i / 37).a == 1);
+                                           return true;
+                                         }});
+  rendering = &watched;
+  watched.run();
+  CHECK(seen);
+}
+
+TEST_CASE("a transparent background shows as a width where things end, be they black") {
+  Scene scene = disc_scene(16);
+  scene.background = SolidBackground{{0, 0, 0, 0}};
+  scene.lights.clear();
+  const Image image = render(prepare(scene));
+  CHECK(image.stats().samples_max > 16);
+}
+
+TEST_CASE("passes must not be negative, and pictures pass by pass not immense") {
+  Scene scene = disc_scene(8);
+  CHECK_THROWS_AS(render(prepare(scene), {.passes = -1}), Error);
+  scene.settings.width = scene.settings.height = 8192;
+  const PreparedScene large = prepare(scene);
+  CHECK_THROWS_AS(render(large), Error);
+  CHECK_NOTHROW(render(large, {.region = Region{4000, 4000, 2, 2}}));
+}
