@@ -341,3 +341,28 @@ TEST_CASE("scaling the scene by a power of two changes no bit of any direction")
     }
   }
 }
+
+TEST_CASE("a point appears where the ray to it starts from, in every projection") {
+  Camera camera{.position = {1, 2, -3}, .pointing = {0.5, 1, 1}, .fov = 1.2, .roll = 0.3, .focal_distance = 2};
+  for (const Projection projection :
+       {Projection::pinhole, Projection::spherical, Projection::cylindrical, Projection::orthographic}) {
+    camera.projection = projection;
+    const CameraRays rays(camera, 64, 48);
+    for (const auto& [x, y] : {std::pair{32.0, 24.0}, {0.5, 47.25}, {63.0, 3.0}}) {
+      const CameraRay ray = rays.ray(x, y);
+      const Vec3 point = ray.origin + 5.0 * ray.direction;
+      const auto place = rays.place_of(point);
+      REQUIRE(place);
+      CHECK(place->x == doctest::Approx(x));
+      CHECK(place->y == doctest::Approx(y));
+      // A step aside of length 1 moves it by that many pixels or more.
+      const auto aside = rays.place_of(point + rays.up());
+      REQUIRE(aside);
+      const double pixels = std::hypot(aside->x - x, aside->y - y);
+      CHECK(pixels >= 0.6 * rays.least_pixels_per_unit(point));
+      CHECK(pixels <= 4 * rays.least_pixels_per_unit(point));
+    }
+  }
+  camera.projection = Projection::pinhole;
+  CHECK_FALSE(CameraRays(camera, 64, 48).place_of({2, 3, -5}));
+}

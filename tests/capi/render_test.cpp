@@ -288,6 +288,40 @@ TEST_CASE("a seed of the options takes the place of the scene's") {
   CHECK(settings.seed == 5);
 }
 
+TEST_CASE("a target error is kept, told of, and met again by the number of passes") {
+  const SceneHandle scene = small_scene();
+  crt_settings settings;
+  settings.struct_size = sizeof settings;
+  REQUIRE(crt_scene_get_settings(scene.get(), &settings) == CRT_OK);
+  settings.target_error = 4.0 / 255;
+  REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
+  const PreparedHandle prepared = prepare(scene.get());
+  const ImageHandle image = render(prepared.get());
+  crt_render_stats stats;
+  stats.struct_size = sizeof stats;
+  REQUIRE(crt_image_stats(image.get(), &stats) == CRT_OK);
+  CHECK(stats.samples_min == 16);
+  CHECK(stats.samples_max > 16);
+  CHECK(stats.samples_mean * static_cast<double>(stats.pixels) ==
+        doctest::Approx(static_cast<double>(stats.camera_rays)));
+  CHECK(stats.passes >= 16);
+  CHECK(stats.half_width_rms > 0);
+  CHECK(stats.half_width_95 <= stats.half_width_max);
+  CHECK(stats.unseen_share == doctest::Approx(3.0 / 16));
+  crt_render_options options;
+  REQUIRE(crt_render_options_init(&options, sizeof options) == CRT_OK);
+  options.passes = stats.passes;
+  CHECK(pixels_of(render(prepared.get(), &options).get()) == pixels_of(image.get()));
+  options.passes = 3;
+  const ImageHandle rough = render(prepared.get(), &options);
+  REQUIRE(crt_image_stats(rough.get(), &stats) == CRT_OK);
+  CHECK(stats.samples_max == 3);
+  options.passes = -1;
+  crt_image* none = nullptr;
+  CHECK(crt_render(prepared.get(), &options, &none) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("passes"));
+}
+
 TEST_CASE("what a render has to tell goes to the log") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());

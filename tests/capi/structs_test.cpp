@@ -186,6 +186,12 @@ TEST_CASE("what a scene was given it gives back") {
   settings.notes = "caf\xc3\xa9";
   settings.seed = 0xfedcba9876543210;
   settings.show_clip = 1;
+  settings.target_error = 0.125;
+  settings.time_budget = 2.5;
+  settings.filter_width = 4;
+  settings.min_samples = 8;
+  settings.max_samples = 32;
+  settings.filter = CRT_FILTER_BLACKMAN_HARRIS;
   REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
   crt_settings settings_back;
   settings_back.struct_size = sizeof settings_back;
@@ -196,6 +202,12 @@ TEST_CASE("what a scene was given it gives back") {
   CHECK(settings_back.seed == settings.seed);
   CHECK(settings_back.show_clip == 1);
   CHECK(settings_back.width == 8);
+  CHECK(settings_back.target_error == 0.125);
+  CHECK(settings_back.time_budget == 2.5);
+  CHECK(settings_back.filter_width == 4);
+  CHECK(settings_back.min_samples == 8);
+  CHECK(settings_back.max_samples == 32);
+  CHECK(settings_back.filter == CRT_FILTER_BLACKMAN_HARRIS);
 }
 
 TEST_CASE("a background's image goes in and comes out, and outlives its handle") {
@@ -240,6 +252,12 @@ TEST_CASE("the defaults are those of the C++ interface") {
   CHECK(settings.height == 480);
   CHECK(settings.recursion_depth == 3);
   CHECK(settings.min_weight == 1.0 / 1024);
+  CHECK(settings.target_error == 0);
+  CHECK(settings.time_budget == 0);
+  CHECK(settings.min_samples == 16);
+  CHECK(settings.max_samples == 1024);
+  CHECK(settings.filter == CRT_FILTER_BOX);
+  CHECK(settings.filter_width == 3);
   CHECK(settings.title == nullptr);
   crt_material material;
   crt_material_init(&material, sizeof material);

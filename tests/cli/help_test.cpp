@@ -28,9 +28,12 @@ TEST_CASE("the help teaches by examples and tells the exit codes") {
 TEST_CASE("the help of render lists every setting by its script name") {
   const TemporaryFolder folder;
   const std::string help = run_crt(folder, {"render", "--help"}).out;
-  for (const char* name : {"--width", "--height", "--gamma", "--supersampling", "--dofsamples",
-                           "--recursiondepth", "--minweight", "--falloffmodel", "--showclip", "--seed",
-                           "--precision", "--projection", "--title", "--author", "--date", "--notes"}) {
+  for (const char* name :
+       {"--width",          "--height",     "--gamma",        "--supersampling", "--dofsamples",
+        "--recursiondepth", "--minweight",  "--falloffmodel", "--showclip",      "--seed",
+        "--targeterror",    "--timebudget", "--minsamples",   "--maxsamples",    "--filter",
+        "--filterwidth",    "--passes",     "--precision",    "--projection",    "--title",
+        "--author",         "--date",       "--notes"}) {
     CHECK_MESSAGE(help.find(name) != std::string::npos, name);
   }
 }

@@ -49,6 +49,29 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
   CHECK_FALSE(stats.has("frame"));
 }
 
+TEST_CASE_FIXTURE(Fixture,
+                  "statistics tell how near to the truth a picture is, and its passes give it again") {
+  const Json grid = stats_of({"--supersampling", "3"});
+  CHECK(grid["accuracy"]["passes"].number == 0);
+  CHECK(grid["accuracy"]["samples_min"].number == 9);
+  const Json stats = stats_of({"--targeterror", "0.02", "--reproducible"});
+  const Json& accuracy = stats["accuracy"];
+  CHECK(accuracy["samples_min"].number == 16);
+  CHECK(accuracy["samples_mean"].number * 16 * 12 == doctest::Approx(stats["rays"]["camera"].number));
+  CHECK(accuracy["half_width_max"].number > 0);
+  CHECK(accuracy["half_width_95"].number <= accuracy["half_width_max"].number);
+  CHECK(accuracy["half_width_rms"].number <= accuracy["half_width_max"].number);
+  CHECK(stats["settings"]["targeterror"].number == 0.02);
+  CHECK(stats["settings"]["filter"].string == "box");
+  const std::string picture = folder.read("ball.png");
+  const std::string passes = std::to_string(static_cast<int>(accuracy["passes"].number));
+  stats_of({"--targeterror", "0.02", "--passes", passes, "--reproducible"});
+  CHECK(folder.read("ball.png") == picture);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--passes", "-1"}).exit_code == 2);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--targeterror", "0.02", "--minsamples", "20"}).exit_code !=
+        0);
+}
+
 TEST_CASE_FIXTURE(Fixture, "texts of any kind come through the options into the statistics") {
   const std::string text = "quote \" backslash \\ newline \n tab \t \xc3\xa9";
   CHECK(stats_of({"--notes", text})["settings"]["notes"].string == text);

@@ -60,6 +60,35 @@ Image described_picture() {
 
 }  // namespace
 
+TEST_CASE("a picture that was rendered pass by pass tells how near to the truth it is") {
+  const TemporaryDirectory directory;
+  Image image = smooth_picture(8, 8);
+  Settings settings;
+  settings.target_error = 0.25;
+  settings.filter = PixelFilter::blackman_harris;
+  image.set_settings(settings);
+  image.stats().passes = 24;
+  image.stats().samples_min = 16;
+  image.stats().samples_mean = 17.5;
+  image.stats().samples_max = 32;
+  image.stats().half_width_rms = 0.125;
+  image.stats().half_width_95 = 0.1875;
+  image.stats().half_width_max = 0.5;
+  image.stats().pixels_unresolved = 3;
+  image.stats().unseen_share = 0.1875;
+  image.stats().cutoff_max = 0.0625;
+  image.write(directory / "a.png");
+  const auto texts = png_texts(file_text(directory / "a.png"));
+  const std::map<std::string, std::string> expected = {
+      {"crt:targeterror", "0.25"},   {"crt:filter", "blackmanharris"}, {"crt:filterwidth", "3"},
+      {"crt:passes", "24"},          {"crt:samples", "16 17.5 32"},    {"crt:halfwidth", "0.125 0.1875 0.5"},
+      {"crt:unresolvedpixels", "3"}, {"crt:unseenshare", "0.1875"},    {"crt:cutoff", "0 0.0625"}};
+  for (const auto& [name, value] : expected) {
+    CAPTURE(name);
+    CHECK(texts.at(name) == value);
+  }
+}
+
 TEST_CASE("a PNG tells title, author, date, notes, software, settings and what the render did") {
   const TemporaryDirectory directory;
   described_picture().write(directory / "a.png");

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <crt/error.hpp>
 #include <crt/job.hpp>
+#include <numbers>
 
 #include "core/render/rendering.hpp"
 #include "pictures.hpp"
@@ -202,6 +203,34 @@ TEST_CASE("what is smaller than a pixel is found beside what has been seen of it
       for (int y = 0; y < 9; ++y) column += image.at(x, y).r;
       CHECK(column == doctest::Approx(1.0 / 12).epsilon(0.5));
     }
+  }
+}
+
+TEST_CASE("no ball that covers more than a 20th of a pixel vanishes") {
+  Scene scene = dark_scene();
+  scene.settings.width = scene.settings.height = 25;
+  scene.settings.target_error = 8.0 / 255;
+  scene.camera = {.position = {0, 0, -3},
+                  .fov = 2 * std::atan(12.5),
+                  .projection = Projection::orthographic,
+                  .focal_distance = 1};
+  scene.lights = {glow(1)};
+  // In the middle of every fifth pixel, where no neighbour sees any of it.
+  for (int y = -2; y <= 2; ++y) {
+    for (int x = -2; x <= 2; ++x) {
+      const double radius = std::sqrt(0.055 / std::numbers::pi);
+      scene.entities.push_back(
+          Sphere{.center = {5.0 * x + 0.1 * y, 5.0 * y - 0.1 * x, 0}, .radius = radius, .material = inert()});
+    }
+  }
+  const PreparedScene prepared = prepare(scene);
+  for (std::uint64_t seed = 0; seed < 8; ++seed) {
+    const Image image = render(prepared, {.seed = seed});
+    for (int y = 2; y < 25; y += 5) {
+      for (int x = 2; x < 25; x += 5) CHECK(image.at(x, y).r == doctest::Approx(0.055).epsilon(0.4));
+    }
+    const Region region{6, 7, 10, 11};
+    CHECK(same_part(render(prepared, {.region = region, .seed = seed}), 6, 7, image));
   }
 }
 

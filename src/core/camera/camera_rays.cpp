@@ -1,5 +1,6 @@
 #include "core/camera/camera_rays.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -60,6 +61,42 @@ CameraRay CameraRays::ray(double x, double y, const LensPoint& lens_point) const
   CameraRay result;
   ray(x, y, lens_point, result);
   return result;
+}
+
+std::optional<PicturePlace> CameraRays::place_of(const Vec3& point) const {
+  const Vec3 way = point - position_;
+  const double to_right = glm::dot(way, right_);
+  const double to_top = glm::dot(way, up_);
+  const double depth = glm::dot(way, forward_);
+  if (depth <= 0 && !turns_across(projection_)) return std::nullopt;
+  const double level = std::hypot(to_right, depth);
+  double nx = 0;
+  double ny = 0;
+  switch (projection_) {
+    case Projection::pinhole:
+      nx = to_right / depth;
+      ny = to_top / depth;
+      break;
+    case Projection::spherical:
+      nx = std::atan2(to_right, depth);
+      ny = std::atan2(to_top, level);
+      break;
+    case Projection::cylindrical:
+      nx = std::atan2(to_right, depth);
+      ny = to_top / level;
+      break;
+    case Projection::orthographic:
+      nx = to_right / focal_distance_;
+      ny = to_top / focal_distance_;
+      break;
+  }
+  return PicturePlace{0.5 * width_ * (1 + nx / half_across_), 0.5 * height_ * (1 - ny / half_up_)};
+}
+
+double CameraRays::least_pixels_per_unit(const Vec3& point) const {
+  const double distance =
+      projection_ == Projection::orthographic ? focal_distance_ : glm::length(point - position_);
+  return 0.5 * std::min(width_ / half_across_, height_ / half_up_) / distance;
 }
 
 void CameraRays::ray(double x, double y, CameraRay& ray) const {

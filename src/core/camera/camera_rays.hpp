@@ -5,6 +5,8 @@
 // The camera's directions are left-handed and of unit length: right, up, and forward.
 #pragma once
 
+#include <optional>
+
 #include "core/camera/aperture_shape.hpp"
 #include "crt/camera.hpp"
 #include "crt/vec.hpp"
@@ -14,6 +16,12 @@ namespace crt::core {
 struct CameraRay {
   Vec3 origin{0, 0, 0};
   Vec3 direction{0, 0, 1};  ///< unit length
+};
+
+/// A place in the picture, as above.
+struct PicturePlace {
+  double x = 0;
+  double y = 0;
 };
 
 /// A camera made ready for a picture of some size. Immutable.
@@ -32,6 +40,13 @@ class CameraRays {
   /// distance along each ray, that is on a sphere.
   void ray(double x, double y, const LensPoint& lens_point, CameraRay& ray) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
+
+  /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a camera
+  /// that does not look there.
+  std::optional<PicturePlace> place_of(const Vec3& point) const;
+
+  /// How many pixels there are at least to a unit of length across the view, at a point.
+  double least_pixels_per_unit(const Vec3& point) const;
 
   /// The lens point of two numbers in [0, 1).
   LensPoint lens_point(double u, double v) const { return aperture_point(aperture_shape_, u, v); }

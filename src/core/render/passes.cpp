@@ -5,6 +5,7 @@
 #include <bit>
 #include <limits>
 
+#include "core/render/small_things.hpp"
 #include "core/sampling/schedule.hpp"
 
 namespace crt::core {
@@ -70,6 +71,21 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, PassCl
     tile.places.resize(tile.samples.size());
     for (std::size_t k = 0; k < tile.places.size(); ++k) tile.places[k] = static_cast<std::uint8_t>(k);
     active_[i] = i;
+  }
+  expect_small_things();
+}
+
+void Passes::expect_small_things() {
+  const std::vector<bool> pixels = small_things(frame_, worked_on_);
+  if (pixels.empty()) return;
+  for (Tile& tile : tiles_) {
+    for (std::size_t i = 0; i < tile.places.size(); ++i) {
+      const Place place = place_of(tile, i);
+      const std::size_t pixel =
+          static_cast<std::size_t>(place.y - worked_on_.y) * static_cast<std::size_t>(worked_on_.width) +
+          static_cast<std::size_t>(place.x - worked_on_.x);
+      if (pixels[pixel]) tile.samples[i].expect_small_things();
+    }
   }
 }
 
@@ -184,7 +200,8 @@ void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
     const Place place = place_of(tile, i);
     if (!is_in_region(place)) continue;
     const double half_width = tile.samples[i].half_width(count_, scale_);
-    if (half_width > target_ && !at_end) {
+    const bool is_good = half_width <= target_ && tile.samples[i].has_seen_enough(count_);
+    if (!is_good && !at_end) {
       tile.samples[kept] = tile.samples[i];
       tile.places[kept++] = tile.places[i];
       continue;

@@ -56,6 +56,7 @@ class Passes {
   static Place place_of(const Tile& tile, std::size_t index);
   bool is_in_region(const Place& place) const;
 
+  void expect_small_things();
   /// With what number of samples the passes end that come before there is something to be decided.
   std::int64_t next_stop() const;
   std::uint64_t pixels_left() const;

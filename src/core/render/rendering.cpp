@@ -183,6 +183,14 @@ void Rendering::tell(const RenderStats& stats) const {
   if (!options_.log) return;
   log(LogLevel::info, fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
                                   stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
+  if (stats.passes > 0) {
+    constexpr double steps = 255;
+    log(LogLevel::info,
+        fmt::format("{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are within {:.2f} "
+                    "8-bit steps of the truth; {} not within the target",
+                    stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
+                    steps * stats.half_width_95, stats.pixels_unresolved));
+  }
   if (settings_.precision == Precision::exact) {
     log(LogLevel::info,
         fmt::format("exact: {} questions were too close for rounded arithmetic", stats.escalations));

@@ -58,12 +58,19 @@ class PixelSamples {
   /// Takes note of a neighbour, or of itself: what is seen there may reach in here.
   void take_note(const PixelSamples& neighbour);
 
+  /// Says that there may be something here that the first samples can miss.
+  void expect_small_things() { expects_small_things_ = true; }
+  /// Whether there are enough samples to see what there is.
+  bool has_seen_enough(std::int64_t count) const { return !expects_small_things_ || count >= enough_samples; }
+
   /// Half of the width of the interval that holds the true mean, in display units, the worst channel's. Of
   /// one sample nothing is known, and it is 1.
   double half_width(std::int64_t count, const DisplayScale& scale) const;
 
  private:
   static constexpr std::size_t block_count = 8;
+  /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33 of 100.
+  static constexpr std::int64_t enough_samples = 64;
   /// How long a block is when there are `count` samples.
   static std::int64_t block_size(std::int64_t count);
   void merge_blocks();
@@ -78,6 +85,7 @@ class PixelSamples {
   bool mixed_ = false;
   bool edge_ = false;  ///< things of several identities are here or in the neighbours
   bool has_notes_ = false;
+  bool expects_small_things_ = false;
 };
 
 }  // namespace crt::core

@@ -202,6 +202,10 @@ void PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side
   start.t_error = start_rounding * farthest;
 }
 
+const CompiledScene& PreparedData::compiled() const {
+  return accelerator_->compiled();
+}
+
 const Leaf& PreparedData::leaf(const HitPoint& point) const {
   return accelerator_->leaf(point.leaf);
 }

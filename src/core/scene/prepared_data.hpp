@@ -148,6 +148,9 @@ class PreparedData {
     return start;
   }
 
+  /// The objects, and what they are made of.
+  const CompiledScene& compiled() const;
+
   /// The primitive in its place that a hit is of: bumps ask for it.
   const Leaf& leaf(const HitPoint& point) const;
 
