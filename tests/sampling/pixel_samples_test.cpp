@@ -22,7 +22,7 @@ PixelSamples sampled(const PixelSequence& sequence, std::int64_t end, const Func
     const std::int64_t size = samples_of_next_pass(count);
     for (std::int64_t i = count; i < count + size; ++i) {
       const double value = function(sequence.point(static_cast<std::uint32_t>(i)));
-      pass.add({value, value, value, 1}, value > 0.5 ? 1 : 2, 0.25);
+      pass.add(Lanes{value, value, value, 1}, value > 0.5 ? 1 : 2, 0.25);
     }
     pixel.add_pass(count, pass);
     count += size;
@@ -39,7 +39,7 @@ TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
   std::int64_t count = 0;
   for (int pass = 0; pass < 40; ++pass) {
     SampleSum sum;
-    for (std::int64_t i = samples_of_next_pass(count); i > 0; --i) sum.add({0.1, 0.2, 1.0 / 3, 1}, 5, 0);
+    for (std::int64_t i = samples_of_next_pass(count); i > 0; --i) sum.add(Lanes{0.1, 0.2, 1.0 / 3, 1}, 5, 0);
     pixel.add_pass(count, sum);
     count += sum.count;
     const auto mean = pixel.mean(count);
@@ -85,8 +85,8 @@ TEST_CASE("things that look alike keep a width where they meet") {
   SampleSum one;
   SampleSum other;
   for (int i = 0; i < 1; ++i) {
-    one.add({0.5, 0.5, 0.5, 1}, 1, 0);
-    other.add({0.5, 0.5, 0.5, 1}, 2, 0);
+    one.add(Lanes{0.5, 0.5, 0.5, 1}, 1, 0);
+    other.add(Lanes{0.5, 0.5, 0.5, 1}, 2, 0);
   }
   PixelSamples pixel;
   for (std::int64_t i = 0; i < 8; ++i) pixel.add_pass(i, one);
@@ -111,7 +111,7 @@ TEST_CASE("what a display clips has no width, and dark colours at a high gamma h
 
 TEST_CASE("values beyond all bounds do no harm") {
   SampleSum sum;
-  sum.add({1e300, -1e300, 0, 1}, 1, 0);
+  sum.add(Lanes{1e300, -1e300, 0, 1}, 1, 0);
   PixelSamples pixel;
   for (std::int64_t i = 0; i < 8; ++i) pixel.add_pass(i, sum);
   CHECK(std::isfinite(pixel.mean(8)[0]));

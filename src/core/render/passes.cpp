@@ -130,6 +130,7 @@ void Passes::trace(const TaskRunner& run_tasks, std::int64_t until) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
     Tile& tile = tiles_[active_[index]];
     Tracer tracer(frame_, work, progress);
+    tracer.identify();
     std::array<PixelPlace, most_tile_pixels> pixels;
     for (std::size_t i = 0; i < tile.places.size(); ++i) {
       const auto [x, y] = place_of(tile, i);
@@ -157,10 +158,10 @@ void Passes::show(const Tile& tile, std::int64_t count) {
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
     if (!is_in_region(place)) continue;
-    const std::array<double, pixel_channels> mean = tile.samples[i].mean(count);
+    const Lanes mean = tile.samples[i].mean(count);
     PlacedPixel& pixel = pixels[shown++];
     pixel = {.x = place.x, .y = place.y, .values = {}};
-    for (std::size_t c = 0; c < pixel_channels; ++c) pixel.values[c] = as_float(mean[c]);
+    for (int c = 0; c < pixel_channels; ++c) pixel.values[static_cast<std::size_t>(c)] = as_float(mean[c]);
   }
   canvas_.put(std::span(pixels).first(shown));
 }

@@ -70,7 +70,7 @@ class PassSums {
     tracer_.trace(std::span(rays_.data(), taken_), samples_);
     for (std::size_t i = 0; i < taken_; ++i) {
       const Tracer::Sample& sample = samples_[i];
-      sum_.add({sample.color.x, sample.color.y, sample.color.z, sample.alpha}, sample.identity,
+      sum_.add(Lanes{sample.color.x, sample.color.y, sample.color.z, sample.alpha}, sample.identity,
                sample.dropped);
       const Place& place = places_[i];
       if (sum_.count < place.size) continue;
@@ -159,7 +159,8 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
     for (std::int64_t count = range.begin; count < range.end; count += size) {
       size = samples_of_next_pass(count);
       for (std::int64_t i = count; i < count + size; ++i) {
-        const SequencePoint point = sequence.point(static_cast<std::uint32_t>(i));
+        const auto index = static_cast<std::uint32_t>(i);
+        const SequencePoint point = lens ? sequence.point(index) : sequence.pixel_point(index);
         const double x = pixel.x + filter(point.pixel_u);
         const double y = pixel.y + filter(point.pixel_v);
         if (lens) {

@@ -33,13 +33,6 @@ double lamp_error(const Vec3& point, const LightSample& sample) {
          std::fma(sample.distance, largest_component(sample.direction), largest_component(point));
 }
 
-/// Takes one more thing that a sample has met into its identity.
-void note(Tracer::Sample& sample, std::uint64_t thing) {
-  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;  // 2^64 / the golden ratio
-  const std::uint64_t mixed = (sample.identity ^ thing) * factor;
-  sample.identity = mixed ^ mixed >> 29;
-}
-
 /// A surface as it is met: a primitive, the triangles of a mesh all alike.
 std::uint64_t met(const HitPoint& point, RayKind kind) {
   constexpr std::uint64_t is_surface = std::uint64_t{1} << 32;
@@ -162,7 +155,7 @@ bool Tracer::see(Seen& seen) {
     return false;
   }
   look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
-  note(*seen.sample, met(seen.surface.point, seen.path.kind));
+  if (identifies_) note(*seen.sample, met(seen.surface.point, seen.path.kind));
   const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
   seen.light = ambient_light(frame_.ambient(), material.reflectivity);
@@ -177,7 +170,7 @@ bool Tracer::pass_medium(Seen& seen) const {
 }
 
 void Tracer::see_background(Seen& seen) const {
-  note(*seen.sample, nothing);
+  if (identifies_) note(*seen.sample, nothing);
   const Color background = data_.background().color(seen.ray->direction);
   if (seen.path.kind == RayKind::camera) {
     seen.sample->alpha = background.a;
@@ -218,7 +211,7 @@ void Tracer::add_light(std::span<Seen*> seen) {
     const RayMask hidden = data_.occluded_each(std::span(shadow_rays_).first(count), work_.rays);
     for (std::size_t i = 0; i < count; ++i) {
       const bool is_hidden = (hidden >> i & 1u) != 0;
-      if (is_hidden) note(*lit[i]->sample, shaded_from(lamp));
+      if (is_hidden && identifies_) note(*lit[i]->sample, shaded_from(lamp));
       lit[i]->light += lights[i] * light_share_of(shadow_rays_[i], *lit[i], is_hidden);
     }
     ++lamp;
@@ -374,6 +367,12 @@ double Tracer::refractive_index(const MediaLists& lists, MediaLists::List media)
   constexpr double vacuum = 1;
   if (media == MediaLists::empty) return vacuum;
   return data_.materials()[lists.innermost(media).material].description->refractive_index;
+}
+
+void Tracer::note(Sample& sample, std::uint64_t thing) {
+  constexpr std::uint64_t factor = 0x9e3779b97f4a7c15u;  // 2^64 / the golden ratio
+  const std::uint64_t mixed = (sample.identity ^ thing) * factor;
+  sample.identity = mixed ^ mixed >> 29;
 }
 
 void Tracer::tick(unsigned rays) {

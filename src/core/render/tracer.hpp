@@ -28,10 +28,13 @@ class Tracer {
     double alpha = 1;
     /// The weight of rays that were not followed, of the channel that lost most.
     double dropped = 0;
-    /// Samples that meet the same things on the same ways have the same, others most likely not: what was
-    /// hit, from which side, after how many mirrors and refractions, in which lamps' shadows.
+    /// If asked for: samples that meet the same things on the same ways have the same, others most likely
+    /// not: what was hit, from which side, after how many mirrors and refractions, in which lamps' shadows.
     std::uint64_t identity = 0;
   };
+
+  /// From now on samples get an identity.
+  void identify() { identifies_ = true; }
 
   /// Traces up to packet_size camera rays. Throws Error (cancelled) soon after the progress says so.
   void trace(std::span<const CameraRay> rays, std::span<Sample> samples);
@@ -89,6 +92,9 @@ class Tracer {
   /// Counts rays; lets the progress speak now and then.
   void tick(unsigned rays = 1);
 
+  /// Takes one more thing that a sample has met into its identity.
+  static void note(Sample& sample, std::uint64_t thing);
+
   const Frame& frame_;
   const PreparedData& data_;
   Workspace& work_;
@@ -98,6 +104,7 @@ class Tracer {
   /// Of the lists that all camera rays need.
   std::uint32_t camera_media_mark_ = 0;
   unsigned ticks_ = 0;
+  bool identifies_ = false;
   // The rays of this round and what they hit, apart from the rest: together they are asked for.
   std::array<WorldRay, packet_size> rays_;
   std::array<RayHit, packet_size> hits_;

@@ -18,9 +18,18 @@ constexpr double overlooked_samples = 2;
 /// What is taken for the contrast, on a display, of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
 
-float channel(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(value, -largest, largest));
+/// As floats, of which none is infinite.
+Channels rounded(const Lanes& values) {
+  const Lanes largest = lanes_of(std::numeric_limits<float>::max());
+  const Lanes clamped = min(max(values, -largest), largest);
+  Channels result;
+  for (int i = 0; i < pixel_channels; ++i)
+    result[static_cast<std::size_t>(i)] = static_cast<float>(clamped[i]);
+  return result;
+}
+
+Lanes exactly(const Channels& channels) {
+  return Lanes{double{channels[0]}, double{channels[1]}, double{channels[2]}, double{channels[3]}};
 }
 
 void widen(Channels& low, Channels& high, const Channels& other_low, const Channels& other_high) {
@@ -31,22 +40,6 @@ void widen(Channels& low, Channels& high, const Channels& other_low, const Chann
 }
 
 }  // namespace
-
-void SampleSum::add(const std::array<double, pixel_channels>& values, std::uint64_t sample_identity,
-                    double lost) {
-  Channels rounded;
-  for (std::size_t i = 0; i < pixel_channels; ++i) {
-    sum[i] += values[i];
-    rounded[i] = channel(values[i]);
-  }
-  if (count++ == 0) {
-    low = high = rounded;
-    identity = sample_identity;
-  }
-  widen(low, high, rounded, rounded);
-  mixed = mixed || sample_identity != identity;
-  dropped += lost;
-}
 
 double DisplayScale::shown(double value) const {
   const double clamped = std::clamp(value, 0.0, 1.0);
@@ -80,25 +73,24 @@ void PixelSamples::add_pass(std::int64_t count, const SampleSum& pass) {
   const std::int64_t size = block_size(count + pass.count);
   if (count > 0 && size != block_size(count)) merge_blocks();
   Channels& block = blocks_[static_cast<std::size_t>(count / size)];
-  for (std::size_t i = 0; i < pixel_channels; ++i) block[i] = channel(double{block[i]} + pass.sum[i]);
+  block = rounded(exactly(block) + pass.sum);
+  const Channels low = rounded(pass.low);
+  const Channels high = rounded(pass.high);
   const auto pass_identity = static_cast<std::uint32_t>(pass.identity ^ pass.identity >> 32);
   if (count == 0) {
-    low_ = pass.low;
-    high_ = pass.high;
+    low_ = low;
+    high_ = high;
     identity_ = pass_identity;
   }
-  widen(low_, high_, pass.low, pass.high);
+  widen(low_, high_, low, high);
   mixed_ = mixed_ || pass.mixed || pass_identity != identity_;
   dropped_ = static_cast<float>(double{dropped_} + pass.dropped);
 }
 
-std::array<double, pixel_channels> PixelSamples::mean(std::int64_t count) const {
-  std::array<double, pixel_channels> mean{};
-  for (std::size_t i = 0; i < pixel_channels; ++i) {
-    for (const Channels& block : blocks_) mean[i] += double{block[i]};
-    mean[i] /= static_cast<double>(count);
-  }
-  return mean;
+Lanes PixelSamples::mean(std::int64_t count) const {
+  Lanes sum{};
+  for (const Channels& block : blocks_) sum += exactly(block);
+  return sum / static_cast<double>(count);
 }
 
 void PixelSamples::take_note(const PixelSamples& neighbour) {
@@ -115,27 +107,30 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
   const std::int64_t size = block_size(count);
   const auto blocks = static_cast<std::size_t>(count / size);
   if (blocks < 2) return 1;
-  const std::array<double, pixel_channels> means = mean(count);
   Channels low = low_;
   Channels high = high_;
   if (has_notes_) widen(low, high, low_around_, high_around_);
-  const double overlooked_share = overlooked_samples / static_cast<double>(count);
+
+  Lanes middle{};
+  for (std::size_t b = 0; b < blocks; ++b) middle += exactly(blocks_[b]);
+  middle /= static_cast<double>(blocks);
+  Lanes squares{};
+  for (std::size_t b = 0; b < blocks; ++b) {
+    const Lanes distance = exactly(blocks_[b]) - middle;
+    squares += distance * distance;
+  }
+  const double samples = static_cast<double>(count);
+  // The variance of a block's sum to that of the mean of as many blocks as there are.
+  const Lanes variance = squares / (static_cast<double>(blocks - 1) * static_cast<double>(size) * samples);
+  const double overlooked_share = overlooked_samples / samples;
+  const Lanes half_widths =
+      max(student_95[blocks - 2] * sqrt(variance), overlooked_share * (exactly(high) - exactly(low)));
+
+  const Lanes means = mean(count);
   double widest = edge_ || mixed_ ? overlooked_share * least_contrast_of_edges : 0;
-  for (std::size_t i = 0; i < pixel_channels; ++i) {
-    double middle = 0;
-    for (std::size_t b = 0; b < blocks; ++b) middle += double{blocks_[b][i]};
-    middle /= static_cast<double>(blocks);
-    double squares = 0;
-    for (std::size_t b = 0; b < blocks; ++b) {
-      const double distance = double{blocks_[b][i]} - middle;
-      squares += distance * distance;
-    }
-    const double variance = squares / static_cast<double>(blocks - 1) / static_cast<double>(size * size);
-    const double of_blocks =
-        student_95[blocks - 2] * std::sqrt(variance * static_cast<double>(size) / static_cast<double>(count));
-    const double overlooked = overlooked_share * (double{high[i]} - double{low[i]});
+  for (int i = 0; i < pixel_channels; ++i) {
     const bool is_alpha = i == pixel_channels - 1;
-    const double shown = scale.half_width(means[i], std::max(of_blocks, overlooked), is_alpha);
+    const double shown = scale.half_width(means[i], half_widths[i], is_alpha);
     if (!(shown <= widest)) widest = shown;
   }
   return widest <= 1 ? widest : 1;

@@ -12,23 +12,36 @@
 #include <array>
 #include <cstdint>
 
+#include "core/math/lanes.hpp"
+
 namespace crt::core {
 
 /// Red, green, blue, alpha.
-inline constexpr int pixel_channels = 4;
+inline constexpr int pixel_channels = lane_count;
 using Channels = std::array<float, pixel_channels>;
 
 /// Some samples together.
 struct SampleSum {
-  std::array<double, pixel_channels> sum{};
-  Channels low{};   ///< of each channel the least
-  Channels high{};  ///< and the greatest
+  Lanes sum{};
+  Lanes low{};   ///< of each channel the least
+  Lanes high{};  ///< and the greatest
   double dropped = 0;
   std::uint64_t identity = 0;  ///< of the first
   bool mixed = false;          ///< not all have the same
   std::int64_t count = 0;
 
-  void add(const std::array<double, pixel_channels>& values, std::uint64_t sample_identity, double lost);
+  void add(const Lanes& values, std::uint64_t sample_identity, double lost) {
+    if (count == 0) {
+      low = high = values;
+      identity = sample_identity;
+    }
+    ++count;
+    sum += values;
+    low = min(low, values);
+    high = max(high, values);
+    mixed = mixed || sample_identity != identity;
+    dropped += lost;
+  }
 };
 
 /// What a viewer sees of a channel.
@@ -51,7 +64,7 @@ class PixelSamples {
   void add_pass(std::int64_t count, const SampleSum& pass);
 
   /// The mean of `count` samples.
-  std::array<double, pixel_channels> mean(std::int64_t count) const;
+  Lanes mean(std::int64_t count) const;
   /// The mean share of light that was cut off.
   double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
 

@@ -75,7 +75,25 @@ constexpr std::array<Column, index_bits> columns() {
   return result;
 }
 
-inline constexpr std::array<Column, index_bits> column_table = columns();
+/// What four bits of the index at a time turn over.
+inline constexpr int digit_bits = 4;
+using Digit = std::array<Column, std::size_t{1} << digit_bits>;
+constexpr std::array<Digit, index_bits / digit_bits> digits() {
+  const std::array<Column, index_bits> table = columns();
+  std::array<Digit, index_bits / digit_bits> result{};
+  for (std::size_t place = 0; place < result.size(); ++place) {
+    for (std::size_t digit = 0; digit < result[place].size(); ++digit) {
+      for (std::size_t bit = 0; bit < digit_bits; ++bit) {
+        if ((digit >> bit & 1u) == 0) continue;
+        for (std::size_t d = 0; d < sequence_dimensions; ++d)
+          result[place][digit][d] ^= table[place * digit_bits + bit][d];
+      }
+    }
+  }
+  return result;
+}
+
+inline constexpr std::array<Digit, index_bits / digit_bits> digit_table = digits();
 
 /// Turns each bit over or not as a hash of the seed and the bits below it says. Both steps keep to that:
 /// adding and multiplying carry upwards, and an even factor leaves a bit itself out of what it is mixed with.
@@ -103,19 +121,33 @@ class PixelSequence {
   /// rectangle of area 2^-k that comes of halving its sides holds one of them, and so does, in every
   /// dimension by itself, each of 2^k equal parts.
   SequencePoint point(std::uint32_t index) const {
-    using namespace sequence_detail;
-    Column bits{};
-    for (std::size_t i = 0; index != 0; ++i, index >>= 1) {
-      if ((index & 1u) == 0) continue;
-      for (std::size_t d = 0; d < sequence_dimensions; ++d) bits[d] ^= column_table[i][d];
-    }
-    const auto coordinate = [&](std::size_t d) {
-      return 0x1p-32 * reversed(scrambled_upwards(bits[d], seeds_[d]));
-    };
-    return {coordinate(0), coordinate(1), coordinate(2), coordinate(3)};
+    const auto [pixel_u, pixel_v, lens_u, lens_v] = coordinates<sequence_dimensions>(index);
+    return {pixel_u, pixel_v, lens_u, lens_v};
+  }
+
+  /// The same without the lens.
+  SequencePoint pixel_point(std::uint32_t index) const {
+    const auto [pixel_u, pixel_v] = coordinates<2>(index);
+    return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
  private:
+  template <std::size_t dimensions>
+  std::array<double, dimensions> coordinates(std::uint32_t index) const {
+    using namespace sequence_detail;
+    constexpr std::uint32_t digit_mask = (1u << digit_bits) - 1;
+    Column bits = digit_table[0][index & digit_mask];
+    index >>= digit_bits;
+    for (std::size_t place = 1; index != 0; ++place, index >>= digit_bits) {
+      const Column& turned = digit_table[place][index & digit_mask];
+      for (std::size_t d = 0; d < dimensions; ++d) bits[d] ^= turned[d];
+    }
+    std::array<double, dimensions> result;
+    for (std::size_t d = 0; d < dimensions; ++d)
+      result[d] = 0x1p-32 * reversed(scrambled_upwards(bits[d], seeds_[d]));
+    return result;
+  }
+
   /// Apart from what else random numbers are drawn for at a pixel.
   static constexpr std::uint32_t use = 0x5e9ce001;
 
