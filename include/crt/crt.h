@@ -344,7 +344,8 @@ typedef struct crt_settings {
   const char* notes;
   int32_t precision; /**< a crt_precision; default CRT_PRECISION_STANDARD */
   int32_t reserved;  /**< must be 0 */
-  /** Above 0: samples until 95 of 100 pixels are this near the truth on a display; in [0, 1]; default 0 */
+  /** Above 0: a pixel gets samples until it is this near the truth, in 95 of 100 cases; 1/255 is a step of
+   * 8 bits; in [0, 1]; default 0 */
   double target_error;
   double time_budget;  /**< above 0: the seconds that tracing may take; in [0, 1e6]; default 0 */
   double filter_width; /**< pixels across, of filters other than the box; in [1, 16]; default 3 */
