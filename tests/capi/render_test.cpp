@@ -312,7 +312,7 @@ TEST_CASE("a target error is kept, told of, and met again by the number of passe
   REQUIRE(crt_render_options_init(&options, sizeof options) == CRT_OK);
   options.passes = stats.passes;
   CHECK(pixels_of(render(prepared.get(), &options).get()) == pixels_of(image.get()));
-  options.passes = 3;
+  options.passes = 24;
   const ImageHandle rough = render(prepared.get(), &options);
   REQUIRE(crt_image_stats(rough.get(), &stats) == CRT_OK);
   CHECK(stats.samples_max == 3);

@@ -19,12 +19,12 @@ PixelSamples sampled(const PixelSequence& sequence, std::int64_t end, const Func
   std::int64_t count = 0;
   while (count < end) {
     SampleSum pass;
-    const std::int64_t size = samples_of_next_pass(count);
+    const std::int64_t size = samples_of_next_step(count);
     for (std::int64_t i = count; i < count + size; ++i) {
       const double value = function(sequence.point(static_cast<std::uint32_t>(i)));
       pass.add(Lanes{value, value, value, 1}, value > 0.5 ? 1 : 2, 0.25);
     }
-    pixel.add_pass(count, pass);
+    pixel.add_step(count, pass);
     count += size;
   }
   return pixel;
@@ -39,8 +39,8 @@ TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
   std::int64_t count = 0;
   for (int pass = 0; pass < 40; ++pass) {
     SampleSum sum;
-    for (std::int64_t i = samples_of_next_pass(count); i > 0; --i) sum.add(Lanes{0.1, 0.2, 1.0 / 3, 1}, 5, 0);
-    pixel.add_pass(count, sum);
+    for (std::int64_t i = samples_of_next_step(count); i > 0; --i) sum.add(Lanes{0.1, 0.2, 1.0 / 3, 1}, 5, 0);
+    pixel.add_step(count, sum);
     count += sum.count;
     const auto mean = pixel.mean(count);
     CHECK(static_cast<float>(mean[0]) == 0.1f);
@@ -89,13 +89,13 @@ TEST_CASE("things that look alike keep a width where they meet") {
     other.add(Lanes{0.5, 0.5, 0.5, 1}, 2, 0);
   }
   PixelSamples pixel;
-  for (std::int64_t i = 0; i < 8; ++i) pixel.add_pass(i, one);
+  for (std::int64_t i = 0; i < 8; ++i) pixel.add_step(i, one);
   CHECK(pixel.half_width(8, linear) == 0);
   PixelSamples mixed = pixel;
-  mixed.add_pass(8, other);
+  mixed.add_step(8, other);
   CHECK(mixed.half_width(9, linear) > 0.01);
   PixelSamples neighbour;
-  for (std::int64_t i = 0; i < 8; ++i) neighbour.add_pass(i, other);
+  for (std::int64_t i = 0; i < 8; ++i) neighbour.add_step(i, other);
   pixel.take_note(neighbour);
   CHECK(pixel.half_width(8, linear) > 0.01);
 }
@@ -113,7 +113,7 @@ TEST_CASE("values beyond all bounds do no harm") {
   SampleSum sum;
   sum.add(Lanes{1e300, -1e300, 0, 1}, 1, 0);
   PixelSamples pixel;
-  for (std::int64_t i = 0; i < 8; ++i) pixel.add_pass(i, sum);
+  for (std::int64_t i = 0; i < 8; ++i) pixel.add_step(i, sum);
   CHECK(std::isfinite(pixel.mean(8)[0]));
   CHECK(pixel.half_width(8, linear) >= 0);
   CHECK(pixel.half_width(8, linear) <= 1);

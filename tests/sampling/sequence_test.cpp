@@ -100,17 +100,37 @@ TEST_CASE("four times the points halve the error at least, on an edge they do be
   CHECK(spread(256, blur) < spread(16, blur) / 4);
 }
 
-TEST_CASE("passes add up: one by one, then eight to a doubling") {
-  std::int64_t samples = 0;
-  for (int pass = 1; pass <= 100; ++pass) {
-    samples += samples_of_next_pass(samples);
-    CHECK(samples_after(pass) == samples);
-    CHECK(passes_until(samples) == pass);
-    if (pass > passes_per_doubling) CHECK(samples_of_next_pass(samples) * 8 <= samples);
+TEST_CASE("passes add up: eight to a sample, then eight to a doubling") {
+  std::int64_t samples = 1;
+  for (int pass = 9; pass <= 64; ++pass) {
+    CHECK(samples_after(pass).samples == pass / 8);
+    CHECK(samples_after(pass).eighths == pass % 8);
+    if (pass % 8 == 0) CHECK(passes_until(pass / 8) == pass);
   }
-  CHECK(samples_after(8) == 8);
-  CHECK(samples_after(16) == 16);
-  CHECK(samples_after(64) == 1024);
+  while (samples < 8) samples += samples_of_next_step(samples);
+  for (int pass = 65; pass <= 150; ++pass) {
+    CHECK(samples_of_next_step(samples) * 8 <= samples);
+    samples += samples_of_next_step(samples);
+    CHECK(samples_after(pass).samples == samples);
+    CHECK(samples_after(pass).eighths == 0);
+    CHECK(passes_until(samples) == pass);
+  }
+  CHECK(samples_after(0).samples == 1);
+  CHECK(samples_after(72).samples == 16);
+  CHECK(samples_after(120).samples == 1024);
+}
+
+TEST_CASE("in each line of eight pixels every rank comes once") {
+  for (int start = 0; start < 64; ++start) {
+    unsigned across = 0;
+    unsigned down = 0;
+    for (int i = 0; i < 8; ++i) {
+      across |= 1u << rank_of_pixel(start + i, 5);
+      down |= 1u << rank_of_pixel(5, start + i);
+    }
+    CHECK(across == 255);
+    CHECK(down == 255);
+  }
 }
 
 TEST_CASE("the box is the pixel itself") {

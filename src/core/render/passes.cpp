@@ -6,7 +6,6 @@
 #include <limits>
 
 #include "core/render/small_things.hpp"
-#include "core/sampling/schedule.hpp"
 
 namespace crt::core {
 
@@ -57,8 +56,11 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, PassCl
       canvas_(canvas),
       scale_(frame.settings().gamma),
       target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error) {
-  if (most_passes > 0 && most_passes < passes_until(most_samples_))
-    most_samples_ = samples_after(most_passes);
+  if (most_passes > 0 && most_passes < passes_until(most_samples_)) {
+    const SamplesDone done = samples_after(most_passes);
+    most_samples_ = done.samples;
+    more_eighths_ = done.eighths;
+  }
   const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
   measures_.samples.resize(pixels);
   measures_.half_widths.resize(pixels);
@@ -90,7 +92,7 @@ void Passes::expect_small_things() {
 }
 
 int Passes::passes() const {
-  return passes_until(count_);
+  return passes_until(count_) + eighths_;
 }
 
 std::uint64_t Passes::pixels_left() const {
@@ -99,47 +101,73 @@ std::uint64_t Passes::pixels_left() const {
   return count;
 }
 
-std::int64_t Passes::next_stop() const {
-  if (by_clock_) return std::min(count_ + samples_of_next_pass(count_), most_samples_);
-  const std::int64_t least = frame_.settings().min_samples;
-  return std::min(count_ < least ? least : 2 * count_, most_samples_);
-}
-
 void Passes::run(const TaskRunner& run_tasks) {
-  const std::int64_t least = frame_.settings().min_samples;
-  while (true) {
-    const std::int64_t stop = next_stop();
-    const auto samples = static_cast<std::uint64_t>(stop - count_) * pixels_left();
-    if (by_clock_ && count_ > 0 && !clock_.has_time_for(samples)) break;
-    share_ =
-        std::max(share_, by_clock_ ? clock_.share_after(samples) : share_ + share_of_step * (1 - share_));
-    trace(run_tasks, stop);
-    clock_.pass_done(samples);
-    if (count_ == least) exchange_notes(run_tasks);
-    if (count_ == most_samples_) break;
-    const bool is_doubled = std::has_single_bit(static_cast<std::uint64_t>(count_));
-    if (count_ < least || !is_doubled) continue;
-    settle(run_tasks, false);
-    if (active_.empty()) break;
+  if (by_clock_) {
+    run_by_clock(run_tasks);
+  } else {
+    run_to_the_end(run_tasks);
   }
   settle(run_tasks, true);
 }
 
-void Passes::trace(const TaskRunner& run_tasks, std::int64_t until) {
-  const SampleRange range = {count_, until};
+void Passes::run_to_the_end(const TaskRunner& run_tasks) {
+  const std::int64_t least = frame_.settings().min_samples;
+  do {
+    share_ += share_of_step * (1 - share_);
+    trace(run_tasks, std::min(count_ < least ? least : 2 * count_, most_samples_), {});
+  } while (decide(run_tasks));
+  if (more_eighths_ == 0 || active_.empty()) return;
+  trace(run_tasks, count_ + 1, {0, more_eighths_});
+}
+
+void Passes::run_by_clock(const TaskRunner& run_tasks) {
+  while (true) {
+    const bool is_split = count_ > 0 && count_ < samples_before_doubling;
+    const Ranks ranks = is_split ? Ranks{eighths_, eighths_ + 1} : Ranks{};
+    const std::int64_t step = samples_of_next_step(count_);
+    const std::uint64_t pixels = pixels_left() / (is_split ? passes_per_step : 1);
+    const std::uint64_t samples = static_cast<std::uint64_t>(step) * pixels;
+    if (count_ > 0 && !clock_.has_time_for(samples)) return;
+    share_ = std::max(share_, clock_.share_after(samples));
+    trace(run_tasks, count_ + step, ranks);
+    clock_.pass_done(samples);
+    if (eighths_ == 0 && !decide(run_tasks)) return;
+  }
+}
+
+bool Passes::decide(const TaskRunner& run_tasks) {
+  const std::int64_t least = frame_.settings().min_samples;
+  if (count_ == least) exchange_notes(run_tasks);
+  const bool is_last = count_ == most_samples_ && more_eighths_ == 0;
+  if (is_last) return false;
+  const bool is_doubled = std::has_single_bit(static_cast<std::uint64_t>(count_));
+  if (count_ >= least && is_doubled) settle(run_tasks, false);
+  return !active_.empty() && count_ < most_samples_;
+}
+
+void Passes::trace(const TaskRunner& run_tasks, std::int64_t until, const Ranks& ranks) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
-    Tile& tile = tiles_[active_[index]];
     Tracer tracer(frame_, work, progress);
     tracer.identify();
-    std::array<PixelPlace, most_tile_pixels> pixels;
-    for (std::size_t i = 0; i < tile.places.size(); ++i) {
-      const auto [x, y] = place_of(tile, i);
-      pixels[i] = {.x = x, .y = y, .samples = &tile.samples[i]};
-    }
-    trace_passes(frame_, std::span(pixels).first(tile.places.size()), range, tracer, work.stats);
-    show(tile, until);
+    trace_tile(tiles_[active_[index]], until, ranks, tracer, work.stats);
   });
-  count_ = until;
+  eighths_ = ranks.last % passes_per_step;
+  if (eighths_ == 0) count_ = until;
+}
+
+void Passes::trace_tile(Tile& tile, std::int64_t until, const Ranks& ranks, Tracer& tracer,
+                        RenderStats& stats) {
+  std::array<PixelPlace, most_tile_pixels> pixels;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < tile.places.size(); ++i) {
+    const auto [x, y] = place_of(tile, i);
+    const int rank = rank_of_pixel(x, y);
+    if (rank < ranks.first || rank >= ranks.last) continue;
+    pixels[count++] = {.x = x, .y = y, .samples = &tile.samples[i]};
+  }
+  const std::span<const PixelPlace> chosen(pixels.data(), count);
+  trace_passes(frame_, chosen, {count_, until}, tracer, stats);
+  show(chosen, until);
 }
 
 Passes::Place Passes::place_of(const Tile& tile, std::size_t index) {
@@ -152,18 +180,18 @@ bool Passes::is_in_region(const Place& place) const {
          place.y < region_.y + region_.height;
 }
 
-void Passes::show(const Tile& tile, std::int64_t count) {
-  std::array<PlacedPixel, most_tile_pixels> pixels;
-  std::size_t shown = 0;
-  for (std::size_t i = 0; i < tile.places.size(); ++i) {
-    const Place place = place_of(tile, i);
-    if (!is_in_region(place)) continue;
-    const Lanes mean = tile.samples[i].mean(count);
-    PlacedPixel& pixel = pixels[shown++];
-    pixel = {.x = place.x, .y = place.y, .values = {}};
-    for (int c = 0; c < pixel_channels; ++c) pixel.values[static_cast<std::size_t>(c)] = as_float(mean[c]);
+void Passes::show(std::span<const PixelPlace> pixels, std::int64_t count) {
+  std::array<PlacedPixel, most_tile_pixels> shown;
+  std::size_t shown_count = 0;
+  for (const PixelPlace& pixel : pixels) {
+    if (!is_in_region({pixel.x, pixel.y})) continue;
+    const Lanes mean = pixel.samples->mean(count);
+    PlacedPixel& out = shown[shown_count++];
+    out.x = pixel.x;
+    out.y = pixel.y;
+    for (int c = 0; c < pixel_channels; ++c) out.values[static_cast<std::size_t>(c)] = as_float(mean[c]);
   }
-  canvas_.put(std::span(pixels).first(shown));
+  canvas_.put(std::span(shown).first(shown_count));
 }
 
 void Passes::exchange_notes(const TaskRunner& run_tasks) {
@@ -200,8 +228,9 @@ void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
     if (!is_in_region(place)) continue;
-    const double half_width = tile.samples[i].half_width(count_, scale_);
-    const bool is_good = half_width <= target_ && tile.samples[i].has_seen_enough(count_);
+    const std::int64_t count = count_ + (rank_of_pixel(place.x, place.y) < eighths_ ? 1 : 0);
+    const double half_width = tile.samples[i].half_width(count, scale_);
+    const bool is_good = half_width <= target_ && tile.samples[i].has_seen_enough(count);
     if (!is_good && !at_end) {
       tile.samples[kept] = tile.samples[i];
       tile.places[kept++] = tile.places[i];
@@ -210,9 +239,9 @@ void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
     const std::size_t pixel =
         static_cast<std::size_t>(place.y - region_.y) * static_cast<std::size_t>(region_.width) +
         static_cast<std::size_t>(place.x - region_.x);
-    measures_.samples[pixel] = static_cast<std::uint32_t>(count_);
+    measures_.samples[pixel] = static_cast<std::uint32_t>(count);
     measures_.half_widths[pixel] = static_cast<float>(half_width);
-    work.cutoff.add(tile.samples[i].dropped(count_));
+    work.cutoff.add(tile.samples[i].dropped(count));
     ++work.stats.pixels;
     if (half_width > target_) ++work.stats.pixels_unresolved;
   }

@@ -14,6 +14,7 @@
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"
 #include "core/render/tiles.hpp"
+#include "core/sampling/schedule.hpp"
 
 namespace crt::core {
 
@@ -57,11 +58,19 @@ class Passes {
   bool is_in_region(const Place& place) const;
 
   void expect_small_things();
-  /// With what number of samples the passes end that come before there is something to be decided.
-  std::int64_t next_stop() const;
   std::uint64_t pixels_left() const;
-  void trace(const TaskRunner& run_tasks, std::int64_t until);
-  void show(const Tile& tile, std::int64_t count);
+  /// Gives pixels of the ranks from `first` to before `last` the samples up to `until`.
+  struct Ranks {
+    int first = 0;
+    int last = passes_per_step;
+  };
+  void trace(const TaskRunner& run_tasks, std::int64_t until, const Ranks& ranks);
+  void trace_tile(Tile& tile, std::int64_t until, const Ranks& ranks, Tracer& tracer, RenderStats& stats);
+  void show(std::span<const PixelPlace> pixels, std::int64_t count);
+  void run_to_the_end(const TaskRunner& run_tasks);
+  void run_by_clock(const TaskRunner& run_tasks);
+  /// What comes after each sample of all that are left; whether to go on.
+  bool decide(const TaskRunner& run_tasks);
   /// Tells the pixels what their neighbours have seen; while all pixels are still there.
   void exchange_notes(const TaskRunner& run_tasks);
   void take_notes(const Place& place, PixelSamples& samples) const;
@@ -75,6 +84,7 @@ class Passes {
   Region worked_on_;  ///< the region and its margin
   Tiles grid_;
   std::int64_t most_samples_;
+  int more_eighths_ = 0;  ///< after the most samples
   bool by_clock_;
   PassClock& clock_;
   Canvas& canvas_;
@@ -83,6 +93,7 @@ class Passes {
   std::vector<Tile> tiles_;
   std::vector<std::size_t> active_;  ///< of the tiles
   std::int64_t count_ = 0;           ///< samples of every pixel that is left
+  int eighths_ = 0;                  ///< of them, by rank, that have one more
   double share_ = 0;
   PixelMeasures measures_;
 };

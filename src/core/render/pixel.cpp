@@ -53,13 +53,13 @@ class SampleSums {
   int lens_point_ = 0;
 };
 
-/// Gathers the rays of passes, pixel by pixel and pass by pass, and hands on each pass of a pixel as a whole.
-class PassSums {
+/// Gathers the rays of passes, pixel by pixel and step by step, and hands on each step of a pixel as a whole.
+class StepSums {
  public:
-  explicit PassSums(Tracer& tracer) : tracer_(tracer) {}
+  explicit StepSums(Tracer& tracer) : tracer_(tracer) {}
 
   /// Where the next ray is to go, and then that it is there: of a pixel that has `count` samples before the
-  /// pass and gets `size` more in it.
+  /// step and gets `size` more in it.
   CameraRay& next() { return rays_[taken_]; }
   void take(PixelSamples& pixel, std::int64_t count, std::int64_t size) {
     places_[taken_] = {&pixel, count, size};
@@ -74,7 +74,7 @@ class PassSums {
                sample.dropped);
       const Place& place = places_[i];
       if (sum_.count < place.size) continue;
-      place.pixel->add_pass(place.count, sum_);
+      place.pixel->add_step(place.count, sum_);
       sum_ = {};
     }
     taken_ = 0;
@@ -152,12 +152,12 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
   const CameraRays& camera = frame.camera();
   const FilterPlaces& filter = frame.filter();
   const bool lens = frame.features().lens;
-  PassSums sums(tracer);
+  StepSums sums(tracer);
   for (const PixelPlace& pixel : pixels) {
     const PixelSequence sequence(frame.settings().seed, pixel.x, pixel.y);
     std::int64_t size = 0;
     for (std::int64_t count = range.begin; count < range.end; count += size) {
-      size = samples_of_next_pass(count);
+      size = samples_of_next_step(count);
       for (std::int64_t i = count; i < count + size; ++i) {
         const auto index = static_cast<std::uint32_t>(i);
         const SequencePoint point = lens ? sequence.point(index) : sequence.pixel_point(index);

@@ -20,7 +20,8 @@ struct PixelPlace {
   PixelSamples* samples = nullptr;
 };
 
-/// Of the samples of a pixel's sequence those from `begin` to before `end`, both of which end a pass.
+/// Of the samples of a pixel's sequence those from `begin` to before `end`, both of which end a step (see
+/// schedule.hpp).
 struct SampleRange {
   std::int64_t begin = 0;
   std::int64_t end = 0;

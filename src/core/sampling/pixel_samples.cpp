@@ -69,22 +69,22 @@ void PixelSamples::merge_blocks() {
   std::fill(blocks_.begin() + block_count / 2, blocks_.end(), Channels{});
 }
 
-void PixelSamples::add_pass(std::int64_t count, const SampleSum& pass) {
-  const std::int64_t size = block_size(count + pass.count);
+void PixelSamples::add_step(std::int64_t count, const SampleSum& step) {
+  const std::int64_t size = block_size(count + step.count);
   if (count > 0 && size != block_size(count)) merge_blocks();
   Channels& block = blocks_[static_cast<std::size_t>(count / size)];
-  block = rounded(exactly(block) + pass.sum);
-  const Channels low = rounded(pass.low);
-  const Channels high = rounded(pass.high);
-  const auto pass_identity = static_cast<std::uint32_t>(pass.identity ^ pass.identity >> 32);
+  block = rounded(exactly(block) + step.sum);
+  const Channels low = rounded(step.low);
+  const Channels high = rounded(step.high);
+  const auto identity = static_cast<std::uint32_t>(step.identity ^ step.identity >> 32);
   if (count == 0) {
     low_ = low;
     high_ = high;
-    identity_ = pass_identity;
+    identity_ = identity;
   }
   widen(low_, high_, low, high);
-  mixed_ = mixed_ || pass.mixed || pass_identity != identity_;
-  dropped_ = static_cast<float>(double{dropped_} + pass.dropped);
+  mixed_ = mixed_ || step.mixed || identity != identity_;
+  dropped_ = static_cast<float>(double{dropped_} + step.dropped);
 }
 
 Lanes PixelSamples::mean(std::int64_t count) const {

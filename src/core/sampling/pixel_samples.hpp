@@ -60,8 +60,8 @@ class DisplayScale {
 
 class PixelSamples {
  public:
-  /// Adds the samples of one pass (see schedule.hpp) to the `count` that are here.
-  void add_pass(std::int64_t count, const SampleSum& pass);
+  /// Adds the samples of one step (see schedule.hpp) to the `count` that are here.
+  void add_step(std::int64_t count, const SampleSum& step);
 
   /// The mean of `count` samples.
   Lanes mean(std::int64_t count) const;
