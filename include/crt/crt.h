@@ -649,6 +649,19 @@ typedef enum crt_log_level { CRT_LOG_INFO = 0, CRT_LOG_WARNING } crt_log_level;
 /** Gets what there is to tell of a render. From the thread that called crt_render(), or the job's own. */
 typedef void (*crt_log_fn)(int32_t level, const char* message, void* user);
 
+/**
+ * Bits of crt_render_options.aovs: what a render may tell of each pixel beside its colour, as channels of the
+ * image (see crt_image_channel()). Distance and entity are those of one ray, through the middles of the pixel
+ * and of the lens; normal and albedo are means over the pixel's samples. What is told is what camera rays
+ * meet first, be it glass or a mirror.
+ */
+enum {
+  CRT_AOV_DEPTH = 1,  /**< "Z": the way along the ray from the eye; INFINITY where nothing is */
+  CRT_AOV_NORMAL = 2, /**< "N.X", "N.Y", "N.Z": in the world, turned to the viewer; 0 where nothing is */
+  CRT_AOV_ID = 4,     /**< "id": crt_hit.entity_id, a channel of whole numbers; UINT32_MAX where nothing is */
+  CRT_AOV_ALBEDO = 8  /**< "albedo.R", "albedo.G", "albedo.B": the material's colour; 0 where nothing is */
+};
+
 /** What a render may be asked beyond the scene. All 0 is the default: the whole picture on all cores. */
 typedef struct crt_render_options {
   uint32_t struct_size;
@@ -663,7 +676,7 @@ typedef struct crt_render_options {
   crt_log_fn log;
   void* log_user;
   int32_t passes;   /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
-  int32_t reserved; /**< must be 0 */
+  uint32_t aovs;    /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
 } crt_render_options;
 
 /** The defaults, which are all 0. */
@@ -768,6 +781,15 @@ CRT_API uint32_t crt_image_height(const crt_image* image);
  * @param row_stride  gets the bytes from row to row; may be NULL
  */
 CRT_API const float* crt_image_pixels(const crt_image* image, size_t* row_stride);
+/** How many channels there are beside the colours: see crt_render_options.aovs. 0 for NULL. */
+CRT_API size_t crt_image_channel_count(const crt_image* image);
+/** The name of one of them, which belongs to the image; NULL beyond the last one. */
+CRT_API const char* crt_image_channel_name(const crt_image* image, size_t index);
+/** The numbers of the channel of this name: width * height, without gaps, which belong to the image. NULL if
+ * there is no such channel of floats. */
+CRT_API const float* crt_image_channel(const crt_image* image, const char* name);
+/** The same of a channel of whole numbers, such as "id". */
+CRT_API const uint32_t* crt_image_channel_uint(const crt_image* image, const char* name);
 /**
  * The 8-bit RGBA that a file gets: gamma applied, alpha straight.
  * @param row_stride  bytes from row to row of yours; 0: without gaps
@@ -778,6 +800,7 @@ CRT_API crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, s
 typedef struct crt_write_options {
   uint32_t struct_size;
   int32_t reproducible; /**< not 0: leaves out what changes from run to run (the render time) */
+  int32_t colors_only;  /**< not 0: leaves out all channels beside the colours, which only exr holds */
 } crt_write_options;
 
 /** The defaults, which are all 0. */
@@ -785,7 +808,8 @@ CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t str
 
 /**
  * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr and hdr
- * linear floats. The file appears whole or not at all.
+ * linear floats. An image with channels beside the colours goes into exr only (else
+ * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
 /** The same with options; NULL for the defaults. */

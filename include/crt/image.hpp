@@ -10,6 +10,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <variant>
 #include <vector>
 
 namespace crt {
@@ -19,10 +20,20 @@ struct WriteOptions {
   /// Leaves out of the file what changes from run to run (the render time), so that equal pictures
   /// are equal files.
   bool reproducible = false;
+  /// Leaves out Image::channels(), so that a picture that has some goes into any format.
+  bool colors_only = false;
+};
+
+/// Numbers that a picture has beside its colours, one a pixel: distances, a component of normals, ...
+struct ImageChannel {
+  /// As EXR files call it: what comes before the last dot is the layer's name.
+  std::string name;
+  /// width * height of them, rows from the top. EXR files hold both as they are.
+  std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
 /// A picture: rows of linear RGBA floats from the top, alpha premultiplied. What rendering gives,
-/// and what panoramas and image maps take.
+/// and what panoramas and image maps take. It may have other channels beside them.
 class Image {
  public:
   Image() = default;
@@ -47,9 +58,10 @@ class Image {
 
   /// Writes a file whose format its ending says: png, tif, jpg, bmp and ppm get 8-bit integers with
   /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some pixel is
-  /// not fully covered; the others then show the picture in front of black. The file is written under
-  /// another name and then renamed, so that no half file is ever seen. Throws Error: io, unsupported
-  /// (an unknown ending, or OpenImageIO cannot be loaded), invalid_argument (no pixels), out_of_memory.
+  /// not fully covered; the others then show the picture in front of black. Only exr holds channels(). The
+  /// file is written under another name and then renamed, so that no half file is ever seen. Throws Error:
+  /// io, unsupported (an unknown ending, one that cannot hold channels(), or OpenImageIO cannot be loaded),
+  /// invalid_argument (no pixels), out_of_memory.
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
 
   /// The bytes of such a file; `format` is its ending: "png", "exr", ... Throws Error as write() does.
@@ -72,6 +84,19 @@ class Image {
   Color at(int x, int y) const;
   /// Changes a pixel; no check.
   void set(int x, int y, const Color& color);
+
+  /// What there is beside the colours: what RenderOptions::aovs asked for, or what was set.
+  const std::vector<ImageChannel>& channels() const { return channels_; }
+  /// The numbers of the channel of this name; none if there is no such channel of floats.
+  std::span<const float> channel(std::string_view name) const;
+  /// The same of a channel of whole numbers.
+  std::span<const std::uint32_t> integer_channel(std::string_view name) const;
+  // The same, to change them.
+  std::span<float> channel(std::string_view name);
+  std::span<std::uint32_t> integer_channel(std::string_view name);
+  /// Replaces all channels. Throws Error (invalid_argument) for a name that is empty, taken (also by R, G, B
+  /// or A) or has a character that is not printable ASCII, and for a wrong number of numbers.
+  void set_channels(std::vector<ImageChannel> channels);
 
   /// The 8-bit RGBA bytes a file gets: clamp(c)^(1/gamma), rounded to nearest, alpha straight; with
   /// show_clip, red where a channel passes 1. A display-encoded image gets no gamma again.
@@ -100,6 +125,7 @@ class Image {
   int height_ = 0;
   bool display_encoded_ = false;
   std::vector<float> pixels_;
+  std::vector<ImageChannel> channels_;
   Settings settings_;
   RenderStats stats_;
 };

@@ -17,6 +17,30 @@ struct Region {
   int height = 0;
 };
 
+/// What a render may tell of each pixel beside its colour ("arbitrary output variables"), as
+/// Image::channels(). Distance and entity are those of one ray, through the middles of the pixel and of the
+/// lens, and never a blend; normal and albedo are means over the same samples as the colour. What is told is
+/// what camera rays meet first, be it glass or a mirror.
+struct Aovs {
+  /// "Z": the way along the ray from the eye (orthographic: from the image plane) to the first surface, in
+  /// the scene's units; infinity where there is none.
+  bool depth = false;
+  /// "N.X", "N.Y", "N.Z": the unit normal in the world, turned to the viewer and tilted by bumps; samples
+  /// that meet nothing count as 0.
+  bool normal = false;
+  /// "id", whole numbers: Entity::with_id, or else the entity's place in Scene::entities; no_entity_id where
+  /// there is nothing.
+  bool id = false;
+  /// "albedo.R", "albedo.G", "albedo.B": the material's colour in linear light, from its pattern if it has
+  /// one; samples that meet nothing count as 0.
+  bool albedo = false;
+
+  bool operator==(const Aovs&) const = default;
+};
+
+/// What the channel "id" has where nothing is.
+inline constexpr std::uint32_t no_entity_id = 0xffffffff;
+
 enum class LogLevel { info, warning };
 
 /// What a render may be asked beyond the scene; the defaults render all of it on all cores.
@@ -33,6 +57,8 @@ struct RenderOptions {
   /// Above 0: renders so many passes (RenderStats::passes) and no more, whatever the time budget; with
   /// neither target error nor time budget in the settings as with a time budget. Not negative.
   int passes = 0;
+  /// What the image gets beside the colours, which stay the same.
+  Aovs aovs{};
   /// Gets what there is to tell of the render, a line each without its end. From the thread that calls
   /// render().
   std::function<void(LogLevel, std::string_view)> log{};

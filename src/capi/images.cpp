@@ -40,7 +40,8 @@ std::string path_or_throw(const char* path) {
 }
 
 WriteOptions to_options(const crt_write_options* options) {
-  return {.reproducible = taken_or_default(options, "options").reproducible != 0};
+  const crt_write_options given = taken_or_default(options, "options");
+  return {.reproducible = given.reproducible != 0, .colors_only = given.colors_only != 0};
 }
 
 }  // namespace
@@ -111,6 +112,25 @@ const float* crt_image_pixels(const crt_image* image, size_t* row_stride) {
   if (image == nullptr) return nullptr;
   if (row_stride != nullptr) *row_stride = static_cast<size_t>(image->value->width()) * 4 * sizeof(float);
   return image->value->pixels().data();
+}
+
+size_t crt_image_channel_count(const crt_image* image) {
+  return image == nullptr ? 0 : image->value->channels().size();
+}
+
+const char* crt_image_channel_name(const crt_image* image, size_t index) {
+  if (index >= crt_image_channel_count(image)) return nullptr;
+  return image->value->channels()[index].name.c_str();
+}
+
+const float* crt_image_channel(const crt_image* image, const char* name) {
+  if (image == nullptr || name == nullptr) return nullptr;
+  return image->value->channel(name).data();
+}
+
+const uint32_t* crt_image_channel_uint(const crt_image* image, const char* name) {
+  if (image == nullptr || name == nullptr) return nullptr;
+  return image->value->integer_channel(name).data();
 }
 
 crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t row_stride) {

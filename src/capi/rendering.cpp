@@ -8,6 +8,15 @@ namespace crt::capi {
 
 namespace {
 
+Aovs to_aovs(std::uint32_t bits) {
+  constexpr std::uint32_t all_bits = CRT_AOV_DEPTH | CRT_AOV_NORMAL | CRT_AOV_ID | CRT_AOV_ALBEDO;
+  if ((bits & ~all_bits) != 0) reject("options->aovs", "has a bit that no CRT_AOV_* is");
+  return {.depth = (bits & CRT_AOV_DEPTH) != 0,
+          .normal = (bits & CRT_AOV_NORMAL) != 0,
+          .id = (bits & CRT_AOV_ID) != 0,
+          .albedo = (bits & CRT_AOV_ALBEDO) != 0};
+}
+
 RenderOptions to_options(const crt_render_options* options, const CancelValue& cancel_value) {
   const auto given = taken_or_default(options, "options");
   RenderOptions result;
@@ -17,6 +26,7 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   }
   if (given.seed != 0) result.seed = given.seed;
   result.passes = given.passes;
+  result.aovs = to_aovs(given.aovs);
   if (given.progress != nullptr) {
     result.progress = [call = given.progress, user = given.progress_user, cancel_value](double fraction) {
       const int answer = call(fraction, user);

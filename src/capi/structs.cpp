@@ -125,7 +125,7 @@ std::span<const std::size_t> field_ends<crt_render_options>() {
   static constexpr std::array ends = {
       CRT_END(S, threads),       CRT_END(S, region_x), CRT_END(S, region_y), CRT_END(S, region_width),
       CRT_END(S, region_height), CRT_END(S, seed),     CRT_END(S, progress), CRT_END(S, progress_user),
-      CRT_END(S, log),           CRT_END(S, log_user), CRT_END(S, passes),   CRT_END(S, reserved)};
+      CRT_END(S, log),           CRT_END(S, log_user), CRT_END(S, passes),   CRT_END(S, aovs)};
   return ends;
 }
 
@@ -171,7 +171,8 @@ std::span<const std::size_t> field_ends<crt_render_stats>() {
 
 template <>
 std::span<const std::size_t> field_ends<crt_write_options>() {
-  static constexpr std::array ends = {CRT_END(crt_write_options, reproducible)};
+  static constexpr std::array ends = {CRT_END(crt_write_options, reproducible),
+                                      CRT_END(crt_write_options, colors_only)};
   return ends;
 }
 

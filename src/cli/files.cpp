@@ -84,11 +84,13 @@ void check_folder(const fs::path& file) {
   }
 }
 
-void check_picture(const fs::path& picture) {
+void check_picture(const fs::path& picture, bool with_channels) {
   check_folder(picture);
   const fs::path probe = name_beside(picture, "probe");
   try {
-    Image(1, 1).write(probe);
+    Image image(1, 1);
+    if (with_channels) image.set_channels({{"Z", std::vector<float>{0}}});
+    image.write(probe);
   } catch (const Error& error) {
     throw Error(error.code(), with_name(error.what(), probe.string(), picture.string()));
   }

@@ -5,6 +5,7 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
+#include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <crt/version.hpp>
@@ -36,11 +37,13 @@ read or written; 70: a bug in crt, or no memory left; 130: interrupted.)";
 constexpr std::string_view render_footer =
     R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma applied),
 .exr and .hdr (linear light). Nothing is left behind under its name unless it is whole.
+An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo.
 
 Examples:
   crt render scene.crt -o draft.png --width 320 --height 240
   crt render scene.crt -o corner.png --region 0,0,64,64     only that part of the picture
   crt render film.crt --frames 1-48                         film_0001.png to film_0048.png
+  crt render scene.crt -o scene.exr --aov depth,id          distances and objects beside the colours
   crt render scene.crt --stats -                            what it took, as JSON)";
 
 template <class Number>
@@ -203,6 +206,41 @@ Region parse_region(const std::string& text) {
   return region;
 }
 
+struct AovName {
+  std::string_view name;
+  bool Aovs::*asked;
+};
+
+constexpr AovName aov_names[] = {
+    {"depth", &Aovs::depth},
+    {"normal", &Aovs::normal},
+    {"id", &Aovs::id},
+    {"albedo", &Aovs::albedo},
+};
+
+std::string all_aov_names() {
+  std::string names;
+  for (const AovName& aov : aov_names) names += fmt::format("{}{}", names.empty() ? "" : ",", aov.name);
+  return names;
+}
+
+/// Adds those of a list to what is asked for.
+void take_aovs(const std::string& list, Aovs& aovs) {
+  std::string_view rest = list;
+  while (true) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view name = rest.substr(0, comma);
+    const auto* const found = std::find_if(std::begin(aov_names), std::end(aov_names),
+                                           [&](const AovName& aov) { return aov.name == name; });
+    if (found == std::end(aov_names)) {
+      throw wrong_value("--aov", fmt::format("one or several of {}", all_aov_names()), list);
+    }
+    aovs.*(found->asked) = true;
+    if (comma == std::string_view::npos) return;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
 void add_script_options(CLI::App& command, CommonRequest& request) {
   command
       .add_option_function<std::vector<std::string>>(
@@ -263,7 +301,8 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
 void add_render_options(CLI::App& command, RenderRequest& request) {
   command.add_option("scene", request.scene, "the script")->required()->type_name("SCENE.crt");
   command
-      .add_option("-o,--output", request.output, "the picture (default: the script's name, ending in .png)")
+      .add_option("-o,--output", request.output,
+                  "the picture (default: the script's name, ending in .png, with --aov in .exr)")
       ->type_name("FILE");
   add_script_options(command, request);
   CLI::Option* frames =
@@ -298,6 +337,16 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
           },
           "stops after so many passes: with what --stats told, the same picture again")
       ->type_name("N");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--aov",
+          [&request](const std::vector<std::string>& lists) {
+            for (const std::string& list : lists) take_aovs(list, request.render.aovs);
+          },
+          fmt::format("channels beside the colours, for an .exr file: some of {}", all_aov_names()))
+      ->type_name("LIST")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
       .add_option("--stats", request.stats, "writes what the rendering did as JSON; '-' is standard output")
       ->type_name("FILE");
@@ -351,7 +400,9 @@ Request parse_command_line(int argc, const char* const* argv) {
   }
   if (check->parsed()) return check_request;
   if (render_request.output.empty()) {
-    render_request.output = std::filesystem::path(render_request.scene).replace_extension(".png");
+    const bool colors_only = render_request.render.aovs == Aovs{};
+    render_request.output =
+        std::filesystem::path(render_request.scene).replace_extension(colors_only ? ".png" : ".exr");
   }
   return render_request;
 }

@@ -61,7 +61,7 @@ class RenderJob {
       return false;
     }
     try {
-      check_picture(request_.output);
+      check_picture(request_.output, request_.render.aovs != Aovs{});
       if (!request_.stats.empty() && request_.stats != "-") check_folder(request_.stats);
     } catch (const Error& error) {
       const bool unknown_format = error.code() == ErrorCode::unsupported;

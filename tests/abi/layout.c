@@ -168,7 +168,7 @@ AT(crt_render_options, progress_user, 40);
 AT(crt_render_options, log, 48);
 AT(crt_render_options, log_user, 56);
 AT(crt_render_options, passes, 64);
-AT(crt_render_options, reserved, 68);
+AT(crt_render_options, aovs, 68);
 
 SIZE(crt_render_stats, 264);
 AT(crt_render_stats, struct_size, 0);
@@ -207,9 +207,10 @@ AT(crt_render_stats, unseen_share, 240);
 AT(crt_render_stats, cutoff_mean, 248);
 AT(crt_render_stats, cutoff_max, 256);
 
-SIZE(crt_write_options, 8);
+SIZE(crt_write_options, 12);
 AT(crt_write_options, struct_size, 0);
 AT(crt_write_options, reproducible, 4);
+AT(crt_write_options, colors_only, 8);
 
 SIZE(crt_ray, 64);
 AT(crt_ray, origin, 0);

@@ -133,6 +133,10 @@ PLAIN_FUNCTIONS = {
     "crt_image_width": "up",
     "crt_image_height": "up",
     "crt_image_pixels": "ppp",
+    "crt_image_channel_count": "zp",
+    "crt_image_channel_name": "tpz",
+    "crt_image_channel": "ppt",
+    "crt_image_channel_uint": "ppt",
     "crt_buffer_data": "pp",
     "crt_buffer_size": "zp",
 }

@@ -18,6 +18,7 @@ from ._library import library, to_utf8
 
 Double = Annotated[float, ctypes.c_double]
 Int = Annotated[int, ctypes.c_int32]
+Unsigned = Annotated[int, ctypes.c_uint32]
 Long = Annotated[int, ctypes.c_uint64]
 Vector = Annotated[Sequence[float], ctypes.c_double * 3]
 Text = Annotated[Any, ctypes.c_char_p]  # str or None
@@ -133,7 +134,7 @@ def _to_c(kind: Any, value: Any) -> Any:
         return float(value)
     if kind is ctypes.c_char_p:
         return None if value is None else to_utf8(value)
-    if kind in (ctypes.c_int32, ctypes.c_uint64):
+    if kind in (ctypes.c_int32, ctypes.c_uint32, ctypes.c_uint64):
         number = operator.index(value)
         if kind(number).value != number:  # ctypes would cut it off
             raise OverflowError(f"{number} is too large or too small")

@@ -16,6 +16,7 @@ from .values import RenderStats, Settings
 @growable("crt_write_options")
 class _WriteOptions(Struct):
     reproducible: Int
+    colors_only: Int
 
 
 class Image(Handle):
@@ -65,7 +66,16 @@ class Image(Handle):
     @property
     def pixels(self) -> NDArray[Any]:
         """height x width x 4 float32, read-only: the library's own memory, which the array keeps."""
-        return np.asarray(_LentPixels(self._handle))
+        return np.asarray(_LentArray.of_pixels(self._handle))
+
+    @property
+    def channels(self) -> dict[str, NDArray[Any]]:
+        """What there is beside the colours (see Prepared.render), by name: height x width float32, or uint32
+        for "id"; read-only: the library's own memory, which the arrays keep."""
+        reference = self._handle
+        count = library.crt_image_channel_count(reference)
+        names = [library.crt_image_channel_name(reference, index) for index in range(count)]
+        return {name.decode(): np.asarray(_LentArray.of_channel(reference, name)) for name in names}
 
     def to_rgba8(self) -> NDArray[Any]:
         """height x width x 4 uint8, as a file gets them: gamma applied, alpha straight."""
@@ -75,21 +85,24 @@ class Image(Handle):
         library.crt_image_to_rgba8(reference, pixels.ctypes.data, pixels.strides[0])
         return pixels
 
-    def save(self, path: str | os.PathLike[str], *, reproducible: bool = False) -> None:
-        """Writes a file; its ending tells the format. `reproducible` leaves out how long the render took."""
-        options = _WriteOptions(reproducible=reproducible)
+    def save(
+        self, path: str | os.PathLike[str], *, reproducible: bool = False, colors_only: bool = False
+    ) -> None:
+        """Writes a file; its ending tells the format. `reproducible` leaves out how long the render took,
+        `colors_only` the channels beside the colours, which only .exr files hold."""
+        options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
         library.crt_image_write_with(self._handle, path, ctypes.byref(options))
 
-    def encode(self, format: str, *, reproducible: bool = False) -> bytes:
-        """The bytes of a file of this format: "png", "exr", ..."""
-        options = _WriteOptions(reproducible=reproducible)
+    def encode(self, format: str, *, reproducible: bool = False, colors_only: bool = False) -> bytes:
+        """The bytes of a file of this format: "png", "exr", ...; otherwise as save()."""
+        options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
         handle = create("crt_image_encode", self._handle, format, ctypes.byref(options))
         buffer = Reference(handle, library.crt_buffer_release)
         return ctypes.string_at(library.crt_buffer_data(buffer), library.crt_buffer_size(buffer))
 
     def _repr_png_(self) -> bytes:
         """For notebooks."""
-        return self.encode("png")
+        return self.encode("png", colors_only=True)
 
     @property
     def stats(self) -> RenderStats:
@@ -107,18 +120,31 @@ class Image(Handle):
         )
 
 
-class _LentPixels:
+class _LentArray:
     """What NumPy makes an array of, which keeps this, which keeps the image."""
 
-    def __init__(self, reference: Reference) -> None:
+    def __init__(
+        self, reference: Reference, address: int, kind: type, shape: tuple[int, ...], strides: tuple[int, ...]
+    ) -> None:
         self._reference = reference
+        self.__array_interface__: dict[str, Any] = {
+            "version": 3,
+            "typestr": np.dtype(kind).str,
+            "shape": shape,
+            "strides": strides,
+            "data": (address, True),  # read-only
+        }
+
+    @classmethod
+    def of_pixels(cls, reference: Reference) -> "_LentArray":
         row_stride = ctypes.c_size_t()
         address = library.crt_image_pixels(reference, ctypes.byref(row_stride))
         shape = library.crt_image_height(reference), library.crt_image_width(reference), 4
-        self.__array_interface__: dict[str, Any] = {
-            "version": 3,
-            "typestr": np.dtype(np.float32).str,
-            "shape": shape,
-            "strides": (row_stride.value, 16, 4),
-            "data": (address, True),  # read-only
-        }
+        return cls(reference, address, np.float32, shape, (row_stride.value, 16, 4))
+
+    @classmethod
+    def of_channel(cls, reference: Reference, name: bytes) -> "_LentArray":
+        floats = library.crt_image_channel(reference, name)
+        address = floats or library.crt_image_channel_uint(reference, name)
+        height, width = library.crt_image_height(reference), library.crt_image_width(reference)
+        return cls(reference, address, np.float32 if floats else np.uint32, (height, width), (4 * width, 4))

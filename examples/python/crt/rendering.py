@@ -5,7 +5,7 @@ import ctypes
 import threading
 import time
 import weakref
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from typing import Annotated, Any
 
 import numpy as np
@@ -14,13 +14,15 @@ from numpy.typing import NDArray
 from ._callbacks import LOG, PROGRESS, Guard
 from ._handles import Handle, Reference
 from ._library import create, library
-from ._structs import Int, Long, Pointer, Struct, growable
+from ._structs import Int, Long, Pointer, Struct, Unsigned, growable
 from .images import Image
 from .rays import HIT, RAY, Batch
 
 Progress = Callable[[float], Any]
 Log = Callable[[str], Any]
 Region = tuple[int, int, int, int]
+
+_AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8}
 
 
 class Prepared(Handle):
@@ -35,6 +37,7 @@ class Prepared(Handle):
         region: Region | None = None,
         seed: int = 0,
         passes: int = 0,
+        aovs: Iterable[str] = (),
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> Image:
@@ -42,12 +45,13 @@ class Prepared(Handle):
 
         `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
         `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
-        unless it is 0, whatever the settings' time budget. `progress` is told the share that is done,
-        `log` what there is to tell; they may be called from other threads, one at a time. What progress
-        raises cancels the render and comes out of here. So does Ctrl-C.
+        unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id" and
+        "albedo", become Image.channels. `progress` is told the share that is done, `log` what there is to
+        tell; they may be called from other threads, one at a time. What progress raises cancels the render
+        and comes out of here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, progress, log)
+        options = _options(guard, threads, region, seed, passes, aovs, progress, log)
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
 
@@ -58,12 +62,13 @@ class Prepared(Handle):
         region: Region | None = None,
         seed: int = 0,
         passes: int = 0,
+        aovs: Iterable[str] = (),
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> "Job":
         """Starts to render in the background; as render() otherwise."""
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, progress, log)
+        options = _options(guard, threads, region, seed, passes, aovs, progress, log)
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
     def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
@@ -198,7 +203,16 @@ class _RenderOptions(Struct):
     log: Annotated[Any, LOG]
     log_user: Pointer
     passes: Int
-    reserved: Int
+    aovs: Unsigned
+
+
+def _aov_bits(names: Iterable[str]) -> int:
+    bits = 0
+    for name in names:
+        if name not in _AOV_BITS:
+            raise ValueError(f"there is no AOV {name!r}; there are {', '.join(_AOV_BITS)}")
+        bits |= _AOV_BITS[name]
+    return bits
 
 
 def _options(
@@ -207,6 +221,7 @@ def _options(
     region: Region | None,
     seed: int,
     passes: int,
+    aovs: Iterable[str],
     progress: Progress | None,
     log: Log | None,
 ) -> _RenderOptions:
@@ -218,7 +233,7 @@ def _options(
         if log is not None:
             log(line.decode())
 
-    options = _RenderOptions(threads=threads, seed=seed, passes=passes)
+    options = _RenderOptions(threads=threads, seed=seed, passes=passes, aovs=_aov_bits(aovs))
     if region is not None:
         x, y, width, height = region
         options.set(region_x=x, region_y=y, region_width=width, region_height=height)

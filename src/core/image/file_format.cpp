@@ -15,7 +15,7 @@ constexpr std::array<WritableFormat, 9> writable_formats = {{
     {.ending = "jpeg", .name = "jpeg", .floats = false, .alpha = false, .free_texts = false},
     {.ending = "bmp", .name = "bmp", .floats = false, .alpha = false, .free_texts = false},
     {.ending = "ppm", .name = "pnm", .floats = false, .alpha = false, .free_texts = false},
-    {.ending = "exr", .name = "openexr", .floats = true, .alpha = true, .free_texts = true},
+    {.ending = "exr", .name = "openexr", .floats = true, .alpha = true, .free_texts = true, .channels = true},
     {.ending = "hdr", .name = "hdr", .floats = true, .alpha = false, .free_texts = false},
 }};
 
@@ -55,6 +55,17 @@ std::string lower_case(std::string_view text) {
   return result;
 }
 
+template <class Condition>
+std::string endings_where(const Condition& holds) {
+  std::string endings;
+  for (const WritableFormat& format : writable_formats) {
+    if (!holds(format)) continue;
+    if (!endings.empty()) endings += ", ";
+    endings += format.ending;
+  }
+  return endings;
+}
+
 }  // namespace
 
 const WritableFormat* writable_format(std::string_view file_name) {
@@ -67,12 +78,11 @@ const WritableFormat* writable_format(std::string_view file_name) {
 }
 
 std::string writable_endings() {
-  std::string endings;
-  for (const WritableFormat& format : writable_formats) {
-    if (!endings.empty()) endings += ", ";
-    endings += format.ending;
-  }
-  return endings;
+  return endings_where([](const WritableFormat&) { return true; });
+}
+
+std::string endings_with_channels() {
+  return endings_where([](const WritableFormat& format) { return format.channels; });
 }
 
 const char* format_of_content(std::span<const std::byte> content) {

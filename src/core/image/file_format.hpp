@@ -15,6 +15,7 @@ struct WritableFormat {
   bool floats;              ///< linear floats, else 8-bit integers as displays want them
   bool alpha;               ///< can hold one
   bool free_texts;          ///< takes texts under any name
+  bool channels = false;    ///< holds channels beside the colours
 };
 
 /// The format for a file name, by its ending in any case; null if there is none.
@@ -22,6 +23,9 @@ const WritableFormat* writable_format(std::string_view file_name);
 
 /// The endings that can be written: "png, tif, ...".
 std::string writable_endings();
+
+/// Those of formats that hold channels beside the colours.
+std::string endings_with_channels();
 
 /// OpenImageIO's name of the format that a file's first bytes tell, or null. What the file is called
 /// does not matter, and formats whose readers are little tested are left out.

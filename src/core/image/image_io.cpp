@@ -93,9 +93,21 @@ Image decode_content(FileBytes content, const std::string& name) {
   return std::move(image).value();
 }
 
+std::vector<ImageFileChannel> file_channels(const std::vector<ImageChannel>& channels) {
+  std::vector<ImageFileChannel> result;
+  for (const ImageChannel& channel : channels) {
+    const auto* const floats = std::get_if<std::vector<float>>(&channel.values);
+    const auto* const integers = std::get_if<std::vector<std::uint32_t>>(&channel.values);
+    result.push_back({.name = channel.name.c_str(),
+                      .floats = floats == nullptr ? nullptr : floats->data(),
+                      .integers = integers == nullptr ? nullptr : integers->data()});
+  }
+  return result;
+}
+
 /// The bytes of a file that holds the picture.
 std::vector<std::byte> encode(const Image& image, const WritableFormat& format, const FileTexts& texts,
-                              const std::string& name) {
+                              std::span<const ImageFileChannel> channels, const std::string& name) {
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
   bool with_alpha = false;
@@ -118,7 +130,9 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
                                      .bytes = format.floats ? nullptr : bytes.data(),
                                      .floats = format.floats ? floats.data() : nullptr,
                                      .texts = file_texts.data(),
-                                     .text_count = file_texts.size()};
+                                     .text_count = file_texts.size(),
+                                     .others = channels.data(),
+                                     .other_count = channels.size()};
   std::vector<std::byte> content;
   const ImageFilesBytes sink = {&content, [](void* context, const unsigned char* added, std::size_t count) {
                                   try {
@@ -136,6 +150,15 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
   return content;
 }
 
+void check_channels(const Image& image, const WritableFormat& format, const std::string& name) {
+  if (image.channels().empty() || format.channels) return;
+  fail(ErrorCode::unsupported, "write", name,
+       fmt::format("a file of this format holds colours alone, but the picture has the channel '{}'{}; "
+                   "the name must end in {}",
+                   image.channels().front().name, image.channels().size() == 1 ? "" : " and others",
+                   endings_with_channels()));
+}
+
 /// The bytes of a file of a format; `name` is for messages.
 std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* format,
                                   const WriteOptions& options, const std::string& name) {
@@ -143,8 +166,11 @@ std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* form
   if (format == nullptr) {
     fail(ErrorCode::unsupported, "write", name, "the name must end in one of " + writable_endings());
   }
+  if (!options.colors_only) check_channels(image, *format, name);
   const FileTexts texts = file_texts(image, options.reproducible);
-  return encode(image, *format, format->free_texts ? texts : gathered_texts(texts), name);
+  return encode(image, *format, format->free_texts ? texts : gathered_texts(texts),
+                options.colors_only ? std::vector<ImageFileChannel>() : file_channels(image.channels()),
+                name);
 }
 
 }  // namespace

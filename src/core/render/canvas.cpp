@@ -33,6 +33,11 @@ void Canvas::put(std::span<const PlacedPixel> pixels) {
   }
 }
 
+void Canvas::put_aovs(const AovTile& tile) {
+  const std::lock_guard lock(mutex_);
+  tile.put(region_, image_);
+}
+
 void Canvas::set_stats(const RenderStats& stats) {
   const std::lock_guard lock(mutex_);
   image_.stats() = stats;

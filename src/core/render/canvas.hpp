@@ -6,6 +6,7 @@
 #include <span>
 #include <utility>
 
+#include "core/render/aov_tile.hpp"
 #include "crt/render.hpp"
 
 namespace crt::core {
@@ -28,6 +29,10 @@ class Canvas {
 
   /// Puts in single pixels of the region.
   void put(std::span<const PlacedPixel> pixels);
+  /// Makes room for what there is beside colours; before the first tile. Throws Error (out_of_memory).
+  void add_channels(const Aovs& aovs) { core::add_channels(aovs, image_); }
+  /// Puts in what a tile has of it.
+  void put_aovs(const AovTile& tile);
 
   void set_stats(const RenderStats& stats);
 

@@ -21,7 +21,13 @@ void add(Tracer::Sample& sum, const Tracer::Sample& sample) {
 /// their order.
 class SampleSums {
  public:
-  SampleSums(Tracer& tracer, int lens_points) : tracer_(tracer), lens_points_(lens_points) {}
+  /// The sums of first hits belong to the pixels from `first_pixel` on; there may be none.
+  SampleSums(Tracer& tracer, int lens_points, const Tracer::Sample* first_pixel,
+             std::span<FirstHit> first_hit_sums)
+      : tracer_(tracer),
+        lens_points_(lens_points),
+        first_pixel_(first_pixel),
+        first_hit_sums_(first_hit_sums) {}
 
   /// Where the next ray is to go, and then that it is there.
   CameraRay& next() { return rays_[count_]; }
@@ -31,7 +37,11 @@ class SampleSums {
   }
 
   void trace() {
-    tracer_.trace(std::span(rays_.data(), count_), samples_);
+    if (first_hit_sums_.empty()) {
+      tracer_.trace(std::span(rays_.data(), count_), samples_);
+    } else {
+      trace_with_first_hits();
+    }
     for (std::size_t i = 0; i < count_; ++i) {
       add(lens_sum_, samples_[i]);
       if (++lens_point_ < lens_points_) continue;
@@ -43,8 +53,18 @@ class SampleSums {
   }
 
  private:
+  void trace_with_first_hits() {
+    std::array<FirstHit, packet_size> first_hits;
+    tracer_.trace(std::span(rays_.data(), count_), samples_, std::span(first_hits).first(count_));
+    for (std::size_t i = 0; i < count_; ++i) {
+      first_hit_sums_[static_cast<std::size_t>(pixels_[i] - first_pixel_)].add(first_hits[i]);
+    }
+  }
+
   Tracer& tracer_;
   int lens_points_;
+  const Tracer::Sample* first_pixel_;
+  std::span<FirstHit> first_hit_sums_;
   std::size_t count_ = 0;
   std::array<CameraRay, packet_size> rays_;
   std::array<Tracer::Sample*, packet_size> pixels_{};
@@ -124,10 +144,10 @@ void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& s
 }  // namespace
 
 void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<Tracer::Sample> pixels,
-                  RenderStats& stats) {
+                  std::span<FirstHit> first_hits, RenderStats& stats) {
   const bool lens = frame.features().lens;
   const int lens_points = lens ? frame.settings().dof_samples : 1;
-  SampleSums sums(tracer, lens_points);
+  SampleSums sums(tracer, lens_points, pixels.data(), first_hits);
   auto pixel = pixels.begin();
   for (int y = region.y; y < region.y + region.height; ++y) {
     for (int x = region.x; x < region.x + region.width; ++x, ++pixel) {
@@ -142,6 +162,9 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
   const double samples_per_pixel = static_cast<double>(grid) * grid * lens_points;
   for (Tracer::Sample& done : pixels.first(pixel_count)) {
     done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel, done.dropped / samples_per_pixel};
+  }
+  for (FirstHit& hit : first_hits) {
+    hit = {hit.normal / samples_per_pixel, hit.color / samples_per_pixel};
   }
   stats.pixels += pixel_count;
   if (lens) stats.lens_samples += pixel_count * static_cast<std::uint64_t>(samples_per_pixel);

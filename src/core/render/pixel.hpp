@@ -9,9 +9,10 @@ namespace crt::core {
 
 /// The pixels of a part of the picture, row by row, into `pixels`. Each is the mean over a grid of subpixels,
 /// sampled at their centres, and for each of them over points of the lens if there is one: a function of the
-/// scene and of its place alone. Neighbouring rays are traced together.
+/// scene and of its place alone. Neighbouring rays are traced together. The same means of what the samples
+/// meet first go into `first_hits`, if that has room for them.
 void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<Tracer::Sample> pixels,
-                  RenderStats& stats);
+                  std::span<FirstHit> first_hits, RenderStats& stats);
 
 /// A pixel, and what is kept of its samples.
 struct PixelPlace {

@@ -9,9 +9,11 @@
 #include <exception>
 #include <limits>
 #include <new>
+#include <optional>
 
 #include "core/math/float_environment.hpp"
 #include "core/render/accuracy.hpp"
+#include "core/render/aov_tile.hpp"
 #include "core/render/pixel.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
@@ -73,6 +75,7 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
       canvas_(chosen_region(options_, settings_), settings_),
       progress_(options_.progress),
       seconds_(std::move(seconds)) {
+  if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
   allowed_threads(options_.threads);  // throws for a number that is none
   check_passes(options_, settings_, canvas_.region());
 }
@@ -81,7 +84,9 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
   Tracer tracer(frame, work, progress_);
   constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
   std::array<Tracer::Sample, most_pixels> samples;
-  trace_pixels(frame, tile, tracer, samples, work.stats);
+  std::optional<AovTile> aovs;
+  if (is_any(options_.aovs)) aovs.emplace(options_.aovs, tile);
+  trace_pixels(frame, tile, tracer, samples, aovs ? aovs->first_hits() : std::span<FirstHit>(), work.stats);
   std::array<float, 4 * most_pixels> pixels;
   float* next = pixels.data();
   const auto count = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
@@ -89,6 +94,10 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
     for (int channel = 0; channel < 3; ++channel) *next++ = float_range(sample.color[channel]);
     *next++ = static_cast<float>(sample.alpha);
     work.cutoff.add(sample.dropped);
+  }
+  if (aovs) {
+    aovs->look(frame.camera(), tracer);
+    canvas_.put_aovs(*aovs);
   }
   canvas_.put(tile, std::span(pixels.data(), next));
 }

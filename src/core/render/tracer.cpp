@@ -67,7 +67,8 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
   }
 }
 
-void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
+void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
+                   std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
     SampleWork& work = work_.samples[i];
     work.media.release(camera_media_mark_);
@@ -79,11 +80,11 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples) {
     seen.sample = &samples[i];
     start_path(rays[i], work.media, rays_[i], seen.path);
   }
-  std::size_t count = rays.size();
-  do {
+  follow(std::span(round_).first(rays.size()));
+  if (!first_hits.empty()) tell_first_hits(first_hits);
+  while (const std::size_t count = take_round(samples.first(rays.size()))) {
     follow(std::span(round_).first(count));
-    count = take_round(samples.first(rays.size()));
-  } while (count > 0);
+  }
 }
 
 std::size_t Tracer::take_round(std::span<Sample> samples) {

@@ -5,6 +5,7 @@
 #include <array>
 #include <span>
 
+#include "core/render/first_hit.hpp"
 #include "core/render/frame.hpp"
 #include "core/render/progress.hpp"
 #include "core/render/surface_hit.hpp"
@@ -36,8 +37,12 @@ class Tracer {
   /// From now on samples get an identity.
   void identify() { identifies_ = true; }
 
-  /// Traces up to packet_size camera rays. Throws Error (cancelled) soon after the progress says so.
-  void trace(std::span<const CameraRay> rays, std::span<Sample> samples);
+  /// Traces up to packet_size camera rays. Says of each what it meets first, if there is room for that in
+  /// `first_hits`. Throws Error (cancelled) soon after the progress says so.
+  void trace(std::span<const CameraRay> rays, std::span<Sample> samples, std::span<FirstHit> first_hits = {});
+
+  /// Where each of up to packet_size camera rays meets something first; no light is followed.
+  void look(std::span<const CameraRay> rays, std::span<FirstPlace> places);
 
  private:
   /// A sample's ray in this round, and what it meets.
@@ -61,6 +66,9 @@ class Tracer {
   void see_background(Seen& seen) const;
   /// Takes from the weight what the medium on the way to a hit absorbs; whether anything is left.
   bool pass_medium(Seen& seen) const;
+
+  /// What the camera rays of the round that was just followed have met.
+  void tell_first_hits(std::span<FirstHit> first_hits);
 
   /// Adds the light of all lights that the surfaces send back along the paths.
   void add_light(std::span<Seen*> seen);

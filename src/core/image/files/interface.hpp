@@ -7,11 +7,12 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace crt::core {
 
 /// Of what follows; a module of another version is refused.
-inline constexpr int image_files_version = 1;
+inline constexpr int image_files_version = 2;
 
 /// A name and a text that go into a file beside the pixels. Both end in 0.
 struct ImageFileText {
@@ -54,6 +55,13 @@ struct ImageFilesContent {
   std::size_t max_pixels;
 };
 
+/// Numbers beside the colours, one a pixel, as `floats` or as `integers`; the other is null.
+struct ImageFileChannel {
+  const char* name;
+  const float* floats;
+  const std::uint32_t* integers;
+};
+
 /// A picture to encode: rows from the top, without gaps, as `bytes` or as `floats`; the other is null.
 struct ImageFilesRequest {
   const char* format;
@@ -64,6 +72,8 @@ struct ImageFilesRequest {
   const float* floats;
   const ImageFileText* texts;
   std::size_t text_count;
+  const ImageFileChannel* others;  ///< only beside floats, and if the format takes any number of channels
+  std::size_t other_count;
 };
 
 struct ImageFiles {

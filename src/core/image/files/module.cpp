@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <exception>
 #include <memory>
 #include <new>
@@ -169,10 +170,21 @@ ImageFilesStatus decode(const ImageFilesContent* content, const ImageFilesPictur
 
 // ---- encoding -------------------------------------------------------------------------------
 
+void add_channels(const ImageFilesRequest& request, OIIO::ImageSpec& spec) {
+  spec.channelformats.assign(static_cast<std::size_t>(spec.nchannels), OIIO::TypeFloat);
+  for (std::size_t i = 0; i < request.other_count; ++i) {
+    const ImageFileChannel& other = request.others[i];
+    spec.channelnames.emplace_back(other.name);
+    spec.channelformats.push_back(other.floats != nullptr ? OIIO::TypeFloat : OIIO::TypeUInt32);
+    ++spec.nchannels;
+  }
+}
+
 OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
   const OIIO::TypeDesc type = request.bytes != nullptr ? OIIO::TypeUInt8 : OIIO::TypeFloat;
   OIIO::ImageSpec spec(request.width, request.height, request.channels, type);
   if (request.channels == 4 && request.bytes != nullptr) spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (request.other_count > 0) add_channels(request, spec);
   for (std::size_t i = 0; i < request.text_count; ++i) {
     spec.attribute(request.texts[i].name, request.texts[i].value);
   }
@@ -185,6 +197,43 @@ OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
   return spec;
 }
 
+/// Rows of pixels with all their channels, each number in four bytes of its own type.
+void gather_rows(const ImageFilesRequest& request, std::size_t begin, std::size_t end, std::uint32_t* to) {
+  const auto colors = static_cast<std::size_t>(request.channels);
+  const auto width = static_cast<std::size_t>(request.width);
+  for (std::size_t pixel = begin * width; pixel < end * width; ++pixel) {
+    std::memcpy(to, request.floats + pixel * colors, colors * sizeof(float));
+    to += colors;
+    for (std::size_t i = 0; i < request.other_count; ++i) {
+      const ImageFileChannel& other = request.others[i];
+      const void* const value =
+          other.floats != nullptr ? static_cast<const void*>(other.floats + pixel) : other.integers + pixel;
+      std::memcpy(to++, value, sizeof *to);
+    }
+  }
+}
+
+/// Writes a picture with other channels in strips of whole rows: they have to be brought together.
+bool write_all_channels(const ImageFilesRequest& request, OIIO::ImageOutput& output) {
+  constexpr int strip_rows = 64;
+  const auto channels = static_cast<std::size_t>(request.channels) + request.other_count;
+  std::vector<std::uint32_t> rows(static_cast<std::size_t>(request.width) * channels *
+                                  static_cast<std::size_t>(std::min(strip_rows, request.height)));
+  for (int y = 0; y < request.height; y += strip_rows) {
+    const int end = std::min(y + strip_rows, request.height);
+    gather_rows(request, static_cast<std::size_t>(y), static_cast<std::size_t>(end), rows.data());
+    // Of no type: each channel has the one that the file has.
+    if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::UNKNOWN, rows.data())) return false;
+  }
+  return true;
+}
+
+bool write_pixels(const ImageFilesRequest& request, OIIO::ImageOutput& output) {
+  if (request.other_count > 0) return write_all_channels(request, output);
+  return request.bytes != nullptr ? output.write_image(OIIO::TypeUInt8, request.bytes)
+                                  : output.write_image(OIIO::TypeFloat, request.floats);
+}
+
 ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes* sink,
                         const ImageFilesError* error) noexcept {
   return guarded(*error, [&] {
@@ -195,10 +244,7 @@ ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes*
     OIIO::Filesystem::IOVecOutput target(bytes);
     output->threads(1);
     output->set_ioproxy(&target);
-    const OIIO::ImageSpec spec = output_spec(*request);
-    const void* pixels =
-        request->bytes != nullptr ? static_cast<const void*>(request->bytes) : request->floats;
-    if (!output->open(request->format, spec) || !output->write_image(spec.format, pixels) ||
+    if (!output->open(request->format, output_spec(*request)) || !write_pixels(*request, *output) ||
         !output->close()) {
       throw std::runtime_error(reason(output->geterror(), "the picture cannot be written in this format"));
     }

@@ -1,0 +1,128 @@
+#include "core/render/aov_tile.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cmath>
+#include <new>
+#include <utility>
+
+#include "crt/error.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// All that there is of one pixel.
+struct AovPixel {
+  const FirstHit& hit;
+  const FirstPlace& place;
+};
+
+/// What a channel of an AOV holds of a pixel.
+struct FloatChannel {
+  const char* name;
+  bool Aovs::*asked;
+  double (*value)(const AovPixel& pixel);
+};
+
+struct IntegerChannel {
+  const char* name;
+  bool Aovs::*asked;
+  std::uint32_t (*value)(const AovPixel& pixel);
+};
+
+// The names that readers of EXR files look for: Z for a distance, X, Y and Z in a layer for a direction, R, G
+// and B for a colour.
+constexpr FloatChannel float_channels[] = {
+    {"Z", &Aovs::depth, [](const AovPixel& pixel) { return pixel.place.distance; }},
+    {"N.X", &Aovs::normal, [](const AovPixel& pixel) { return pixel.hit.normal.x; }},
+    {"N.Y", &Aovs::normal, [](const AovPixel& pixel) { return pixel.hit.normal.y; }},
+    {"N.Z", &Aovs::normal, [](const AovPixel& pixel) { return pixel.hit.normal.z; }},
+    {"albedo.R", &Aovs::albedo, [](const AovPixel& pixel) { return pixel.hit.color.r; }},
+    {"albedo.G", &Aovs::albedo, [](const AovPixel& pixel) { return pixel.hit.color.g; }},
+    {"albedo.B", &Aovs::albedo, [](const AovPixel& pixel) { return pixel.hit.color.b; }},
+};
+
+constexpr IntegerChannel integer_channels[] = {
+    {"id", &Aovs::id, [](const AovPixel& pixel) { return pixel.place.entity_id; }},
+};
+
+/// The nearest float; what is finite stays so.
+float to_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  if (std::isinf(value)) return static_cast<float>(value);
+  return static_cast<float>(std::clamp(value, -largest, largest));
+}
+
+template <class Function>
+void for_each_row(const Region& tile, const Region& region, const Function& copy_row) {
+  const auto width = static_cast<std::size_t>(tile.width);
+  for (int y = 0; y < tile.height; ++y) {
+    const auto to = static_cast<std::size_t>(tile.y - region.y + y) * static_cast<std::size_t>(region.width) +
+                    static_cast<std::size_t>(tile.x - region.x);
+    copy_row(static_cast<std::size_t>(y) * width, to, width);
+  }
+}
+
+}  // namespace
+
+void add_channels(const Aovs& aovs, Image& image) {
+  const FirstHit no_hit;
+  const FirstPlace no_place;
+  const AovPixel none = {no_hit, no_place};
+  const std::size_t pixel_count = image.pixels().size() / 4;
+  try {
+    std::vector<ImageChannel> channels;
+    for (const FloatChannel& channel : float_channels) {
+      if (!(aovs.*channel.asked)) continue;
+      channels.push_back({channel.name, std::vector<float>(pixel_count, to_float(channel.value(none)))});
+    }
+    for (const IntegerChannel& channel : integer_channels) {
+      if (!(aovs.*channel.asked)) continue;
+      channels.push_back({channel.name, std::vector<std::uint32_t>(pixel_count, channel.value(none))});
+    }
+    image.set_channels(std::move(channels));
+  } catch (const std::bad_alloc&) {
+    throw Error(ErrorCode::out_of_memory, fmt::format("no memory for further channels of {} x {} pixels",
+                                                      image.width(), image.height()));
+  }
+}
+
+std::span<FirstHit> AovTile::first_hits() {
+  const bool asked = aovs_.normal || aovs_.albedo;
+  return std::span(first_hits_).first(asked ? pixel_count() : 0);
+}
+
+void AovTile::look(const CameraRays& camera, Tracer& tracer) {
+  if (!aovs_.depth && !aovs_.id) return;
+  constexpr double middle = 0.5;
+  std::array<CameraRay, Tiles::side> rays;
+  static_assert(rays.size() <= packet_size);
+  const auto width = static_cast<std::size_t>(tile_.width);
+  for (int y = 0; y < tile_.height; ++y) {
+    for (int x = 0; x < tile_.width; ++x) {
+      rays[static_cast<std::size_t>(x)] = camera.ray(tile_.x + x + middle, tile_.y + y + middle);
+    }
+    tracer.look(std::span(rays).first(width),
+                std::span(first_places_).subspan(static_cast<std::size_t>(y) * width, width));
+  }
+}
+
+void AovTile::put(const Region& region, Image& image) const {
+  const auto copy = [&](const auto& channel, auto values, const auto& converted) {
+    for_each_row(tile_, region, [&](std::size_t from, std::size_t to, std::size_t count) {
+      for (std::size_t i = 0; i < count; ++i) {
+        values[to + i] = converted(channel.value({first_hits_[from + i], first_places_[from + i]}));
+      }
+    });
+  };
+  for (const FloatChannel& channel : float_channels) {
+    if (aovs_.*channel.asked) copy(channel, image.channel(channel.name), to_float);
+  }
+  for (const IntegerChannel& channel : integer_channels) {
+    if (aovs_.*channel.asked) copy(channel, image.integer_channel(channel.name), [](auto id) { return id; });
+  }
+}
+
+}  // namespace crt::core

@@ -1,0 +1,49 @@
+// What the pixels of a tile get beside their colours (RenderOptions::aovs), and the channels that it goes
+// into.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/render/first_hit.hpp"
+#include "core/render/tiles.hpp"
+#include "core/render/tracer.hpp"
+
+namespace crt::core {
+
+inline bool is_any(const Aovs& aovs) {
+  return aovs != Aovs{};
+}
+
+/// Gives an image the channels that are asked for, as they are where nothing is met. Throws Error
+/// (out_of_memory).
+void add_channels(const Aovs& aovs, Image& image);
+
+/// Only for a render that has some; made anew for each tile.
+class AovTile {
+ public:
+  AovTile(const Aovs& aovs, const Region& tile) : aovs_(aovs), tile_(tile) {}
+
+  /// Where the means of the pixels' first hits are to be put (see trace_pixels); nowhere if nobody asks.
+  std::span<FirstHit> first_hits();
+
+  /// Sends a ray through the middle of each pixel, if somebody asks for what it meets.
+  void look(const CameraRays& camera, Tracer& tracer);
+
+  /// Copies all into the channels of an image that shows `region` of the picture.
+  void put(const Region& region, Image& image) const;
+
+ private:
+  static constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
+
+  std::size_t pixel_count() const {
+    return static_cast<std::size_t>(tile_.width) * static_cast<std::size_t>(tile_.height);
+  }
+
+  Aovs aovs_;
+  Region tile_;
+  std::array<FirstHit, most_pixels> first_hits_;
+  std::array<FirstPlace, most_pixels> first_places_;
+};
+
+}  // namespace crt::core

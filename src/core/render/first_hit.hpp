@@ -1,0 +1,29 @@
+// What camera rays meet first: all that a picture tells of its pixels beside their colours.
+#pragma once
+
+#include <cstdint>
+#include <limits>
+
+#include "core/shading/rgb.hpp"
+#include "crt/render.hpp"
+
+namespace crt::core {
+
+/// How a surface looks; all 0 where there is none. A pixel has the mean over its samples.
+struct FirstHit {
+  Vec3 normal{0, 0, 0};  ///< world, unit length, turned to the viewer and tilted by bumps
+  Rgb color{0, 0, 0};    ///< the material's
+
+  void add(const FirstHit& other) {
+    normal += other.normal;
+    color += other.color;
+  }
+};
+
+/// Where a surface is, and whose. A pixel has those of the ray through its middle.
+struct FirstPlace {
+  double distance = std::numeric_limits<double>::infinity();  ///< from the ray's origin, in the world
+  std::uint32_t entity_id = no_entity_id;
+};
+
+}  // namespace crt::core
