@@ -339,6 +339,7 @@ void Session::use_prepared() {
   options.region_width = static_cast<std::int32_t>(input_.below(5));
   options.region_height = static_cast<std::int32_t>(input_.below(5));
   options.region_x = static_cast<std::int32_t>(input_.below(4));
+  options.aovs = input_.below(18);
   int calls = static_cast<int>(input_.below(4));
   options.progress_user = &calls;
   options.progress = [](double, void* user) { return --*static_cast<int*>(user) == 0 ? 5 : 0; };
@@ -357,6 +358,10 @@ void Session::use_image() {
   }
   std::vector<std::uint8_t> bytes(std::size_t{4} * crt_image_width(image) * crt_image_height(image) + 1);
   require((crt_image_to_rgba8(image, bytes.data(), 0) == CRT_OK) == (image != nullptr));
+  for (std::size_t i = 0; i < crt_image_channel_count(image); ++i) {
+    const char* const name = crt_image_channel_name(image, i);
+    require((crt_image_channel(image, name) == nullptr) != (crt_image_channel_uint(image, name) == nullptr));
+  }
   auto stats = crt_render_stats{};
   stats.struct_size = input_.raw<std::uint16_t>() % (sizeof stats + 1);
   crt_image_stats(image, &stats);

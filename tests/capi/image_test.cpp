@@ -1,4 +1,6 @@
 // Images: in and out of memory and files.
+#include <algorithm>
+#include <cmath>
 #include <cstring>
 #include <filesystem>
 #include <string>
@@ -146,4 +148,84 @@ TEST_CASE("an image takes other settings without changing its pixels") {
   CHECK(before[0] == 64);
   CHECK(after[0] == 128);
   CHECK(crt_image_pixels(brighter.get(), nullptr)[0] == 0.25f);
+}
+
+TEST_CASE("an image lends what it was asked to tell beside the colours, by name") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  crt_render_options options;
+  REQUIRE(crt_render_options_init(&options, sizeof options) == CRT_OK);
+  options.aovs = CRT_AOV_DEPTH | CRT_AOV_NORMAL | CRT_AOV_ID | CRT_AOV_ALBEDO;
+  const ImageHandle image = render(prepared.get(), &options);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < crt_image_channel_count(image.get()); ++i) {
+    names.emplace_back(crt_image_channel_name(image.get(), i));
+  }
+  std::sort(names.begin(), names.end());
+  CHECK(names ==
+        std::vector<std::string>{"N.X", "N.Y", "N.Z", "Z", "albedo.B", "albedo.G", "albedo.R", "id"});
+  CHECK(crt_image_channel_name(image.get(), names.size()) == nullptr);
+  CHECK(crt_image_channel(image.get(), "id") == nullptr);
+  CHECK(crt_image_channel_uint(image.get(), "Z") == nullptr);
+
+  // What a ray through the same place hits. The camera is the default one.
+  const float* const depth = crt_image_channel(image.get(), "Z");
+  const std::uint32_t* const id = crt_image_channel_uint(image.get(), "id");
+  const double half_height = std::tan(std::acos(-1.0) / 6);
+  std::size_t hits = 0;
+  for (std::size_t y = 0; y < 30; ++y) {
+    for (std::size_t x = 0; x < 40; ++x) {
+      const double across = (2 * (static_cast<double>(x) + 0.5) / 40 - 1) * half_height * 40 / 30;
+      const double up = (1 - 2 * (static_cast<double>(y) + 0.5) / 30) * half_height;
+      const crt_ray ray = {{0, 0, -1}, {across, up, 1}, 0, infinity};
+      crt_hit hit;
+      REQUIRE(crt_intersect(prepared.get(), &ray, 0, 1, &hit, 0) == CRT_OK);
+      const std::size_t pixel = y * 40 + x;
+      const bool found = hit.t < infinity;
+      hits += found ? 1 : 0;
+      CHECK(id[pixel] == (found ? hit.entity_id : UINT32_MAX));
+      const double way = hit.t * std::sqrt(across * across + up * up + 1);
+      CHECK((found ? std::abs(double{depth[pixel]} - way) <= 1e-6 * way : depth[pixel] == infinity));
+    }
+  }
+  CHECK(hits > 100);
+}
+
+TEST_CASE("an image without further channels has none, and bits that no AOV has are refused") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  crt_render_options options;
+  REQUIRE(crt_render_options_init(&options, sizeof options) == CRT_OK);
+  const ImageHandle plain = render(prepared.get(), &options);
+  CHECK(crt_image_channel_count(plain.get()) == 0);
+  CHECK(crt_image_channel(plain.get(), "Z") == nullptr);
+  CHECK(crt_image_channel(plain.get(), nullptr) == nullptr);
+  CHECK(crt_image_channel_count(nullptr) == 0);
+  CHECK(crt_image_channel_name(nullptr, 0) == nullptr);
+  CHECK(crt_image_channel(nullptr, "Z") == nullptr);
+  CHECK(crt_image_channel_uint(nullptr, "id") == nullptr);
+  options.aovs = 1u << 31;
+  crt_image* none = nullptr;
+  CHECK(crt_render(prepared.get(), &options, &none) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("aovs"));
+  CHECK(none == nullptr);
+}
+
+TEST_CASE("further channels go into an EXR file, and into others not unless they are left out") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  crt_render_options options;
+  REQUIRE(crt_render_options_init(&options, sizeof options) == CRT_OK);
+  options.aovs = CRT_AOV_DEPTH;
+  const ImageHandle image = render(prepared.get(), &options);
+  crt_write_options write;
+  REQUIRE(crt_write_options_init(&write, sizeof write) == CRT_OK);
+  crt_buffer* none = nullptr;
+  CHECK(crt_image_encode(image.get(), "png", &write, &none) == CRT_ERROR_UNSUPPORTED);
+  CHECK(none == nullptr);
+  CHECK_NOTHROW(encoded(image.get(), "exr"));
+  write.colors_only = 1;
+  const BufferHandle picture =
+      made<BufferHandle>([&](crt_buffer** out) { return crt_image_encode(image.get(), "png", &write, out); });
+  CHECK(crt_image_width(decoded(picture.get()).get()) == 40);
 }

@@ -53,6 +53,7 @@ class Functions(unittest.TestCase):
 class Structs(unittest.TestCase):
     KINDS = {
         "int32_t": ctypes.c_int32,
+        "uint32_t": ctypes.c_uint32,
         "uint64_t": ctypes.c_uint64,
         "double": ctypes.c_double,
     }
@@ -107,6 +108,10 @@ class Structs(unittest.TestCase):
             for number, theirs in enumerate(names):
                 self.assertTrue(theirs.endswith(ours(number).name), f"{theirs} is {ours(number)!r}")
             self.assertEqual(len(names), sum(member >= 0 for member in ours))
+
+    def test_aovs_have_the_bits_of_the_header(self):
+        bits = {name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+) = (\d+)", HEADER)}
+        self.assertEqual(rendering._AOV_BITS, bits)
 
     def test_rays_and_hits_have_the_frozen_layout(self):
         self.assertEqual((crt.RAY.itemsize, crt.HIT.itemsize), (64, 56))

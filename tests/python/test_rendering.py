@@ -46,6 +46,34 @@ class Rendering(unittest.TestCase):
         with self.assertRaises(crt.Error):
             small_scene().prepare().render(region=(40, 0, 20, 10))
 
+    def test_channels_beside_the_colours_are_told_if_asked_for(self):
+        prepared = small_scene(48).prepare()
+        image = prepared.render(aovs=["depth", "id", "normal"])
+        self.assertEqual(set(image.channels), {"Z", "id", "N.X", "N.Y", "N.Z"})
+        depth, numbers = image.channels["Z"], image.channels["id"]
+        self.assertEqual((depth.shape, depth.dtype), ((48, 48), np.float32))
+        self.assertEqual((numbers.shape, numbers.dtype), ((48, 48), np.uint32))
+        self.assertFalse(depth.flags.writeable)
+        self.assertTrue(np.isinf(depth[0, 0]))
+        self.assertEqual(numbers[0, 0], 0xFFFFFFFF)
+        self.assertTrue(np.isfinite(depth[24, 24]))
+        del image
+        gc.collect()
+        self.assertTrue(np.isfinite(depth[24, 24]))  # the array keeps the image
+        np.testing.assert_array_equal(prepared.start(aovs=("depth",)).wait().channels["Z"], depth)
+        self.assertEqual(prepared.render().channels, {})
+        with self.assertRaisesRegex(ValueError, "depht"):
+            prepared.render(aovs=["depht"])
+
+    def test_channels_go_into_exr_files_alone(self):
+        image = small_scene(16).render(aovs=["albedo"])
+        self.assertGreater(len(image.encode("exr")), len(image.encode("exr", colors_only=True)))
+        with self.assertRaises(crt.Error) as caught:
+            image.encode("png")
+        self.assertEqual(caught.exception.status, crt.Status.UNSUPPORTED)
+        self.assertEqual(image.encode("png", colors_only=True)[1:4], b"PNG")
+        self.assertEqual(image._repr_png_()[1:4], b"PNG")
+
 
 class Callbacks(unittest.TestCase):
     def test_progress_goes_from_0_to_1(self):
