@@ -9,27 +9,28 @@ void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
     Seen& seen = round_[i];
     first_hits[i] = {};
-    if (!seen.hit.found()) continue;
+    if (!seen.hit->found()) continue;
     // Behind a medium that lets nothing through the surface has not been looked at.
-    if (is_black(seen.weight)) look_up(data_, seen.path.ray, seen.hit, work_, seen.surface);
-    first_hits[i] = {.normal = seen.surface.normal, .color = seen.surface.color};
+    if (is_black(seen.weight)) look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
+    first_hits[i] = {.normal = seen.surface.phong.normal, .color = seen.surface.phong.color};
   }
 }
 
 void Tracer::look(std::span<const CameraRay> rays, std::span<FirstPlace> places) {
-  std::array<WorldRay, packet_size> world_rays;
-  std::array<RayHit, packet_size> hits;
-  for (std::size_t i = 0; i < rays.size(); ++i) world_rays[i] = Frame::eye_ray(rays[i]);
+  const std::span<WorldRay> world_rays = std::span(rays_).first(rays.size());
+  for (std::size_t i = 0; i < rays.size(); ++i) Frame::eye_ray(rays[i], world_rays[i]);
   tick(static_cast<unsigned>(rays.size()));
-  data_.intersect_each(std::span(world_rays).first(rays.size()), hits, work_.rays);
+  data_.intersect_each(world_rays, hits_, work_.rays);
   for (std::size_t i = 0; i < rays.size(); ++i) {
+    const WorldRay& ray = world_rays[i];
+    RayHit& hit = hits_[i];
     places[i] = {};
-    if (!hits[i].found()) continue;
-    PathRay path{.ray = world_rays[i]};
-    if (hits[i].has_company && frame_.features().transparency) {
-      hits[i] = seen_of(path, data_.intersect(path.ray, work_.rays));
+    if (!hit.found()) continue;
+    if (hit.has_company && frame_.features().transparency) {
+      hit = seen_of(ray, data_.intersect(ray, work_.rays));
     }
-    const HitPoint point = data_.hit_point(path.ray, hits[i], false);
+    HitPoint point;
+    data_.hit_point(ray, hit, false, point);
     places[i] = {.distance = point.t, .entity_id = point.entity_id};
   }
 }
