@@ -659,7 +659,10 @@ enum {
   CRT_AOV_DEPTH = 1,  /**< "Z": the way along the ray from the eye; INFINITY where nothing is */
   CRT_AOV_NORMAL = 2, /**< "N.X", "N.Y", "N.Z": in the world, turned to the viewer; 0 where nothing is */
   CRT_AOV_ID = 4,     /**< "id": crt_hit.entity_id, a channel of whole numbers; UINT32_MAX where nothing is */
-  CRT_AOV_ALBEDO = 8  /**< "albedo.R", "albedo.G", "albedo.B": the material's colour; 0 where nothing is */
+  CRT_AOV_ALBEDO = 8, /**< "albedo.R", "albedo.G", "albedo.B": the material's colour; 0 where nothing is */
+  CRT_AOV_SAMPLES = 16, /**< "samples": how many the pixel has, a channel of whole numbers */
+  CRT_AOV_ERROR = 32    /**< "error": the half-width of the pixel's interval, see half_width_rms in
+                             crt_render_stats; 1 for the plain grid */
 };
 
 /** What a render may be asked beyond the scene. All 0 is the default: the whole picture on all cores. */
@@ -675,8 +678,8 @@ typedef struct crt_render_options {
   void* progress_user;
   crt_log_fn log;
   void* log_user;
-  int32_t passes;   /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
-  uint32_t aovs;    /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
+  int32_t passes; /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
+  uint32_t aovs;  /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
 } crt_render_options;
 
 /** The defaults, which are all 0. */

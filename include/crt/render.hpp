@@ -34,6 +34,12 @@ struct Aovs {
   /// "albedo.R", "albedo.G", "albedo.B": the material's colour in linear light, from its pattern if it has
   /// one; samples that meet nothing count as 0.
   bool albedo = false;
+  /// "samples", whole numbers: how many samples the pixel has.
+  bool samples = false;
+  /// "error": half of the width of the interval that holds the pixel's true value in 95 of 100 cases, in what
+  /// a display shows (1/255 is a step of 8 bits), when it is rendered up to a target error, a time budget or
+  /// a number of passes; else 1, as nothing is known.
+  bool error = false;
 
   bool operator==(const Aovs&) const = default;
 };

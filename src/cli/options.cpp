@@ -37,7 +37,8 @@ read or written; 70: a bug in crt, or no memory left; 130: interrupted.)";
 constexpr std::string_view render_footer =
     R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma applied),
 .exr and .hdr (linear light). Nothing is left behind under its name unless it is whole.
-An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo.
+An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo, and of each
+pixel how many samples it has (samples) and how far it may be from the truth (error).
 
 Examples:
   crt render scene.crt -o draft.png --width 320 --height 240
@@ -212,10 +213,8 @@ struct AovName {
 };
 
 constexpr AovName aov_names[] = {
-    {"depth", &Aovs::depth},
-    {"normal", &Aovs::normal},
-    {"id", &Aovs::id},
-    {"albedo", &Aovs::albedo},
+    {"depth", &Aovs::depth},   {"normal", &Aovs::normal},   {"id", &Aovs::id},
+    {"albedo", &Aovs::albedo}, {"samples", &Aovs::samples}, {"error", &Aovs::error},
 };
 
 std::string all_aov_names() {

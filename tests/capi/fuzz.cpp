@@ -339,7 +339,7 @@ void Session::use_prepared() {
   options.region_width = static_cast<std::int32_t>(input_.below(5));
   options.region_height = static_cast<std::int32_t>(input_.below(5));
   options.region_x = static_cast<std::int32_t>(input_.below(4));
-  options.aovs = input_.below(18);
+  options.aovs = input_.below(70);
   int calls = static_cast<int>(input_.below(4));
   options.progress_user = &calls;
   options.progress = [](double, void* user) { return --*static_cast<int*>(user) == 0 ? 5 : 0; };

@@ -16,7 +16,8 @@ using namespace crt::test;
 
 namespace {
 
-constexpr Aovs all_aovs = {.depth = true, .normal = true, .id = true, .albedo = true};
+constexpr Aovs all_aovs = {
+    .depth = true, .normal = true, .id = true, .albedo = true, .samples = true, .error = true};
 constexpr float infinity = std::numeric_limits<float>::infinity();
 /// Of a float's rounding and a bit more.
 constexpr double float_rounding = 1e-6;
@@ -103,15 +104,15 @@ TEST_CASE("nobody who does not ask gets channels, and the colours are the same f
   const Image told = render(scene, {.aovs = all_aovs});
   CHECK(same_pixels(plain, told));
   CHECK(told.stats().camera_rays == plain.stats().camera_rays);
-  CHECK(told.channels().size() == 8);
+  CHECK(told.channels().size() == 10);
 }
 
 TEST_CASE("each AOV is told by itself as with all others") {
   const PreparedScene scene = prepare(busy_scene());
   const Image all = render(scene, {.aovs = all_aovs});
   std::size_t count = 0;
-  for (const Aovs& aovs :
-       {Aovs{.depth = true}, Aovs{.normal = true}, Aovs{.id = true}, Aovs{.albedo = true}}) {
+  for (const Aovs& aovs : {Aovs{.depth = true}, Aovs{.normal = true}, Aovs{.id = true}, Aovs{.albedo = true},
+                           Aovs{.samples = true}, Aovs{.error = true}}) {
     const Image one = render(scene, {.aovs = aovs});
     for (const ImageChannel& channel : one.channels()) {
       CAPTURE(channel.name);
@@ -307,21 +308,76 @@ TEST_CASE("an orthographic camera measures from its image plane") {
 }
 
 TEST_CASE("channels have the same bytes for any number of threads and in any region") {
-  const PreparedScene scene = prepare(busy_scene());
-  const Image reference = render(scene, {.threads = 1, .aovs = all_aovs});
-  CHECK(same_channels(render(scene, {.threads = 7, .aovs = all_aovs}), reference));
-  const Region region{7, 5, 29, 23};
-  const Image part = render(scene, {.region = region, .aovs = all_aovs});
-  for (int y = 0; y < region.height; ++y) {
-    for (int x = 0; x < region.width; ++x) {
-      const int whole_x = region.x + x;
-      const int whole_y = region.y + y;
-      REQUIRE(depth_at(part, x, y) == depth_at(reference, whole_x, whole_y));
-      REQUIRE(id_at(part, x, y) == id_at(reference, whole_x, whole_y));
-      REQUIRE(normal_at(part, x, y) == normal_at(reference, whole_x, whole_y));
-      REQUIRE(albedo_at(part, x, y) == albedo_at(reference, whole_x, whole_y));
+  for (const double target_error : {0.0, 0.02}) {
+    CAPTURE(target_error);
+    Scene busy = busy_scene();
+    busy.settings.target_error = target_error;
+    busy.settings.max_samples = 256;
+    const PreparedScene scene = prepare(busy);
+    const Image reference = render(scene, {.threads = 1, .aovs = all_aovs});
+    CHECK(same_channels(render(scene, {.threads = 7, .aovs = all_aovs}), reference));
+    const Region region{7, 5, 29, 23};
+    const Image part = render(scene, {.region = region, .aovs = all_aovs});
+    for (int y = 0; y < region.height; ++y) {
+      for (int x = 0; x < region.width; ++x) {
+        const int whole_x = region.x + x;
+        const int whole_y = region.y + y;
+        REQUIRE(depth_at(part, x, y) == depth_at(reference, whole_x, whole_y));
+        REQUIRE(id_at(part, x, y) == id_at(reference, whole_x, whole_y));
+        REQUIRE(normal_at(part, x, y) == normal_at(reference, whole_x, whole_y));
+        REQUIRE(albedo_at(part, x, y) == albedo_at(reference, whole_x, whole_y));
+        REQUIRE(part.integer_channel("samples")[index_of(part, x, y)] ==
+                reference.integer_channel("samples")[index_of(reference, whole_x, whole_y)]);
+        REQUIRE(part.channel("error")[index_of(part, x, y)] ==
+                reference.channel("error")[index_of(reference, whole_x, whole_y)]);
+      }
     }
   }
+}
+
+TEST_CASE("of a plain grid all pixels have the same samples and nobody knows the error") {
+  Scene scene = busy_scene();
+  for (const double aperture : {80.0, 0.0}) {
+    scene.camera.aperture = aperture;
+    const Image image = with_aovs(scene);
+    for (const std::uint32_t samples : image.integer_channel("samples")) {
+      REQUIRE(samples == (aperture > 0 ? 12 : 4));
+    }
+    for (const float error : image.channel("error")) REQUIRE(error == 1);
+  }
+}
+
+TEST_CASE("of an adaptive picture samples and errors are those that the statistics sum up") {
+  Scene scene = busy_scene();
+  scene.settings.target_error = 4.0 / 255;
+  scene.settings.max_samples = 128;
+  const Image image = with_aovs(scene);
+  const RenderStats& stats = image.stats();
+  const auto samples = image.integer_channel("samples");
+  const auto errors = image.channel("error");
+  CHECK(*std::min_element(samples.begin(), samples.end()) == stats.samples_min);
+  CHECK(*std::max_element(samples.begin(), samples.end()) == stats.samples_max);
+  CHECK(stats.samples_min < stats.samples_max);
+  CHECK(double{*std::max_element(errors.begin(), errors.end())} == stats.half_width_max);
+  std::uint64_t unresolved = 0;
+  for (const float error : errors) unresolved += double{error} > scene.settings.target_error ? 1 : 0;
+  CHECK(unresolved == stats.pixels_unresolved);
+}
+
+TEST_CASE("in an adaptive picture normal and albedo are means over the samples that each pixel has") {
+  Scene scene = scene_before_eye(16, 16);
+  scene.settings.target_error = 2.0 / 255;
+  scene.lights = {glow(1)};
+  scene.entities = {Sphere{.radius = 1, .material = inert()}};
+  const Image image = with_aovs(scene);
+  for (int y = 0; y < 16; ++y) {
+    for (int x = 0; x < 16; ++x) {
+      // White and evenly lit: what its light is, its albedo is.
+      REQUIRE(albedo_at(image, x, y).x == doctest::Approx(image.at(x, y).r).epsilon(1e-5));
+    }
+  }
+  CHECK(image.stats().samples_min < image.stats().samples_max);
+  CHECK(same_pixels(image, render(prepare(scene))));
 }
 
 TEST_CASE("depth and id are those that a ray query through the pixel's middle finds") {

@@ -22,7 +22,7 @@ Progress = Callable[[float], Any]
 Log = Callable[[str], Any]
 Region = tuple[int, int, int, int]
 
-_AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8}
+_AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8, "samples": 16, "error": 32}
 
 
 class Prepared(Handle):
@@ -45,8 +45,8 @@ class Prepared(Handle):
 
         `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
         `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
-        unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id" and
-        "albedo", become Image.channels. `progress` is told the share that is done, `log` what there is to
+        unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id",
+        "albedo", "samples" and "error", become Image.channels. `progress` is told the share that is done, `log` what there is to
         tell; they may be called from other threads, one at a time. What progress raises cancels the render
         and comes out of here. So does Ctrl-C.
         """

@@ -55,10 +55,13 @@ void report_measures(const PixelMeasures& measures, RenderStats& stats) {
   stats.half_width_max = double{*std::max_element(sorted.begin(), sorted.end())};
 }
 
-void report_grid(const Settings& settings, bool lens, RenderStats& stats) {
+std::uint64_t samples_of_grid(const Settings& settings, bool lens) {
   const auto rays = static_cast<std::uint64_t>(settings.supersampling * settings.supersampling);
-  stats.samples_min = stats.samples_max =
-      rays * (lens ? static_cast<std::uint64_t>(settings.dof_samples) : std::uint64_t{1});
+  return rays * (lens ? static_cast<std::uint64_t>(settings.dof_samples) : std::uint64_t{1});
+}
+
+void report_grid(const Settings& settings, bool lens, RenderStats& stats) {
+  stats.samples_min = stats.samples_max = samples_of_grid(settings, lens);
   stats.samples_mean = static_cast<double>(stats.samples_min);
   report_unseen(stats);
 }

@@ -17,6 +17,7 @@ namespace {
 struct AovPixel {
   const FirstHit& hit;
   const FirstPlace& place;
+  const PixelMeasure& measure;
 };
 
 /// What a channel of an AOV holds of a pixel.
@@ -42,10 +43,12 @@ constexpr FloatChannel float_channels[] = {
     {"albedo.R", &Aovs::albedo, [](const AovPixel& pixel) { return pixel.hit.color.r; }},
     {"albedo.G", &Aovs::albedo, [](const AovPixel& pixel) { return pixel.hit.color.g; }},
     {"albedo.B", &Aovs::albedo, [](const AovPixel& pixel) { return pixel.hit.color.b; }},
+    {"error", &Aovs::error, [](const AovPixel& pixel) { return double{pixel.measure.half_width}; }},
 };
 
 constexpr IntegerChannel integer_channels[] = {
     {"id", &Aovs::id, [](const AovPixel& pixel) { return pixel.place.entity_id; }},
+    {"samples", &Aovs::samples, [](const AovPixel& pixel) { return pixel.measure.samples; }},
 };
 
 /// The nearest float; what is finite stays so.
@@ -55,13 +58,15 @@ float to_float(double value) {
   return static_cast<float>(std::clamp(value, -largest, largest));
 }
 
+/// Calls copy(place in the tile, place in the region, count) for each row of the tile.
 template <class Function>
-void for_each_row(const Region& tile, const Region& region, const Function& copy_row) {
+void for_each_row(const Region& tile, const Region& region, const Function& copy) {
   const auto width = static_cast<std::size_t>(tile.width);
   for (int y = 0; y < tile.height; ++y) {
-    const auto to = static_cast<std::size_t>(tile.y - region.y + y) * static_cast<std::size_t>(region.width) +
-                    static_cast<std::size_t>(tile.x - region.x);
-    copy_row(static_cast<std::size_t>(y) * width, to, width);
+    const auto in_region =
+        static_cast<std::size_t>(tile.y - region.y + y) * static_cast<std::size_t>(region.width) +
+        static_cast<std::size_t>(tile.x - region.x);
+    copy(static_cast<std::size_t>(y) * width, in_region, width);
   }
 }
 
@@ -70,7 +75,8 @@ void for_each_row(const Region& tile, const Region& region, const Function& copy
 void add_channels(const Aovs& aovs, Image& image) {
   const FirstHit no_hit;
   const FirstPlace no_place;
-  const AovPixel none = {no_hit, no_place};
+  const PixelMeasure no_measure;
+  const AovPixel none = {no_hit, no_place, no_measure};
   const std::size_t pixel_count = image.pixels().size() / 4;
   try {
     std::vector<ImageChannel> channels;
@@ -94,6 +100,16 @@ std::span<FirstHit> AovTile::first_hits() {
   return std::span(first_hits_).first(asked ? pixel_count() : 0);
 }
 
+void AovTile::take(const PixelMeasures& measures, const Region& region) {
+  for_each_row(tile_, region, [&](std::size_t to, std::size_t from, std::size_t count) {
+    for (std::size_t i = 0; i < count; ++i) {
+      measures_[to + i] = {.samples = measures.samples[from + i],
+                           .half_width = measures.half_widths[from + i]};
+      if (!measures.first_hits.empty()) first_hits_[to + i] = measures.first_hits[from + i];
+    }
+  });
+}
+
 void AovTile::look(const CameraRays& camera, Tracer& tracer) {
   if (!aovs_.depth && !aovs_.id) return;
   constexpr double middle = 0.5;
@@ -113,7 +129,8 @@ void AovTile::put(const Region& region, Image& image) const {
   const auto copy = [&](const auto& channel, auto values, const auto& converted) {
     for_each_row(tile_, region, [&](std::size_t from, std::size_t to, std::size_t count) {
       for (std::size_t i = 0; i < count; ++i) {
-        values[to + i] = converted(channel.value({first_hits_[from + i], first_places_[from + i]}));
+        values[to + i] =
+            converted(channel.value({first_hits_[from + i], first_places_[from + i], measures_[from + i]}));
       }
     });
   };

@@ -6,6 +6,7 @@
 #include <span>
 
 #include "core/render/first_hit.hpp"
+#include "core/render/pixel_measures.hpp"
 #include "core/render/tiles.hpp"
 #include "core/render/tracer.hpp"
 
@@ -19,6 +20,12 @@ inline bool is_any(const Aovs& aovs) {
 /// (out_of_memory).
 void add_channels(const Aovs& aovs, Image& image);
 
+/// What is known of a pixel's colour.
+struct PixelMeasure {
+  std::uint32_t samples = 0;
+  float half_width = 1;  ///< in display units
+};
+
 /// Only for a render that has some; made anew for each tile.
 class AovTile {
  public:
@@ -26,6 +33,12 @@ class AovTile {
 
   /// Where the means of the pixels' first hits are to be put (see trace_pixels); nowhere if nobody asks.
   std::span<FirstHit> first_hits();
+
+  /// How many samples each pixel has, where all have as many and nobody knows their error.
+  void set_samples(std::uint32_t count) { measures_.fill({.samples = count, .half_width = 1}); }
+
+  /// Takes first hits and measures from those of all pixels of a region.
+  void take(const PixelMeasures& measures, const Region& region);
 
   /// Sends a ray through the middle of each pixel, if somebody asks for what it meets.
   void look(const CameraRays& camera, Tracer& tracer);
@@ -44,6 +57,7 @@ class AovTile {
   Region tile_;
   std::array<FirstHit, most_pixels> first_hits_;
   std::array<FirstPlace, most_pixels> first_places_;
+  std::array<PixelMeasure, most_pixels> measures_;
 };
 
 }  // namespace crt::core

@@ -18,6 +18,10 @@ struct FirstHit {
     normal += other.normal;
     color += other.color;
   }
+  void divide(std::int64_t count) {
+    const auto divisor = static_cast<double>(count);
+    *this = {normal / divisor, color / divisor};
+  }
 };
 
 /// Where a surface is, and whose. A pixel has those of the ray through its middle.

@@ -44,7 +44,8 @@ bool asks_for_passes(const Settings& settings, int passes) {
   return settings.target_error > 0 || settings.time_budget > 0 || passes > 0;
 }
 
-Passes::Passes(const Frame& frame, const Region& region, int most_passes, PassClock& clock, Canvas& canvas)
+Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits,
+               PassClock& clock, Canvas& canvas)
     : frame_(frame),
       region_(region),
       reach_(frame.features().lens ? reach_of_notes_with_lens : reach_of_notes),
@@ -64,6 +65,7 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, PassCl
   const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
   measures_.samples.resize(pixels);
   measures_.half_widths.resize(pixels);
+  if (with_first_hits) measures_.first_hits.resize(pixels);
   tiles_.resize(grid_.count());
   active_.resize(tiles_.size());
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
@@ -160,10 +162,14 @@ void Passes::trace_tile(Tile& tile, std::int64_t until, const Ranks& ranks, Trac
   std::array<PixelPlace, most_tile_pixels> pixels;
   std::size_t count = 0;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
-    const auto [x, y] = place_of(tile, i);
-    const int rank = rank_of_pixel(x, y);
+    const Place place = place_of(tile, i);
+    const int rank = rank_of_pixel(place.x, place.y);
     if (rank < ranks.first || rank >= ranks.last) continue;
-    pixels[count++] = {.x = x, .y = y, .samples = &tile.samples[i]};
+    PixelPlace& pixel = pixels[count++];
+    pixel = {.x = place.x, .y = place.y, .samples = &tile.samples[i], .first_hits = nullptr};
+    if (!measures_.first_hits.empty() && is_in_region(place)) {
+      pixel.first_hits = &measures_.first_hits[index_of(place)];
+    }
   }
   const std::span<const PixelPlace> chosen(pixels.data(), count);
   trace_passes(frame_, chosen, {count_, until}, tracer, stats);
@@ -178,6 +184,11 @@ Passes::Place Passes::place_of(const Tile& tile, std::size_t index) {
 bool Passes::is_in_region(const Place& place) const {
   return place.x >= region_.x && place.x < region_.x + region_.width && place.y >= region_.y &&
          place.y < region_.y + region_.height;
+}
+
+std::size_t Passes::index_of(const Place& place) const {
+  return static_cast<std::size_t>(place.y - region_.y) * static_cast<std::size_t>(region_.width) +
+         static_cast<std::size_t>(place.x - region_.x);
 }
 
 void Passes::show(std::span<const PixelPlace> pixels, std::int64_t count) {
@@ -236,11 +247,10 @@ void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
       tile.places[kept++] = tile.places[i];
       continue;
     }
-    const std::size_t pixel =
-        static_cast<std::size_t>(place.y - region_.y) * static_cast<std::size_t>(region_.width) +
-        static_cast<std::size_t>(place.x - region_.x);
+    const std::size_t pixel = index_of(place);
     measures_.samples[pixel] = static_cast<std::uint32_t>(count);
     measures_.half_widths[pixel] = static_cast<float>(half_width);
+    if (!measures_.first_hits.empty()) measures_.first_hits[pixel].divide(count);
     work.cutoff.add(tile.samples[i].dropped(count));
     ++work.stats.pixels;
     if (half_width > target_) ++work.stats.pixels_unresolved;

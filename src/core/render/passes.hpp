@@ -13,16 +13,11 @@
 #include "core/render/canvas.hpp"
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"
+#include "core/render/pixel_measures.hpp"
 #include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 
 namespace crt::core {
-
-/// What is known of each pixel of the picture when it is done: rows from the top.
-struct PixelMeasures {
-  std::vector<std::uint32_t> samples;
-  std::vector<float> half_widths;  ///< in display units; empty for the plain grid
-};
 
 /// Calls task(0) to task(count - 1), on several threads, with a workspace each; `share` is how much of the
 /// picture will be done after them.
@@ -35,7 +30,8 @@ bool asks_for_passes(const Settings& settings, int passes);
 class Passes {
  public:
   /// `most_passes`: 0 for as many as it takes. All but the region must outlive it.
-  Passes(const Frame& frame, const Region& region, int most_passes, PassClock& clock, Canvas& canvas);
+  Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits, PassClock& clock,
+         Canvas& canvas);
 
   /// Renders. Once.
   void run(const TaskRunner& run_tasks);
@@ -56,6 +52,8 @@ class Passes {
   };
   static Place place_of(const Tile& tile, std::size_t index);
   bool is_in_region(const Place& place) const;
+  /// Of one that is.
+  std::size_t index_of(const Place& place) const;
 
   void expect_small_things();
   std::uint64_t pixels_left() const;

@@ -1,5 +1,7 @@
 #include "core/render/pixel.hpp"
 
+#include <algorithm>
+
 #include "core/math/random.hpp"
 #include "core/sampling/schedule.hpp"
 #include "core/sampling/sequence.hpp"
@@ -15,6 +17,18 @@ void add(Tracer::Sample& sum, const Tracer::Sample& sample) {
   sum.color += sample.color;
   sum.alpha += sample.alpha;
   sum.dropped += sample.dropped;
+}
+
+/// Traces rays that belong to pixels, and adds what the i-th of them meets first to *sum_of(i), if that is
+/// there.
+template <class SumOf>
+void trace_with_first_hits(Tracer& tracer, std::span<const CameraRay> rays, std::span<Tracer::Sample> samples,
+                           const SumOf& sum_of) {
+  std::array<FirstHit, packet_size> first_hits;
+  tracer.trace(rays, samples, std::span(first_hits).first(rays.size()));
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (FirstHit* const sum = sum_of(i)) sum->add(first_hits[i]);
+  }
 }
 
 /// Gathers camera rays until a packet is full. A pixel's sum is that of its subpixels' sums over the lens, in
@@ -37,10 +51,12 @@ class SampleSums {
   }
 
   void trace() {
+    const std::span<const CameraRay> rays = std::span(rays_).first(count_);
     if (first_hit_sums_.empty()) {
-      tracer_.trace(std::span(rays_.data(), count_), samples_);
+      tracer_.trace(rays, samples_);
     } else {
-      trace_with_first_hits();
+      trace_with_first_hits(tracer_, rays, samples_,
+                            [&](std::size_t i) { return &first_hit_sums_[index_of(*pixels_[i])]; });
     }
     for (std::size_t i = 0; i < count_; ++i) {
       add(lens_sum_, samples_[i]);
@@ -53,12 +69,8 @@ class SampleSums {
   }
 
  private:
-  void trace_with_first_hits() {
-    std::array<FirstHit, packet_size> first_hits;
-    tracer_.trace(std::span(rays_.data(), count_), samples_, std::span(first_hits).first(count_));
-    for (std::size_t i = 0; i < count_; ++i) {
-      first_hit_sums_[static_cast<std::size_t>(pixels_[i] - first_pixel_)].add(first_hits[i]);
-    }
+  std::size_t index_of(const Tracer::Sample& pixel) const {
+    return static_cast<std::size_t>(&pixel - first_pixel_);
   }
 
   Tracer& tracer_;
@@ -76,25 +88,31 @@ class SampleSums {
 /// Gathers the rays of passes, pixel by pixel and step by step, and hands on each step of a pixel as a whole.
 class StepSums {
  public:
-  explicit StepSums(Tracer& tracer) : tracer_(tracer) {}
+  StepSums(Tracer& tracer, bool with_first_hits) : tracer_(tracer), with_first_hits_(with_first_hits) {}
 
   /// Where the next ray is to go, and then that it is there: of a pixel that has `count` samples before the
   /// step and gets `size` more in it.
   CameraRay& next() { return rays_[taken_]; }
-  void take(PixelSamples& pixel, std::int64_t count, std::int64_t size) {
+  void take(const PixelPlace& pixel, std::int64_t count, std::int64_t size) {
     places_[taken_] = {&pixel, count, size};
     if (++taken_ == packet_size) trace();
   }
 
   void trace() {
-    tracer_.trace(std::span(rays_.data(), taken_), samples_);
+    const std::span<const CameraRay> rays = std::span(rays_).first(taken_);
+    if (with_first_hits_) {
+      trace_with_first_hits(tracer_, rays, samples_,
+                            [&](std::size_t i) { return places_[i].pixel->first_hits; });
+    } else {
+      tracer_.trace(rays, samples_);
+    }
     for (std::size_t i = 0; i < taken_; ++i) {
       const Tracer::Sample& sample = samples_[i];
       sum_.add(Lanes{sample.color.x, sample.color.y, sample.color.z, sample.alpha}, sample.identity,
                sample.dropped);
       const Place& place = places_[i];
       if (sum_.count < place.size) continue;
-      place.pixel->add_step(place.count, sum_);
+      place.pixel->samples->add_step(place.count, sum_);
       sum_ = {};
     }
     taken_ = 0;
@@ -102,12 +120,13 @@ class StepSums {
 
  private:
   struct Place {
-    PixelSamples* pixel = nullptr;
+    const PixelPlace* pixel = nullptr;
     std::int64_t count = 0;
     std::int64_t size = 0;
   };
 
   Tracer& tracer_;
+  bool with_first_hits_;
   std::size_t taken_ = 0;
   std::array<CameraRay, packet_size> rays_;
   std::array<Place, packet_size> places_;
@@ -163,9 +182,7 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
   for (Tracer::Sample& done : pixels.first(pixel_count)) {
     done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel, done.dropped / samples_per_pixel};
   }
-  for (FirstHit& hit : first_hits) {
-    hit = {hit.normal / samples_per_pixel, hit.color / samples_per_pixel};
-  }
+  for (FirstHit& hit : first_hits) hit.divide(std::int64_t{grid} * grid * lens_points);
   stats.pixels += pixel_count;
   if (lens) stats.lens_samples += pixel_count * static_cast<std::uint64_t>(samples_per_pixel);
 }
@@ -175,7 +192,9 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
   const CameraRays& camera = frame.camera();
   const FilterPlaces& filter = frame.filter();
   const bool lens = frame.features().lens;
-  StepSums sums(tracer);
+  const bool with_first_hits = std::any_of(
+      pixels.begin(), pixels.end(), [](const PixelPlace& pixel) { return pixel.first_hits != nullptr; });
+  StepSums sums(tracer, with_first_hits);
   for (const PixelPlace& pixel : pixels) {
     const PixelSequence sequence(frame.settings().seed, pixel.x, pixel.y);
     std::int64_t size = 0;
@@ -191,7 +210,7 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
         } else {
           camera.ray(x, y, sums.next());
         }
-        sums.take(*pixel.samples, count, size);
+        sums.take(pixel, count, size);
       }
     }
   }

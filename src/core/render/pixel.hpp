@@ -19,6 +19,7 @@ struct PixelPlace {
   int x = 0;
   int y = 0;
   PixelSamples* samples = nullptr;
+  FirstHit* first_hits = nullptr;  ///< where the sum of what they meet first is kept, if somebody asks
 };
 
 /// Of the samples of a pixel's sequence those from `begin` to before `end`, both of which end a step (see

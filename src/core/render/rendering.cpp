@@ -96,6 +96,7 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
     work.cutoff.add(sample.dropped);
   }
   if (aovs) {
+    aovs->set_samples(static_cast<std::uint32_t>(samples_of_grid(settings_, frame.features().lens)));
     aovs->look(frame.camera(), tracer);
     canvas_.put_aovs(*aovs);
   }
@@ -133,6 +134,17 @@ void Rendering::render_grid(const Frame& frame, const TaskRunner& run_tasks) {
   });
 }
 
+void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
+  const Tiles tiles(canvas_.region());
+  run_tasks(tiles.count(), 1, [&](std::size_t index, Workspace& work, Progress& progress) {
+    Tracer tracer(frame, work, progress);
+    AovTile aovs(options_.aovs, tiles.tile(index));
+    aovs.take(measures_, canvas_.region());
+    aovs.look(frame.camera(), tracer);
+    canvas_.put_aovs(aovs);
+  });
+}
+
 RenderStats Rendering::render_picture() {
   PassClock clock(settings_.time_budget, seconds_);
   WorkspacePool pool;
@@ -148,10 +160,12 @@ RenderStats Rendering::render_picture() {
   int passes = 0;
   const bool by_passes = asks_for_passes(settings_, options_.passes);
   if (by_passes) {
-    Passes rendering(frame, canvas_.region(), options_.passes, clock, canvas_);
+    const bool with_first_hits = options_.aovs.normal || options_.aovs.albedo;
+    Passes rendering(frame, canvas_.region(), options_.passes, with_first_hits, clock, canvas_);
     rendering.run(run_tasks);
     measures_ = rendering.take_measures();
     passes = rendering.passes();
+    if (is_any(options_.aovs)) put_aovs(frame, run_tasks);
   } else {
     render_grid(frame, run_tasks);
   }
@@ -195,10 +209,11 @@ void Rendering::tell(const RenderStats& stats) const {
   if (stats.passes > 0) {
     constexpr double steps = 255;
     log(LogLevel::info,
-        fmt::format("{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are within {:.2f} "
-                    "8-bit steps of the truth; {} not within the target",
-                    stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
-                    steps * stats.half_width_95, stats.pixels_unresolved));
+        fmt::format(
+            "{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are within {:.2f} "
+            "8-bit steps of the truth; {} not within the target",
+            stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
+            steps * stats.half_width_95, stats.pixels_unresolved));
   }
   if (settings_.precision == Precision::exact) {
     log(LogLevel::info,

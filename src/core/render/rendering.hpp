@@ -38,6 +38,8 @@ class Rendering {
  private:
   static double steady_seconds();
   RenderStats render_picture();
+  /// Tells what there is beside the colours of a picture that was rendered pass by pass.
+  void put_aovs(const Frame& frame, const TaskRunner& run_tasks);
   void render_grid(const Frame& frame, const TaskRunner& run_tasks);
   /// Runs tasks on the threads that the options allow.
   void run(std::size_t count, WorkspacePool& pool,

@@ -1,0 +1,18 @@
+// What is known of a picture's pixels beside their colours when it has been rendered pass by pass.
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include "core/render/first_hit.hpp"
+
+namespace crt::core {
+
+/// Rows from the top.
+struct PixelMeasures {
+  std::vector<std::uint32_t> samples;
+  std::vector<float> half_widths;    ///< in display units; empty for the plain grid
+  std::vector<FirstHit> first_hits;  ///< means over the samples; empty if nobody asks
+};
+
+}  // namespace crt::core
