@@ -7,6 +7,9 @@ namespace crt::cli {
 /// Renders a script's picture, or those of an animation.
 ExitCode run_render(const RenderRequest& request);
 
+/// Measures what accuracy a script's picture has for what time, by settings.
+ExitCode run_trade(const TradeRequest& request);
+
 /// Runs scripts for their diagnostics alone.
 ExitCode run_check(const CheckRequest& request);
 

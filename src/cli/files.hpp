@@ -13,8 +13,8 @@ std::filesystem::path frame_path(const std::filesystem::path& output, int frame)
 /// Finds out, before any work is done, whether there is a folder to write this file to. Throws Error (io).
 void check_folder(const std::filesystem::path& file);
 
-/// The same, and whether the folder takes files and the ending is a picture's, of one that holds other channels
-/// than colours if it has to. Throws Error (io, unsupported).
+/// The same, and whether the folder takes files and the ending is a picture's, of one that holds other
+/// channels than colours if it has to. Throws Error (io, unsupported).
 void check_picture(const std::filesystem::path& picture, bool with_channels);
 
 /// Writes a file under another name and renames it. Throws Error (io).

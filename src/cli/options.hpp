@@ -1,5 +1,5 @@
-// What a command line of `crt` asks for. Parsing it is the only business of options.cpp, and the
-// only source that includes CLI11.
+// What a command line of `crt` asks for. Parsing it is the business of options.cpp and of what has options in
+// its name, the only sources that include CLI11.
 #pragma once
 
 #include <crt/render.hpp>
@@ -51,8 +51,26 @@ struct CheckRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;
 };
 
+struct TradeRequest : CommonRequest {
+  std::filesystem::path scene;
+  /// What is written: this with .csv, .svg, and .png if asked for.
+  std::filesystem::path output;
+  bool png = false;
+  /// Measures this part only; else bands with about so many pixels together.
+  std::optional<Region> region;
+  double pixels = 30000;
+  /// That one setting, or one of the references, may take for what is measured.
+  double most_seconds = 10;
+  /// Of a pixel of the references: a power of 2.
+  int reference_samples = 4096;
+  int threads = 0;
+  // What the user wants to know.
+  std::optional<double> budget;
+  std::optional<double> error;
+};
+
 /// The request, or the code to end with (after help, a version or a complaint has been printed).
-using Request = std::variant<RenderRequest, CheckRequest, ExitCode>;
+using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

@@ -1,0 +1,297 @@
+#include <fmt/format.h>
+
+#include <chrono>
+#include <crt/image.hpp>
+#include <crt/prepared_scene.hpp>
+#include <cstdio>
+#include <exception>
+#include <set>
+#include <utility>
+
+#include "cli/commands.hpp"
+#include "cli/console.hpp"
+#include "cli/files.hpp"
+#include "cli/interrupt.hpp"
+#include "cli/progress.hpp"
+#include "cli/reporter.hpp"
+#include "cli/trade_ladder.hpp"
+#include "cli/trade_measure.hpp"
+#include "cli/trade_report.hpp"
+
+namespace crt::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// What stands for the whole picture, rendered with one setting.
+struct RenderedParts {
+  std::vector<Image> images;
+  double seconds = 0;
+  double samples = 0;  ///< a pixel, in the mean
+  double cutoff = 0;   ///< likewise, in display units
+  int threads = 0;
+  bool bounces = false;  ///< there are mirrors or transparent things
+};
+
+double pixels_of(const Region& region) {
+  return double{1} * region.width * region.height;
+}
+
+/// Of the camera rays those that are for the part itself: adaptive rendering looks at its margin, too, which
+/// a whole picture has not got.
+double share_within(const RenderStats& stats) {
+  return stats.samples_mean * static_cast<double>(stats.pixels) / static_cast<double>(stats.camera_rays);
+}
+
+/// About how many samples a pixel of a reference gets, for planning.
+constexpr double expected_reference_samples = 400;
+
+/// Thrown where a setting takes longer than it may.
+struct TooSlow : std::exception {};
+
+class Trade {
+ public:
+  explicit Trade(const TradeRequest& request) : request_(request), reporter_(request) {
+    if (!request.quiet && request.diagnostics == DiagnosticsFormat::text) style_ = style_of_stderr();
+  }
+
+  ExitCode run() {
+    try {
+      check_folder(with_ending(".csv"));
+      if (prepare_scene()) measure_and_tell();
+    } catch (const Error& error) {
+      reporter_.add(error);
+    }
+    return reporter_.finish();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  fs::path with_ending(const char* ending) const {
+    fs::path path = request_.output;
+    path += ending;
+    return path;
+  }
+
+  /// Whether there is a scene and a part of it to measure; what is wrong is told.
+  bool prepare_scene() {
+    ScriptOptions options = request_.script;
+    options.print = [](std::string_view line) { tell(stderr, fmt::format("{}\n", line)); };
+    ScriptResult result = run_script_file(request_.scene, options);
+    reporter_.add(result.diagnostics);
+    if (!result.scene) return false;
+    scene_ = std::move(*result.scene);
+    const Settings& settings = scene_.settings;
+    if (!request_.region) {
+      parts_ = bands_of(settings.width, settings.height, request_.pixels);
+      return true;
+    }
+    parts_ = {*request_.region};
+    const Region& region = *request_.region;
+    if (region.width <= settings.width - region.x && region.height <= settings.height - region.y) return true;
+    reporter_.add(
+        ErrorCode::invalid_argument,
+        fmt::format("the region {},{},{},{} reaches beyond the picture, which has {} x {} pixels", region.x,
+                    region.y, region.width, region.height, settings.width, settings.height),
+        ExitCode::usage);
+    return false;
+  }
+
+  void measure_and_tell() {
+    TradeReport report;
+    {
+      const InterruptScope interrupt;
+      interrupt_ = &interrupt;
+      Progress progress(request_.scene.filename().string(), style_);
+      progress_ = &progress;
+      measure(report);
+      progress_ = nullptr;
+      interrupt_ = nullptr;
+    }
+    if (!request_.quiet) tell(stdout, report_text(report, {request_.budget, request_.error}));
+    write(report);
+  }
+
+  void write(const TradeReport& report) {
+    write_text_file(with_ending(".csv"), report_csv(report));
+    const Drawing plot = report_plot(report);
+    write_text_file(with_ending(".svg"), plot.svg());
+    if (request_.png) {
+      constexpr double pixels_per_unit = 2;
+      plot.picture(pixels_per_unit).write(with_ending(".png"), {.reproducible = true});
+    }
+    reporter_.note(fmt::format(
+        "{}: the table; {}: the plot{}", with_ending(".csv").string(), with_ending(".svg").string(),
+        request_.png ? fmt::format("; {}: the same", with_ending(".png").string()) : ""));
+  }
+
+  void measure(TradeReport& report) {
+    prepared_ = prepare(scene_);
+    for (const Region& part : parts_) measured_pixels_ += pixels_of(part);
+    const double all_pixels = double{1} * scene_.settings.width * scene_.settings.height;
+    const double to_whole = all_pixels / measured_pixels_;
+
+    // One sample a pixel tells how long one takes, and whether depths matter.
+    plan(ladder_of(scene_, true));
+    Settings single = scene_.settings;
+    single.target_error = single.time_budget = 0;
+    single.supersampling = single.dof_samples = 1;
+    const RenderedParts probe = render_parts(single);
+    Scene measured = scene_;
+    measured.settings.time_budget /= to_whole;
+    const std::vector<Rung> ladder = ladder_of(measured, probe.bounces);
+    plan(ladder);
+    work_done_ = 1;
+
+    const std::vector<Image> reference = render_reference(report);
+    std::set<Family> too_slow;
+    for (const Rung& rung : ladder) {
+      const bool is_hopeless =
+          too_slow.contains(rung.family) || rung.expected_samples * probe.seconds > 2 * request_.most_seconds;
+      const std::optional<RenderedParts> rendered = is_hopeless ? std::nullopt : render_often(rung);
+      if (rendered) {
+        report.rungs.push_back({.family = rung.family,
+                                .options = rung.options,
+                                .seconds = to_whole * rendered->seconds,
+                                .samples = rendered->samples,
+                                .error = displayed_difference(rendered->images, reference)});
+      } else {
+        report.left_out.push_back(rung.options.empty() ? "(as the script says)" : rung.options);
+        too_slow.insert(rung.family);
+      }
+      work_done_ += rung.expected_samples;
+    }
+    report.scene = request_.scene.string();
+    report.width = scene_.settings.width;
+    report.height = scene_.settings.height;
+    report.measured_pixels = static_cast<std::size_t>(measured_pixels_);
+    report.parts = parts_.size();
+    report.threads = probe.threads;
+  }
+
+  void plan(const std::vector<Rung>& ladder) {
+    expected_work_ = 1 + 2 * expected_reference_samples;
+    for (const Rung& rung : ladder) expected_work_ += rung.expected_samples;
+  }
+
+  /// The mean of two renders that have no random number in common, with each other or with the ladder.
+  std::vector<Image> render_reference(TradeReport& report) {
+    std::vector<RenderedParts> renders;
+    for (const std::uint64_t further : {std::uint64_t{1}, std::uint64_t{2}}) {
+      Settings settings =
+          reference_settings(scene_.settings, request_.reference_samples, scene_.settings.seed + further);
+      settings.time_budget = request_.most_seconds;
+      report.reference_depth = settings.recursion_depth;
+      work_of_this_ = expected_reference_samples;
+      renders.push_back(render_parts(settings));
+      work_done_ += work_of_this_;
+    }
+    std::vector<Image> means;
+    for (std::size_t i = 0; i < parts_.size(); ++i) {
+      means.push_back(mean_of(renders[0].images[i], renders[1].images[i]));
+    }
+    // Two estimates that differ by d have a mean that is off by about d/2.
+    const PictureError difference = displayed_difference(renders[0].images, renders[1].images);
+    report.uncertainty = {.rmse = difference.rmse / 2, .p999 = difference.p999 / 2};
+    report.reference_samples = renders[0].samples + renders[1].samples;
+    report.reference_most_samples = 2 * request_.reference_samples;
+    constexpr double steps_of_8_bits = 255;
+    report.reference_cutoff = steps_of_8_bits * renders[0].cutoff;
+    return means;
+  }
+
+  /// What is over soon is rendered again: the fastest counts.
+  std::optional<RenderedParts> render_often(const Rung& rung) {
+    constexpr int most_renders = 3;
+    constexpr double long_enough = 0.3;
+    work_of_this_ = rung.expected_samples;
+    deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
+                                   std::chrono::duration<double>(request_.most_seconds));
+    std::optional<RenderedParts> first = render_in_time(rung.settings);
+    deadline_.reset();
+    if (!first) return std::nullopt;
+    RenderedParts best = std::move(*first);
+    double seconds = best.seconds;
+    for (int i = 1; i < most_renders && seconds < long_enough; ++i) {
+      RenderedParts again = render_parts(rung.settings);
+      seconds += again.seconds;
+      if (again.seconds < best.seconds) best = std::move(again);
+    }
+    return best;
+  }
+
+  /// Nothing if it is not done before the deadline.
+  std::optional<RenderedParts> render_in_time(const Settings& settings) {
+    try {
+      return render_parts(settings);
+    } catch (const TooSlow&) {
+      return std::nullopt;
+    }
+  }
+
+  RenderedParts render_parts(const Settings& settings) {
+    Scene scene = scene_;
+    scene.settings = settings;
+    RenderedParts result;
+    double share_before = 0;
+    for (const Region& part : parts_) {
+      const double share = pixels_of(part) / measured_pixels_;
+      // A time budget is for what is rendered as a whole.
+      scene.settings.time_budget = share * settings.time_budget;
+      const PreparedScene prepared = prepare(scene, *prepared_);
+      Image image = render_part(prepared, part, share_before, share);
+      const RenderStats& stats = image.stats();
+      result.seconds += stats.trace_seconds * share_within(stats);
+      result.samples += share * stats.samples_mean;
+      result.cutoff += share * stats.cutoff_mean;
+      result.bounces = result.bounces || stats.reflection_rays > 0 || stats.refraction_rays > 0 ||
+                       stats.rays_beyond_depth > 0 || stats.rays_below_min_weight > 0;
+      result.threads = stats.threads;
+      result.images.push_back(std::move(image));
+      share_before += share;
+    }
+    return result;
+  }
+
+  Image render_part(const PreparedScene& prepared, const Region& part, double share_before, double share) {
+    RenderOptions options{.region = part, .threads = request_.threads};
+    options.progress = [&](double done) {
+      progress_->update((work_done_ + (share_before + share * done) * work_of_this_) / expected_work_);
+      return !interrupt_->interrupted() && !(deadline_ && Clock::now() > *deadline_);
+    };
+    try {
+      Image image = render(prepared, options);
+      if (!interrupt_->interrupted()) return image;
+    } catch (const Error& error) {
+      if (error.code() != ErrorCode::cancelled) throw;
+      if (!interrupt_->interrupted()) throw TooSlow();
+    }
+    throw Error(ErrorCode::cancelled, "interrupted: nothing is written");
+  }
+
+  const TradeRequest& request_;
+  Reporter reporter_;
+  ProgressStyle style_ = ProgressStyle::none;
+  Scene scene_;
+  std::optional<PreparedScene> prepared_;
+  std::vector<Region> parts_;
+  double measured_pixels_ = 0;
+  const InterruptScope* interrupt_ = nullptr;
+  Progress* progress_ = nullptr;
+  /// When what is rendered is given up.
+  std::optional<Clock::time_point> deadline_;
+  // In samples a pixel, as expected.
+  double expected_work_ = 1;
+  double work_done_ = 0;
+  double work_of_this_ = 1;
+};
+
+}  // namespace
+
+ExitCode run_trade(const TradeRequest& request) {
+  return Trade(request).run();
+}
+
+}  // namespace crt::cli

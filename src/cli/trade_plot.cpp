@@ -1,0 +1,187 @@
+// The plot of `crt trade`: seconds against each of the two errors, both logarithmic.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+
+#include "cli/trade_report.hpp"
+
+namespace crt::cli {
+
+namespace {
+
+constexpr Ink frame_ink = {136, 136, 136};
+constexpr Ink grid_ink = {221, 221, 221};
+constexpr Ink uncertain_ink = {214, 137, 16};
+constexpr Ink best_ink = {30, 30, 30};
+
+struct FamilyInk {
+  Family family;
+  Ink ink;
+};
+constexpr FamilyInk family_inks[] = {{Family::as_given, {30, 30, 30}},
+                                     {Family::grid, {31, 95, 168}},
+                                     {Family::target, {192, 57, 43}},
+                                     {Family::depth, {46, 139, 87}},
+                                     {Family::precision, {142, 68, 173}}};
+
+/// Powers of ten from `low` to `high`.
+struct Decades {
+  int low = 0;
+  int high = 1;
+
+  /// From 0 at the low end to 1 at the high one.
+  double share(double value) const {
+    const double least = std::pow(10.0, low);
+    return (std::log10(std::max(value, least)) - low) / (high - low);
+  }
+};
+
+/// Those that hold all values; what is too near 0 for a logarithm is at the low end.
+Decades decades_of(const std::vector<double>& values) {
+  constexpr double least = 1e-4;
+  const auto [low, high] = std::minmax_element(values.begin(), values.end());
+  Decades decades;
+  decades.low = static_cast<int>(std::floor(std::log10(std::max(*low, least))));
+  decades.high = std::max(static_cast<int>(std::ceil(std::log10(std::max(*high, least)))), decades.low + 1);
+  return decades;
+}
+
+std::string power_of_ten(int exponent) {
+  return fmt::format("{:g}", std::pow(10.0, exponent));
+}
+
+/// One error against seconds.
+class Panel {
+ public:
+  static constexpr double width = 390;
+  static constexpr double height = 330;
+
+  Panel(const TradeReport& report, double PictureError::*measure, const Place& corner, Drawing& drawing)
+      : report_(report), measure_(measure), corner_(corner), drawing_(drawing) {
+    std::vector<double> seconds;
+    std::vector<double> errors = {report.uncertainty.*measure};
+    for (const MeasuredRung& rung : report.rungs) {
+      seconds.push_back(rung.seconds);
+      errors.push_back(rung.error.*measure);
+    }
+    seconds_ = decades_of(seconds);
+    errors_ = decades_of(errors);
+  }
+
+  void draw(const std::string& title) {
+    draw_axes(title);
+    draw_uncertainty();
+    for (const FamilyInk& family : family_inks) draw_family(family);
+    draw_best();
+  }
+
+ private:
+  static constexpr double left = 58;
+  static constexpr double top = 30;
+  static constexpr double right = width - 12;
+  static constexpr double bottom = height - 44;
+
+  Place at(double seconds, double error) const {
+    return {corner_.x + left + (right - left) * seconds_.share(seconds),
+            corner_.y + bottom - (bottom - top) * errors_.share(error)};
+  }
+
+  Place corner(double x, double y) const { return {corner_.x + x, corner_.y + y}; }
+
+  void draw_axes(const std::string& title) {
+    constexpr double text_below = 16;
+    drawing_.text(corner(left, top - 12), title);
+    for (int power = seconds_.low; power <= seconds_.high; ++power) {
+      const Place foot = at(std::pow(10.0, power), 0);
+      drawing_.line(foot, {foot.x, corner_.y + top}, grid_ink);
+      drawing_.text({foot.x, foot.y + text_below}, power_of_ten(power), Anchor::middle);
+    }
+    for (int power = errors_.low; power <= errors_.high; ++power) {
+      const Place foot = at(0, std::pow(10.0, power));
+      drawing_.line(foot, {corner_.x + right, foot.y}, grid_ink);
+      drawing_.text({foot.x - 6, foot.y + 4}, power_of_ten(power), Anchor::end);
+    }
+    drawing_.curve({corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom),
+                    corner(left, top)},
+                   frame_ink, 1);
+    drawing_.text(corner((left + right) / 2, bottom + 34), "seconds, whole picture", Anchor::middle);
+    drawing_.text(corner(14, (top + bottom) / 2), "error, steps of 8 bits", Anchor::middle, true);
+  }
+
+  /// Errors below this line are those of the reference.
+  void draw_uncertainty() {
+    const double y = at(0, report_.uncertainty.*measure_).y;
+    constexpr double dash = 6;
+    for (double x = left; x < right; x += 2 * dash) {
+      drawing_.line({corner_.x + x, y}, {corner_.x + std::min(x + dash, right), y}, uncertain_ink, 1.5);
+    }
+  }
+
+  void draw_family(const FamilyInk& family) {
+    constexpr double dot_radius = 3.5;
+    std::vector<Place> places;
+    for (const MeasuredRung& rung : report_.rungs) {
+      if (rung.family == family.family) places.push_back(at(rung.seconds, rung.error.*measure_));
+    }
+    if (places.size() > 1) drawing_.curve(places, family.ink, 2);
+    for (const Place& place : places) drawing_.disc(place, dot_radius, family.ink);
+  }
+
+  void draw_best() {
+    constexpr double ring_radius = 6.5;
+    for (const std::size_t i : pareto_front(outcomes_of(report_, measure_))) {
+      const MeasuredRung& rung = report_.rungs[i];
+      drawing_.ring(at(rung.seconds, rung.error.*measure_), ring_radius, best_ink);
+    }
+  }
+
+  const TradeReport& report_;
+  double PictureError::*measure_;
+  Place corner_;
+  Drawing& drawing_;
+  Decades seconds_;
+  Decades errors_;
+};
+
+void draw_legend(const TradeReport& report, const Place& corner, Drawing& drawing) {
+  constexpr double dot_radius = 3.5;
+  constexpr double dot_to_text = 9;
+  constexpr double letter = 6.2;
+  constexpr double line_height = 18;
+  double x = corner.x;
+  double y = corner.y;
+  const auto put = [&](const std::string& name, const auto& draw_sign) {
+    draw_sign(Place{x, y - 4});
+    drawing.text({x + dot_to_text, y}, name);
+    x += dot_to_text + letter * static_cast<double>(name.size()) + 18;
+  };
+  for (const FamilyInk& family : family_inks) {
+    const bool is_there = std::any_of(report.rungs.begin(), report.rungs.end(),
+                                      [&](const MeasuredRung& rung) { return rung.family == family.family; });
+    if (!is_there) continue;
+    put(name_of(family.family), [&](const Place& place) { drawing.disc(place, dot_radius, family.ink); });
+  }
+  x = corner.x;
+  y += line_height;
+  put("nothing is faster and better", [&](const Place& place) { drawing.ring(place, 5, best_ink); });
+  put("error of the reference itself: below twice this all count as equal", [&](const Place& place) {
+    drawing.line({place.x - 5, place.y}, {place.x + 5, place.y}, uncertain_ink, 1.5);
+  });
+}
+
+}  // namespace
+
+Drawing report_plot(const TradeReport& report) {
+  constexpr double legend_height = 44;
+  Drawing drawing(2 * Panel::width, Panel::height + legend_height);
+  const std::string scene = std::filesystem::path(report.scene).filename().string();
+  const std::string size = fmt::format("{}, {} x {}", scene, report.width, report.height);
+  Panel(report, &PictureError::rmse, {0, 0}, drawing).draw(size + ": RMSE");
+  Panel(report, &PictureError::p999, {Panel::width, 0}, drawing).draw(size + ": 99.9 % of the pixels");
+  draw_legend(report, {58, Panel::height + 10}, drawing);
+  return drawing;
+}
+
+}  // namespace crt::cli

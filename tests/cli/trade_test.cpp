@@ -1,0 +1,105 @@
+// crt trade: what it writes, what it refuses, and that it ends in order.
+#include <doctest/doctest.h>
+
+#include <csignal>
+#include <sstream>
+
+#include "command.hpp"
+#include "scenes.hpp"
+
+using namespace crt::test;
+
+namespace {
+
+bool holds(const std::string& text, const std::string& piece) {
+  return text.find(piece) != std::string::npos;
+}
+
+/// The numbers in one column of a CSV file, by the options of each line.
+double number_of(const std::string& csv, const std::string& options, int column) {
+  std::istringstream lines(csv);
+  for (std::string line; std::getline(lines, line);) {
+    const std::size_t at = line.find('"' + options + "\",");
+    if (at == std::string::npos) continue;
+    std::istringstream fields(line.substr(at + options.size() + 3));
+    std::string field;
+    for (int i = 2; i <= column; ++i) std::getline(fields, field, ',');
+    return std::stod(field);
+  }
+  FAIL("no line has the options " << options);
+  return 0;
+}
+
+constexpr int rmse_column = 3;
+
+}  // namespace
+
+TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to the truth") {
+  const TemporaryFolder folder;
+  folder.write("ball.crt", ball_script);
+  const Outcome run = run_crt(folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget",
+                                       "1000", "--error", "200", "--reference-samples", "1024", "--png"});
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  CHECK(folder.names() ==
+        std::vector<std::string>{"ball-trade.csv", "ball-trade.png", "ball-trade.svg", "ball.crt"});
+  const std::string csv = folder.read("ball-trade.csv");
+  const double coarse = number_of(csv, "--supersampling 1", rmse_column);
+  const double fine = number_of(csv, "--supersampling 16", rmse_column);
+  CHECK(coarse > 3);
+  CHECK(fine < coarse / 8);
+  CHECK(number_of(csv, "--targeterror 0.003922", rmse_column) < 0.5);
+  CHECK(number_of(csv, "--supersampling 16", 5) == 256);
+  CHECK(holds(run.out, "Reference:"));
+  CHECK(holds(run.out, "The most accurate within 1000 s:\n  RMSE: --"));
+  CHECK(holds(run.out, "The fastest within 200 steps of 8 bits:\n  RMSE: "));
+  CHECK_FALSE(holds(csv, "recursion depth"));  // nothing mirrors
+  CHECK(folder.read("ball-trade.svg").starts_with("<svg "));
+}
+
+TEST_CASE("crt trade measures what it is told to, and settings that take too long are left out") {
+  const TemporaryFolder folder;
+  folder.write("ball.crt", ball_script);
+  const Outcome run =
+      run_crt(folder, {"trade", "ball.crt", "-o", "part", "--width", "400", "--height", "300", "--region",
+                       "190,140,20,20", "--most-seconds", "0.001", "--threads", "1"});
+  CAPTURE(run.err);
+  REQUIRE(run.exit_code == 0);
+  CHECK(folder.names() == std::vector<std::string>{"ball.crt", "part.csv", "part.svg"});
+  CHECK(holds(run.out, "Measured: 400 of 120000 pixels, in one piece, on 1 thread;"));
+  CHECK(holds(run.out, "--supersampling 16 (would take too long)"));
+}
+
+TEST_CASE("crt trade refuses what it cannot do, and then writes nothing") {
+  const TemporaryFolder folder;
+  folder.write("ball.crt", ball_script);
+  folder.write("wrong.crt", "Scene { Sphere { radius -> } }");
+  const auto fails = [&](std::vector<std::string> arguments, int exit_code, const std::string& piece) {
+    arguments.insert(arguments.begin(), "trade");
+    const Outcome run = run_crt(folder, arguments);
+    CAPTURE(run.err);
+    CHECK(run.exit_code == exit_code);
+    CHECK(holds(run.err, piece));
+  };
+  fails({}, 2, "scene");
+  fails({"ball.crt", "--budget", "0"}, 2, "--budget needs a number above 0");
+  fails({"ball.crt", "--error", "-1"}, 2, "--error");
+  fails({"ball.crt", "--pixels", "many"}, 2, "--pixels");
+  fails({"ball.crt", "--reference-samples", "100"}, 2, "a power of 2");
+  fails({"ball.crt", "--region", "10,0,7,1"}, 2, "reaches beyond the picture");
+  fails({"ball.crt", "-o", "nowhere/ball"}, 3, "nowhere");
+  fails({"wrong.crt"}, 1, "wrong.crt:1");
+  fails({"missing.crt"}, 3, "missing.crt");
+  CHECK(folder.names() == std::vector<std::string>{"ball.crt", "wrong.crt"});
+}
+
+TEST_CASE("crt trade that is interrupted leaves nothing behind" * doctest::skip(!has_terminals())) {
+  const TemporaryFolder folder;
+  folder.write("endless.crt", endless_script);
+  CrtOnTerminal run(folder,
+                    {"trade", "endless.crt", "--time", "1", "--pixels", "4000000", "--most-seconds", "600"});
+  REQUIRE(run.shows("endless.crt"));
+  run.send(SIGINT);
+  CHECK(run.wait() == 130);
+  CHECK(folder.names() == std::vector<std::string>{"endless.crt"});
+}
