@@ -202,10 +202,10 @@ class Trade {
     return means;
   }
 
-  /// What is over soon is rendered again: the fastest counts.
+  /// What is over soon is rendered again: the fastest counts, as the machine may have had other things to do.
   std::optional<RenderedParts> render_often(const Rung& rung) {
     constexpr int most_renders = 3;
-    constexpr double long_enough = 0.3;
+    const double long_enough = request_.most_seconds / 4;
     work_of_this_ = rung.expected_samples;
     deadline_ = Clock::now() + std::chrono::duration_cast<Clock::duration>(
                                    std::chrono::duration<double>(request_.most_seconds));
