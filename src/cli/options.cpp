@@ -5,14 +5,15 @@
 #include <CLI/App.hpp>
 #include <CLI/Config.hpp>
 #include <CLI/Formatter.hpp>
-#include <algorithm>
 #include <crt/version.hpp>
 #include <cstdio>
+#include <exception>
+#include <functional>
 #include <string_view>
 #include <utility>
 
 #include "cli/console.hpp"
-#include "cli/option_groups.hpp"
+#include "cli/option_values.hpp"
 
 namespace crt::cli {
 
@@ -46,51 +47,107 @@ Examples:
   crt render scene.crt -o scene.exr --aov depth,id          distances and objects beside the colours
   crt render scene.crt --stats -                            what it took, as JSON)";
 
-FrameRange parse_frames(const std::string& text) {
-  FrameRange frames;
-  const std::size_t dash = text.find('-');
-  const std::string_view view = text;
-  const bool fine = dash == std::string::npos
-                        ? parse_whole(view, frames.first) && parse_whole(view, frames.last)
-                        : parse_whole(view.substr(0, dash), frames.first) &&
-                              parse_whole(view.substr(dash + 1), frames.last);
-  if (!fine || frames.first < 0 || frames.last < frames.first) {
-    throw wrong_value("--frames", "FIRST-LAST, such as 0-99", text);
-  }
-  return frames;
-}
+constexpr std::string_view trade_footer =
+    R"(Renders the scene with a ladder of settings (supersampling 1 to 16, target errors, recursion depths, exact
+precision), compares each with a reference that is far more accurate, and writes a table (.csv) and a plot (.svg) of
+seconds against the error: its root mean square, and what 99.9 % of the pixels stay below, in steps of an 8-bit
+picture. By default it measures bands of the picture with about 30000 pixels together; all seconds are those that
+the whole picture would take.
 
-struct AovName {
-  std::string_view name;
-  bool Aovs::*asked;
-};
+Examples:
+  crt trade scene.crt                           scene-trade.csv and scene-trade.svg
+  crt trade scene.crt --budget 10               and the most accurate setting for 10 seconds a picture
+  crt trade scene.crt --error 0.5 --png         and the fastest within half a step; the plot also as .png
+  crt trade film.crt --time 12 --region 100,80,200,100 -o part)";
 
-constexpr AovName aov_names[] = {
-    {"depth", &Aovs::depth},   {"normal", &Aovs::normal},   {"id", &Aovs::id},
-    {"albedo", &Aovs::albedo}, {"samples", &Aovs::samples}, {"error", &Aovs::error},
-};
-
-std::string all_aov_names() {
-  std::string names;
-  for (const AovName& aov : aov_names) names += fmt::format("{}{}", names.empty() ? "" : ",", aov.name);
-  return names;
-}
-
-/// Adds those of a list to what is asked for.
-void take_aovs(const std::string& list, Aovs& aovs) {
-  std::string_view rest = list;
-  while (true) {
-    const std::size_t comma = rest.find(',');
-    const std::string_view name = rest.substr(0, comma);
-    const auto* const found = std::find_if(std::begin(aov_names), std::end(aov_names),
-                                           [&](const AovName& aov) { return aov.name == name; });
-    if (found == std::end(aov_names)) {
-      throw wrong_value("--aov", fmt::format("one or several of {}", all_aov_names()), list);
+void add_settings(CLI::App& command, ScriptOptions& script) {
+  for (const SettingOption& setting : setting_options()) {
+    const auto take = [&script, &setting](const std::string& value) {
+      script.settings.emplace_back(setting.name, setting_expression(setting, value));
+    };
+    const std::string name = fmt::format("--{}", setting.name);
+    constexpr const char* group = "Settings (they win over the script's)";
+    if (setting.kind == SettingKind::flag) {
+      command.add_flag(name, setting.help)->group(group)->each(take);
+      continue;
     }
-    aovs.*(found->asked) = true;
-    if (comma == std::string_view::npos) return;
-    rest.remove_prefix(comma + 1);
+    const char* type = setting.kind == SettingKind::text      ? "TEXT"
+                       : setting.kind == SettingKind::integer ? "N"
+                                                              : "NUMBER";
+    command.add_option_function<std::string>(name, take, setting.help)->type_name(type)->group(group);
   }
+}
+
+void add_script_options(CLI::App& command, CommonRequest& request) {
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--set",
+          [&request](const std::vector<std::string>& assignments) {
+            for (const std::string& assignment : assignments) take_variable(request.script, assignment);
+          },
+          "sets a variable of the script to an expression, whatever the script assigns to it")
+      ->type_name("NAME=VALUE")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option_function<std::string>(
+          "--time",
+          [&request](const std::string& value) {
+            if (!parse_finite(value, request.script.t)) throw WrongValue("--time", "a number", value);
+          },
+          "the value of t in the script")
+      ->type_name("T");
+  command
+      .add_option_function<std::vector<std::string>>(
+          "--resources",
+          [&request](const std::vector<std::string>& folders) {
+            for (const std::string& folder : folders) {
+              if (std::error_code unreachable; !std::filesystem::is_directory(folder, unreachable))
+                throw WrongValue("--resources", "a folder", folder);
+              request.script.resource_directories.emplace_back(folder);
+            }
+          },
+          "a folder where images and imports are looked for, too (repeatable)")
+      ->type_name("FOLDER")
+      ->expected(1)
+      ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command.add_flag("--allow-outside-files", request.script.allow_outside_files,
+                   "lets the script read files outside its own folder and --resources");
+  command
+      .add_option_function<std::string>(
+          "--max-steps",
+          [&request](const std::string& value) {
+            if (!parse_whole(value, request.script.limits.steps)) {
+              throw WrongValue("--max-steps", "a whole number", value);
+            }
+          },
+          fmt::format("expressions the script may evaluate ({})", request.script.limits.steps))
+      ->type_name("N");
+  command
+      .add_option_function<std::string>(
+          "--diagnostics",
+          [&request](const std::string& value) {
+            if (value != "text" && value != "json") throw WrongValue("--diagnostics", "text or json", value);
+            request.diagnostics = value == "json" ? DiagnosticsFormat::json : DiagnosticsFormat::text;
+          },
+          "how errors and warnings are told: as text, or all as one JSON array on standard error")
+      ->type_name("text|json");
+  command.add_flag("-q,--quiet", request.quiet, "tells errors and nothing else");
+}
+
+void add_threads(CLI::App& command, int& threads) {
+  command
+      .add_option_function<std::string>(
+          "--threads", [&threads](const std::string& value) { threads = parse_threads(value); },
+          "threads at most (default: all cores)")
+      ->type_name("N");
+}
+
+void add_region(CLI::App& command, std::optional<Region>& region, const std::string& help) {
+  command
+      .add_option_function<std::string>(
+          "--region", [&region](const std::string& text) { region = parse_region(text); }, help)
+      ->type_name("X,Y,W,H");
 }
 
 void add_render_options(CLI::App& command, RenderRequest& request) {
@@ -114,7 +171,7 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
           "--passes",
           [&request](const std::string& value) {
             if (!parse_whole(value, request.render.passes) || request.render.passes < 0) {
-              throw wrong_value("--passes", "a whole number, 0 for as many as it takes", value);
+              throw WrongValue("--passes", "a whole number, 0 for as many as it takes", value);
             }
           },
           "stops after so many passes: with what --stats told, the same picture again")
@@ -137,7 +194,49 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
   add_settings(command, request.script);
 }
 
-ExitCode complain(const CLI::ParseError& error, const CLI::App& app, int argc, const char* const* argv) {
+void add_positive(CLI::App& command, const std::string& name, const std::string& help, const char* type,
+                  const std::function<void(double)>& take) {
+  command
+      .add_option_function<std::string>(
+          name, [name, take](const std::string& text) { take(parse_positive(name, text)); }, help)
+      ->type_name(type);
+}
+
+void add_trade_options(CLI::App& command, TradeRequest& request) {
+  command.footer(std::string(trade_footer));
+  command.add_option("scene", request.scene, "the script")->required()->type_name("SCENE.crt");
+  command
+      .add_option("-o,--output", request.output,
+                  "what is written, without the endings (default: the script's name and -trade)")
+      ->type_name("NAME");
+  add_script_options(command, request);
+  add_positive(command, "--budget", "asks for the most accurate setting within so many seconds a picture",
+               "SECONDS", [&](double value) { request.budget = value; });
+  add_positive(command, "--error", "asks for the fastest setting within so many 8-bit steps", "STEPS",
+               [&](double value) { request.error = value; });
+  command.add_flag("--png", request.png, "writes the plot as a picture, too");
+  add_region(command, request.region, "measures only this part of the picture");
+  add_positive(command, "--pixels", fmt::format("measures about so many pixels ({:.0f})", request.pixels),
+               "N", [&](double value) { request.pixels = value; });
+  add_positive(
+      command, "--most-seconds",
+      fmt::format("leaves out settings that would take longer for these pixels, and ends each of the two "
+                  "reference renders then ({:.0f})",
+                  request.most_seconds),
+      "SECONDS", [&](double value) { request.most_seconds = value; });
+  command
+      .add_option_function<std::string>(
+          "--reference-samples",
+          [&request](const std::string& text) {
+            request.reference_samples = parse_sample_count("--reference-samples", text);
+          },
+          fmt::format("samples of a pixel of the references at most ({})", request.reference_samples))
+      ->type_name("N");
+  add_threads(command, request.threads);
+  add_settings(command, request.script);
+}
+
+ExitCode complain(const std::exception& error, const CLI::App& app, int argc, const char* const* argv) {
   std::string command = "crt";
   for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
   std::string message = error.what();
@@ -183,6 +282,8 @@ Request parse_command_line(int argc, const char* const* argv) {
     app.exit(help_or_version);
     return ExitCode::done;
   } catch (const CLI::ParseError& error) {
+    return complain(error, app, argc, argv);
+  } catch (const WrongValue& error) {
     return complain(error, app, argc, argv);
   }
   if (check->parsed()) return check_request;

@@ -1,5 +1,5 @@
-// What a command line of `crt` asks for. Parsing it is the business of options.cpp and of what has options in
-// its name, the only sources that include CLI11.
+// What a command line of `crt` asks for. Parsing it is the business of options.cpp, the only source that
+// includes CLI11, and what values mean that of option_values.cpp.
 #pragma once
 
 #include <crt/render.hpp>

@@ -110,6 +110,15 @@ class Trade {
       progress_ = nullptr;
       interrupt_ = nullptr;
     }
+    if (report.rungs.empty()) {
+      reporter_.add(
+          ErrorCode::limit,
+          fmt::format("nothing is done within {} s: give it more by --most-seconds, or less to do by "
+                      "--pixels, --region or --width and --height",
+                      request_.most_seconds),
+          ExitCode::usage);
+      return;
+    }
     if (!request_.quiet) tell(stdout, report_text(report, {request_.budget, request_.error}));
     write(report);
   }

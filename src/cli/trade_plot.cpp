@@ -20,11 +20,12 @@ struct FamilyInk {
   Family family;
   Ink ink;
 };
-constexpr FamilyInk family_inks[] = {{Family::as_given, {30, 30, 30}},
-                                     {Family::grid, {31, 95, 168}},
+/// What is drawn last is what the script says, as it may be one of the others, too.
+constexpr FamilyInk family_inks[] = {{Family::grid, {31, 95, 168}},
                                      {Family::target, {192, 57, 43}},
                                      {Family::depth, {46, 139, 87}},
-                                     {Family::precision, {142, 68, 173}}};
+                                     {Family::precision, {142, 68, 173}},
+                                     {Family::as_given, {30, 30, 30}}};
 
 /// Powers of ten from `low` to `high`.
 struct Decades {

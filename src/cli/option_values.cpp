@@ -1,0 +1,196 @@
+#include "cli/option_values.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
+namespace crt::cli {
+
+namespace {
+
+/// A string as a script writes it.
+std::string script_string(std::string_view text) {
+  std::string quoted = "\"";
+  for (const char c : text) {
+    switch (c) {
+      case '"':
+        quoted += "\\\"";
+        break;
+      case '\\':
+        quoted += "\\\\";
+        break;
+      case '\n':
+        quoted += "\\n";
+        break;
+      case '\t':
+        quoted += "\\t";
+        break;
+      default:
+        if (static_cast<unsigned char>(c) < 0x20) {
+          quoted += fmt::format("\\u{:04x}", c);
+        } else {
+          quoted += c;
+        }
+    }
+  }
+  return quoted + '"';
+}
+
+constexpr SettingOption all_settings[] = {
+    {"width", SettingKind::integer, "pixels across"},
+    {"height", SettingKind::integer, "pixels down"},
+    {"gamma", SettingKind::number, "8-bit files store value^(1/gamma)"},
+    {"supersampling", SettingKind::integer, "n x n rays for each pixel"},
+    {"dofsamples", SettingKind::integer, "points of the lens for each of them"},
+    {"targeterror", SettingKind::number,
+     "samples until pixels are this near the truth; 0.004 is an 8-bit step"},
+    {"timebudget", SettingKind::number, "samples for so many seconds of tracing"},
+    {"minsamples", SettingKind::integer, "of a pixel, with one of these two: a power of 2"},
+    {"maxsamples", SettingKind::integer, "likewise"},
+    {"filter", SettingKind::text, "what a pixel is the mean of: box or blackmanharris"},
+    {"filterwidth", SettingKind::number, "pixels across, of filters other than the box"},
+    {"recursiondepth", SettingKind::integer, "bounces followed after the camera's ray"},
+    {"minweight", SettingKind::number, "rays that add less than this share are not followed"},
+    {"falloffmodel", SettingKind::text, "distance that dims a light: path or light"},
+    {"showclip", SettingKind::flag, "marks pixels brighter than white in red; --showclip=false does not"},
+    {"seed", SettingKind::integer, "another seed, another noise"},
+    {"precision", SettingKind::text, "standard, or exact: whether a line hits is always right"},
+    {"projection", SettingKind::text, "pinhole, spherical, cylindrical or orthographic"},
+    {"title", SettingKind::text, "of the picture, kept in its file"},
+    {"author", SettingKind::text, "likewise"},
+    {"date", SettingKind::text, "likewise"},
+    {"notes", SettingKind::text, "likewise"},
+};
+
+struct AovName {
+  std::string_view name;
+  bool Aovs::*asked;
+};
+
+constexpr AovName aov_names[] = {
+    {"depth", &Aovs::depth},   {"normal", &Aovs::normal},   {"id", &Aovs::id},
+    {"albedo", &Aovs::albedo}, {"samples", &Aovs::samples}, {"error", &Aovs::error},
+};
+
+}  // namespace
+
+WrongValue::WrongValue(std::string_view option, std::string_view needed, std::string_view value)
+    : std::runtime_error(fmt::format("{} needs {}, not '{}'", option, needed, value)) {}
+
+bool parse_finite(std::string_view text, double& value) {
+  return parse_whole(text, value) && std::isfinite(value);
+}
+
+std::span<const SettingOption> setting_options() {
+  return all_settings;
+}
+
+std::string setting_expression(const SettingOption& setting, const std::string& value) {
+  const std::string option = fmt::format("--{}", setting.name);
+  std::int64_t whole = 0;
+  double number = 0;
+  switch (setting.kind) {
+    case SettingKind::integer:
+      if (!parse_whole(value, whole)) throw WrongValue(option, "a whole number", value);
+      return value;
+    case SettingKind::number:
+      if (!parse_finite(value, number)) throw WrongValue(option, "a number", value);
+      return value;
+    case SettingKind::flag:
+      if (value != "true" && value != "false") throw WrongValue(option, "true or false", value);
+      return value;
+    case SettingKind::text:
+      break;
+  }
+  return script_string(value);
+}
+
+void take_variable(ScriptOptions& script, const std::string& assignment) {
+  const std::size_t equals = assignment.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == assignment.size()) {
+    throw WrongValue("--set", "NAME=VALUE, such as n=18", assignment);
+  }
+  script.variables.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
+}
+
+FrameRange parse_frames(const std::string& text) {
+  FrameRange frames;
+  const std::size_t dash = text.find('-');
+  const std::string_view view = text;
+  const bool fine = dash == std::string::npos
+                        ? parse_whole(view, frames.first) && parse_whole(view, frames.last)
+                        : parse_whole(view.substr(0, dash), frames.first) &&
+                              parse_whole(view.substr(dash + 1), frames.last);
+  if (!fine || frames.first < 0 || frames.last < frames.first) {
+    throw WrongValue("--frames", "FIRST-LAST, such as 0-99", text);
+  }
+  return frames;
+}
+
+Region parse_region(const std::string& text) {
+  Region region;
+  int* const fields[] = {&region.x, &region.y, &region.width, &region.height};
+  std::string_view rest = text;
+  bool fine = true;
+  for (int* field : fields) {
+    const std::size_t comma = rest.find(',');
+    fine = fine && parse_whole(rest.substr(0, comma), *field) &&
+           (comma == std::string_view::npos) == (field == &region.height);
+    rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
+  }
+  if (!fine || region.x < 0 || region.y < 0 || region.width < 1 || region.height < 1) {
+    throw WrongValue("--region", "X,Y,WIDTH,HEIGHT in pixels from the top left, such as 0,0,64,64", text);
+  }
+  return region;
+}
+
+double parse_positive(const std::string& option, const std::string& text) {
+  double value = 0;
+  if (!parse_finite(text, value) || value <= 0) throw WrongValue(option, "a number above 0", text);
+  return value;
+}
+
+int parse_threads(const std::string& text) {
+  int threads = 0;
+  if (!parse_whole(text, threads) || threads < 0) {
+    throw WrongValue("--threads", "a whole number, 0 for all cores", text);
+  }
+  return threads;
+}
+
+int parse_sample_count(const std::string& option, const std::string& text) {
+  constexpr int least = 4;
+  constexpr int most = 65536;
+  int count = 0;
+  const bool fine = parse_whole(text, count) && count >= least && count <= most;
+  if (!fine || (count & (count - 1)) != 0) {
+    throw WrongValue(option, fmt::format("a power of 2 from {} to {}", least, most), text);
+  }
+  return count;
+}
+
+std::string all_aov_names() {
+  std::string names;
+  for (const AovName& aov : aov_names) names += fmt::format("{}{}", names.empty() ? "" : ",", aov.name);
+  return names;
+}
+
+void take_aovs(const std::string& list, Aovs& aovs) {
+  std::string_view rest = list;
+  while (true) {
+    const std::size_t comma = rest.find(',');
+    const std::string_view name = rest.substr(0, comma);
+    const auto* const found = std::find_if(std::begin(aov_names), std::end(aov_names),
+                                           [&](const AovName& aov) { return aov.name == name; });
+    if (found == std::end(aov_names)) {
+      throw WrongValue("--aov", fmt::format("one or several of {}", all_aov_names()), list);
+    }
+    aovs.*(found->asked) = true;
+    if (comma == std::string_view::npos) return;
+    rest.remove_prefix(comma + 1);
+  }
+}
+
+}  // namespace crt::cli
