@@ -71,7 +71,7 @@ class Panel {
     errors_ = decades_of(errors);
   }
 
-  void draw(const std::string& title) {
+  void draw(const std::string& title) const {
     draw_axes(title);
     draw_uncertainty();
     for (const FamilyInk& family : family_inks) draw_family(family);
@@ -91,7 +91,7 @@ class Panel {
 
   Place corner(double x, double y) const { return {corner_.x + x, corner_.y + y}; }
 
-  void draw_axes(const std::string& title) {
+  void draw_axes(const std::string& title) const {
     constexpr double text_below = 16;
     drawing_.text(corner(left, top - 12), title);
     for (int power = seconds_.low; power <= seconds_.high; ++power) {
@@ -112,7 +112,7 @@ class Panel {
   }
 
   /// Errors below this line are those of the reference.
-  void draw_uncertainty() {
+  void draw_uncertainty() const {
     const double y = at(0, report_.uncertainty.*measure_).y;
     constexpr double dash = 6;
     for (double x = left; x < right; x += 2 * dash) {
@@ -120,7 +120,7 @@ class Panel {
     }
   }
 
-  void draw_family(const FamilyInk& family) {
+  void draw_family(const FamilyInk& family) const {
     constexpr double dot_radius = 3.5;
     std::vector<Place> places;
     for (const MeasuredRung& rung : report_.rungs) {
@@ -130,7 +130,7 @@ class Panel {
     for (const Place& place : places) drawing_.disc(place, dot_radius, family.ink);
   }
 
-  void draw_best() {
+  void draw_best() const {
     constexpr double ring_radius = 6.5;
     for (const std::size_t i : pareto_front(outcomes_of(report_, measure_))) {
       const MeasuredRung& rung = report_.rungs[i];
