@@ -202,7 +202,7 @@ TEST_CASE("what is smaller than a pixel is found beside what has been seen of it
     for (int x = 0; x < 40; ++x) {
       double column = 0;
       for (int y = 0; y < 9; ++y) column += image.at(x, y).r;
-      CHECK(column == doctest::Approx(1.0 / 12).epsilon(0.5));
+      CHECK(std::abs(column - 1.0 / 12) < 0.5 / 12);
     }
   }
 }
@@ -228,7 +228,7 @@ TEST_CASE("no ball that covers more than a 20th of a pixel vanishes") {
   for (std::uint64_t seed = 0; seed < 8; ++seed) {
     const Image image = render(prepared, {.seed = seed});
     for (int y = 2; y < 25; y += 5) {
-      for (int x = 2; x < 25; x += 5) CHECK(image.at(x, y).r == doctest::Approx(0.055).epsilon(0.4));
+      for (int x = 2; x < 25; x += 5) CHECK(std::abs(image.at(x, y).r - 0.055) < 8.0 / 255);
     }
     const Region region{6, 7, 10, 11};
     CHECK(same_part(render(prepared, {.region = region, .seed = seed}), 6, 7, image));
