@@ -343,7 +343,8 @@ TEST_CASE("scaling the scene by a power of two changes no bit of any direction")
 }
 
 TEST_CASE("a point appears where the ray to it starts from, in every projection") {
-  Camera camera{.position = {1, 2, -3}, .pointing = {0.5, 1, 1}, .fov = 1.2, .roll = 0.3, .focal_distance = 2};
+  Camera camera{
+      .position = {1, 2, -3}, .pointing = {0.5, 1, 1}, .fov = 1.2, .roll = 0.3, .focal_distance = 2};
   for (const Projection projection :
        {Projection::pinhole, Projection::spherical, Projection::cylindrical, Projection::orthographic}) {
     camera.projection = projection;
