@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <limits>
+#include <utility>
 
 #include "core/math/vector.hpp"
 #include "core/render/media_order.hpp"
@@ -80,11 +81,12 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
     seen.sample = &samples[i];
     start_path(rays[i], work.media, rays_[i], seen.path);
   }
-  follow(std::span(round_).first(rays.size()));
-  if (!first_hits.empty()) tell_first_hits(first_hits);
-  while (const std::size_t count = take_round(samples.first(rays.size()))) {
+  std::size_t count = rays.size();
+  do {
     follow(std::span(round_).first(count));
-  }
+    if (!first_hits.empty()) tell_first_hits(std::exchange(first_hits, {}));
+    count = take_round(samples.first(rays.size()));
+  } while (count > 0);
 }
 
 std::size_t Tracer::take_round(std::span<Sample> samples) {
