@@ -205,7 +205,7 @@ TEST_CASE("so it does at lenses however far from the origin they are") {
     const double far = std::ldexp(1.0, exponent);
     const Vec3 center(far, -far, far);
     const Entity lens = Sphere{.center = center - Vec3(0.5, 0, 0), .radius = 1} ^
-                        Sphere{.center = center + Vec3(0.5, 0, 0), .radius = 1};
+                        Sphere { .center = center + Vec3(0.5, 0, 0), .radius = 1 };
     const Entity sheet = Disc{.center = center + Vec3(0, 0.5, 0), .normal = {0, 1, 0}, .radius = 4};
     Scene scene;
     scene.entities = {lens, sheet};
