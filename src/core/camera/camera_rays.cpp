@@ -119,16 +119,16 @@ void CameraRays::ray(double x, double y, CameraRay& ray) const {
   }
 }
 
-void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay& central) const {
-  ray(x, y, central);
+void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const {
+  ray(x, y, result);
   // A pinhole camera's way along `forward` is 1: times the focal distance it ends on the focal plane.
   const bool is_pinhole = projection_ == Projection::pinhole;
-  const Vec3 in_focus = focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : central.direction);
+  const Vec3 in_focus = focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : result.direction);
   const Vec3 offset = lens_radius_ * (lens_point.x * right_ + lens_point.y * up_);
   const Vec3 to_focus = in_focus - offset;
-  central.origin += offset;
+  result.origin += offset;
   // A lens wider than the focal distance of a spherical camera can hold the point in focus itself.
-  if (to_focus != Vec3(0)) central.direction = unit(to_focus);
+  if (to_focus != Vec3(0)) result.direction = unit(to_focus);
 }
 
 Vec3 CameraRays::to_plane(double nx, double ny) const {

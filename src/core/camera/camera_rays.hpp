@@ -38,7 +38,7 @@ class CameraRays {
   /// focus: on the plane at the focal distance for pinhole and orthographic cameras. Spherical and
   /// cylindrical ones look backwards too, where no such plane is; they are in focus at the focal
   /// distance along each ray, that is on a sphere.
-  void ray(double x, double y, const LensPoint& lens_point, CameraRay& ray) const;
+  void ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
   /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a camera

@@ -56,8 +56,8 @@ void report_measures(const PixelMeasures& measures, RenderStats& stats) {
 }
 
 std::uint64_t samples_of_grid(const Settings& settings, bool lens) {
-  const auto rays = static_cast<std::uint64_t>(settings.supersampling * settings.supersampling);
-  return rays * (lens ? static_cast<std::uint64_t>(settings.dof_samples) : std::uint64_t{1});
+  const auto side = static_cast<std::uint64_t>(settings.supersampling);
+  return side * side * (lens ? static_cast<std::uint64_t>(settings.dof_samples) : std::uint64_t{1});
 }
 
 void report_grid(const Settings& settings, bool lens, RenderStats& stats) {

@@ -71,7 +71,8 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
     tile.region = grid_.tile(i);
-    tile.samples.resize(static_cast<std::size_t>(tile.region.width * tile.region.height));
+    tile.samples.resize(static_cast<std::size_t>(tile.region.width) *
+                        static_cast<std::size_t>(tile.region.height));
     tile.places.resize(tile.samples.size());
     for (std::size_t k = 0; k < tile.places.size(); ++k) tile.places[k] = static_cast<std::uint8_t>(k);
     active_[i] = i;
