@@ -46,7 +46,8 @@ std::string clock_text(double seconds) {
 
 }  // namespace
 
-ProgressStyle style_of_stderr() {
+ProgressStyle progress_style(const CommonRequest& request) {
+  if (request.quiet || request.diagnostics != DiagnosticsFormat::text) return ProgressStyle::none;
   if (isatty(STDERR_FILENO) == 0) return ProgressStyle::lines;
   const char* terminal = std::getenv("TERM");
   const bool can_redraw = terminal != nullptr && std::string_view(terminal) != "dumb";

@@ -5,12 +5,15 @@
 #include <chrono>
 #include <string>
 
+#include "cli/options.hpp"
+
 namespace crt::cli {
 
 enum class ProgressStyle { none, lines, bar };
 
-/// A bar if standard error is a terminal that can redraw a line, else lines.
-ProgressStyle style_of_stderr();
+/// None if the user wants quiet or JSON; else a bar if standard error is a terminal that can redraw a line,
+/// or lines.
+ProgressStyle progress_style(const CommonRequest& request);
 
 class Progress {
  public:

@@ -36,9 +36,8 @@ std::uint64_t all_rays(const RenderStats& stats) {
 /// Renders the pictures of one request, one after the other.
 class RenderJob {
  public:
-  explicit RenderJob(const RenderRequest& request) : request_(request), reporter_(request) {
-    if (!request.quiet && request.diagnostics == DiagnosticsFormat::text) style_ = style_of_stderr();
-  }
+  explicit RenderJob(const RenderRequest& request)
+      : request_(request), reporter_(request), style_(progress_style(request)) {}
 
   ExitCode run() {
     try {
@@ -87,7 +86,9 @@ class RenderJob {
     const Stopwatch parse_watch;
     const std::optional<Scene> scene = run_scene(t);
     const double parse_seconds = parse_watch.seconds();
-    if (!scene || !accept_region(scene->settings)) return false;
+    if (!scene) return false;
+    const std::optional<Region>& region = request_.render.region;
+    if (region && !reporter_.accept_region(*region, scene->settings)) return false;
 
     const fs::path output = frame ? frame_path(request_.output, *frame) : request_.output;
     const PreparedScene prepared = prepare(*scene);
@@ -125,20 +126,6 @@ class RenderJob {
     return std::move(result.scene);
   }
 
-  bool accept_region(const Settings& settings) {
-    if (!request_.render.region) return true;
-    const Region& region = *request_.render.region;
-    const bool inside = region.x < settings.width && region.width <= settings.width - region.x &&
-                        region.y < settings.height && region.height <= settings.height - region.y;
-    if (inside) return true;
-    reporter_.add(
-        ErrorCode::invalid_argument,
-        fmt::format("the region {},{},{},{} reaches beyond the picture, which has {} x {} pixels", region.x,
-                    region.y, region.width, region.height, settings.width, settings.height),
-        ExitCode::usage);
-    return false;
-  }
-
   Image trace(const PreparedScene& prepared, const std::string& name, const InterruptScope& interrupt) {
     Progress progress(name, style_);
     RenderOptions options = request_.render;
@@ -165,7 +152,7 @@ class RenderJob {
 
   const RenderRequest& request_;
   Reporter reporter_;
-  ProgressStyle style_ = ProgressStyle::none;
+  ProgressStyle style_;
   std::vector<PictureReport> reports_;
 };
 

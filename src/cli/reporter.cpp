@@ -56,6 +56,17 @@ void Reporter::add(const Error& error) {
   add(error.code(), error.what(), exit_code_of(error.code()));
 }
 
+bool Reporter::accept_region(const Region& region, const Settings& settings) {
+  const bool inside =
+      region.width <= settings.width - region.x && region.height <= settings.height - region.y;
+  if (inside) return true;
+  add(ErrorCode::invalid_argument,
+      fmt::format("the region {},{},{},{} reaches beyond the picture, which has {} x {} pixels", region.x,
+                  region.y, region.width, region.height, settings.width, settings.height),
+      ExitCode::usage);
+  return false;
+}
+
 void Reporter::note(const std::string& message) const {
   if (!quiet_ && format_ == DiagnosticsFormat::text) tell(stderr, message + "\n");
 }

@@ -21,6 +21,9 @@ class Reporter {
   void add(ErrorCode code, const std::string& message, ExitCode exit_code);
   void add(const Error& error);
 
+  /// Whether a region is inside a picture; if not, that is told.
+  bool accept_region(const Region& region, const Settings& settings);
+
   /// Something that went right, for the user to know: text on standard error.
   void note(const std::string& message) const;
 

@@ -52,9 +52,8 @@ struct TooSlow : std::exception {};
 
 class Trade {
  public:
-  explicit Trade(const TradeRequest& request) : request_(request), reporter_(request) {
-    if (!request.quiet && request.diagnostics == DiagnosticsFormat::text) style_ = style_of_stderr();
-  }
+  explicit Trade(const TradeRequest& request)
+      : request_(request), reporter_(request), style_(progress_style(request)) {}
 
   ExitCode run() {
     try {
@@ -89,14 +88,7 @@ class Trade {
       return true;
     }
     parts_ = {*request_.region};
-    const Region& region = *request_.region;
-    if (region.width <= settings.width - region.x && region.height <= settings.height - region.y) return true;
-    reporter_.add(
-        ErrorCode::invalid_argument,
-        fmt::format("the region {},{},{},{} reaches beyond the picture, which has {} x {} pixels", region.x,
-                    region.y, region.width, region.height, settings.width, settings.height),
-        ExitCode::usage);
-    return false;
+    return reporter_.accept_region(*request_.region, settings);
   }
 
   void measure_and_tell() {
@@ -282,7 +274,7 @@ class Trade {
 
   const TradeRequest& request_;
   Reporter reporter_;
-  ProgressStyle style_ = ProgressStyle::none;
+  ProgressStyle style_;
   Scene scene_;
   std::optional<PreparedScene> prepared_;
   std::vector<Region> parts_;

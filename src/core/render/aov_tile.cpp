@@ -2,11 +2,11 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <cmath>
 #include <new>
 #include <utility>
 
+#include "core/render/canvas.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
@@ -53,9 +53,7 @@ constexpr IntegerChannel integer_channels[] = {
 
 /// The nearest float; what is finite stays so.
 float to_float(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  if (std::isinf(value)) return static_cast<float>(value);
-  return static_cast<float>(std::clamp(value, -largest, largest));
+  return std::isinf(value) ? static_cast<float>(value) : finite_float(value);
 }
 
 /// Calls copy(place in the tile, place in the region, count) for each row of the tile.
@@ -63,10 +61,7 @@ template <class Function>
 void for_each_row(const Region& tile, const Region& region, const Function& copy) {
   const auto width = static_cast<std::size_t>(tile.width);
   for (int y = 0; y < tile.height; ++y) {
-    const auto in_region =
-        static_cast<std::size_t>(tile.y - region.y + y) * static_cast<std::size_t>(region.width) +
-        static_cast<std::size_t>(tile.x - region.x);
-    copy(static_cast<std::size_t>(y) * width, in_region, width);
+    copy(static_cast<std::size_t>(y) * width, index_in(region, tile.x, tile.y + y), width);
   }
 }
 
@@ -96,8 +91,7 @@ void add_channels(const Aovs& aovs, Image& image) {
 }
 
 std::span<FirstHit> AovTile::first_hits() {
-  const bool asked = aovs_.normal || aovs_.albedo;
-  return std::span(first_hits_).first(asked ? pixel_count() : 0);
+  return std::span(first_hits_).first(ask_for_first_hits(aovs_) ? pixel_count(tile_) : 0);
 }
 
 void AovTile::take(const PixelMeasures& measures, const Region& region) {

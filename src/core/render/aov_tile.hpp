@@ -16,6 +16,11 @@ inline bool is_any(const Aovs& aovs) {
   return aovs != Aovs{};
 }
 
+/// Whether they tell how the surfaces look that samples meet first.
+inline bool ask_for_first_hits(const Aovs& aovs) {
+  return aovs.normal || aovs.albedo;
+}
+
 /// Gives an image the channels that are asked for, as they are where nothing is met. Throws Error
 /// (out_of_memory).
 void add_channels(const Aovs& aovs, Image& image);
@@ -48,10 +53,6 @@ class AovTile {
 
  private:
   static constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
-
-  std::size_t pixel_count() const {
-    return static_cast<std::size_t>(tile_.width) * static_cast<std::size_t>(tile_.height);
-  }
 
   Aovs aovs_;
   Region tile_;

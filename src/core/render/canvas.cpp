@@ -15,9 +15,7 @@ void Canvas::put(const Region& tile, std::span<const float> pixels) {
   const auto row_values = static_cast<std::size_t>(tile.width) * 4;
   const std::lock_guard lock(mutex_);
   for (int y = 0; y < tile.height; ++y) {
-    const auto row =
-        static_cast<std::size_t>(tile.y - region_.y + y) * static_cast<std::size_t>(region_.width) +
-        static_cast<std::size_t>(tile.x - region_.x);
+    const std::size_t row = index_in(region_, tile.x, tile.y + y);
     std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row_values),
                 row_values, image_.pixels().begin() + static_cast<std::ptrdiff_t>(row * 4));
   }
@@ -26,9 +24,7 @@ void Canvas::put(const Region& tile, std::span<const float> pixels) {
 void Canvas::put(std::span<const PlacedPixel> pixels) {
   const std::lock_guard lock(mutex_);
   for (const PlacedPixel& pixel : pixels) {
-    const auto place =
-        static_cast<std::size_t>(pixel.y - region_.y) * static_cast<std::size_t>(region_.width) +
-        static_cast<std::size_t>(pixel.x - region_.x);
+    const std::size_t place = index_in(region_, pixel.x, pixel.y);
     std::copy_n(pixel.values.begin(), 4, image_.pixels().begin() + static_cast<std::ptrdiff_t>(place * 4));
   }
 }

@@ -1,7 +1,9 @@
 // The picture while it is being rendered: tiles come in from any thread, and anyone may look.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <limits>
 #include <mutex>
 #include <span>
 #include <utility>
@@ -10,6 +12,12 @@
 #include "crt/render.hpp"
 
 namespace crt::core {
+
+/// A channel as the image's floats hold it: finite.
+inline float finite_float(double value) {
+  constexpr double largest = std::numeric_limits<float>::max();
+  return static_cast<float>(std::clamp(value, -largest, largest));
+}
 
 struct PlacedPixel {
   int x = 0;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <limits>
 
 #include "core/render/small_things.hpp"
 
@@ -33,11 +32,6 @@ Region with_margin(const Region& region, int margin, const Settings& settings) {
   return {left, top, right - left, bottom - top};
 }
 
-float as_float(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(value, -largest, largest));
-}
-
 }  // namespace
 
 bool asks_for_passes(const Settings& settings, int passes) {
@@ -62,7 +56,7 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
     most_samples_ = done.samples;
     more_eighths_ = done.eighths;
   }
-  const std::size_t pixels = static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
+  const std::size_t pixels = pixel_count(region);
   measures_.samples.resize(pixels);
   measures_.half_widths.resize(pixels);
   if (with_first_hits) measures_.first_hits.resize(pixels);
@@ -71,8 +65,7 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
     tile.region = grid_.tile(i);
-    tile.samples.resize(static_cast<std::size_t>(tile.region.width) *
-                        static_cast<std::size_t>(tile.region.height));
+    tile.samples.resize(pixel_count(tile.region));
     tile.places.resize(tile.samples.size());
     for (std::size_t k = 0; k < tile.places.size(); ++k) tile.places[k] = static_cast<std::uint8_t>(k);
     active_[i] = i;
@@ -86,10 +79,7 @@ void Passes::expect_small_things() {
   for (Tile& tile : tiles_) {
     for (std::size_t i = 0; i < tile.places.size(); ++i) {
       const Place place = place_of(tile, i);
-      const std::size_t pixel =
-          static_cast<std::size_t>(place.y - worked_on_.y) * static_cast<std::size_t>(worked_on_.width) +
-          static_cast<std::size_t>(place.x - worked_on_.x);
-      if (pixels[pixel]) tile.samples[i].expect_small_things();
+      if (pixels[index_in(worked_on_, place.x, place.y)]) tile.samples[i].expect_small_things();
     }
   }
 }
@@ -188,8 +178,7 @@ bool Passes::is_in_region(const Place& place) const {
 }
 
 std::size_t Passes::index_of(const Place& place) const {
-  return static_cast<std::size_t>(place.y - region_.y) * static_cast<std::size_t>(region_.width) +
-         static_cast<std::size_t>(place.x - region_.x);
+  return index_in(region_, place.x, place.y);
 }
 
 void Passes::show(std::span<const PixelPlace> pixels, std::int64_t count) {
@@ -201,7 +190,7 @@ void Passes::show(std::span<const PixelPlace> pixels, std::int64_t count) {
     PlacedPixel& out = shown[shown_count++];
     out.x = pixel.x;
     out.y = pixel.y;
-    for (int c = 0; c < pixel_channels; ++c) out.values[static_cast<std::size_t>(c)] = as_float(mean[c]);
+    for (int c = 0; c < pixel_channels; ++c) out.values[static_cast<std::size_t>(c)] = finite_float(mean[c]);
   }
   canvas_.put(std::span(shown).first(shown_count));
 }
@@ -222,8 +211,7 @@ void Passes::take_notes(const Place& place, PixelSamples& samples) const {
   for (int y = std::max(place.y - reach_, worked_on_.y); y <= bottom; ++y) {
     for (int x = std::max(place.x - reach_, worked_on_.x); x <= right; ++x) {
       const Tile& tile = tiles_[grid_.index(x, y)];
-      const int inside = (y - tile.region.y) * tile.region.width + x - tile.region.x;
-      samples.take_note(tile.samples[static_cast<std::size_t>(inside)]);
+      samples.take_note(tile.samples[index_in(tile.region, x, y)]);
     }
   }
 }

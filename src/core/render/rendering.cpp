@@ -2,12 +2,10 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
 #include <exception>
-#include <limits>
 #include <new>
 #include <optional>
 
@@ -60,12 +58,6 @@ void check_passes(const RenderOptions& options, const Settings& settings, const 
   }
 }
 
-/// A channel as the image's floats hold it.
-float float_range(double value) {
-  constexpr double largest = std::numeric_limits<float>::max();
-  return static_cast<float>(std::clamp(value, -largest, largest));
-}
-
 }  // namespace
 
 Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock::Seconds seconds)
@@ -89,9 +81,8 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
   trace_pixels(frame, tile, tracer, samples, aovs ? aovs->first_hits() : std::span<FirstHit>(), work.stats);
   std::array<float, 4 * most_pixels> pixels;
   float* next = pixels.data();
-  const auto count = static_cast<std::size_t>(tile.width) * static_cast<std::size_t>(tile.height);
-  for (const Tracer::Sample& sample : std::span(samples).first(count)) {
-    for (int channel = 0; channel < 3; ++channel) *next++ = float_range(sample.color[channel]);
+  for (const Tracer::Sample& sample : std::span(samples).first(pixel_count(tile))) {
+    for (int channel = 0; channel < 3; ++channel) *next++ = finite_float(sample.color[channel]);
     *next++ = static_cast<float>(sample.alpha);
     work.cutoff.add(sample.dropped);
   }
@@ -160,8 +151,8 @@ RenderStats Rendering::render_picture() {
   int passes = 0;
   const bool by_passes = asks_for_passes(settings_, options_.passes);
   if (by_passes) {
-    const bool with_first_hits = options_.aovs.normal || options_.aovs.albedo;
-    Passes rendering(frame, canvas_.region(), options_.passes, with_first_hits, clock, canvas_);
+    Passes rendering(frame, canvas_.region(), options_.passes, ask_for_first_hits(options_.aovs), clock,
+                     canvas_);
     rendering.run(run_tasks);
     measures_ = rendering.take_measures();
     passes = rendering.passes();

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <optional>
 
+#include "core/render/tiles.hpp"
 #include "core/scene/compile.hpp"
 
 namespace crt::core {
@@ -73,8 +74,7 @@ std::vector<bool> small_things(const Frame& frame, const Region& region) {
     if (seen->right < region.x || seen->left >= region.x + region.width || seen->bottom < region.y ||
         seen->top >= region.y + region.height)
       continue;
-    if (pixels.empty())
-      pixels.resize(static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height));
+    if (pixels.empty()) pixels.resize(pixel_count(region));
     const int right = inside(seen->right, region.x, region.width);
     const int bottom = inside(seen->bottom, region.y, region.height);
     for (int y = inside(seen->top, region.y, region.height); y <= bottom; ++y) {

@@ -8,6 +8,16 @@
 
 namespace crt::core {
 
+inline std::size_t pixel_count(const Region& region) {
+  return static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
+}
+
+/// Which of a region's pixels, row by row from the top, is that at (x, y) of the picture.
+inline std::size_t index_in(const Region& region, int x, int y) {
+  return static_cast<std::size_t>(y - region.y) * static_cast<std::size_t>(region.width) +
+         static_cast<std::size_t>(x - region.x);
+}
+
 class Tiles {
  public:
   /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
