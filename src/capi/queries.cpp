@@ -146,17 +146,20 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
     const Places<std::byte> answers(reinterpret_cast<std::byte*>(hits), hit_stride, sizeof(crt_hit), count,
                                     "hits");
     questions.validate_all(prepared->value);
-    crt::query_in_parallel(prepared->value, count,
-                           [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-                             std::array<std::optional<crt::Hit>, piece_size> found;
-                             for_pieces(questions, first, last, [&](std::size_t begin, auto piece) {
-                               queries.intersect(piece, found);
-                               for (std::size_t i = 0; i < piece.size(); ++i) {
-                                 const crt_hit hit = to_hit(found[i]);
-                                 std::memcpy(answers[begin + i], &hit, sizeof hit);
-                               }
-                             });
-                           });
+    crt::query_in_parallel(
+        prepared->value, count, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+          std::array<std::optional<crt::Hit>, piece_size> found;
+          std::array<crt_hit, piece_size> told;
+          for_pieces(questions, first, last, [&](std::size_t begin, auto piece) {
+            queries.intersect(piece, found);
+            // Step by step: a copy of what was just written waits until it is there.
+            std::transform(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(piece.size()),
+                           told.begin(), to_hit);
+            for (std::size_t i = 0; i < piece.size(); ++i) {
+              std::memcpy(answers[begin + i], &told[i], sizeof(crt_hit));
+            }
+          });
+        });
   });
 }
 

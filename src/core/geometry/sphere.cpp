@@ -82,7 +82,7 @@ SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& cr
   result.position = center_ + radius_ * n;
   if (!with_uv) return result;
   result.u = turn(n.z, n.x);
-  result.v = std::atan2(n.y, std::hypot(n.x, n.z)) / std::numbers::pi + 0.5;
+  result.v = std::atan2(n.y, std::sqrt(n.x * n.x + n.z * n.z)) / std::numbers::pi + 0.5;
   return result;
 }
 

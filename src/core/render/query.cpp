@@ -8,6 +8,7 @@
 #include <new>
 
 #include "core/math/float_environment.hpp"
+#include "core/math/vector.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
@@ -18,14 +19,15 @@ namespace core {
 
 namespace {
 
+/// What is not finite leaves no number when it is multiplied by 0.
 bool is_finite(const Vec3& v) {
-  return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
+  return v.x * 0 + v.y * 0 + v.z * 0 == 0;
 }
 
 /// Multiplies by a power of two, exactly wherever the result is a normal number.
 class PowerOfTwo {
  public:
-  explicit PowerOfTwo(int exponent) : exponent_(exponent) {
+  explicit PowerOfTwo(int exponent = 0) : exponent_(exponent) {
     constexpr int bias = 1023;
     constexpr int fraction_bits = 52;
     if (std::abs(exponent) < bias) {
@@ -42,32 +44,48 @@ class PowerOfTwo {
   int exponent_;
 };
 
-int exponent_of(const Vec3& direction) {
-  return std::ilogb(std::max({std::abs(direction.x), std::abs(direction.y), std::abs(direction.z)}));
+/// That of a number's highest digit; x > 0.
+int exponent_of(double x) {
+  constexpr int bias = 1023;
+  constexpr int fraction_bits = 52;
+  const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(x) >> fraction_bits);
+  return biased > 0 ? biased - bias : std::ilogb(x);
 }
 
-/// One query: the user's ray with its direction brought near length 1 by a power of two, which makes
-/// any length safe and changes no digit of t.
+/// Makes of the user's ray one that can be followed: its direction is brought near length 1 by a power of
+/// two, which makes any length safe and changes no digit of t. Returns what turns a t of that ray into one of
+/// the user's.
+PowerOfTwo follow(const Ray& users, WorldRay& ray) {
+  // Beyond the largest number there is no t to tell of, and so no hit.
+  constexpr double largest = std::numeric_limits<double>::max();
+  const int exponent = exponent_of(largest_component(users.direction));
+  const PowerOfTwo shorten(-exponent);
+  const PowerOfTwo lengthen(exponent);
+  ray.origin = users.origin;
+  for (int axis = 0; axis < 3; ++axis) ray.direction[axis] = shorten * users.direction[axis];
+  ray.t_min = lengthen * std::max(users.t_min, -largest);
+  ray.t_max = lengthen * std::min(users.t_max, largest);
+  return shorten;
+}
+
+Hit described(const HitPoint& point, const PowerOfTwo& to_users_t) {
+  return {.t = to_users_t * point.t,
+          .position = point.position,
+          .normal = point.normal,
+          .u = point.u,
+          .v = point.v,
+          .entity_id = point.entity_id,
+          .entering = point.entering};
+}
+
+/// One query.
 class Query {
  public:
   Query(const PreparedData& data, const Ray& ray, RayWorkspace& work)
-      : data_(data), work_(work), exponent_(exponent_of(ray.direction)) {
-    // Beyond the largest number there is no t to tell of, and so no hit.
-    constexpr double largest = std::numeric_limits<double>::max();
-    const PowerOfTwo shorten(-exponent_);
-    const PowerOfTwo lengthen(exponent_);
-    const Vec3& d = ray.direction;
-    ray_ = {.origin = ray.origin,
-            .direction = {shorten * d.x, shorten * d.y, shorten * d.z},
-            .t_min = lengthen * std::max(ray.t_min, -largest),
-            .t_max = lengthen * std::min(ray.t_max, largest)};
-  }
+      : data_(data), work_(work), to_users_t_(follow(ray, ray_)) {}
 
-  const WorldRay& ray() const { return ray_; }
-
-  std::optional<Hit> nearest() const { return described_if_found(data_.intersect(ray_, work_)); }
-
-  std::optional<Hit> described_if_found(const RayHit& hit) const {
+  std::optional<Hit> nearest() const {
+    const RayHit hit = data_.intersect(ray_, work_);
     if (!hit.found()) return std::nullopt;
     return described(hit);
   }
@@ -83,51 +101,59 @@ class Query {
 
  private:
   Hit described(const RayHit& hit) const {
-    const HitPoint point = data_.hit_point(ray_, hit);
-    return {.t = PowerOfTwo(-exponent_) * hit.t,
-            .position = point.position,
-            .normal = point.normal,
-            .u = point.u,
-            .v = point.v,
-            .entity_id = point.entity_id,
-            .entering = point.entering};
+    HitPoint point;
+    data_.hit_point(ray_, hit, true, point);
+    return core::described(point, to_users_t_);
   }
 
   const PreparedData& data_;
   RayWorkspace& work_;
-  int exponent_;
   WorldRay ray_;
+  PowerOfTwo to_users_t_;
 };
 
-/// Up to packet_size queries, asked together if they go nearly the same way.
+/// Up to packet_size queries at a time, asked together if they go nearly the same way.
 class QueryPacket {
  public:
-  QueryPacket(const PreparedData& data, std::span<const Ray> rays, RayWorkspace& work)
-      : data_(data), work_(work), count_(rays.size()) {
+  QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {}
+
+  void take(std::span<const Ray> rays) {
+    count_ = rays.size();
     for (std::size_t i = 0; i < count_; ++i) {
       validate(rays[i]);
-      queries_[i].emplace(data, rays[i], work);
-      rays_[i] = queries_[i]->ray();
+      to_users_t_[i] = follow(rays[i], rays_[i]);
     }
   }
 
   void nearest(std::span<std::optional<Hit>> hits) {
-    std::array<RayHit, packet_size> found;
-    data_.intersect_each(std::span(rays_).first(count_), found, work_);
-    for (std::size_t i = 0; i < count_; ++i) hits[i] = queries_[i]->described_if_found(found[i]);
+    data_.intersect_each(followed(), hits_, work_);
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (hits_[i].found()) data_.hit_point(rays_[i], hits_[i], true, points_[i]);
+    }
+    for (std::size_t i = 0; i < count_; ++i) {
+      if (hits_[i].found()) {
+        hits[i] = described(points_[i], to_users_t_[i]);
+      } else {
+        hits[i].reset();
+      }
+    }
   }
 
   void occluded(std::span<bool> occluded) {
-    const RayMask found = data_.occluded_each(std::span(rays_).first(count_), work_);
+    const RayMask found = data_.occluded_each(followed(), work_);
     for (std::size_t i = 0; i < count_; ++i) occluded[i] = (found >> i & 1u) != 0;
   }
 
  private:
+  std::span<const WorldRay> followed() const { return std::span(rays_).first(count_); }
+
   const PreparedData& data_;
   RayWorkspace& work_;
-  std::size_t count_;
-  std::array<std::optional<Query>, packet_size> queries_;
+  std::size_t count_ = 0;
   std::array<WorldRay, packet_size> rays_;
+  std::array<PowerOfTwo, packet_size> to_users_t_;
+  std::array<RayHit, packet_size> hits_;
+  std::array<HitPoint, packet_size> points_;
 };
 
 /// Calls ask(packet, answers) for packet after packet.
@@ -137,9 +163,10 @@ void ask_in_packets(const PreparedData& data, std::span<const Ray> rays, std::sp
   if (answers.size() < rays.size()) {
     throw Error(ErrorCode::invalid_argument, "there are fewer places for answers than rays", "rays");
   }
+  QueryPacket packet(data, work);
   for (std::size_t first = 0; first < rays.size(); first += packet_size) {
     const std::size_t count = std::min(packet_size, rays.size() - first);
-    QueryPacket packet(data, rays.subspan(first, count), work);
+    packet.take(rays.subspan(first, count));
     ask(packet, answers.subspan(first, count));
   }
 }

@@ -10,6 +10,7 @@
 #include "core/scene/embree_tree.hpp"
 #include "core/scene/memory.hpp"
 #include "core/scene/object_query.hpp"
+#include "core/scene/space_order.hpp"
 #include "core/tasks/parallel.hpp"
 
 namespace crt::core {
@@ -67,6 +68,7 @@ Accelerator::Accelerator(CompiledScene compiled)
       unbounded.push_back(i);
     }
   }
+  sort_along_curve(compiled_, total, bounded);
   bounded_ = Outlines(compiled_, bounded);
   unbounded_ = Outlines(compiled_, unbounded);
   enclosed_ = enclosed_objects(compiled_);
@@ -104,6 +106,15 @@ SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, 
                           .root = 0,
                           .entering = hit.entering != leaf.complemented};
   return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing, with_uv);
+}
+
+void Accelerator::expect_surface_points(std::span<const RayHit> hits) const {
+  for (const RayHit& hit : hits) {
+    if (hit.found()) __builtin_prefetch(&compiled_.leaves[hit.leaf].complemented);
+  }
+  for (const RayHit& hit : hits) {
+    if (hit.found()) __builtin_prefetch(compiled_.leaves[hit.leaf].shape.get());
+  }
 }
 
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {

@@ -59,6 +59,8 @@ class Accelerator {
   }
   /// The point of a hit that `ray` found, in the space of its leaf; u and v only if asked for.
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
+  /// Lets memory fetch beforehand what surface_point() looks at.
+  void expect_surface_points(std::span<const RayHit> hits) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Whether a crossing near the ray's end is of a surface through that end.

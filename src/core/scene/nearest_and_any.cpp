@@ -366,6 +366,7 @@ void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].has_company) hits[i] = gather_company(rays[i], hits[i], work);
   }
+  expect_surface_points(hits.first(rays.size()));
 }
 
 RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {

@@ -125,6 +125,7 @@ void PreparedData::intersect_each(std::span<const WorldRay> rays, std::span<RayH
                                   RayWorkspace& work) const {
   if (go_together(rays)) return intersect(rays, hits, work);
   for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i], work);
+  accelerator_->expect_surface_points(hits.first(rays.size()));
 }
 
 RayMask PreparedData::occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
