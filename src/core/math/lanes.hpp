@@ -16,22 +16,55 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = decltype(Lanes{} < Lanes{});
 inline constexpr int lane_count = 4;
 
+/// As many floats.
+using FloatLanes = float __attribute__((vector_size(16)));
+
+/// Each rounded to the nearest float.
+inline FloatLanes to_floats(const Lanes& a) {
+  return __builtin_convertvector(a, FloatLanes);
+}
+inline Lanes to_doubles(const FloatLanes& a) {
+  return __builtin_convertvector(a, Lanes);
+}
+
+inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
+  return b < a ? b : a;
+}
+
+inline FloatLanes max(const FloatLanes& a, const FloatLanes& b) {
+  return a < b ? b : a;
+}
+
 inline Lanes lanes_of(double value) {
   return Lanes{value, value, value, value};
 }
 
+// Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
+
 inline Lanes min(const Lanes& a, const Lanes& b) {
+#ifdef __AVX__
+  return _mm256_min_pd(a, b);
+#else
   return a < b ? a : b;
+#endif
 }
 
 inline Lanes max(const Lanes& a, const Lanes& b) {
+#ifdef __AVX__
+  return _mm256_max_pd(b, a);
+#else
   return a < b ? b : a;
+#endif
 }
 
 inline Lanes sqrt(const Lanes& a) {
+#ifdef __AVX__
+  return _mm256_sqrt_pd(a);
+#else
   Lanes result;
   for (int i = 0; i < lane_count; ++i) result[i] = std::sqrt(a[i]);
   return result;
+#endif
 }
 
 inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
@@ -41,9 +74,17 @@ inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
 }
 
 /// The absolute value, of a double or of lanes.
-template <class Real>
-Real size_of(const Real& x) {
-  return x < 0.0 ? -x : x;
+inline double size_of(double x) {
+  return std::abs(x);
+}
+inline Lanes size_of(const Lanes& x) {
+#ifdef __AVX__
+  return _mm256_andnot_pd(lanes_of(-0.0), x);
+#else
+  Lanes result;
+  for (int i = 0; i < lane_count; ++i) result[i] = std::abs(x[i]);
+  return result;
+#endif
 }
 
 /// Of vectors by component, of doubles or of lanes.

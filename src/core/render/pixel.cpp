@@ -197,12 +197,13 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
   StepSums sums(tracer, with_first_hits);
   for (const PixelPlace& pixel : pixels) {
     const PixelSequence sequence(frame.settings().seed, pixel.x, pixel.y);
+    SequenceWalk walk(sequence, static_cast<std::uint32_t>(range.begin),
+                      static_cast<std::uint32_t>(range.end), lens);
     std::int64_t size = 0;
     for (std::int64_t count = range.begin; count < range.end; count += size) {
       size = samples_of_next_step(count);
       for (std::int64_t i = count; i < count + size; ++i) {
-        const auto index = static_cast<std::uint32_t>(i);
-        const SequencePoint point = lens ? sequence.point(index) : sequence.pixel_point(index);
+        const SequencePoint& point = walk.next();
         const double x = pixel.x + filter(point.pixel_u);
         const double y = pixel.y + filter(point.pixel_v);
         if (lens) {

@@ -21,22 +21,7 @@ constexpr double least_contrast_of_edges = 1.0 / 8;
 /// As floats, of which none is infinite.
 Channels rounded(const Lanes& values) {
   const Lanes largest = lanes_of(std::numeric_limits<float>::max());
-  const Lanes clamped = min(max(values, -largest), largest);
-  Channels result;
-  for (int i = 0; i < pixel_channels; ++i)
-    result[static_cast<std::size_t>(i)] = static_cast<float>(clamped[i]);
-  return result;
-}
-
-Lanes exactly(const Channels& channels) {
-  return Lanes{double{channels[0]}, double{channels[1]}, double{channels[2]}, double{channels[3]}};
-}
-
-void widen(Channels& low, Channels& high, const Channels& other_low, const Channels& other_high) {
-  for (std::size_t i = 0; i < pixel_channels; ++i) {
-    low[i] = std::min(low[i], other_low[i]);
-    high[i] = std::max(high[i], other_high[i]);
-  }
+  return to_floats(min(max(values, -largest), largest));
 }
 
 }  // namespace
@@ -54,26 +39,22 @@ double DisplayScale::half_width(double value, double half_width, bool is_alpha) 
   return std::max(shown(high) - shown(middle), shown(middle) - shown(low));
 }
 
-std::int64_t PixelSamples::block_size(std::int64_t count) {
-  if (count <= std::int64_t{block_count}) return 1;
-  return static_cast<std::int64_t>(std::bit_ceil(static_cast<std::uint64_t>(count))) /
-         std::int64_t{block_count};
+int PixelSamples::block_exponent(std::int64_t count) {
+  constexpr int most_of_single_samples = std::countr_zero(block_count);
+  const auto exponent = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count - 1)));
+  return std::max(exponent - most_of_single_samples, 0);
 }
 
 void PixelSamples::merge_blocks() {
-  for (std::size_t i = 0; i < block_count / 2; ++i) {
-    for (std::size_t c = 0; c < pixel_channels; ++c) {
-      blocks_[i][c] = blocks_[2 * i][c] + blocks_[2 * i + 1][c];
-    }
-  }
+  for (std::size_t i = 0; i < block_count / 2; ++i) blocks_[i] = blocks_[2 * i] + blocks_[2 * i + 1];
   std::fill(blocks_.begin() + block_count / 2, blocks_.end(), Channels{});
 }
 
 void PixelSamples::add_step(std::int64_t count, const SampleSum& step) {
-  const std::int64_t size = block_size(count + step.count);
-  if (count > 0 && size != block_size(count)) merge_blocks();
-  Channels& block = blocks_[static_cast<std::size_t>(count / size)];
-  block = rounded(exactly(block) + step.sum);
+  const int exponent = block_exponent(count + step.count);
+  if (count > 0 && exponent != block_exponent(count)) merge_blocks();
+  Channels& block = blocks_[static_cast<std::size_t>(count >> exponent)];
+  block = rounded(to_doubles(block) + step.sum);
   const Channels low = rounded(step.low);
   const Channels high = rounded(step.high);
   const auto identity = static_cast<std::uint32_t>(step.identity ^ step.identity >> 32);
@@ -82,14 +63,15 @@ void PixelSamples::add_step(std::int64_t count, const SampleSum& step) {
     high_ = high;
     identity_ = identity;
   }
-  widen(low_, high_, low, high);
+  low_ = min(low_, low);
+  high_ = max(high_, high);
   mixed_ = mixed_ || step.mixed || identity != identity_;
   dropped_ = static_cast<float>(double{dropped_} + step.dropped);
 }
 
 Lanes PixelSamples::mean(std::int64_t count) const {
   Lanes sum{};
-  for (const Channels& block : blocks_) sum += exactly(block);
+  for (const Channels& block : blocks_) sum += to_doubles(block);
   return sum / static_cast<double>(count);
 }
 
@@ -99,32 +81,33 @@ void PixelSamples::take_note(const PixelSamples& neighbour) {
     high_around_ = neighbour.high_;
     has_notes_ = true;
   }
-  widen(low_around_, high_around_, neighbour.low_, neighbour.high_);
+  low_around_ = min(low_around_, neighbour.low_);
+  high_around_ = max(high_around_, neighbour.high_);
   edge_ = edge_ || neighbour.mixed_ || neighbour.identity_ != identity_;
 }
 
 double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) const {
-  const std::int64_t size = block_size(count);
-  const auto blocks = static_cast<std::size_t>(count / size);
+  const int exponent = block_exponent(count);
+  const auto blocks = static_cast<std::size_t>(count >> exponent);
   if (blocks < 2) return 1;
-  Channels low = low_;
-  Channels high = high_;
-  if (has_notes_) widen(low, high, low_around_, high_around_);
+  const Channels low = has_notes_ ? min(low_, low_around_) : low_;
+  const Channels high = has_notes_ ? max(high_, high_around_) : high_;
 
   Lanes middle{};
-  for (std::size_t b = 0; b < blocks; ++b) middle += exactly(blocks_[b]);
+  for (std::size_t b = 0; b < blocks; ++b) middle += to_doubles(blocks_[b]);
   middle /= static_cast<double>(blocks);
   Lanes squares{};
   for (std::size_t b = 0; b < blocks; ++b) {
-    const Lanes distance = exactly(blocks_[b]) - middle;
+    const Lanes distance = to_doubles(blocks_[b]) - middle;
     squares += distance * distance;
   }
   const double samples = static_cast<double>(count);
   // The variance of a block's sum to that of the mean of as many blocks as there are.
-  const Lanes variance = squares / (static_cast<double>(blocks - 1) * static_cast<double>(size) * samples);
+  const Lanes variance = squares / (static_cast<double>(blocks - 1) *
+                                    static_cast<double>(std::int64_t{1} << exponent) * samples);
   const double overlooked_share = overlooked_samples / samples;
   const Lanes half_widths =
-      max(student_95[blocks - 2] * sqrt(variance), overlooked_share * (exactly(high) - exactly(low)));
+      max(student_95[blocks - 2] * sqrt(variance), overlooked_share * (to_doubles(high) - to_doubles(low)));
 
   const Lanes means = mean(count);
   double widest = edge_ || mixed_ ? overlooked_share * least_contrast_of_edges : 0;

@@ -18,7 +18,7 @@ namespace crt::core {
 
 /// Red, green, blue, alpha.
 inline constexpr int pixel_channels = lane_count;
-using Channels = std::array<float, pixel_channels>;
+using Channels = FloatLanes;
 
 /// Some samples together.
 struct SampleSum {
@@ -84,8 +84,8 @@ class PixelSamples {
   static constexpr std::size_t block_count = 8;
   /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33 of 100.
   static constexpr std::int64_t enough_samples = 64;
-  /// How long a block is when there are `count` samples.
-  static std::int64_t block_size(std::int64_t count);
+  /// With `count` samples, at least 1, a block has two to the power of this.
+  static int block_exponent(std::int64_t count);
   void merge_blocks();
 
   std::array<Channels, block_count> blocks_{};  ///< sums

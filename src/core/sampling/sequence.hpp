@@ -10,6 +10,7 @@
 
 #include <array>
 #include <cstdint>
+#include <cstring>
 
 #include "core/math/random.hpp"
 
@@ -41,7 +42,14 @@ struct Recurrence {
   std::array<std::uint32_t, 3> first;
 };
 
-constexpr std::uint32_t reversed(std::uint32_t bits) {
+/// So many points are found at once, side by side.
+inline constexpr std::uint32_t points_at_once = 8;
+/// The bits of a coordinate of each of them. Vectors of GCC and Clang.
+using BitLanes = std::uint32_t __attribute__((vector_size(4 * points_at_once)));
+
+/// (Of one number, or of lanes.)
+template <class Bits>
+constexpr Bits reversed(Bits bits) {
   bits = (bits >> 1 & 0x55555555u) | (bits & 0x55555555u) << 1;
   bits = (bits >> 2 & 0x33333333u) | (bits & 0x33333333u) << 2;
   bits = (bits >> 4 & 0x0f0f0f0fu) | (bits & 0x0f0f0f0fu) << 4;
@@ -95,9 +103,21 @@ constexpr std::array<Digit, index_bits / digit_bits> digits() {
 
 inline constexpr std::array<Digit, index_bits / digit_bits> digit_table = digits();
 
+/// What the lowest bits of the indices of such points turn over, by dimension.
+constexpr std::array<std::array<std::uint32_t, points_at_once>, sequence_dimensions> low_bits() {
+  std::array<std::array<std::uint32_t, points_at_once>, sequence_dimensions> result{};
+  for (std::size_t i = 0; i < points_at_once; ++i) {
+    for (std::size_t d = 0; d < sequence_dimensions; ++d) result[d][i] = digit_table[0][i][d];
+  }
+  return result;
+}
+inline constexpr auto low_bit_table = low_bits();
+
 /// Turns each bit over or not as a hash of the seed and the bits below it says. Both steps keep to that:
 /// adding and multiplying carry upwards, and an even factor leaves a bit itself out of what it is mixed with.
-constexpr std::uint32_t scrambled_upwards(std::uint32_t bits, std::uint32_t seed) {
+/// (Of one number, or of lanes.)
+template <class Bits>
+constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
   constexpr std::array<std::uint32_t, 3> even_factors = {0x9e3779baU, 0xbf58476cU, 0x94d049baU};
   bits += seed;
   for (const std::uint32_t factor : even_factors) {
@@ -131,27 +151,83 @@ class PixelSequence {
     return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
+  using Block = std::array<SequencePoint, sequence_detail::points_at_once>;
+  /// The same for as many points as make a block, from a multiple of their number on.
+  void block(std::uint32_t first, bool with_lens, Block& points) const {
+    const sequence_detail::Column high_bits = bits_of<sequence_dimensions>(first);
+    fill(points, &SequencePoint::pixel_u, 0, high_bits);
+    fill(points, &SequencePoint::pixel_v, 1, high_bits);
+    if (!with_lens) return;
+    fill(points, &SequencePoint::lens_u, 2, high_bits);
+    fill(points, &SequencePoint::lens_v, 3, high_bits);
+  }
+
  private:
+  /// The bits that an index turns over, not scrambled.
+  template <std::size_t dimensions>
+  static std::array<std::uint32_t, dimensions> bits_of(std::uint32_t index) {
+    using namespace sequence_detail;
+    std::array<std::uint32_t, dimensions> bits{};
+    for (std::size_t place = 0; index != 0; ++place, index >>= digit_bits) {
+      const Column& turned = digit_table[place][index & ((1u << digit_bits) - 1)];
+      for (std::size_t d = 0; d < dimensions; ++d) bits[d] ^= turned[d];
+    }
+    return bits;
+  }
+
+  static double fraction(std::uint32_t reversed_bits) { return 0x1p-32 * reversed_bits; }
+
   template <std::size_t dimensions>
   std::array<double, dimensions> coordinates(std::uint32_t index) const {
     using namespace sequence_detail;
-    constexpr std::uint32_t digit_mask = (1u << digit_bits) - 1;
-    Column bits = digit_table[0][index & digit_mask];
-    index >>= digit_bits;
-    for (std::size_t place = 1; index != 0; ++place, index >>= digit_bits) {
-      const Column& turned = digit_table[place][index & digit_mask];
-      for (std::size_t d = 0; d < dimensions; ++d) bits[d] ^= turned[d];
-    }
+    const auto bits = bits_of<dimensions>(index);
     std::array<double, dimensions> result;
     for (std::size_t d = 0; d < dimensions; ++d)
-      result[d] = 0x1p-32 * reversed(scrambled_upwards(bits[d], seeds_[d]));
+      result[d] = fraction(reversed(scrambled_upwards(bits[d], seeds_[d])));
     return result;
+  }
+
+  void fill(Block& points, double SequencePoint::*coordinate, std::size_t dimension,
+            const sequence_detail::Column& high_bits) const {
+    using namespace sequence_detail;
+    BitLanes bits;
+    std::memcpy(&bits, low_bit_table[dimension].data(), sizeof bits);
+    bits = reversed(scrambled_upwards(bits ^ high_bits[dimension], seeds_[dimension]));
+    for (std::uint32_t i = 0; i < points_at_once; ++i) points[i].*coordinate = fraction(bits[i]);
   }
 
   /// Apart from what else random numbers are drawn for at a pixel.
   static constexpr std::uint32_t use = 0x5e9ce001;
 
   PhiloxCounter seeds_;
+};
+
+/// The points from one index to another, one after the other; where it can be they are found by blocks.
+class SequenceWalk {
+ public:
+  SequenceWalk(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t end, bool with_lens)
+      : sequence_(sequence), next_(begin), end_(end), with_lens_(with_lens) {}
+
+  /// To be used before the next one.
+  const SequencePoint& next() {
+    using sequence_detail::points_at_once;
+    const std::uint32_t place = next_ % points_at_once;
+    if (place == 0) {
+      in_block_ = end_ - next_ >= points_at_once;
+      if (in_block_) sequence_.block(next_, with_lens_, block_);
+    }
+    const std::uint32_t index = next_++;
+    if (!in_block_) block_[place] = with_lens_ ? sequence_.point(index) : sequence_.pixel_point(index);
+    return block_[place];
+  }
+
+ private:
+  const PixelSequence& sequence_;
+  std::uint32_t next_;
+  std::uint32_t end_;
+  bool with_lens_;
+  bool in_block_ = false;
+  PixelSequence::Block block_;
 };
 
 }  // namespace crt::core
