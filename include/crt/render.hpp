@@ -3,6 +3,7 @@
 #include <crt/image.hpp>
 #include <crt/prepared_scene.hpp>
 #include <cstdint>
+#include <filesystem>
 #include <functional>
 #include <optional>
 #include <string_view>
@@ -63,6 +64,13 @@ struct RenderOptions {
   /// Above 0: renders so many passes (RenderStats::passes) and no more, whatever the time budget; with
   /// neither target error nor time budget in the settings as with a time budget. Not negative.
   int passes = 0;
+  /// Of a picture that is rendered by passes: the file that keeps it as it is after a pass, from which the
+  /// next render with the same checkpoint goes on, be it in another process, to the same picture as if there
+  /// had been no break. Written (whole, or left as it was) every few seconds and at the end, and never
+  /// removed; if that fails `log` is told, and the render goes on. A time budget counts from the break on.
+  /// That the file is of this picture is told by the settings that must stay (all but time budget and passes)
+  /// and by the light of up to 1024 samples: what changes none of them is not noticed.
+  std::filesystem::path checkpoint{};
   /// What the image gets beside the colours, which stay the same.
   Aovs aovs{};
   /// Gets what there is to tell of the render, a line each without its end. From the thread that calls
@@ -71,7 +79,8 @@ struct RenderOptions {
 };
 
 /// Renders the picture. The pixels depend on the scene alone: not on threads, tiles or regions.
-/// Throws Error: cancelled, invalid_argument (a region outside the picture), out_of_memory.
+/// Throws Error: cancelled, invalid_argument (a region outside the picture, a checkpoint of another one), io
+/// (a checkpoint that cannot be read), out_of_memory.
 Image render(const PreparedScene& scene, const RenderOptions& options = {});
 
 }  // namespace crt

@@ -15,21 +15,6 @@ using namespace crt::test;
 
 namespace {
 
-/// Curved silhouettes, glass, a mirror, a shadow, a checked floor and a lens.
-Scene varied_scene() {
-  Scene scene;
-  scene.settings = {
-      .width = 37, .height = 26, .dof_samples = 2, .target_error = 8.0 / 255, .max_samples = 64};
-  scene.camera = {.position = {0.3, 1.5, -5}, .pointing = {0, 0.5, 0}, .aperture = 50, .focal_distance = 5};
-  scene.background = GradientBackground{};
-  scene.lights = {PointLight{.origin = {3, 5, -4}, .falloff = 80, .ambient = 0.05}};
-  const Material tiles{.color = Pattern(Checker{}), .reflectivity = 0.2};
-  scene.entities = {Plane{.material = tiles},
-                    Sphere{.center = {0, 1, 0}, .radius = 1, .material = glass(1.5)},
-                    Sphere{.center = {-1.5, 0.5, 1}, .radius = 0.5}};
-  return scene;
-}
-
 /// A white disc before black: every pixel but those of its edge is of one colour.
 Scene disc_scene(int size) {
   Scene scene = dark_scene();

@@ -118,10 +118,14 @@ std::vector<std::byte> read_whole_file(const fs::path& path, std::size_t max_byt
 }
 
 void write_whole_file(const fs::path& path, std::span<const std::byte> content) {
+  write_whole_file(path, [&](const auto& write) { write(content); });
+}
+
+void write_whole_file(const fs::path& path, const FilePieces& produce) {
   std::error_code ignored;
   if (fs::is_directory(path, ignored)) fail("write", path, "it is a directory");
   TemporaryFile file(path);
-  file.write(content);
+  produce([&](std::span<const std::byte> piece) { file.write(piece); });
   file.move_to_target();
 }
 

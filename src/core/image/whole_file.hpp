@@ -3,6 +3,7 @@
 
 #include <cstddef>
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <vector>
 
@@ -14,5 +15,9 @@ std::vector<std::byte> read_whole_file(const std::filesystem::path& path, std::s
 /// Makes `path` hold `content`, at once: it is written under another name in the same directory,
 /// which then takes the place of `path`. On failure throws Error (io) and leaves everything as it was.
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content);
+
+/// The same for content that comes piece by piece: `produce` hands each to the function that it gets.
+using FilePieces = std::function<void(const std::function<void(std::span<const std::byte>)>&)>;
+void write_whole_file(const std::filesystem::path& path, const FilePieces& produce);
 
 }  // namespace crt::core

@@ -1,10 +1,14 @@
 #include "core/render/passes.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <functional>
 
 #include "core/render/small_things.hpp"
+#include "crt/error.hpp"
 
 namespace crt::core {
 
@@ -13,8 +17,9 @@ namespace {
 /// Without a target error pixels go on until nobody could see the difference, be it in 10 bits.
 constexpr double finest_error = 0.25 / 255;
 
-/// Of what is left to be done at most, how much a step is taken for that may not be the last.
-constexpr double share_of_step = 0.5;
+/// Of what is left to be done at most, how much a doubling is taken for that may not be the last, and a pass.
+constexpr double share_of_doubling = 0.5;
+constexpr double share_of_pass = share_of_doubling / passes_per_step;
 
 constexpr std::size_t most_tile_pixels = std::size_t{Tiles::side} * Tiles::side;
 
@@ -88,74 +93,67 @@ int Passes::passes() const {
   return passes_until(count_) + eighths_;
 }
 
-std::uint64_t Passes::pixels_left() const {
-  std::uint64_t count = 0;
-  for (const std::size_t index : active_) count += tiles_[index].places.size();
-  return count;
+std::uint64_t Passes::samples_of(const Step& step) const {
+  std::uint64_t pixels = 0;
+  for (const std::size_t index : active_) pixels += tiles_[index].places.size();
+  const auto share = static_cast<std::uint64_t>(step.ranks.last - step.ranks.first);
+  return static_cast<std::uint64_t>(step.until - count_) * (pixels * share / passes_per_step);
 }
 
 void Passes::run(const TaskRunner& run_tasks) {
-  if (by_clock_) {
-    run_by_clock(run_tasks);
-  } else {
-    run_to_the_end(run_tasks);
+  if (count_ > 0 && eighths_ == 0 && is_doubled()) settle(run_tasks, false);  // what was taken up
+  while (!active_.empty() && !is_complete()) {
+    const Step step = next_step();
+    const std::uint64_t samples = samples_of(step);
+    if (by_clock_ && count_ > 0 && !clock_.has_time_for(samples)) break;
+    const double share = goes_by_pass() ? share_of_pass : share_of_doubling;
+    share_ = by_clock_ ? std::max(share_, clock_.share_after(samples)) : share_ + share * (1 - share_);
+    trace(run_tasks, step);
+    clock_.pass_done(samples);
+    if (eighths_ == 0) decide(run_tasks);
+    if (pause_) pause_(false);
   }
+  if (pause_) pause_(true);
   settle(run_tasks, true);
 }
 
-void Passes::run_to_the_end(const TaskRunner& run_tasks) {
+Passes::Step Passes::next_step() const {
+  const int last_rank = count_ == most_samples_ ? more_eighths_ : passes_per_step;
+  const bool is_split = count_ > 0 && count_ < samples_before_doubling;
+  if (is_split && goes_by_pass()) return {count_ + 1, {eighths_, eighths_ + 1}};
+  if (eighths_ > 0 || last_rank < passes_per_step) return {count_ + 1, {eighths_, last_rank}};
+  if (goes_by_pass()) return {std::min(count_ + samples_of_next_step(count_), most_samples_), {}};
   const std::int64_t least = frame_.settings().min_samples;
-  do {
-    share_ += share_of_step * (1 - share_);
-    trace(run_tasks, std::min(count_ < least ? least : 2 * count_, most_samples_), {});
-  } while (decide(run_tasks));
-  if (more_eighths_ == 0 || active_.empty()) return;
-  trace(run_tasks, count_ + 1, {0, more_eighths_});
+  const auto doubled = 2 * static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(count_)));
+  return {std::min(count_ < least ? least : doubled, most_samples_), {}};
 }
 
-void Passes::run_by_clock(const TaskRunner& run_tasks) {
-  while (true) {
-    const bool is_split = count_ > 0 && count_ < samples_before_doubling;
-    const Ranks ranks = is_split ? Ranks{eighths_, eighths_ + 1} : Ranks{};
-    const std::int64_t step = samples_of_next_step(count_);
-    const std::uint64_t pixels = pixels_left() / (is_split ? passes_per_step : 1);
-    const std::uint64_t samples = static_cast<std::uint64_t>(step) * pixels;
-    if (count_ > 0 && !clock_.has_time_for(samples)) return;
-    share_ = std::max(share_, clock_.share_after(samples));
-    trace(run_tasks, count_ + step, ranks);
-    clock_.pass_done(samples);
-    if (eighths_ == 0 && !decide(run_tasks)) return;
-  }
+bool Passes::is_doubled() const {
+  return count_ >= frame_.settings().min_samples && std::has_single_bit(static_cast<std::uint64_t>(count_));
 }
 
-bool Passes::decide(const TaskRunner& run_tasks) {
-  const std::int64_t least = frame_.settings().min_samples;
-  if (count_ == least) exchange_notes(run_tasks);
-  const bool is_last = count_ == most_samples_ && more_eighths_ == 0;
-  if (is_last) return false;
-  const bool is_doubled = std::has_single_bit(static_cast<std::uint64_t>(count_));
-  if (count_ >= least && is_doubled) settle(run_tasks, false);
-  return !active_.empty() && count_ < most_samples_;
+void Passes::decide(const TaskRunner& run_tasks) {
+  if (count_ == frame_.settings().min_samples) exchange_notes(run_tasks);
+  if (!is_complete() && is_doubled()) settle(run_tasks, false);
 }
 
-void Passes::trace(const TaskRunner& run_tasks, std::int64_t until, const Ranks& ranks) {
+void Passes::trace(const TaskRunner& run_tasks, const Step& step) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
     Tracer tracer(frame_, work, progress);
     tracer.identify();
-    trace_tile(tiles_[active_[index]], until, ranks, tracer, work.stats);
+    trace_tile(tiles_[active_[index]], step, tracer, work.stats);
   });
-  eighths_ = ranks.last % passes_per_step;
-  if (eighths_ == 0) count_ = until;
+  eighths_ = step.ranks.last % passes_per_step;
+  if (eighths_ == 0) count_ = step.until;
 }
 
-void Passes::trace_tile(Tile& tile, std::int64_t until, const Ranks& ranks, Tracer& tracer,
-                        RenderStats& stats) {
+void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStats& stats) {
   std::array<PixelPlace, most_tile_pixels> pixels;
   std::size_t count = 0;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
     const int rank = rank_of_pixel(place.x, place.y);
-    if (rank < ranks.first || rank >= ranks.last) continue;
+    if (rank < step.ranks.first || rank >= step.ranks.last) continue;
     PixelPlace& pixel = pixels[count++];
     pixel = {.x = place.x, .y = place.y, .samples = &tile.samples[i], .first_hits = nullptr};
     if (!measures_.first_hits.empty() && is_in_region(place)) {
@@ -163,8 +161,8 @@ void Passes::trace_tile(Tile& tile, std::int64_t until, const Ranks& ranks, Trac
     }
   }
   const std::span<const PixelPlace> chosen(pixels.data(), count);
-  trace_passes(frame_, chosen, {count_, until}, tracer, stats);
-  show(chosen, until);
+  trace_passes(frame_, chosen, {count_, step.until}, tracer, stats);
+  show(chosen, step.until);
 }
 
 Passes::Place Passes::place_of(const Tile& tile, std::size_t index) {
@@ -247,6 +245,70 @@ void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
   tile.samples.resize(kept);
   tile.samples.shrink_to_fit();
   tile.places.resize(kept);
+}
+
+void Passes::store_tile(const Tile& tile, StateWriter& out) {
+  out.put(static_cast<std::uint16_t>(tile.places.size()));
+  out.put_all(std::span<const std::uint8_t>(tile.places));
+  for (const PixelSamples& samples : tile.samples) out.put_all(std::span<const std::byte>(samples.stored()));
+}
+
+void Passes::restore_tile(Tile& tile, StateReader& in) {
+  const std::size_t count = in.get<std::uint16_t>();
+  const std::size_t most = tile.places.size();
+  if (count > most) in.fail();
+  tile.places.resize(count);
+  in.get_all(std::span<std::uint8_t>(tile.places));
+  // Each pixel once, in its order, and in the tile.
+  const bool in_order =
+      std::adjacent_find(tile.places.begin(), tile.places.end(), std::greater_equal<>()) == tile.places.end();
+  if (!in_order || (count > 0 && tile.places.back() >= most)) in.fail();
+  tile.samples.resize(count);
+  tile.samples.shrink_to_fit();
+  PixelSamples::Stored bytes;
+  for (PixelSamples& samples : tile.samples) {
+    in.get_all(std::span<std::byte>(bytes));
+    samples = PixelSamples::restored(bytes);
+  }
+}
+
+void Passes::store(StateWriter& out) const {
+  out.put(count_);
+  out.put(eighths_);
+  out.put_all(std::span<const std::uint32_t>(measures_.samples));
+  out.put_all(std::span<const float>(measures_.half_widths));
+  for (const FirstHit& hit : measures_.first_hits) {
+    for (const Vec3& v : {hit.normal, hit.color}) {
+      for (int axis = 0; axis < 3; ++axis) out.put(v[axis]);
+    }
+  }
+  for (const Tile& tile : tiles_) store_tile(tile, out);
+}
+
+void Passes::restore(StateReader& in) {
+  const auto count = in.get<std::int64_t>();
+  const int eighths = in.get<int>();
+  const bool is_pass = count >= 1 && count <= frame_.settings().max_samples && eighths >= 0 &&
+                       eighths < passes_per_step && (eighths == 0 || count < samples_before_doubling) &&
+                       samples_after(passes_until(count)).samples == count;
+  if (!is_pass) in.fail();
+  if (passes_until(count) + eighths > passes_until(most_samples_) + more_eighths_) {
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("the checkpoint is of {} passes, which is more than the {} that are asked for",
+                            passes_until(count) + eighths, passes_until(most_samples_) + more_eighths_),
+                "checkpoint");
+  }
+  count_ = count;
+  eighths_ = eighths;
+  in.get_all(std::span<std::uint32_t>(measures_.samples));
+  in.get_all(std::span<float>(measures_.half_widths));
+  for (FirstHit& hit : measures_.first_hits) {
+    for (Vec3* v : {&hit.normal, &hit.color}) {
+      for (int axis = 0; axis < 3; ++axis) (*v)[axis] = in.get<double>();
+    }
+  }
+  for (Tile& tile : tiles_) restore_tile(tile, in);
+  std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
 }
 
 }  // namespace crt::core

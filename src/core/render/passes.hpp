@@ -14,6 +14,7 @@
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"
 #include "core/render/pixel_measures.hpp"
+#include "core/render/state_file.hpp"
 #include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 
@@ -36,6 +37,15 @@ class Passes {
   /// Renders. Once.
   void run(const TaskRunner& run_tasks);
 
+  /// From now on goes from pass to pass, also where nothing is decided between them, and calls
+  /// pause(at_end) after each and at the end: then everything can be stored.
+  void pause_with(std::function<void(bool)> pause) { pause_ = std::move(pause); }
+  /// Everything that is known of the picture after the passes so far.
+  void store(StateWriter& out) const;
+  /// Takes it up before run(), in one that was made alike but for its clock and number of passes. Throws
+  /// Error: io for what cannot be, invalid_argument if there are more passes than wanted.
+  void restore(StateReader& in);
+
   int passes() const;
   PixelMeasures take_measures() { return std::move(measures_); }
 
@@ -51,24 +61,33 @@ class Passes {
     int y = 0;
   };
   static Place place_of(const Tile& tile, std::size_t index);
+  static void store_tile(const Tile& tile, StateWriter& out);
+  static void restore_tile(Tile& tile, StateReader& in);
   bool is_in_region(const Place& place) const;
   /// Of one that is.
   std::size_t index_of(const Place& place) const;
 
   void expect_small_things();
-  std::uint64_t pixels_left() const;
   /// Gives pixels of the ranks from `first` to before `last` the samples up to `until`.
   struct Ranks {
     int first = 0;
     int last = passes_per_step;
   };
-  void trace(const TaskRunner& run_tasks, std::int64_t until, const Ranks& ranks);
-  void trace_tile(Tile& tile, std::int64_t until, const Ranks& ranks, Tracer& tracer, RenderStats& stats);
+  struct Step {
+    std::int64_t until = 0;
+    Ranks ranks;
+  };
+  bool goes_by_pass() const { return by_clock_ || pause_; }
+  bool is_complete() const { return count_ == most_samples_ && eighths_ == more_eighths_; }
+  Step next_step() const;
+  std::uint64_t samples_of(const Step& step) const;
+  void trace(const TaskRunner& run_tasks, const Step& step);
+  void trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStats& stats);
   void show(std::span<const PixelPlace> pixels, std::int64_t count);
-  void run_to_the_end(const TaskRunner& run_tasks);
-  void run_by_clock(const TaskRunner& run_tasks);
-  /// What comes after each sample of all that are left; whether to go on.
-  bool decide(const TaskRunner& run_tasks);
+  /// What comes after each sample of all that are left.
+  void decide(const TaskRunner& run_tasks);
+  /// Whether it is the time to ask which pixels are good enough.
+  bool is_doubled() const;
   /// Tells the pixels what their neighbours have seen; while all pixels are still there.
   void exchange_notes(const TaskRunner& run_tasks);
   void take_notes(const Place& place, PixelSamples& samples) const;
@@ -94,6 +113,7 @@ class Passes {
   int eighths_ = 0;                  ///< of them, by rank, that have one more
   double share_ = 0;
   PixelMeasures measures_;
+  std::function<void(bool)> pause_;
 };
 
 }  // namespace crt::core

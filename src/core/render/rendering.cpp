@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include "core/math/float_environment.hpp"
 #include "core/render/accuracy.hpp"
 #include "core/render/aov_tile.hpp"
+#include "core/render/checkpoint.hpp"
 #include "core/render/pixel.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
@@ -46,6 +48,11 @@ void check_passes(const RenderOptions& options, const Settings& settings, const 
   if (options.passes < 0) {
     throw Error(ErrorCode::invalid_argument, "passes must not be negative; 0 means as many as it takes",
                 "passes");
+  }
+  if (!options.checkpoint.empty() && !asks_for_passes(settings, options.passes)) {
+    throw Error(ErrorCode::invalid_argument,
+                "a checkpoint is of a picture with a target error, a time budget or a number of passes",
+                "checkpoint");
   }
   // Each pixel takes some 200 bytes while it is worked on.
   constexpr std::int64_t most_pixels = std::int64_t{1} << 25;
@@ -136,6 +143,29 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
   });
 }
 
+void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
+                                    const TaskRunner& run_tasks) {
+  const std::uint64_t picture = fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs));
+  Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool);
+  checkpoint.take_up();
+  // Writing is to take a small part of the time, whatever the size.
+  constexpr double shortest_break = 10;
+  constexpr double break_per_writing = 20;
+  double next = steady_seconds() + shortest_break;
+  passes.pause_with([&](bool at_end) {
+    const double begin = steady_seconds();
+    if (begin < next && !at_end) return;
+    try {
+      checkpoint.keep();
+    } catch (const Error& error) {
+      if (options_.log) log(LogLevel::warning, fmt::format("no checkpoint was made: {}", error.what()));
+    }
+    const double end = steady_seconds();
+    next = end + std::max(shortest_break, break_per_writing * (end - begin));
+  });
+  passes.run(run_tasks);
+}
+
 RenderStats Rendering::render_picture() {
   PassClock clock(settings_.time_budget, seconds_);
   WorkspacePool pool;
@@ -153,7 +183,11 @@ RenderStats Rendering::render_picture() {
   if (by_passes) {
     Passes rendering(frame, canvas_.region(), options_.passes, ask_for_first_hits(options_.aovs), clock,
                      canvas_);
-    rendering.run(run_tasks);
+    if (options_.checkpoint.empty()) {
+      rendering.run(run_tasks);
+    } else {
+      run_with_checkpoint(frame, rendering, pool, run_tasks);
+    }
     measures_ = rendering.take_measures();
     passes = rendering.passes();
     if (is_any(options_.aovs)) put_aovs(frame, run_tasks);

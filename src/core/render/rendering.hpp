@@ -38,6 +38,8 @@ class Rendering {
  private:
   static double steady_seconds();
   RenderStats render_picture();
+  void run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
+                           const TaskRunner& run_tasks);
   /// Tells what there is beside the colours of a picture that was rendered pass by pass.
   void put_aovs(const Frame& frame, const TaskRunner& run_tasks);
   void render_grid(const Frame& frame, const TaskRunner& run_tasks);

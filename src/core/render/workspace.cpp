@@ -6,14 +6,7 @@ namespace {
 
 void add_counts(RenderStats& total, const Workspace& workspace) {
   const RenderStats& part = workspace.stats;
-  for (std::uint64_t RenderStats::*count :
-       {&RenderStats::camera_rays, &RenderStats::shadow_rays, &RenderStats::reflection_rays,
-        &RenderStats::refraction_rays, &RenderStats::rays_below_min_weight, &RenderStats::rays_beyond_depth,
-        &RenderStats::samples_over_ray_bound, &RenderStats::media_lookups, &RenderStats::media_changes,
-        &RenderStats::pattern_lookups, &RenderStats::lens_samples, &RenderStats::pixels,
-        &RenderStats::pixels_unresolved}) {
-    total.*count += part.*count;
-  }
+  for (const auto count : summed_counts) total.*count += part.*count;
   total.intersection_tests += workspace.rays.intersection_tests;
   total.interval_events += workspace.rays.interval_events();
   total.escalations += workspace.rays.escalations();
@@ -22,15 +15,22 @@ void add_counts(RenderStats& total, const Workspace& workspace) {
 }  // namespace
 
 RenderStats WorkspacePool::total_stats() const {
-  RenderStats total;
+  RenderStats total = stats_before_;
   for (const std::unique_ptr<Workspace>& workspace : all_) add_counts(total, *workspace);
   return total;
 }
 
 CutoffSum WorkspacePool::total_cutoff() const {
-  CutoffSum total;
+  CutoffSum total = cutoff_before_;
   for (const std::unique_ptr<Workspace>& workspace : all_) total.add(workspace->cutoff);
   return total;
+}
+
+void WorkspacePool::set_totals(const RenderStats& stats, const CutoffSum& cutoff) {
+  stats_before_ = stats;
+  cutoff_before_ = cutoff;
+  all_.clear();
+  idle_.clear();
 }
 
 Workspace* WorkspacePool::take() {

@@ -60,6 +60,24 @@ struct CutoffSum {
   double total() const { return unit * static_cast<double>(units); }
 };
 
+/// What all threads of a render count, each for itself.
+inline constexpr std::array summed_counts = {&RenderStats::camera_rays,
+                                             &RenderStats::shadow_rays,
+                                             &RenderStats::reflection_rays,
+                                             &RenderStats::refraction_rays,
+                                             &RenderStats::rays_below_min_weight,
+                                             &RenderStats::rays_beyond_depth,
+                                             &RenderStats::samples_over_ray_bound,
+                                             &RenderStats::intersection_tests,
+                                             &RenderStats::interval_events,
+                                             &RenderStats::escalations,
+                                             &RenderStats::media_lookups,
+                                             &RenderStats::media_changes,
+                                             &RenderStats::pattern_lookups,
+                                             &RenderStats::lens_samples,
+                                             &RenderStats::pixels,
+                                             &RenderStats::pixels_unresolved};
+
 struct Workspace {
   RayWorkspace rays;
   RenderStats stats;
@@ -89,9 +107,11 @@ class WorkspacePool {
     Workspace* workspace_;
   };
 
-  /// All counts together; while nothing is on loan.
+  // All counts together; while nothing is on loan.
   RenderStats total_stats() const;
   CutoffSum total_cutoff() const;
+  /// Takes these in place of all that has been counted; while nothing is on loan.
+  void set_totals(const RenderStats& stats, const CutoffSum& cutoff);
 
  private:
   Workspace* take();
@@ -100,6 +120,8 @@ class WorkspacePool {
   std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> all_;
   std::vector<Workspace*> idle_;
+  RenderStats stats_before_;
+  CutoffSum cutoff_before_;
 };
 
 }  // namespace crt::core

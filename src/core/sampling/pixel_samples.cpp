@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <limits>
 
 namespace crt::core {
@@ -84,6 +85,43 @@ void PixelSamples::take_note(const PixelSamples& neighbour) {
   low_around_ = min(low_around_, neighbour.low_);
   high_around_ = max(high_around_, neighbour.high_);
   edge_ = edge_ || neighbour.mixed_ || neighbour.identity_ != identity_;
+}
+
+template <class Self, class Use>
+void PixelSamples::for_each_number(Self& self, const Use& use) {
+  for (auto& block : self.blocks_) use(block);
+  use(self.low_);
+  use(self.high_);
+  use(self.low_around_);
+  use(self.high_around_);
+  use(self.dropped_);
+  use(self.identity_);
+}
+
+PixelSamples::Stored PixelSamples::stored() const {
+  Stored bytes{};
+  std::byte* next = bytes.data();
+  for_each_number(*this, [&](const auto& number) {
+    std::memcpy(next, &number, sizeof number);
+    next += sizeof number;
+  });
+  for (std::size_t i = 0; i < flags().size(); ++i) {
+    if (this->*flags()[i]) *next |= std::byte{1} << i;
+  }
+  return bytes;
+}
+
+PixelSamples PixelSamples::restored(const Stored& bytes) {
+  PixelSamples result;
+  const std::byte* next = bytes.data();
+  for_each_number(result, [&](auto& number) {
+    std::memcpy(&number, next, sizeof number);
+    next += sizeof number;
+  });
+  for (std::size_t i = 0; i < flags().size(); ++i) {
+    result.*flags()[i] = (*next >> i & std::byte{1}) != std::byte{0};
+  }
+  return result;
 }
 
 double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) const {

@@ -10,6 +10,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 
 #include "core/math/lanes.hpp"
@@ -76,6 +77,13 @@ class PixelSamples {
   /// Whether there are enough samples to see what there is.
   bool has_seen_enough(std::int64_t count) const { return !expects_small_things_ || count >= enough_samples; }
 
+  /// All that is kept here, as bytes.
+  static constexpr std::size_t stored_size =
+      12 * sizeof(Channels) + sizeof(float) + sizeof(std::uint32_t) + 1;
+  using Stored = std::array<std::byte, stored_size>;
+  Stored stored() const;
+  static PixelSamples restored(const Stored& bytes);
+
   /// Half of the width of the interval that holds the true mean, in display units, the worst channel's. Of
   /// one sample nothing is known, and it is 1.
   double half_width(std::int64_t count, const DisplayScale& scale) const;
@@ -87,6 +95,14 @@ class PixelSamples {
   /// With `count` samples, at least 1, a block has two to the power of this.
   static int block_exponent(std::int64_t count);
   void merge_blocks();
+  /// Calls use(member) for all that are numbers, in one order.
+  template <class Self, class Use>
+  static void for_each_number(Self& self, const Use& use);
+  using Flag = bool PixelSamples::*;
+  static constexpr std::array<Flag, 4> flags() {
+    return {&PixelSamples::mixed_, &PixelSamples::edge_, &PixelSamples::has_notes_,
+            &PixelSamples::expects_small_things_};
+  }
 
   std::array<Channels, block_count> blocks_{};  ///< sums
   Channels low_{};

@@ -1,0 +1,131 @@
+#include "core/render/checkpoint.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "core/render/tracer.hpp"
+#include "crt/error.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr std::string_view magic = "CRT checkpoint 1 of " CRT_VERSION "\n";
+
+/// So many samples on each side tell one scene from another, if the picture has as many pixels.
+constexpr int probes_a_side = 32;
+
+template <class T>
+void add(ByteHash& hash, const T& number) {
+  static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
+  hash.add(std::as_bytes(std::span(&number, 1)));
+}
+
+void add_settings(ByteHash& hash, const Settings& settings) {
+  add(hash, settings.width);
+  add(hash, settings.height);
+  add(hash, settings.recursion_depth);
+  add(hash, settings.min_weight);
+  add(hash, settings.gamma);
+  add(hash, settings.seed);
+  add(hash, settings.precision);
+  add(hash, settings.target_error);
+  add(hash, settings.min_samples);
+  add(hash, settings.max_samples);
+  add(hash, settings.filter);
+  add(hash, settings.filter_width);
+}
+
+/// The light along rays through the middles of pixels that are spread over the region.
+void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
+  WorkspacePool pool;
+  WorkspacePool::Loan work(pool);
+  Progress nobody({});
+  Tracer tracer(frame, *work, nobody);
+  std::array<CameraRay, packet_size> rays;
+  std::array<Tracer::Sample, packet_size> samples;
+  std::size_t count = 0;
+  const auto trace = [&] {
+    tracer.trace(std::span(rays).first(count), samples);
+    for (const Tracer::Sample& sample : std::span(samples).first(count)) {
+      for (int channel = 0; channel < 3; ++channel) add(hash, sample.color[channel]);
+      add(hash, sample.alpha);
+    }
+    count = 0;
+  };
+  const int columns = std::min(probes_a_side, region.width);
+  const int rows = std::min(probes_a_side, region.height);
+  constexpr double middle = 0.5;
+  for (int row = 0; row < rows; ++row) {
+    const double y = region.y + (row + middle) * region.height / rows;
+    for (int column = 0; column < columns; ++column) {
+      const double x = region.x + (column + middle) * region.width / columns;
+      if (frame.features().lens) {
+        frame.camera().ray(x, y, frame.camera().lens_point(middle, middle), rays[count]);
+      } else {
+        frame.camera().ray(x, y, rays[count]);
+      }
+      if (++count == rays.size()) trace();
+    }
+  }
+  trace();
+}
+
+}  // namespace
+
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits) {
+  ByteHash hash;
+  add_settings(hash, frame.settings());
+  for (const int number : {region.x, region.y, region.width, region.height}) add(hash, number);
+  add(hash, with_first_hits);
+  add(hash, frame.features().lens);
+  add_light(hash, frame, region);
+  return hash.value();
+}
+
+void Checkpoint::keep() const {
+  const Image picture = canvas_.copy();
+  const RenderStats stats = pool_.total_stats();
+  const CutoffSum cutoff = pool_.total_cutoff();
+  write_state_file(path_, [&](StateWriter& out) {
+    out.put_all(std::span<const char>(magic));
+    out.put(fingerprint_);
+    for (const auto count : summed_counts) out.put(stats.*count);
+    out.put(cutoff.units);
+    out.put(cutoff.most);
+    out.put_all(picture.pixels());
+    passes_.store(out);
+  });
+}
+
+void Checkpoint::take_up() {
+  if (!std::filesystem::exists(path_)) return;
+  StateReader in(path_);
+  std::array<char, magic.size()> head;
+  in.get_all(std::span<char>(head));
+  if (std::string_view(head.data(), head.size()) != magic || in.get<std::uint64_t>() != fingerprint_) {
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("the checkpoint '{}' is of another picture: of another scene, size, part, accuracy, "
+                    "or by another version of CRT",
+                    path_.string()),
+        "checkpoint");
+  }
+  RenderStats stats;
+  for (const auto count : summed_counts) stats.*count = in.get<std::uint64_t>();
+  CutoffSum cutoff;
+  cutoff.units = in.get<std::uint64_t>();
+  cutoff.most = in.get<double>();
+  std::vector<float> pixels(4 * pixel_count(canvas_.region()));
+  in.get_all(std::span<float>(pixels));
+  passes_.restore(in);
+  if (!in.at_end()) in.fail();
+  canvas_.put(canvas_.region(), pixels);
+  pool_.set_totals(stats, cutoff);
+}
+
+}  // namespace crt::core

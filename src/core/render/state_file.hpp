@@ -1,0 +1,88 @@
+// Numbers one after the other in a file that tells whether it is whole.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <vector>
+
+namespace crt::core {
+
+/// Mixes bytes into a number that other bytes hardly give.
+class ByteHash {
+ public:
+  void add(std::span<const std::byte> bytes);
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0x243f6a8885a308d3u;  // digits of pi
+};
+
+template <class T>
+concept Storable = std::is_arithmetic_v<T> || std::is_same_v<T, std::byte>;
+
+class StateWriter {
+ public:
+  template <Storable T>
+  void put(T number) {
+    put_all(std::span<const T>(&number, 1));
+  }
+  template <Storable T>
+  void put_all(std::span<const T> numbers) {
+    append(std::as_bytes(numbers));
+  }
+
+ private:
+  friend void write_state_file(const std::filesystem::path& path,
+                               const std::function<void(StateWriter&)>& store);
+  using Sink = std::function<void(std::span<const std::byte>)>;
+
+  explicit StateWriter(const Sink& sink) : sink_(sink) {}
+  void append(std::span<const std::byte> bytes);
+  void flush();
+
+  static constexpr std::size_t buffer_size = std::size_t{1} << 16;
+  const Sink& sink_;
+  std::vector<std::byte> buffer_;
+  ByteHash hash_;
+};
+
+/// Writes such a file in place of the one that is there, whole or not at all. Throws Error (io).
+void write_state_file(const std::filesystem::path& path, const std::function<void(StateWriter&)>& store);
+
+class StateReader {
+ public:
+  /// Reads all of a file. Throws Error (io) if there is none, or if it is not as it was written.
+  explicit StateReader(const std::filesystem::path& path);
+
+  template <Storable T>
+  T get() {
+    T number{};
+    get_all(std::span<T>(&number, 1));
+    return number;
+  }
+  template <Storable T>
+  void get_all(std::span<T> numbers) {
+    const std::span<const std::byte> bytes = next(numbers.size_bytes());
+    if (!bytes.empty()) std::memcpy(numbers.data(), bytes.data(), bytes.size());
+  }
+
+  bool at_end() const { return rest_.empty(); }
+  /// For what cannot be in a file that was written here.
+  [[noreturn]] void fail() const;
+
+ private:
+  std::span<const std::byte> next(std::size_t size);
+
+  std::string name_;
+  std::vector<std::byte> content_;
+  std::span<const std::byte> rest_;
+};
+
+}  // namespace crt::core
