@@ -125,7 +125,8 @@ std::span<const std::size_t> field_ends<crt_render_options>() {
   static constexpr std::array ends = {
       CRT_END(S, threads),       CRT_END(S, region_x), CRT_END(S, region_y), CRT_END(S, region_width),
       CRT_END(S, region_height), CRT_END(S, seed),     CRT_END(S, progress), CRT_END(S, progress_user),
-      CRT_END(S, log),           CRT_END(S, log_user), CRT_END(S, passes),   CRT_END(S, aovs)};
+      CRT_END(S, log),           CRT_END(S, log_user), CRT_END(S, passes),   CRT_END(S, aovs),
+      CRT_END(S, checkpoint)};
   return ends;
 }
 

@@ -177,6 +177,13 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
           "stops after so many passes: with what --stats told, the same picture again")
       ->type_name("N");
   command
+      .add_option(
+          "--checkpoint", request.render.checkpoint,
+          "with --targeterror, --timebudget or --passes: keeps the picture there after passes and at the "
+          "end, and goes on from it if it is there")
+      ->type_name("FILE")
+      ->excludes(frames);
+  command
       .add_option_function<std::vector<std::string>>(
           "--aov",
           [&request](const std::vector<std::string>& lists) {

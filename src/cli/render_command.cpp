@@ -62,6 +62,7 @@ class RenderJob {
     try {
       check_picture(request_.output, request_.render.aovs != Aovs{});
       if (!request_.stats.empty() && request_.stats != "-") check_folder(request_.stats);
+      if (!request_.render.checkpoint.empty()) check_folder(request_.render.checkpoint);
     } catch (const Error& error) {
       const bool unknown_format = error.code() == ErrorCode::unsupported;
       reporter_.add(error.code(), error.what(), unknown_format ? ExitCode::usage : ExitCode::files);
@@ -94,6 +95,7 @@ class RenderJob {
     const PreparedScene prepared = prepare(*scene);
     const InterruptScope interrupt;
     Image image = trace(prepared, output.string(), interrupt);
+    for (const std::string& warning : std::exchange(warnings_, {})) reporter_.note(warning);
     image.stats().parse_seconds = parse_seconds;
     const Stopwatch write_watch;
     image.write(output, {.reproducible = request_.reproducible});
@@ -129,6 +131,9 @@ class RenderJob {
   Image trace(const PreparedScene& prepared, const std::string& name, const InterruptScope& interrupt) {
     Progress progress(name, style_);
     RenderOptions options = request_.render;
+    options.log = [&](LogLevel level, std::string_view line) {
+      if (level == LogLevel::warning) warnings_.push_back(fmt::format("crt: warning: {}", line));
+    };
     options.progress = [&](double share) {
       progress.update(share);
       return !interrupt.interrupted();
@@ -139,7 +144,15 @@ class RenderJob {
     } catch (const Error& error) {
       if (error.code() != ErrorCode::cancelled) throw;
     }
-    throw Error(ErrorCode::cancelled, fmt::format("interrupted: '{}' is not written", name));
+    throw Error(ErrorCode::cancelled,
+                fmt::format("interrupted: '{}' is not written{}", name, where_to_go_on()));
+  }
+
+  std::string where_to_go_on() const {
+    const fs::path& checkpoint = request_.render.checkpoint;
+    std::error_code ignored;
+    if (checkpoint.empty() || !fs::exists(checkpoint, ignored)) return "";
+    return fmt::format("; --checkpoint '{}' goes on from there", checkpoint.string());
   }
 
   void write_stats(const std::string& json) {
@@ -154,6 +167,7 @@ class RenderJob {
   Reporter reporter_;
   ProgressStyle style_;
   std::vector<PictureReport> reports_;
+  std::vector<std::string> warnings_;
 };
 
 }  // namespace

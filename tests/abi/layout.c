@@ -155,7 +155,7 @@ AT(crt_diagnostic_call, reserved, 12);
 AT(crt_diagnostic_call, name, 16);
 AT(crt_diagnostic_call, file, 24);
 
-SIZE(crt_render_options, 72);
+SIZE(crt_render_options, 80);
 AT(crt_render_options, struct_size, 0);
 AT(crt_render_options, threads, 4);
 AT(crt_render_options, region_x, 8);
@@ -169,6 +169,7 @@ AT(crt_render_options, log, 48);
 AT(crt_render_options, log_user, 56);
 AT(crt_render_options, passes, 64);
 AT(crt_render_options, aovs, 68);
+AT(crt_render_options, checkpoint, 72);
 
 SIZE(crt_render_stats, 264);
 AT(crt_render_stats, struct_size, 0);

@@ -1,12 +1,15 @@
 // Rendering: progress, cancelling, regions, jobs, and what the callbacks may do.
 #include <algorithm>
 #include <atomic>
+#include <cstddef>
 #include <cstring>
 #include <stdexcept>
+#include <string>
 #include <thread>
 #include <vector>
 
 #include "support.hpp"
+#include "support/temporary_directory.hpp"
 
 using namespace crt::test;
 
@@ -320,6 +323,32 @@ TEST_CASE("a target error is kept, told of, and met again by the number of passe
   crt_image* none = nullptr;
   CHECK(crt_render(prepared.get(), &options, &none) == CRT_ERROR_INVALID_ARGUMENT);
   CHECK(says("passes"));
+}
+
+TEST_CASE("a picture goes on from its checkpoint, and an option struct without one still does") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  const TemporaryDirectory directory;
+  const std::string checkpoint = (directory / "state").string();
+  crt_render_options options;
+  REQUIRE(crt_render_options_init(&options, sizeof options) == CRT_OK);
+  CHECK(options.checkpoint == nullptr);
+  options.passes = 75;
+  const auto expected = pixels_of(render(prepared.get(), &options).get());
+  options.passes = 66;
+  options.checkpoint = checkpoint.c_str();
+  CHECK(pixels_of(render(prepared.get(), &options).get()) != expected);
+  options.passes = 75;
+  CHECK(pixels_of(render(prepared.get(), &options).get()) == expected);
+  options.passes = 70;
+  crt_image* none = nullptr;
+  CHECK(crt_render(prepared.get(), &options, &none) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("75"));
+  options.passes = 0;
+  CHECK(crt_render(prepared.get(), &options, &none) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(says("checkpoint"));
+  options.struct_size = offsetof(crt_render_options, checkpoint);
+  CHECK(render(prepared.get(), &options));
 }
 
 TEST_CASE("what a render has to tell goes to the log") {

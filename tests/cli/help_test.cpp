@@ -32,8 +32,8 @@ TEST_CASE("the help of render lists every setting by its script name") {
        {"--width",          "--height",     "--gamma",        "--supersampling", "--dofsamples",
         "--recursiondepth", "--minweight",  "--falloffmodel", "--showclip",      "--seed",
         "--targeterror",    "--timebudget", "--minsamples",   "--maxsamples",    "--filter",
-        "--filterwidth",    "--passes",     "--precision",    "--projection",    "--title",
-        "--author",         "--date",       "--notes"}) {
+        "--filterwidth",    "--passes",     "--checkpoint",   "--precision",     "--projection",
+        "--title",          "--author",     "--date",         "--notes"}) {
     CHECK_MESSAGE(help.find(name) != std::string::npos, name);
   }
 }

@@ -72,6 +72,32 @@ TEST_CASE_FIXTURE(Fixture,
         0);
 }
 
+TEST_CASE_FIXTURE(Fixture, "a picture goes on from its checkpoint, and from no other one's") {
+  const std::vector<std::string> error = {"--targeterror", "0.004", "--reproducible"};
+  const auto with = [&](std::vector<std::string> more) {
+    more.insert(more.end(), error.begin(), error.end());
+    return more;
+  };
+  const Json whole = stats_of(error);
+  const std::string picture = folder.read("ball.png");
+  stats_of(with({"--passes", "70", "--checkpoint", "ball.state"}));
+  CHECK(folder.read("ball.png") != picture);
+  const Json resumed = stats_of(with({"--checkpoint", "ball.state"}));
+  CHECK(folder.read("ball.png") == picture);
+  CHECK(resumed["rays"]["camera"].number == whole["rays"]["camera"].number);
+
+  const auto refused = [&](std::vector<std::string> arguments) {
+    arguments.insert(arguments.begin(), {"render", "ball.crt", "--checkpoint", "ball.state"});
+    const Outcome run = run_crt(folder, arguments);
+    CHECK(run.err.find("checkpoint") != std::string::npos);
+    return run.exit_code != 0;
+  };
+  CHECK(refused({"--targeterror", "0.008"}));
+  CHECK(refused({}));
+  CHECK(refused({"--targeterror", "0.004", "--frames", "1-2"}));
+  CHECK(run_crt(folder, {"render", "ball.crt", "--checkpoint", "no/where", "--passes", "3"}).exit_code != 0);
+}
+
 TEST_CASE_FIXTURE(Fixture, "texts of any kind come through the options into the statistics") {
   const std::string text = "quote \" backslash \\ newline \n tab \t \xc3\xa9";
   CHECK(stats_of({"--notes", text})["settings"]["notes"].string == text);

@@ -34,6 +34,17 @@ class Rendering(unittest.TestCase):
         prepared = small_scene(64, 2).prepare()
         np.testing.assert_array_equal(prepared.render(threads=1).pixels, prepared.render(threads=3).pixels)
 
+    def test_a_picture_goes_on_from_its_checkpoint(self):
+        prepared = small_scene(48).prepare()
+        expected = prepared.render(passes=72).pixels
+        with tempfile.TemporaryDirectory() as folder:
+            checkpoint = pathlib.Path(folder) / "state"
+            prepared.render(passes=20, checkpoint=checkpoint)
+            resumed = prepared.render(passes=72, checkpoint=checkpoint).pixels
+            with self.assertRaisesRegex(crt.Error, "72 passes"):
+                prepared.render(passes=20, checkpoint=checkpoint)
+        np.testing.assert_array_equal(resumed, expected)
+
     def test_a_region_has_the_pixels_of_the_whole(self):
         prepared = small_scene(48).prepare()
         part = prepared.render(region=(10, 20, 30, 8))

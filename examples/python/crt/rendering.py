@@ -2,6 +2,7 @@
 
 import atexit
 import ctypes
+import os
 import threading
 import time
 import weakref
@@ -14,13 +15,14 @@ from numpy.typing import NDArray
 from ._callbacks import LOG, PROGRESS, Guard
 from ._handles import Handle, Reference
 from ._library import create, library
-from ._structs import Int, Long, Pointer, Struct, Unsigned, growable
+from ._structs import Int, Long, Pointer, Struct, Text, Unsigned, growable
 from .images import Image
 from .rays import HIT, RAY, Batch
 
 Progress = Callable[[float], Any]
 Log = Callable[[str], Any]
 Region = tuple[int, int, int, int]
+Path = str | os.PathLike[str]
 
 _AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8, "samples": 16, "error": 32}
 
@@ -38,6 +40,7 @@ class Prepared(Handle):
         seed: int = 0,
         passes: int = 0,
         aovs: Iterable[str] = (),
+        checkpoint: Path | None = None,
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> Image:
@@ -46,12 +49,13 @@ class Prepared(Handle):
         `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
         `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
         unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id",
-        "albedo", "samples" and "error", become Image.channels. `progress` is told the share that is done, `log` what there is to
-        tell; they may be called from other threads, one at a time. What progress raises cancels the render
-        and comes out of here. So does Ctrl-C.
+        "albedo", "samples" and "error", become Image.channels. `checkpoint`: a file that keeps a picture which
+        is rendered by passes, and from which the next render goes on. `progress` is told the share that is
+        done, `log` what there is to tell; they may be called from other threads, one at a time. What
+        progress raises cancels the render and comes out of here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, progress, log)
+        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, progress, log)
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
 
@@ -63,12 +67,13 @@ class Prepared(Handle):
         seed: int = 0,
         passes: int = 0,
         aovs: Iterable[str] = (),
+        checkpoint: Path | None = None,
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> "Job":
         """Starts to render in the background; as render() otherwise."""
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, progress, log)
+        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, progress, log)
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
     def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
@@ -204,6 +209,7 @@ class _RenderOptions(Struct):
     log_user: Pointer
     passes: Int
     aovs: Unsigned
+    checkpoint: Text
 
 
 def _aov_bits(names: Iterable[str]) -> int:
@@ -222,6 +228,7 @@ def _options(
     seed: int,
     passes: int,
     aovs: Iterable[str],
+    checkpoint: Path | None,
     progress: Progress | None,
     log: Log | None,
 ) -> _RenderOptions:
@@ -233,7 +240,9 @@ def _options(
         if log is not None:
             log(line.decode())
 
-    options = _RenderOptions(threads=threads, seed=seed, passes=passes, aovs=_aov_bits(aovs))
+    options = _RenderOptions(
+        threads=threads, seed=seed, passes=passes, aovs=_aov_bits(aovs), checkpoint=checkpoint
+    )
     if region is not None:
         x, y, width, height = region
         options.set(region_x=x, region_y=y, region_width=width, region_height=height)
