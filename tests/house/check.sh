@@ -40,7 +40,7 @@ code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h'
 users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h' 'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
 
 # A folder of src/core uses those before it in this list, and itself.
-layers=(math sampling tasks geometry csg shading camera scene render image)
+layers=(math files sampling tasks geometry csg shading camera scene render image)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do
@@ -111,7 +111,7 @@ check_ends() {
   done
 }
 
-check_layers | complain "A layer uses one above it (math sampling tasks geometry csg shading camera scene render image)"
+check_layers | complain "A layer uses one above it (math files sampling tasks geometry csg shading camera scene render image)"
 only_in 'embree' src/core/scene | complain "Embree outside src/core/scene"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/scene | complain "TBB outside src/core/tasks and src/core/scene"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"

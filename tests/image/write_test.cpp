@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/image/whole_file.hpp"
+#include "core/files/whole_file.hpp"
 #include "crt/error.hpp"
 #include "crt/image.hpp"
 #include "picture_files.hpp"

@@ -9,7 +9,7 @@
 #include <optional>
 #include <string>
 
-#include "core/render/state_file.hpp"
+#include "core/files/state_file.hpp"
 #include "pictures.hpp"
 #include "support/temporary_directory.hpp"
 

@@ -7,13 +7,13 @@
 #include <string>
 #include <utility>
 
+#include "core/files/whole_file.hpp"
 #include "core/image/essential_bytes.hpp"
 #include "core/image/file_format.hpp"
 #include "core/image/file_texts.hpp"
 #include "core/image/image_limits.hpp"
 #include "core/image/module_loader.hpp"
 #include "core/image/pixel_conversion.hpp"
-#include "core/image/whole_file.hpp"
 #include "crt/error.hpp"
 #include "crt/image.hpp"
 

@@ -10,11 +10,11 @@
 #include <functional>
 #include <vector>
 
+#include "core/files/state_file.hpp"
 #include "core/render/canvas.hpp"
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"
 #include "core/render/pixel_measures.hpp"
-#include "core/render/state_file.hpp"
 #include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 

@@ -1,8 +1,8 @@
-#include "core/render/state_file.hpp"
+#include "core/files/state_file.hpp"
 
 #include <fmt/format.h>
 
-#include "core/image/whole_file.hpp"
+#include "core/files/whole_file.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {

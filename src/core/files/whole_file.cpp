@@ -1,4 +1,4 @@
-#include "core/image/whole_file.hpp"
+#include "core/files/whole_file.hpp"
 
 #include <fcntl.h>
 #include <fmt/format.h>
