@@ -16,9 +16,10 @@ import time
 from collections.abc import Callable
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from povray import catalogue, measure  # noqa: E402
+from povray import catalogue, measure, trade_scenes  # noqa: E402
 from povray.programs import Failed, Size  # noqa: E402
-from report import machine, page, tables  # noqa: E402
+from report import machine, page, tables, trade_tables  # noqa: E402
+from trade import measure as trade_measure  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FULL_SIZE, QUICK_SIZE = Size(1920, 1440), Size(640, 480)
@@ -45,6 +46,7 @@ class Bench:
         return {
             **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
             **{f"povray-bsp/{name}": (lambda name=name: self.povray(name, tree=2)) for name in bsp},
+            **{f"trade/{name}": (lambda name=name: self.trade(name)) for name in self.trade_scenes()},
             **{name: (lambda name=name: self.own(name)) for name in OWN_PARTS},
             **{name: (lambda name=name: self.google(name)) for name in GOOGLE_PARTS},
             "python": self.python,
@@ -57,6 +59,17 @@ class Bench:
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
             longest=4 if quick else 60, patience=10 if quick else 150, say=self.say, tree=tree)
         return measure.measure(name, catalogue.SCENES[name](), plan)
+
+    def trade_scenes(self) -> tuple[str, ...]:
+        return trade_scenes.QUICK if self.options.quick else tuple(trade_scenes.SCENES)
+
+    def trade(self, name: str) -> dict:
+        quick = self.options.quick
+        plan = trade_measure.Plan(
+            library=self.bin.parent / "lib/libcrt.so", folder=self.folder / "scenes",
+            rounds=self.options.rounds or (1 if quick else 5), patience=10 if quick else 150, quick=quick, say=self.say,
+            divisor=4 if quick else 1)
+        return trade_measure.measure(name, plan)
 
     def own(self, name: str) -> dict:
         """A program of ours that writes JSON to standard output and its progress to standard error."""
@@ -85,7 +98,13 @@ class Bench:
     def programs(self, part: str) -> str:
         """Tells one build of what the part measures from another."""
         digest = hashlib.sha256()
-        for file in ["bin/crt"] if part.startswith("povray") else ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]:
+        if part.startswith("povray"):
+            files = ["bin/crt"]
+        elif part.startswith("trade/"):
+            files = ["lib/libcrt.so"]
+        else:
+            files = ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]
+        for file in files:
             digest.update((self.bin.parent / file).read_bytes())
         return digest.hexdigest()
 
