@@ -6,11 +6,11 @@ from .model import (
 )
 from .stream import Stream
 
-HEIGHTS = {"glass": 120, "hard": 120, "defocus": 150, "mirrors": 150}  # in pixels; 240 if not told
+HEIGHTS = {"glass": 120, "hard": 120, "mirrors": 120}  # of the full pictures, in pixels; 180 if not told
 
 
 def height_of(name: str) -> int:
-    return HEIGHTS.get(name, 240)
+    return HEIGHTS.get(name, 180)
 
 
 def camera_of_pixels(name: str) -> Camera:
@@ -43,14 +43,14 @@ def wires() -> Scene:
     stream = Stream(17)
 
     def ends() -> tuple:
-        return ((stream.between(-150, 0), stream.between(-115, 115), stream.between(-20, 20)),
-                (stream.between(0, 150), stream.between(-115, 115), stream.between(-20, 20)))
+        return ((stream.between(-115, 0), stream.between(-85, 85), stream.between(-20, 20)),
+                (stream.between(0, 115), stream.between(-85, 85), stream.between(-20, 20)))
 
     bright = Material(color=(0.9, 0.9, 0.8))
     cylinders = tuple(Cylinder(*ends(), 0.05 * 1.174**i, bright) for i in range(14))
     needles = tuple(Cone(*ends(), 0.5, 0.02, bright) for _ in range(6))
     balls = tuple(
-        Sphere((stream.between(-155, 155), stream.between(-115, 115), -25), 0.1 + 0.0056 * i, bright)
+        Sphere((stream.between(-115, 115), stream.between(-85, 85), -25), 0.1 + 0.0056 * i, bright)
         for i in range(60))
     return Scene("wires, needles and balls thinner than a pixel", cylinders + needles + balls,
                  camera_of_pixels("wires"), FAR_LIGHT, ambient=0.4)

@@ -1,1 +1,168 @@
-"""Tables of accuracy against time."""
+"""Tables of accuracy against time, and of claimed against achieved errors."""
+
+import statistics
+
+from trade import curves, ladders
+from trade.curves import Need
+
+from .tables import povray_results, rounded, table
+
+ERRORS = {"rmse": "RMSE", "p999": "99.9 %"}
+CRT_FAMILIES = (ladders.GRID, ladders.ADAPTIVE, ladders.LOW_START)
+TOLD_TARGETS = ("8/255", "2/255", "0.5/255")
+
+
+def scenes_of(results: dict) -> dict[str, dict]:
+    return povray_results(results, "trade/")
+
+
+def classes_of(results: dict) -> dict[str, dict]:
+    return povray_results(results, "honesty/")
+
+
+def told(need: Need) -> str:
+    return need.bound + rounded(need.value)
+
+
+def inverse(bound: str) -> str:
+    return {"<": ">", ">": "<"}.get(bound, "")
+
+
+# ---- each scene ---------------------------------------------------------------------------------
+
+
+def scene_table(name: str, result: dict) -> str:
+    uncertain = result["uncertainty"]
+    lines = [f"## `{name}`: {result['about']}", "",
+             f"{result['width']} x {result['height']} pixels, {result['hard']:.1%} of them hard. The references are uncertain by"
+             f" {uncertain['CRT']['rmse']:.3f} / {uncertain['CRT']['p999']:.2f} (CRT) and {uncertain['POV-Ray']['rmse']:.3f} /"
+             f" {uncertain['POV-Ray']['p999']:.2f} (POV-Ray); they differ by {result['apart']['rmse']:.2f} /"
+             f" {result['apart']['p999']:.2f}.", ""]
+    rows = [[row["family"], f"`{row['name']}`", rounded(row["seconds"]), rounded(row["samples"]),
+             *(rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)") for error in ERRORS)]
+            for row in sorted(result["rows"], key=lambda row: row["family"])]
+    return "\n".join(lines) + table(["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows)
+
+
+def scene_tables(results: dict) -> str:
+    return "\n\n".join(scene_table(*item) for item in scenes_of(results).items())
+
+
+# ---- samples: adaptive against the grid ---------------------------------------------------------
+
+
+def saved(result: dict, row: dict, error: str) -> Need | None:
+    """How many times as many samples the grid needs for the error of an adaptive setting."""
+    if not curves.is_sensible(result, row, error):
+        return None
+    grid = curves.need(curves.family(result, ladders.GRID), "samples", error, row[error])
+    return Need(grid.value / row["samples"], grid.bound)
+
+
+def saving_table(results: dict) -> str:
+    rows = []
+    for name, result in scenes_of(results).items():
+        adaptive = {row["name"]: row for row in curves.family(result, ladders.ADAPTIVE)}
+        row = [f"`{name}`", f"{result['hard']:.0%}"]
+        for target in TOLD_TARGETS:
+            if target not in adaptive:
+                row += ["", ""]
+                continue
+            both = [saved(result, adaptive[target], error) for error in ERRORS]
+            row += [rounded(adaptive[target]["samples"]), " / ".join("?" if one is None else told(one) for one in both)]
+        rows.append(row)
+    if not rows:
+        return ""
+    head = ["scene", "hard pixels"]
+    for target in TOLD_TARGETS:
+        head += [f"samples at {target}", "grid / adaptive"]
+    return table(head, rows)
+
+
+# ---- time: CRT against POV-Ray ------------------------------------------------------------------
+
+
+def crt_need(result: dict, error: str, wanted: float) -> Need:
+    families = [curves.family(result, name) for name in CRT_FAMILIES]
+    return curves.least([curves.need(rows, "seconds", error, wanted) for rows in families if rows])
+
+
+def povray_rows(result: dict) -> list[dict]:
+    return [row for row in result["rows"] if row["family"].startswith("POV-Ray")]
+
+
+def finest_of_povray(result: dict) -> dict:
+    return min(povray_rows(result), key=lambda row: row["rmse"])
+
+
+def contest_row(result: dict, row: dict) -> tuple[list[str], list[float]]:
+    cells, ratios = [rounded(row["seconds"])], []
+    for error in ERRORS:
+        need = crt_need(result, error, row[error])
+        ratio = row["seconds"] / need.value
+        ratios.append(ratio)
+        cells += [rounded(row[error]), told(need), f"**{inverse(need.bound)}{rounded(ratio)}**"]
+    return cells, ratios
+
+
+def contest_table(results: dict, choose, heading: str) -> str:
+    rows, all_ratios = [], []
+    for name, result in scenes_of(results).items():
+        if name == "flat":  # both are right with one ray a pixel
+            continue
+        cells, ratios = contest_row(result, choose(result))
+        rows.append([f"`{name}`", *cells])
+        all_ratios.append(ratios)
+    if not rows:
+        return ""
+    head = ["scene", f"POV-Ray's {heading}, seconds"]
+    for error in ERRORS.values():
+        head += [f"its {error}", "CRT, seconds", "ratio"]
+    medians = [rounded(statistics.median(ratios)) for ratios in zip(*all_ratios)]
+    return table(head, rows) + f"\n\nThe median of the ratios is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error."
+
+
+def named_table(results: dict) -> str:
+    return contest_table(results, lambda result: curves.named(result, ladders.RECURSIVE, ladders.NAMED),
+                         f"`{ladders.NAMED}`")
+
+
+def finest_table(results: dict) -> str:
+    return contest_table(results, finest_of_povray, "finest")
+
+
+def overhead_table(results: dict) -> str:
+    rows = [[f"`{name}`", str(result["overhead"]["samples"]), rounded(result["overhead"]["grid"]),
+             rounded(result["overhead"]["passes"]), f"**{result['overhead']['ratio']:.3f}**"]
+            for name, result in scenes_of(results).items() if "overhead" in result]
+    return table(["scene", "samples a pixel", "grid, seconds", "passes, seconds", "ratio"], rows) if rows else ""
+
+
+def vanished_text(results: dict) -> str:
+    found = [result["vanished"] for result in scenes_of(results).values() if "vanished" in result]
+    if not found:
+        return ""
+    targets = " and ".join(f"{count} at a target error of {steps}/255" for steps, count in found[0]["targets"].items())
+    return (f"In `wires` {found[0]['pixels']} pixels are covered by more than 5 %. With `minsamples` {found[0]['least_samples']} and"
+            f" {found[0]['seeds']} seeds as many of them show the bare background as this: {targets}.")
+
+
+# ---- honesty ------------------------------------------------------------------------------------
+
+
+def honesty_table(results: dict) -> str:
+    rows = []
+    for name, result in classes_of(results).items():
+        targets = result["targets"]
+        rows.append([name, str(targets[0]["pixels"]), str(result["seeds"]), rounded(result["uncertainty"]),
+                     *(f"{row['within'] / row['trials']:.2%} ({row['low']:.2%})" for row in targets),
+                     f"{min(row['worst_pixel'] for row in targets):.0%}"])
+    if not rows:
+        return ""
+    steps = [f"{row['steps']:g}/255" for row in next(iter(classes_of(results).values()))["targets"]]
+    return table(["pixels", "number", "seeds", "truth +-", *steps, "worst pixel"], rows)
+
+
+def all_tables(results: dict) -> str:
+    makers = (scene_tables, saving_table, named_table, finest_table, overhead_table, vanished_text, honesty_table)
+    return "\n\n".join(filter(None, (make(results) for make in makers)))

@@ -13,8 +13,8 @@ from .programs import Crt, PovRay
 FIRST_SEED = 1001  # other random numbers than the ladder's
 # POV-Ray's antialiasing has no more than 9 x 9 places in a pixel, always the same ones. So its references are pictures
 # of several times the size, with jitter, averaged down: (times, options).
-ENLARGED = ((7, ("+AM1", "+A0.0", "+R4")), (9, ("+AM1", "+A0.0", "+R3")))
-ENLARGED_LENS = ((2, ("-A", *lens_options(512, 0))), (3, ("-A", *lens_options(228, 0))))
+ENLARGED = ((5, ("+AM1", "+A0.0", "+R4")), (7, ("+AM1", "+A0.0", "+R4")))
+ENLARGED_LENS = ((2, ("-A", *lens_options(256, 0))), (3, ("-A", *lens_options(114, 0))))
 QUICK_ENLARGED = ((2, ("+AM1", "+A0.0", "+R3")), (3, ("+AM1", "+A0.0", "+R2")))
 QUICK_ENLARGED_LENS = ((1, ("-A", *lens_options(64, 0))), (2, ("-A", *lens_options(16, 0))))
 
@@ -33,7 +33,7 @@ def of_halves(halves: list[np.ndarray]) -> Reference:
 
 
 def crt_reference(crt: Crt, quick: bool) -> Reference:
-    settings = {"targeterror": 0.05 / errors.FULL, "minsamples": 64 if quick else 256,
+    settings = {"targeterror": 0.05 / errors.FULL, "minsamples": 64 if quick else 128,
                 "maxsamples": 256 if quick else 4096}
     halves = []
     for seed in (FIRST_SEED, FIRST_SEED + 1):
