@@ -41,7 +41,7 @@ def scene_table(name: str, result: dict) -> str:
     rows = [[row["family"], f"`{row['name']}`", rounded(row["seconds"]), rounded(row["samples"]),
              *(rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)") for error in ERRORS)]
             for row in sorted(result["rows"], key=lambda row: row["family"])]
-    return "\n".join(lines) + table(["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows)
+    return "\n".join(lines) + "\n" + table(["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows)
 
 
 def scene_tables(results: dict) -> str:
