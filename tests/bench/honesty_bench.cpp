@@ -25,7 +25,7 @@ constexpr std::size_t arguments_of_part = 10;
 constexpr double steps_of_8_bits = 255;
 /// What the truth may be wrong by, and rounding.
 constexpr double tolerance = 0.1 / steps_of_8_bits;
-constexpr double targets[] = {8, 4, 2, 1};
+constexpr double targets[] = {8, 4, 2};
 /// Claims are put together that differ by a factor of less than 2^(1/2).
 constexpr double bins_of_doubling = 2;
 

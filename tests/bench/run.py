@@ -161,7 +161,7 @@ class Bench:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="where bin/ and lib/ are")
-    parser.add_argument("--quick", action="store_true", help="small pictures, few rounds: some three minutes")
+    parser.add_argument("--quick", action="store_true", help="small pictures, few rounds: some four minutes")
     parser.add_argument("--only", action="append", help="parts whose names begin so or match this pattern (repeatable)")
     parser.add_argument("--rounds", type=int, help="how often both programs take turns (5; quick: 1)")
     parser.add_argument("--again", action="store_true", help="also what was measured with these programs before")

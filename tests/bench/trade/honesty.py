@@ -10,7 +10,7 @@ from povray import crt_writer, trade_scenes
 from . import errors
 
 SEEDS, QUICK_SEEDS = 100, 5
-SIDE, QUICK_SIDE = 16, 6  # of a part, in pixels
+QUICK_SIDE = 6
 NO_ENTITIES = (1, 0)
 
 
@@ -27,6 +27,7 @@ class Class:
     kind: str  # as bench_honesty calls it
     samples: int  # of each half of the truth
     parts: tuple[Part, ...]
+    side: int = 16  # of a part, in pixels
 
 
 def glass(left: int, top: int) -> Part:
@@ -43,17 +44,17 @@ CLASSES = {
     "edge": Class("edge", 16384, (
         Part("cad", 40, 62), Part("cad", 120, 40), Part("cad", 160, 100), Part("silhouettes", 60, 40),
         Part("silhouettes", 130, 80), Part("scale", 110, 70), Part("scale", 60, 90))),
-    "sub-pixel": Class("sub-pixel", 16384, tuple(Part("wires", x, y) for x in (60, 110, 160) for y in (50, 100))),
+    "sub-pixel": Class("sub-pixel", 16384, tuple(Part("wires", x, y) for x, y in ((60, 50), (110, 100), (160, 60)))),
     "defocused": Class("defocused", 32768, tuple(Part("defocus", x, y) for x, y in ((60, 50), (120, 80), (160, 110)))),
-    "refractive": Class("special", 8192, (glass(40, 50), glass(80, 55), glass(110, 50))),
-    "mirrored": Class("special", 16384, (mirrors(40, 60), mirrors(80, 40), mirrors(110, 80))),
+    "refractive": Class("special", 8192, (glass(40, 50), glass(80, 55), glass(110, 50)), side=10),
+    "mirrored": Class("special", 16384, (mirrors(40, 60), mirrors(80, 40), mirrors(110, 80)), side=12),
 }
 QUICK = ("flat", "edge", "sub-pixel")
 
 
 def measure(name: str, program: pathlib.Path, folder: pathlib.Path, quick: bool) -> dict:
     chosen = CLASSES[name]
-    side = QUICK_SIDE if quick else SIDE
+    side = QUICK_SIDE if quick else chosen.side
     folder.mkdir(parents=True, exist_ok=True)
     arguments = [chosen.kind, QUICK_SEEDS if quick else SEEDS, 256 if quick else chosen.samples]
     for part in chosen.parts[:1 if quick else None]:
