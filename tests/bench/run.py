@@ -60,7 +60,7 @@ class Bench:
         plan = measure.Plan(
             crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
-            longest=4 if quick else 60, patience=10 if quick else 150, say=self.say, tree=tree)
+            longest=4 if quick else 60, patience=10 if quick else 100, say=self.say, tree=tree)
         return measure.measure(name, catalogue.SCENES[name](), plan)
 
     def trade_scenes(self) -> tuple[str, ...]:
@@ -70,7 +70,7 @@ class Bench:
         quick = self.options.quick
         plan = trade_measure.Plan(
             library=self.bin.parent / "lib/libcrt.so", folder=self.folder / "scenes",
-            rounds=self.options.rounds or (1 if quick else 5), patience=10 if quick else 150, quick=quick, say=self.say,
+            rounds=self.options.rounds or (1 if quick else 5), patience=10 if quick else 100, quick=quick, say=self.say,
             divisor=4 if quick else 1)
         return trade_measure.measure(name, plan)
 

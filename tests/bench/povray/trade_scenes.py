@@ -46,7 +46,7 @@ def wires() -> Scene:
         return ((stream.between(-115, 0), stream.between(-85, 85), stream.between(-20, 20)),
                 (stream.between(0, 115), stream.between(-85, 85), stream.between(-20, 20)))
 
-    bright = Material(color=(0.9, 0.9, 0.8))
+    bright = Material(color=(0.65, 0.65, 0.6))  # such that nothing is brighter than white
     cylinders = tuple(Cylinder(*ends(), 0.05 * 1.174**i, bright) for i in range(14))
     needles = tuple(Cone(*ends(), 0.5, 0.02, bright) for _ in range(6))
     balls = tuple(

@@ -13,7 +13,7 @@ NAMED = "+A0.1 +AM2 +R4"  # what others' accuracy is told by
 DEFAULT_VARIANCE = 1 / 128
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, eq=False)
 class Rung:
     family: str
     name: str

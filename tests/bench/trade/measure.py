@@ -21,6 +21,7 @@ from .programs import Crt, PovRay, Rendered, binding
 HARD_STEPS = 8  # a pixel is hard if rays through it differ by more than so many steps
 RAYS_TO_JUDGE = 8  # in a row and in a column of a pixel
 SHORT = 4.0  # seconds: what takes longer is rendered once
+LONGEST = 15.0  # seconds: once a family takes longer, its finer settings are left out
 OVERHEAD_SAMPLES = 64  # a pixel, passes against the grid
 OVERHEAD_SCENES = ("flat", "hard")
 VANISHING_SHARE = 0.05  # of a pixel
@@ -69,6 +70,19 @@ def contest(name: str, plan: Plan) -> Contest:
     return Contest(name, scene, Crt(binding(plan.library), crt_script, size), PovRay(pov_script, size), plan)
 
 
+@dataclass
+class Measured:
+    """What a setting takes and gives."""
+
+    seconds: list[float] = dataclasses.field(default_factory=list)
+    error: errors.PictureError = errors.PictureError(0, 0)
+    samples: float = 0
+
+    def row(self, rung: Rung) -> dict:
+        return {"family": rung.family, "name": rung.name, **dataclasses.asdict(self.error), "samples": self.samples,
+                "seconds": statistics.median(self.seconds), "rounds": len(self.seconds)}
+
+
 def hard_share(match: Contest) -> float:
     """Of the pixels, by the rays that go through them: of the truth, not of what a renderer thinks of it."""
     side, size = RAYS_TO_JUDGE, match.crt.size
@@ -81,29 +95,26 @@ def hard_share(match: Contest) -> float:
 
 def measured_rungs(match: Contest, own: references.Reference, other: references.Reference) -> list[dict]:
     plan = match.plan
-    rungs = ladders.all_rungs(match.with_lens, plan.quick)
-    rows = []
+    rungs = {rung: Measured() for rung in ladders.all_rungs(match.with_lens, plan.quick)}
+    too_slow: set[str] = set()
     begin = time.monotonic()
-    times: list[list[float]] = [[] for _ in rungs]
     for turn in range(plan.rounds):
         if turn > 0 and time.monotonic() - begin > plan.patience:
             break
-        for rung, taken in zip(rungs, times):
-            if turn > 0 and taken[0] > SHORT:
+        for rung, measured in rungs.items():
+            if rung.family in too_slow or (turn > 0 and measured.seconds[0] > SHORT):
                 continue
             rendered = match.render(rung)
-            taken.append(rendered.seconds)
-            if turn == 0:
-                reference = own if rung.is_crt else other
-                error = errors.difference(rendered.picture, reference.picture)
-                rows.append({"family": rung.family, "name": rung.name, "rmse": error.rmse, "p999": error.p999,
-                             "samples": rendered.samples})
-                plan.say(f"{match.name}: {rung.family} {rung.name}: {rendered.seconds:.3f} s,"
-                         f" {rendered.samples:.2f} samples, RMSE {error.rmse:.3f}, 99.9 % {error.p999:.2f}")
-    for row, taken in zip(rows, times):
-        row["seconds"] = statistics.median(taken)
-        row["rounds"] = len(taken)
-    return rows
+            measured.seconds.append(rendered.seconds)
+            if turn > 0:
+                continue
+            measured.error = errors.difference(rendered.picture, (own if rung.is_crt else other).picture)
+            measured.samples = rendered.samples
+            if rendered.seconds > LONGEST:
+                too_slow.add(rung.family)
+            plan.say(f"{match.name}: {rung.family} {rung.name}: {rendered.seconds:.3f} s, {rendered.samples:.2f} samples,"
+                     f" RMSE {measured.error.rmse:.3f}, 99.9 % {measured.error.p999:.2f}")
+    return [measured.row(rung) for rung, measured in rungs.items() if measured.seconds]
 
 
 def overhead(match: Contest) -> dict:
@@ -145,8 +156,9 @@ def vanished(match: Contest) -> dict:
 
 def measure(name: str, plan: Plan) -> dict:
     match = contest(name, plan)
-    own = references.crt_reference(match.crt, plan.quick)
-    other = references.povray_reference(match.pov, os.cpu_count() or 1, match.with_lens, plan.quick)
+    is_slow = name in references.SLOW
+    own = references.crt_reference(match.crt, is_slow, plan.quick)
+    other = references.povray_reference(match.pov, os.cpu_count() or 1, match.with_lens, is_slow, plan.quick)
     apart = errors.difference(own.picture, other.picture)
     plan.say(f"{name}: the references differ by {apart.rmse:.3f} (RMSE) and {apart.p999:.2f} (99.9 %) steps, and are"
              f" uncertain by {own.uncertainty.rmse:.4f} and {other.uncertainty.rmse:.4f}")
