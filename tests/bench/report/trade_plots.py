@@ -10,6 +10,7 @@ from .plots import FAINT, FRAME, Drawing, power
 
 WIDE, TALL, GAP_X, GAP_Y, LEFT, TOP = 220, 170, 56, 58, 50, 52
 COLUMNS = 3
+HEADS = {"rmse": "RMSE", "p999": "99.9 % error"}
 FAMILY_COLORS = {
     ladders.GRID: "#1f5fa8", ladders.ADAPTIVE: "#c0392b", ladders.LOW_START: "#e59866", ladders.ONE_RAY: "#888888",
     ladders.PLAIN: "#2e8b57", ladders.RECURSIVE: "#8e44ad", ladders.LENS: "#2e8b57", ladders.LENS_BY_VARIANCE: "#d68910",
@@ -93,7 +94,7 @@ def error_against_time(results: dict, error: str) -> str:
             if points:
                 lines.append(Line(family, color, points))
         panels.append(Panel(f"{name} ({result['hard']:.0%} hard)", lines))
-    return drawn(f"{trade_tables.ERRORS[error]} error against seconds",
+    return drawn(f"{HEADS[error]} against seconds",
                  "across: seconds of tracing, one thread; up: 8-bit steps of what a display shows", panels)
 
 
