@@ -65,7 +65,8 @@ background {{ rgb {vector(scene.background)} }}
         if camera.orthographic_height is not None:
             height = camera.orthographic_height
             return (f"camera {{ orthographic location {vector(camera.position)}"
-                    f" right x * {number(self.aspect * height)} up y * {number(height)} direction z look_at {vector(camera.pointing)} }}")
+                    f" right x * {number(self.aspect * height)} up y * {number(height)} direction z"
+                    f" look_at {vector(camera.pointing)} }}")
         length = 0.5 / math.tan(math.radians(camera.fov) / 2)
         lens = ""
         if camera.aperture > 0:

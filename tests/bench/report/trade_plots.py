@@ -13,7 +13,8 @@ COLUMNS = 3
 HEADS = {"rmse": "RMSE", "p999": "99.9 % error"}
 FAMILY_COLORS = {
     ladders.GRID: "#1f5fa8", ladders.ADAPTIVE: "#c0392b", ladders.LOW_START: "#e59866", ladders.ONE_RAY: "#888888",
-    ladders.PLAIN: "#2e8b57", ladders.RECURSIVE: "#8e44ad", ladders.LENS: "#2e8b57", ladders.LENS_BY_VARIANCE: "#d68910",
+    ladders.PLAIN: "#2e8b57", ladders.RECURSIVE: "#8e44ad", ladders.LENS: "#2e8b57",
+    ladders.LENS_BY_VARIANCE: "#d68910",
 }
 
 
@@ -72,7 +73,8 @@ def drawn(title: str, axes: str, panels: list[Panel]) -> str:
     drawing.text(LEFT, 16, title, weight="bold")
     drawing.text(LEFT, 31, axes)
     for index, panel in enumerate(panels):
-        draw_panel(drawing, panel, LEFT + (index % COLUMNS) * (WIDE + GAP_X), TOP + 8 + (index // COLUMNS) * (TALL + GAP_Y))
+        row, column = divmod(index, COLUMNS)
+        draw_panel(drawing, panel, LEFT + column * (WIDE + GAP_X), TOP + 8 + row * (TALL + GAP_Y))
     below = TOP + rows * (TALL + GAP_Y)
     for index, (name, color) in enumerate(legend.items()):
         x, y = LEFT + (index % COLUMNS) * (WIDE + GAP_X), below + 20 * (index // COLUMNS)

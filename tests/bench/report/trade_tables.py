@@ -32,13 +32,16 @@ def inverse(bound: str) -> str:
 # ---- each scene ---------------------------------------------------------------------------------
 
 
+def pair(error: dict) -> str:
+    return f"{error['rmse']:.3f} / {error['p999']:.2f}"
+
+
 def scene_table(name: str, result: dict) -> str:
     uncertain = result["uncertainty"]
     lines = [f"## `{name}`: {result['about']}", "",
-             f"{result['width']} x {result['height']} pixels, {result['hard']:.1%} of them hard. The references are uncertain by"
-             f" {uncertain['CRT']['rmse']:.3f} / {uncertain['CRT']['p999']:.2f} (CRT) and {uncertain['POV-Ray']['rmse']:.3f} /"
-             f" {uncertain['POV-Ray']['p999']:.2f} (POV-Ray); they differ by {result['apart']['rmse']:.2f} /"
-             f" {result['apart']['p999']:.2f}.", ""]
+             f"{result['width']} x {result['height']} pixels, {result['hard']:.1%} of them hard. The references are"
+             f" uncertain by {pair(uncertain['CRT'])} (CRT) and {pair(uncertain['POV-Ray'])} (POV-Ray); they differ by"
+             f" {pair(result['apart'])}.", ""]
     rows = [[row["family"], f"`{row['name']}`", rounded(row["seconds"]), rounded(row["samples"]),
              *(rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)") for error in ERRORS)]
             for row in sorted(result["rows"], key=lambda row: row["family"])]
@@ -116,7 +119,8 @@ def contest_table(results: dict, choose, heading: str) -> str:
     for error in ERRORS.values():
         head += [f"its {error}", "CRT, seconds", "ratio"]
     medians = [rounded(statistics.median(ratios)) for ratios in zip(*all_ratios)]
-    return table(head, rows) + f"\n\nThe median of the ratios is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error."
+    return (table(head, rows)
+            + f"\n\nThe median of the ratios is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error.")
 
 
 def named_table(results: dict) -> str:
@@ -140,8 +144,8 @@ def vanished_text(results: dict) -> str:
     if not found:
         return ""
     targets = " and ".join(f"{count} at a target error of {steps}/255" for steps, count in found[0]["targets"].items())
-    return (f"In `wires` {found[0]['pixels']} pixels are covered by more than 5 %. With `minsamples` {found[0]['least_samples']} and"
-            f" {found[0]['seeds']} seeds as many of them show the bare background as this: {targets}.")
+    return (f"In `wires` {found[0]['pixels']} pixels are covered by more than 5 %. Of these, rendered with `minsamples`"
+            f" {found[0]['least_samples']} and each of {found[0]['seeds']} seeds, so many show the bare background: {targets}.")
 
 
 # ---- honesty ------------------------------------------------------------------------------------

@@ -112,8 +112,8 @@ def measured_rungs(match: Contest, own: references.Reference, other: references.
             measured.samples = rendered.samples
             if rendered.seconds > LONGEST:
                 too_slow.add(rung.family)
-            plan.say(f"{match.name}: {rung.family} {rung.name}: {rendered.seconds:.3f} s, {rendered.samples:.2f} samples,"
-                     f" RMSE {measured.error.rmse:.3f}, 99.9 % {measured.error.p999:.2f}")
+            plan.say(f"{match.name}: {rung.family} {rung.name}: {rendered.seconds:.3f} s,"
+                     f" {rendered.samples:.2f} samples, RMSE {measured.error.rmse:.3f}, 99.9 % {measured.error.p999:.2f}")
     return [measured.row(rung) for rung, measured in rungs.items() if measured.seconds]
 
 

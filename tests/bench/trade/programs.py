@@ -1,4 +1,4 @@
-"""Renders with CRT's library in this process, and with povray; tells pictures in 8-bit steps and the processor's time."""
+"""Renders with CRT's library in this process, and with povray; tells pictures and the processor's time."""
 
 import os
 import pathlib
