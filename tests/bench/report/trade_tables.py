@@ -32,6 +32,10 @@ def inverse(bound: str) -> str:
 # ---- each scene ---------------------------------------------------------------------------------
 
 
+def told_error(result: dict, row: dict, error: str) -> str:
+    return rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)")
+
+
 def pair(error: dict) -> str:
     return f"{error['rmse']:.3f} / {error['p999']:.2f}"
 
@@ -43,7 +47,7 @@ def scene_table(name: str, result: dict) -> str:
              f" uncertain by {pair(uncertain['CRT'])} (CRT) and {pair(uncertain['POV-Ray'])} (POV-Ray); they differ by"
              f" {pair(result['apart'])}.", ""]
     rows = [[row["family"], f"`{row['name']}`", rounded(row["seconds"]), rounded(row["samples"]),
-             *(rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)") for error in ERRORS)]
+             *(told_error(result, row, error) for error in ERRORS)]
             for row in sorted(result["rows"], key=lambda row: row["family"])]
     return "\n".join(lines) + "\n" + table(["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows)
 
@@ -101,7 +105,7 @@ def contest_row(result: dict, row: dict) -> tuple[list[str], list[float]]:
         need = crt_need(result, error, row[error])
         ratio = row["seconds"] / need.value
         ratios.append(ratio)
-        cells += [rounded(row[error]), told(need), f"**{inverse(need.bound)}{rounded(ratio)}**"]
+        cells += [told_error(result, row, error), told(need), f"**{inverse(need.bound)}{rounded(ratio)}**"]
     return cells, ratios
 
 
@@ -145,7 +149,8 @@ def vanished_text(results: dict) -> str:
         return ""
     targets = " and ".join(f"{count} at a target error of {steps}/255" for steps, count in found[0]["targets"].items())
     return (f"In `wires` {found[0]['pixels']} pixels are covered by more than 5 %. Of these, rendered with `minsamples`"
-            f" {found[0]['least_samples']} and each of {found[0]['seeds']} seeds, so many show the bare background: {targets}.")
+            f" {found[0]['least_samples']} and each of {found[0]['seeds']} seeds, so many show the bare background:"
+            f" {targets}.")
 
 
 # ---- honesty ------------------------------------------------------------------------------------

@@ -113,7 +113,8 @@ def measured_rungs(match: Contest, own: references.Reference, other: references.
             if rendered.seconds > LONGEST:
                 too_slow.add(rung.family)
             plan.say(f"{match.name}: {rung.family} {rung.name}: {rendered.seconds:.3f} s,"
-                     f" {rendered.samples:.2f} samples, RMSE {measured.error.rmse:.3f}, 99.9 % {measured.error.p999:.2f}")
+                     f" {rendered.samples:.2f} samples, RMSE {measured.error.rmse:.3f},"
+                     f" 99.9 % {measured.error.p999:.2f}")
     return [measured.row(rung) for rung, measured in rungs.items() if measured.seconds]
 
 

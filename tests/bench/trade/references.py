@@ -13,7 +13,7 @@ from .programs import Crt, PovRay
 FIRST_SEED = 1001  # other random numbers than the ladder's
 # POV-Ray's antialiasing has no more than 9 x 9 places in a pixel, always the same ones. So its references are pictures
 # of several times the size, with jitter, averaged down: (times, options).
-SLOW = ("glass", "mirrors", "hard")  # get a fourth of the rays
+SLOW = ("glass", "mirrors")  # get a fourth of the rays
 ENLARGED = ((5, ("+AM1", "+A0.0", "+R4")), (7, ("+AM1", "+A0.0", "+R4")))
 ENLARGED_LENS = ((2, ("-A", *lens_options(256, 0))), (3, ("-A", *lens_options(114, 0))))
 ENLARGED_SLOW = ((2, ("+AM1", "+A0.0", "+R5")), (3, ("+AM1", "+A0.0", "+R4")))
