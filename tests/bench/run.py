@@ -1,4 +1,4 @@
-"""Runs the benchmarks and writes what they measured into docs/speed.md:  run.py --build build/release [OPTION...]
+"""Runs the benchmarks and writes what they measured into docs/:  run.py --build build/release [OPTION...]
 
 A part that was measured with the same programs is not measured again, so a run that was interrupted goes on where it
 stopped. Quick runs print their tables and leave the documents alone.
@@ -16,9 +16,11 @@ import time
 from collections.abc import Callable
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from povray import catalogue, measure  # noqa: E402
+from povray import catalogue, measure, trade_scenes  # noqa: E402
 from povray.programs import Failed, Size  # noqa: E402
-from report import machine, page, tables  # noqa: E402
+from report import machine, page, tables, trade_tables  # noqa: E402
+from trade import honesty  # noqa: E402
+from trade import measure as trade_measure  # noqa: E402
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
 FULL_SIZE, QUICK_SIZE = Size(1920, 1440), Size(640, 480)
@@ -26,6 +28,7 @@ BUSY = 0.5  # load
 OWN_PARTS = ("embree", "curves")
 GOOGLE_PARTS = ("render", "queries")
 PROGRAMS = {"python": "ray_queries", **{part: f"bench_{part}" for part in OWN_PARTS + GOOGLE_PARTS}}
+HONESTY = "bench_honesty"
 QUICK_GOOGLE = ["--benchmark_min_time=0.1", "--benchmark_filter=-plate"]  # the slowest is left out
 
 
@@ -45,6 +48,8 @@ class Bench:
         return {
             **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
             **{f"povray-bsp/{name}": (lambda name=name: self.povray(name, tree=2)) for name in bsp},
+            **{f"trade/{name}": (lambda name=name: self.trade(name)) for name in self.trade_scenes()},
+            **{f"honesty/{name}": (lambda name=name: self.honesty(name)) for name in self.honesty_classes()},
             **{name: (lambda name=name: self.own(name)) for name in OWN_PARTS},
             **{name: (lambda name=name: self.google(name)) for name in GOOGLE_PARTS},
             "python": self.python,
@@ -55,8 +60,25 @@ class Bench:
         plan = measure.Plan(
             crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
-            longest=4 if quick else 60, patience=10 if quick else 150, say=self.say, tree=tree)
+            longest=4 if quick else 60, patience=10 if quick else 100, say=self.say, tree=tree)
         return measure.measure(name, catalogue.SCENES[name](), plan)
+
+    def trade_scenes(self) -> tuple[str, ...]:
+        return trade_scenes.QUICK if self.options.quick else tuple(trade_scenes.SCENES)
+
+    def trade(self, name: str) -> dict:
+        quick = self.options.quick
+        plan = trade_measure.Plan(
+            library=self.bin.parent / "lib/libcrt.so", folder=self.folder / "scenes",
+            rounds=self.options.rounds or (1 if quick else 5), patience=10 if quick else 100, quick=quick, say=self.say,
+            divisor=4 if quick else 1)
+        return trade_measure.measure(name, plan)
+
+    def honesty_classes(self) -> tuple[str, ...]:
+        return honesty.QUICK if self.options.quick else tuple(honesty.CLASSES)
+
+    def honesty(self, name: str) -> dict:
+        return honesty.measure(name, self.bin / HONESTY, self.folder / "scenes", self.options.quick)
 
     def own(self, name: str) -> dict:
         """A program of ours that writes JSON to standard output and its progress to standard error."""
@@ -85,7 +107,15 @@ class Bench:
     def programs(self, part: str) -> str:
         """Tells one build of what the part measures from another."""
         digest = hashlib.sha256()
-        for file in ["bin/crt"] if part.startswith("povray") else ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]:
+        if part.startswith("povray"):
+            files = ["bin/crt"]
+        elif part.startswith("trade/"):
+            files = ["lib/libcrt.so"]
+        elif part.startswith("honesty/"):
+            files = [f"bin/{HONESTY}"]
+        else:
+            files = ["lib/libcrt.so", f"bin/{PROGRAMS[part]}"]
+        for file in files:
             digest.update((self.bin.parent / file).read_bytes())
         return digest.hexdigest()
 
@@ -131,7 +161,7 @@ class Bench:
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="where bin/ and lib/ are")
-    parser.add_argument("--quick", action="store_true", help="small pictures, few rounds: some three minutes")
+    parser.add_argument("--quick", action="store_true", help="small pictures, few rounds: some four minutes")
     parser.add_argument("--only", action="append", help="parts whose names begin so or match this pattern (repeatable)")
     parser.add_argument("--rounds", type=int, help="how often both programs take turns (5; quick: 1)")
     parser.add_argument("--again", action="store_true", help="also what was measured with these programs before")
@@ -145,10 +175,10 @@ def main() -> int:
         return 0
     failed = [] if bench.options.report else bench.run()
     results = bench.results()
-    print("\n" + tables.all_tables(results))
+    print("\n" + "\n\n".join(filter(None, (tables.all_tables(results), trade_tables.all_tables(results)))))
     if not bench.options.quick:
         page.write(SOURCE / "docs", results, bench.machine_file().read_text())
-        bench.say("wrote docs/speed.md and its plots")
+        bench.say("wrote docs/speed.md and docs/trade.md and their plots")
     if failed:
         bench.say(f"FAILED: {', '.join(failed)}")
     return 1 if failed else 0

@@ -1,22 +1,29 @@
-"""Whether CRT still takes the scenes that are measured:  smoke.py CRT FOLDER
+"""Whether CRT still takes the scenes that are measured:  smoke.py CRT LIBRARY FOLDER [BENCH_HONESTY]
 
-Checks the script of each (but the large ones), and renders one of each kind, tiny.
+Checks the script of each (but the large ones), and renders one of each kind, tiny. Measures error against time, tiny,
+where there is POV-Ray, and honesty, if its program is told.
 """
 
 import json
 import pathlib
+import shutil
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from povray import catalogue, measure  # noqa: E402
+from povray import catalogue, measure, trade_scenes  # noqa: E402
 from povray.programs import Size, run  # noqa: E402
+from report import trade_plots, trade_tables  # noqa: E402
+from trade import honesty, ladders  # noqa: E402
+from trade import measure as trade_measure  # noqa: E402
 
 LARGE = ("-1e3", "-1e4", "-1e5", "-1e6", "-500")
 RENDERED = ("tunnel-1e1", "lens-union-1e2", "mirror-room", "glass", "nested-50")
 
 
-def main() -> int:
-    crt, folder = (pathlib.Path(argument).resolve() for argument in sys.argv[1:3])
+MEASURED = ("wires", "defocus", "flat")
+
+
+def check_catalogue(crt: pathlib.Path, folder: pathlib.Path) -> None:
     plan = measure.Plan(crt=crt, folder=folder, size=Size(12, 9), rounds=1, threads=(1,), longest=1, patience=1,
                         say=print)
     for name, make in catalogue.SCENES.items():
@@ -29,8 +36,29 @@ def main() -> int:
         picture = folder / f"{name}.png"
         program.trace(plan.size, 1, picture)
         if json.loads(picture.with_suffix(".json").read_text())["rays"]["shadow"] == 0:
-            print(f"{name}: no surface is lit")
-            return 1
+            raise SystemExit(f"{name}: no surface is lit")
+
+
+def check_trade(library: pathlib.Path, folder: pathlib.Path) -> dict:
+    """What is measured, in pictures of a few pixels."""
+    plan = trade_measure.Plan(library=library, folder=folder, rounds=1, patience=1, quick=True, say=print, divisor=15)
+    for name in trade_scenes.SCENES:
+        trade_measure.contest(name, plan).crt.render({"targeterror": 8 * ladders.STEP, "maxsamples": 16})
+    if shutil.which("povray") is None:
+        return {}
+    return {f"trade/{name}": trade_measure.measure(name, plan) for name in MEASURED}
+
+
+def main() -> int:
+    crt, library, folder, *rest = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
+    check_catalogue(crt, folder)
+    results = check_trade(library, folder)
+    for program in rest:
+        results["honesty/edge"] = honesty.measure("edge", program, folder, quick=True)
+    if results:
+        print(trade_tables.all_tables(results))
+        trade_plots.error_against_time(results, "rmse")
+        trade_plots.achieved_against_claimed(results)
     return 0
 
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <string>
 
+#include "binomial.hpp"
 #include "core/render/rendering.hpp"
 #include "pictures.hpp"
 
@@ -87,27 +88,6 @@ PixelClass refractive_pixels() {
   scene.entities = {Plane{.normal = {0, 1, 0}, .material = tiles},
                     Sphere{.center = {0, 1, 0}, .radius = 1, .material = glass(1.5)}};
   return {"refractive", scene, false};
-}
-
-/// The lower end of the two-sided 95 % interval for the share of successes. Source: Clopper and Pearson, The
-/// use of confidence or fiducial limits illustrated in the case of the binomial, Biometrika 26(4), 1934.
-double clopper_pearson_low(int successes, int trials) {
-  if (successes == 0) return 0;
-  const auto at_least = [&](double share) {
-    double sum = 0;
-    for (int k = successes; k <= trials; ++k) {
-      sum += std::exp(std::lgamma(trials + 1.0) - std::lgamma(k + 1.0) - std::lgamma(trials - k + 1.0) +
-                      k * std::log(share) + (trials - k) * std::log1p(-share));
-    }
-    return sum;
-  };
-  double low = 0;
-  double high = 1;
-  for (int i = 0; i < 50; ++i) {
-    const double middle = (low + high) / 2;
-    (at_least(middle) < 0.025 ? low : high) = middle;
-  }
-  return low;
 }
 
 Image reference_of(Scene scene, int samples) {

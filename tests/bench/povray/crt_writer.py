@@ -6,7 +6,8 @@ from typing import TextIO
 import numpy as np
 
 from .model import (
-    Alternating, Box, Checker, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus, Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus,
+    Union,
 )
 
 
@@ -65,6 +66,7 @@ class Writer:
 {projection}  camera -> Camera {{
     position -> {vector(camera.position)} pointing -> {vector(camera.pointing)} fov -> {number(fov)}
     aperture -> {number(1000 * camera.aperture)} focaldistance -> {number(camera.focal_distance)}
+    apertureshape -> "{camera.aperture_shape}"
   }}
   background -> Background {{ color -> {color(scene.background)} }}
   lights -> [
@@ -121,6 +123,13 @@ class Writer:
                     f" material -> {self.material(thing.material)} }}")
         if isinstance(thing, Box):
             return (f"Box {{ cornerA -> {vector(thing.low)} cornerB -> {vector(thing.high)}"
+                    f" material -> {self.material(thing.material)} }}")
+        if isinstance(thing, Cylinder):
+            return (f"Cylinder {{ from -> {vector(thing.start)} to -> {vector(thing.end)}"
+                    f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}")
+        if isinstance(thing, Cone):
+            return (f"Cone {{ from -> {vector(thing.start)} to -> {vector(thing.end)}"
+                    f" radius -> {number(thing.start_radius)} radius2 -> {number(thing.end_radius)}"
                     f" material -> {self.material(thing.material)} }}")
         if isinstance(thing, Plane):
             return (f"Plane {{ normal -> vec3(0, 1, 0) position -> {vector((0, thing.height, 0))}"

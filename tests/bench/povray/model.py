@@ -48,6 +48,27 @@ class Box:
 
 
 @dataclass(frozen=True)
+class Cylinder:
+    """Solid, between the middles of its two caps."""
+
+    start: Vector
+    end: Vector
+    radius: float
+    material: Material = GREY
+
+
+@dataclass(frozen=True)
+class Cone:
+    """Likewise, with a radius at either end."""
+
+    start: Vector
+    end: Vector
+    start_radius: float
+    end_radius: float
+    material: Material = GREY
+
+
+@dataclass(frozen=True)
 class Plane:
     """All that lies below a height."""
 
@@ -112,6 +133,7 @@ class Camera:
     orthographic_height: float | None = None  # of what the picture shows, instead of fov
     aperture: float = 0  # radius of the lens, scene units
     focal_distance: float = 1
+    aperture_shape: str = "circle"  # in CRT alone: POV-Ray 3.7 has round lenses, and gets one of the same area
 
 
 @dataclass(frozen=True)

@@ -7,7 +7,7 @@ import numpy as np
 
 
 def read_ppm(path: pathlib.Path) -> np.ndarray:
-    """A binary PPM of 8 bits: height x width x 3."""
+    """A binary PPM of 8 or 16 bits: height x width x 3."""
     data = path.read_bytes()
     fields, position = [], 0
     while len(fields) < 4:
@@ -19,10 +19,11 @@ def read_ppm(path: pathlib.Path) -> np.ndarray:
         elif end > position:
             fields.append(data[position:end])
         position = end + 1
-    if fields[0] != b"P6" or fields[3] != b"255":
-        raise ValueError(f"{path} is no binary PPM of 8 bits")
+    if fields[0] != b"P6" or fields[3] not in (b"255", b"65535"):
+        raise ValueError(f"{path} is no binary PPM of 8 or 16 bits")
     width, height = int(fields[1]), int(fields[2])
-    return np.frombuffer(data, np.uint8, 3 * width * height, position).reshape(height, width, 3)
+    kind = np.dtype(np.uint8 if fields[3] == b"255" else ">u2")
+    return np.frombuffer(data, kind, 3 * width * height, position).reshape(height, width, 3)
 
 
 @dataclass(frozen=True)

@@ -4,11 +4,14 @@ import math
 from typing import TextIO
 
 from .model import (
-    Alternating, Box, Checker, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus, Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus,
+    Union,
 )
 
 # Of POV-Ray's `aperture` to the radius of its lens; found by the size of a spot out of focus.
 APERTURE_FOR_RADIUS = 4.0
+# Of shapes that POV-Ray has not got, by the area of a circle around them.
+AREAS = {"circle": 1, "hexagon": 3 * math.sqrt(3) / (2 * math.pi)}
 
 
 def number(value: float) -> str:
@@ -43,7 +46,11 @@ class Writer:
         scene = self.scene
         lights = "".join(
             f"light_source {{ {vector(light.origin)}, rgb {vector(light.color)} }}\n" for light in scene.lights)
-        return f"""global_settings {{
+        lens = ""
+        if scene.camera.aperture > 0:  # both may be set on the command line
+            lens = (f"#ifndef (BlurSamples) #declare BlurSamples = {scene.lens_samples}; #end\n"
+                    "#ifndef (Variance) #declare Variance = 0; #end\n")
+        return f"""{lens}global_settings {{
   assumed_gamma 1
   ambient_light 1
   max_trace_level {scene.depth + 1}  // counts the camera's ray
@@ -58,15 +65,17 @@ background {{ rgb {vector(scene.background)} }}
         if camera.orthographic_height is not None:
             height = camera.orthographic_height
             return (f"camera {{ orthographic location {vector(camera.position)}"
-                    f" right x * {number(self.aspect * height)} up y * {number(height)} direction z look_at {vector(camera.pointing)} }}")
+                    f" right x * {number(self.aspect * height)} up y * {number(height)} direction z"
+                    f" look_at {vector(camera.pointing)} }}")
         length = 0.5 / math.tan(math.radians(camera.fov) / 2)
         lens = ""
         if camera.aperture > 0:
             view = [b - a for a, b in zip(camera.position, camera.pointing)]
             reach = camera.focal_distance / math.hypot(*view)
             focus = [a + reach * v for a, v in zip(camera.position, view)]
-            lens = (f" aperture {number(APERTURE_FOR_RADIUS * camera.aperture)} focal_point {vector(focus)}"
-                    f" blur_samples {scene.lens_samples} variance 0")
+            radius = camera.aperture * math.sqrt(AREAS[camera.aperture_shape])
+            lens = (f" aperture {number(APERTURE_FOR_RADIUS * radius)} focal_point {vector(focus)}"
+                    " blur_samples BlurSamples variance Variance")
         return (f"camera {{ perspective location {vector(camera.position)} right x * {number(self.aspect)} up y"
                 f" direction z * {number(length)} look_at {vector(camera.pointing)}{lens} }}")
 
@@ -122,6 +131,12 @@ background {{ rgb {vector(scene.background)} }}
             return f"sphere {{ {vector(thing.center)}, {number(thing.radius)}{self.look(thing.material)} }}"
         if isinstance(thing, Box):
             return f"box {{ {vector(thing.low)}, {vector(thing.high)}{self.look(thing.material)} }}"
+        if isinstance(thing, Cylinder):
+            return (f"cylinder {{ {vector(thing.start)}, {vector(thing.end)}, {number(thing.radius)}"
+                    f"{self.look(thing.material)} }}")
+        if isinstance(thing, Cone):
+            return (f"cone {{ {vector(thing.start)}, {number(thing.start_radius)}, {vector(thing.end)},"
+                    f" {number(thing.end_radius)}{self.look(thing.material)} }}")
         if isinstance(thing, Plane):
             return f"plane {{ y, {number(thing.height)}{self.look(thing.material)} }}"
         if isinstance(thing, Torus):

@@ -1,0 +1,1 @@
+"""Accuracy against time: CRT's plain grid, its adaptive rendering, and POV-Ray."""
