@@ -192,6 +192,52 @@ TEST_CASE("what is smaller than a pixel is found beside what has been seen of it
   }
 }
 
+TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it lies") {
+  constexpr int size = 48;
+  Scene scene = dark_scene();
+  scene.settings.width = scene.settings.height = size;
+  scene.settings.max_samples = 256;
+  scene.camera = {.position = {0, 0, -3},
+                  .fov = 2 * std::atan(size / 2.0),
+                  .projection = Projection::orthographic,
+                  .focal_distance = 1};
+  scene.lights = {glow(1)};
+  // Through corners of pixels, where all around see little of them: cylinders, cones and boxes.
+  const double width = 0.07;
+  for (int i = 0; i < 3; ++i) {
+    const double rise = 0.5 + 0.2 * i;
+    const Vec3 from(-24, -20 + 10 * i, 0);
+    const Vec3 to(24, from.y + 48 * rise / 2, 0);
+    if (i == 0) scene.entities.push_back(Cylinder{from, to, width / 2, inert()});
+    if (i == 1) scene.entities.push_back(Cone{from, to, width / 2, 0.9 * width / 2, inert()});
+    if (i == 2) {
+      const Entity bar =
+          Box{.corner_a = {-24, -width / 2, -0.02}, .corner_b = {24, width / 2, 0.02}, .material = inert()};
+      scene.entities.push_back(bar.transformed(rotate({0, 0, 41})));
+    }
+  }
+  scene.settings.supersampling = 32;
+  const Image truth = render(prepare(scene));
+  scene.settings.target_error = 8.0 / 255;
+  const PreparedScene prepared = prepare(scene);
+  int covered = 0;
+  int vanished = 0;
+  for (std::uint64_t seed = 0; seed < 24; ++seed) {
+    const Image image = render(prepared, {.seed = seed});
+    for (int y = 0; y < size; ++y) {
+      for (int x = 0; x < size; ++x) {
+        if (truth.at(x, y).r <= 0.05) continue;
+        ++covered;
+        if (image.at(x, y).r == 0) ++vanished;
+      }
+    }
+    CHECK(image.at(1, 46).r == 0);
+    CHECK(image.stats().samples_min == 16);
+  }
+  CHECK(covered > 2000);
+  CHECK(vanished == 0);
+}
+
 TEST_CASE("no ball that covers more than a 20th of a pixel vanishes") {
   Scene scene = dark_scene();
   scene.settings.width = scene.settings.height = 25;

@@ -13,6 +13,16 @@ BoxShape::BoxShape(const Box& box)
       faces_{PlaneFace({-1, 0, 0}, lower_), PlaneFace({1, 0, 0}, upper_),  PlaneFace({0, -1, 0}, lower_),
              PlaneFace({0, 1, 0}, upper_),  PlaneFace({0, 0, -1}, lower_), PlaneFace({0, 0, 1}, upper_)} {}
 
+std::optional<Spine> BoxShape::spine() const {
+  const Vec3 size = upper_ - lower_;
+  int along = size.y > size.x ? 1 : 0;
+  if (size.z > size[along]) along = 2;
+  Vec3 across = 0.5 * size;
+  across[along] = 0;
+  Spine spine{lower_ + across, upper_ - across, glm::length(across)};
+  return spine;
+}
+
 bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const double shortest =
       unit_roundoff * (largest_component(upper_ - lower_) / largest_component(ray.direction));

@@ -20,6 +20,7 @@ class BoxShape final : public Shape {
   explicit BoxShape(const Box& box);
 
   bool is_solid() const override { return true; }
+  std::optional<Spine> spine() const final;
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;

@@ -9,6 +9,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
@@ -46,6 +47,13 @@ struct SurfacePoint {
   double v = 0;
 };
 
+/// A line through something long: all of that is within `reach` of the line.
+struct Spine {
+  Vec3 from;
+  Vec3 to;
+  double reach = 0;
+};
+
 class Shape {
  public:
   Shape() = default;
@@ -61,6 +69,9 @@ class Shape {
 
   /// A box in object space that holds the shape, rounded outwards; infinite where the shape is.
   virtual Bounds bounds() const = 0;
+
+  /// In object space; none of shapes that are about as long as wide.
+  virtual std::optional<Spine> spine() const { return std::nullopt; }
 
   /// Appends every crossing of the whole line in ascending t. For a solid they alternate between
   /// entering and leaving, and what is returned is whether the line is inside at t = -inf; a

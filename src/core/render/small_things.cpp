@@ -2,8 +2,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <optional>
+#include <utility>
 
+#include "core/math/vector.hpp"
 #include "core/render/tiles.hpp"
 #include "core/scene/compile.hpp"
 
@@ -15,7 +18,7 @@ namespace {
 constexpr double small_size = 1;
 /// What covers less of a pixel is not looked for.
 constexpr double least_area = 1.0 / 64;
-/// Long things that are seen askew have a rectangle that says little.
+/// What has a larger rectangle is long and seen askew.
 constexpr double most_pixels = 4096;
 
 struct Rectangle {
@@ -57,33 +60,121 @@ bool is_surely_large(const CameraRays& camera, const Bounds& box) {
   return 2 * least * camera.least_pixels_per_unit(0.5 * (box.lower + box.upper)) > 2 * small_size;
 }
 
+/// The pixels of a region that small things may be seen in.
+class Marks {
+ public:
+  Marks(const CameraRays& camera, const Region& region) : camera_(camera), region_(region) {}
+
+  void add(const Rectangle& seen) {
+    if (seen.right < region_.x || seen.left >= region_.x + region_.width || seen.bottom < region_.y ||
+        seen.top >= region_.y + region_.height)
+      return;
+    if (pixels_.empty()) pixels_.resize(pixel_count(region_));
+    const int right = inside(seen.right, region_.x, region_.width);
+    const int bottom = inside(seen.bottom, region_.y, region_.height);
+    for (int y = inside(seen.top, region_.y, region_.height); y <= bottom; ++y) {
+      for (int x = inside(seen.left, region_.x, region_.width); x <= right; ++x) {
+        pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(region_.width) +
+                static_cast<std::size_t>(x)] = true;
+      }
+    }
+  }
+
+  /// What is around a line and so wide, in pixels.
+  void add(const Spine& line, double width) {
+    add_between({line.from, camera_.place_of(line.from)}, {line.to, camera_.place_of(line.to)}, width, 0);
+  }
+
+  std::vector<bool> take() { return std::move(pixels_); }
+
+ private:
+  struct Point {
+    Vec3 position;
+    std::optional<PicturePlace> place;
+  };
+
+  static int inside(double place, int begin, int size) {
+    return static_cast<int>(std::clamp(std::floor(place) - begin, 0.0, size - 1.0));
+  }
+
+  Rectangle around(const Point& from, const Point& to, double width) const {
+    const auto [left, right] = std::minmax(from.place->x, to.place->x);
+    const auto [top, bottom] = std::minmax(from.place->y, to.place->y);
+    return {left - width / 2, top - width / 2, right + width / 2, bottom + width / 2};
+  }
+
+  /// Halves the line until its parts are short in the picture, or not in it.
+  void add_between(const Point& from, const Point& to, double width, int halvings) {
+    constexpr int most_halvings = 20;
+    constexpr int enough_to_see_some = 6;
+    const bool both_seen = from.place && to.place;
+    if (both_seen) {
+      const Rectangle seen = around(from, to, width);
+      const bool is_short =
+          std::max(seen.right - seen.left, seen.bottom - seen.top) <= width + small_size / 2;
+      const bool is_beside = seen.right < region_.x || seen.left >= region_.x + region_.width ||
+                             seen.bottom < region_.y || seen.top >= region_.y + region_.height;
+      if (is_short) add(seen);
+      if (is_short || is_beside) return;
+    }
+    const bool none_seen = !from.place && !to.place;
+    if (halvings == most_halvings || (none_seen && halvings == enough_to_see_some)) return;
+    const Vec3 middle = 0.5 * (from.position + to.position);
+    const Point point{middle, camera_.place_of(middle)};
+    add_between(from, point, width, halvings + 1);
+    add_between(point, to, width, halvings + 1);
+  }
+
+  const CameraRays& camera_;
+  Region region_;
+  std::vector<bool> pixels_;
+};
+
+/// The line through something long in the world; none if the object is not a single shape.
+std::optional<Spine> spine_of(const CompiledScene& scene, const SceneObject& object) {
+  if (object.is_csg()) return std::nullopt;
+  const Leaf& leaf = scene.leaves[object.first_leaf];
+  std::optional<Spine> spine = leaf.shape->spine();
+  if (!spine) return spine;
+  const Transform& world = leaf.placement->to_world();
+  const Vec3 scale(glm::length(Vec3(world.row_x.x, world.row_y.x, world.row_z.x)),
+                   glm::length(Vec3(world.row_x.y, world.row_y.y, world.row_z.y)),
+                   glm::length(Vec3(world.row_x.z, world.row_y.z, world.row_z.z)));
+  return Spine{leaf.placement->point_to_world(spine->from), leaf.placement->point_to_world(spine->to),
+               spine->reach * largest_component(scale)};
+}
+
+/// How wide it looks where it is nearest, in pixels, about.
+double width_of(const Spine& spine, const CameraRays& camera) {
+  const Vec3 middle = 0.5 * (spine.from + spine.to);
+  double most = 0;
+  for (const Vec3& point : {spine.from, middle, spine.to}) {
+    most = std::max(most, 2 * spine.reach * camera.least_pixels_per_unit(point));
+  }
+  return most;
+}
+
 }  // namespace
 
 std::vector<bool> small_things(const Frame& frame, const Region& region) {
-  std::vector<bool> pixels;
-  if (frame.features().lens) return pixels;
+  if (frame.features().lens) return {};
   const CameraRays& camera = frame.camera();
-  const auto inside = [](double place, int begin, int size) {
-    return static_cast<int>(std::clamp(std::floor(place) - begin, 0.0, size - 1.0));
-  };
-  for (const SceneObject& object : frame.data().compiled().objects) {
+  const CompiledScene& scene = frame.data().compiled();
+  Marks marks(camera, region);
+  for (const SceneObject& object : scene.objects) {
     if (!object.solid || !object.bounds.finite() || object.bounds.empty()) continue;
+    if (const std::optional<Spine> spine = spine_of(scene, object)) {
+      const double width = width_of(*spine, camera);
+      if (width >= least_area && width < small_size) {
+        marks.add(*spine, width);
+        continue;
+      }
+    }
     if (is_surely_large(camera, object.bounds)) continue;
     const std::optional<Rectangle> seen = seen_rectangle(camera, object.bounds);
-    if (!seen || !is_small(*seen)) continue;
-    if (seen->right < region.x || seen->left >= region.x + region.width || seen->bottom < region.y ||
-        seen->top >= region.y + region.height)
-      continue;
-    if (pixels.empty()) pixels.resize(pixel_count(region));
-    const int right = inside(seen->right, region.x, region.width);
-    const int bottom = inside(seen->bottom, region.y, region.height);
-    for (int y = inside(seen->top, region.y, region.height); y <= bottom; ++y) {
-      for (int x = inside(seen->left, region.x, region.width); x <= right; ++x)
-        pixels[static_cast<std::size_t>(y) * static_cast<std::size_t>(region.width) +
-               static_cast<std::size_t>(x)] = true;
-    }
+    if (seen && is_small(*seen)) marks.add(*seen);
   }
-  return pixels;
+  return marks.take();
 }
 
 }  // namespace crt::core
