@@ -178,17 +178,17 @@ TorusLine::Search TorusLine::find_sign(double low, double high, double sign) con
   return {std::nullopt, false};
 }
 
-/// Where the parabola that osculates G at the bracket's inner end is 0; the middle if that is elsewhere.
+/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is not in between.
 double TorusLine::first_guess(const Bracket& bracket) const {
   const double way = bracket.positive - bracket.negative;
   const Level inside = level(bracket.negative);
-  // A parabola that opens upwards; `onwards` is half its slope on the way.
+  // `onwards` is half its slope on the way.
   const double bend = half_curvature(inside);
   const double onwards = way < 0 ? -inside.half_slope : inside.half_slope;
   const double root = std::sqrt(onwards * onwards - bend * inside.value);
   const double length = onwards > 0 ? -inside.value / (onwards + root) : (root - onwards) / bend;
-  const bool is_within = bend > 0 && length < std::abs(way);
-  return bracket.negative + (is_within ? std::copysign(length, way) : way / 2);
+  const bool is_within = 0 < length && length < std::abs(way);
+  return is_within ? bracket.negative + std::copysign(length, way) : bracket.positive;
 }
 
 /// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line slants, what
@@ -204,15 +204,17 @@ bool TorusLine::is_last_step(double x, const Level& from, double step) const {
   return is_near && change_of_bend * bend * step * step < rounding;
 }
 
-/// Newton, and bisection where it would leave the bounds or does not halve them fast enough.
+/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each beside the last but
+/// one.
 double TorusLine::root(const Bracket& bracket) const {
   double negative = bracket.negative;
   double positive = bracket.positive;
   if (on_surface_ && std::min(negative, positive) <= 0 && std::max(negative, positive) >= 0) return 0;
   constexpr int most_steps = 200;
   double x = first_guess(bracket);
-  double step_before = std::abs(positive - negative);
-  for (int step = 0; step < most_steps; ++step) {
+  double step = std::abs(positive - negative);
+  double step_before = step;
+  for (int steps = 0; steps < most_steps; ++steps) {
     const Level here = level(x);
     const double height = here.value;
     if (height == 0) return x;
@@ -226,7 +228,8 @@ double TorusLine::root(const Bracket& bracket) const {
     if (is_last_step(x, here, change)) return std::clamp(next, low, high);
     const bool halves = low < next && next < high && std::abs(change) <= step_before / 2;
     if (!halves) next = low + (high - low) / 2;
-    step_before = std::abs(next - x);
+    step_before = step;
+    step = std::abs(next - x);
     if (next == x || next == low || next == high) return next;
     x = next;
   }
