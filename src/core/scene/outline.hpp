@@ -272,14 +272,16 @@ auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const Outlin
   const Real gap = 0x1p-20 * ball * line.inverse_speed;
   const Real squared_way = dot(way, way);
   const Mask known = squared_way < farthest_outline * farthest_outline * ball * ball;
-  const Mask missed = either(room < 0.0, pass.from > pass.to, through_hole, closest - half - gap > limit,
-                             closest + half + gap < line.begin);
+  const Mask missed = either(room < 0.0, pass.from > pass.to, through_hole, closest + pass.from - gap > limit,
+                             closest + pass.to + gap < line.begin);
   const Verdict<Mask> roughly{.missed = both(known, missed), .met = {}};
   if (all(roughly.missed)) return roughly;
 
   const Real middle = (pass.from + pass.to) * 0.5;
   const TorusVerdict<Mask> closely = judge_torus_closely(pass, torus.radius, thickness, middle);
-  const Mask on_way = both(closest + pass.from - gap > line.certain_from, closest + middle + gap < line.certain_to);
+  // No bound on a root's error is larger than the whole way through.
+  const Real earliest = closest + pass.from - (pass.to - pass.from) - gap;
+  const Mask on_way = both(earliest > line.certain_from, closest + middle + gap < line.certain_to);
   return Verdict<Mask>{.missed = either(roughly.missed, both(known, closely.missed)),
                        .met = both(known, both(closely.enters, on_way))};
 }
