@@ -22,10 +22,10 @@ TorusLine::Level TorusLine::level(double x) const {
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);
   const double outward = rho - ring_;
   const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
-  return {.rho = rho,
-          .value = on_surface_ ? value_from_start(x, p, rho)
-                               : outward * outward - (tube_ - p.z) * (tube_ + p.z),
-          .half_slope = outward * rho_rate + p.z * direction_.z};
+  return {
+      .rho = rho,
+      .value = on_surface_ ? value_from_start(x, p, rho) : outward * outward - (tube_ - p.z) * (tube_ + p.z),
+      .half_slope = outward * rho_rate + p.z * direction_.z};
 }
 
 /// G(x) - G(0) with x as a factor.
@@ -178,7 +178,8 @@ TorusLine::Search TorusLine::find_sign(double low, double high, double sign) con
   return {std::nullopt, false};
 }
 
-/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is not in between.
+/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is not in
+/// between.
 double TorusLine::first_guess(const Bracket& bracket) const {
   const double way = bracket.positive - bracket.negative;
   const Level inside = level(bracket.negative);
@@ -191,21 +192,23 @@ double TorusLine::first_guess(const Bracket& bracket) const {
   return is_within ? bracket.negative + std::copysign(length, way) : bracket.positive;
 }
 
-/// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line slants, what
-/// is left is no more than the step's square times the largest |G'' / 2| on the way; with the root at the
-/// start divided out, G'(x) / x more.
+/// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line slants,
+/// what is left is no more than the step's square times the largest |G'' / 2| on the way; with the root at
+/// the start divided out, G'(x) / x more.
 bool TorusLine::is_last_step(double x, const Level& from, double step) const {
   const double rounding = unit_roundoff * tube_ * (ring_ + tube_);
   const double cube = from.rho * from.rho * from.rho;
-  const double bend = squared_speed_ + turning_ / cube + (on_surface_ ? std::abs(2 * from.half_slope / x) : 0);
-  // Near enough that the distance from the axis does not shrink by more than a fourth, its cube to less than a third.
+  const double bend =
+      squared_speed_ + turning_ / cube + (on_surface_ ? std::abs(2 * from.half_slope / x) : 0);
+  // Near enough that the distance from the axis does not shrink by more than a fourth, its cube to less than
+  // a third.
   constexpr double change_of_bend = 3;
   const bool is_near = 16 * squared_speed_ * step * step < from.rho * from.rho;
   return is_near && change_of_bend * bend * step * step < rounding;
 }
 
-/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each beside the last but
-/// one.
+/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each beside
+/// the last but one.
 double TorusLine::root(const Bracket& bracket) const {
   double negative = bracket.negative;
   double positive = bracket.positive;

@@ -48,12 +48,12 @@ class TorusLine {
     std::size_t count = 0;
     bool certain = true;
   };
-  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the surface. Those before
-  /// `begin` are only told roughly.
+  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the surface. Those
+  /// before `begin` are only told roughly.
   Dips dips(double begin = -std::numeric_limits<double>::infinity());
 
   double level_at_start() const;  ///< what G is at x = 0, by rounding, if the point is on the surface
-  double half_slope(double x) const { return level(x).half_slope; }          ///< G' / 2
+  double half_slope(double x) const { return level(x).half_slope; }           ///< G' / 2
   double half_curvature(double x) const { return half_curvature(level(x)); }  ///< G'' / 2
 
  private:

@@ -203,8 +203,8 @@ struct TorusVerdict {
 /// A torus within the ball and the slab around it, by G in the middle of the line's way through them (see
 /// geometry/torus.hpp).
 ///
-/// G'' / 2 = d^2 - R D / rho^3 is least where rho is, so there is a parabola below G all the way: with G's value and
-/// slope in the middle, and that curvature.
+/// G'' / 2 = d^2 - R D / rho^3 is least where rho is, so there is a parabola below G all the way: with G's
+/// value and slope in the middle, and that curvature.
 template <class Real>
 auto judge_torus_closely(const TorusPass<Real>& pass, double ring, double tube, const Real& middle) {
   using namespace outline_detail;
@@ -225,7 +225,8 @@ auto judge_torus_closely(const TorusPass<Real>& pass, double ring, double tube, 
   // Roundings are less than a sixteenth of that.
   const double error = 0x1p-30 * squared_ball;
   const Real turning = size_of((pass.squared_across - pass.height * pass.height) * squared_lateral_speed -
-                               pass.height * pass.height * pass.climb * pass.climb) + error * pass.squared_speed;
+                               pass.height * pass.height * pass.climb * pass.climb) +
+                       error * pass.squared_speed;
   const Real bend = pass.squared_speed - ring * turning / (squared_least * least);
   const Real half_way = (pass.to - pass.from) * 0.5;
   const Real to_lowest = slope < bend * half_way ? slope / bend : half_way;
@@ -235,7 +236,8 @@ auto judge_torus_closely(const TorusPass<Real>& pass, double ring, double tube, 
 }
 
 /// A torus: missed if the line passes by the ball and the slab around it, or through the hole in its middle,
-/// or else if it stays outside all the way through these. The outline is thicker than the torus by more than all roundings here.
+/// or else if it stays outside all the way through these. The outline is thicker than the torus by more than
+/// all roundings here.
 template <class Real>
 auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const OutlineLine<Real>& line,
                  const Real& limit) {
@@ -272,7 +274,7 @@ auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const Outlin
   const Real gap = 0x1p-20 * ball * line.inverse_speed;
   const Real squared_way = dot(way, way);
   const Mask known = squared_way < farthest_outline * farthest_outline * ball * ball;
-  const Mask missed = either(room < 0.0, pass.from > pass.to, through_hole, closest + pass.from - gap > limit,
+  const Mask missed = either(room<0.0, pass.from> pass.to, through_hole, closest + pass.from - gap > limit,
                              closest + pass.to + gap < line.begin);
   const Verdict<Mask> roughly{.missed = both(known, missed), .met = {}};
   if (all(roughly.missed)) return roughly;
@@ -286,8 +288,8 @@ auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const Outlin
                        .met = both(known, both(closely.enters, on_way))};
 }
 
-/// Whether a ray that starts on a torus and goes outwards leaves it for good: it starts farther from the axis than
-/// the ring is, where the torus is its own convex hull, and plainly goes away from there.
+/// Whether a ray that starts on a torus and goes outwards leaves it for good: it starts farther from the axis
+/// than the ring is, where the torus is its own convex hull, and plainly goes away from there.
 template <class Real>
 auto leaves_torus(const Outline& torus, const OutlineAxis& of_torus, const OutlineLine<Real>& line) {
   using namespace outline_detail;
