@@ -232,7 +232,8 @@ auto judge_torus_closely(const TorusPass<Real>& pass, double ring, double tube, 
   const Real to_lowest = slope < bend * half_way ? slope / bend : half_way;
   const Real lowest = level - (2.0 * slope - bend * to_lowest) * to_lowest;
   using Mask = decltype(lowest > level);
-  return TorusVerdict<Mask>{.missed = lowest > error, .enters = level < -error};
+  // The torus itself is thinner: its G is less than twice that error larger.
+  return TorusVerdict<Mask>{.missed = lowest > error, .enters = level < -4.0 * error};
 }
 
 /// A torus: missed if the line passes by the ball and the slab around it, or through the hole in its middle,
