@@ -154,7 +154,7 @@ TEST_CASE("torus: what is before the beginning of a ray only counts") {
       }
     }
   }
-  CHECK(before > 10000);
+  CHECK(before > 5000);
 }
 
 TEST_CASE("torus: thin rings are met as often as they are crossed") {
