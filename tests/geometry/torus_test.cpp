@@ -117,6 +117,46 @@ TEST_CASE("torus: a ray that starts on it obeys its side") {
   check_starts(random_torus, 100000, false);
 }
 
+TEST_CASE("torus: what is before the beginning of a ray only counts") {
+  Random random(29);
+  int before = 0;
+  for (int i = 0; i < 50000; ++i) {
+    const Subject subject = random_torus(random);
+    const auto shape = core::make_shape(subject.primitive);
+    core::ObjectRay ray;
+    ray.direction = random.direction();
+    ray.origin = subject.center + subject.size * random.in_cube() -
+                 random.uniform(0, 2) * ray.direction * subject.size;
+    core::CrossingList all;
+    shape->crossings(ray, all);
+    if (!all.empty() && !random.one_in(4)) {
+      const core::SurfacePoint start = shape->surface_point(ray, all.back());
+      ray.origin = start.position;
+      ray.direction = random.direction();
+      ray.start = {.face = 0, .side = random.one_in(2) ? core::Side::outside : core::Side::inside};
+      all.clear();
+      shape->crossings(ray, all);
+    }
+    ray.begin = 0;
+    core::CrossingList found;
+    shape->crossings(ray, found);
+    REQUIRE(found.size() == all.size());
+    for (std::size_t k = 0; k < found.size(); ++k) {
+      REQUIRE(found[k].root == all[k].root);
+      REQUIRE(found[k].entering == all[k].entering);
+      REQUIRE((found[k].t < 0) == (all[k].t < 0));
+      if (found[k].t < 0) {
+        ++before;
+        REQUIRE(std::abs(found[k].t - all[k].t) <= found[k].error);
+      } else {
+        REQUIRE(found[k].t == all[k].t);
+        REQUIRE(found[k].error == all[k].error);
+      }
+    }
+  }
+  CHECK(before > 5000);
+}
+
 TEST_CASE("torus: thin rings are met as often as they are crossed") {
   Random random(31);
   int hits = 0;

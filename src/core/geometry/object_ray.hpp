@@ -31,6 +31,8 @@ struct ObjectRay {
   Vec3 direction{0, 0, 1};
   Vec3 direction_low{0, 0, 0};
   RayStart start = {};
+  /// Crossings with t below this only count: where they are may be told roughly, with an error that says so.
+  double begin = -std::numeric_limits<double>::infinity();
   /// Of the crossings with t above this only the first is asked for: the others may be left out.
   double first_above = std::numeric_limits<double>::infinity();
 

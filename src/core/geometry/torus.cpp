@@ -35,11 +35,15 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   std::uint8_t root = 0;
   const auto crossing = [&](double x, bool entering, double length) {
     const double t = line.to_t(x);
+    if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
+    // The speed is at least 1, and no dip longer than the torus is wide.
+    if (t < ray.begin) {
+      return Crossing{.t = t, .error = line.to_t_length(2 * size), .root = root++, .entering = entering};
+    }
     const double reach = size + glm::length(line.at(x));
     // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
     const double approach = std::abs(torus.half_slope(x)) / tube_;
     const double longest = length + grazing_error(line, reach, size);
-    if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
     // A start that rounding has moved off the surface takes the whole level of G along.
     const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
     const double along = off_surface < longest * approach ? off_surface / approach : longest;
@@ -55,7 +59,7 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   };
 
   if (on_surface) {
-    TorusLine::Dips dips = torus.dips();
+    TorusLine::Dips dips = torus.dips(ray.begin >= 0 ? 0 : -std::numeric_limits<double>::infinity());
     obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
     for (std::size_t i = 0; i < dips.count; ++i) add(dips.dip[i]);
     return false;

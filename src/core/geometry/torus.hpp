@@ -7,6 +7,8 @@
 // derivative is 2 a - 2 R rho'', and rho'' = D / rho^3 (D constant) has a single bump where the line passes
 // the axis. G is therefore convex, concave, convex, between two points known in closed form; it has at most
 // one dip in each convex part and one rise between them, and a root between each two of those.
+// Newton's iteration for a root begins where the parabola that osculates G at the dip's inner point ends, and
+// ends when a step leaves less of G than its rounding.
 //
 // A ray that starts on the surface has G(x) = (x - x0) H(x), with H in closed form (a difference of
 // squares and of distances), so its own root is gone by algebra.

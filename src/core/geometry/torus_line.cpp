@@ -14,33 +14,37 @@ TorusLine::TorusLine(const Vec3& point, const Vec3& direction, double ring, doub
       tube_(tube),
       squared_speed_(glm::dot(direction, direction)),
       passing_(std::abs(difference_of_products(point.x, direction.y, point.y, direction.x))),
+      turning_(ring * passing_ * passing_),
       on_surface_(on_surface) {}
 
-TorusLine::Level TorusLine::level(const Vec3& p) const {
+TorusLine::Level TorusLine::level(double x) const {
+  const Vec3 p = point_ + x * direction_;
   const double rho = std::sqrt(p.x * p.x + p.y * p.y);
   const double outward = rho - ring_;
   const double rho_rate = rho > 0 ? (p.x * direction_.x + p.y * direction_.y) / rho : 0;
-  return {.value = outward * outward - (tube_ - p.z) * (tube_ + p.z),
-          .half_slope = outward * rho_rate + p.z * direction_.z};
+  return {
+      .rho = rho,
+      .value = on_surface_ ? value_from_start(x, p, rho) : outward * outward - (tube_ - p.z) * (tube_ + p.z),
+      .half_slope = outward * rho_rate + p.z * direction_.z};
 }
 
-double TorusLine::value(double x) const {
-  const Vec3 p = point_ + x * direction_;
-  if (!on_surface_) return level(p).value;
+/// G(x) - G(0) with x as a factor.
+double TorusLine::value_from_start(double x, const Vec3& p, double rho) const {
   const Vec3 sum = p + point_;
-  const double rho_sum =
-      std::sqrt(p.x * p.x + p.y * p.y) + std::sqrt(point_.x * point_.x + point_.y * point_.y);
+  const double rho_sum = rho + std::sqrt(point_.x * point_.x + point_.y * point_.y);
   const double lateral = sum.x * direction_.x + sum.y * direction_.y;
   const double pull = rho_sum > 0 ? lateral - 2 * ring_ * (lateral / rho_sum) : 0;
   return x * (pull + sum.z * direction_.z);
 }
 
-double TorusLine::half_curvature(double x) const {
-  const Vec3 p = point_ + x * direction_;
-  const double rho = std::sqrt(p.x * p.x + p.y * p.y);
-  if (!(rho > 0)) return squared_speed_;
-  const double turning = passing_ / rho;
-  return squared_speed_ - ring_ * (turning * turning / rho);
+double TorusLine::level_at_start() const {
+  const double outward = std::sqrt(point_.x * point_.x + point_.y * point_.y) - ring_;
+  return outward * outward - (tube_ - point_.z) * (tube_ + point_.z);
+}
+
+double TorusLine::half_curvature(const Level& here) const {
+  if (!(here.rho > 0)) return squared_speed_;
+  return squared_speed_ - turning_ / (here.rho * here.rho * here.rho);
 }
 
 /// Where the line can be inside: within the ball and the slab that hold the torus, and a little more,
@@ -76,7 +80,7 @@ TorusLine::Range TorusLine::concave_part(const Range& range) const {
   const double lateral_speed = direction_.x * direction_.x + direction_.y * direction_.y;
   if (!(lateral_speed > 0)) return {range.high, range.high};
   const double middle = -(point_.x * direction_.x + point_.y * direction_.y) / lateral_speed;
-  const double inflection = std::cbrt(ring_ * passing_ * passing_ / squared_speed_);
+  const double inflection = std::cbrt(turning_ / squared_speed_);
   const double passing_distance = passing_ / std::sqrt(lateral_speed);
   double half = 0;
   if (inflection > passing_distance) {
@@ -97,6 +101,11 @@ double TorusLine::value_error(double x) const {
 
 double TorusLine::slope_error() const {
   return 4 * off_ * std::sqrt(squared_speed_);
+}
+
+/// How far above 0 a tangent must stay to show that all of a part of this length is.
+double TorusLine::margin(double value_error, double length) const {
+  return off_ > 0 ? value_error + slope_error() * length + inflection_error_ : 0;
 }
 
 /// Where G turns from convex to concave is known only so well, and between there and where it is taken to
@@ -122,25 +131,46 @@ double TorusLine::inflection_error(const Range& concave) const {
   return ring_ * way * std::min(4.0, bend * bend);
 }
 
-/// In a part where sign * G is convex: a point where it is negative, if there is one. Newton's
-/// iteration for the minimum, kept between bounds; it stops when the tangents show that all is positive.
+/// In the convex part between a point outside and the concave part: a point inside, if there is one.
+TorusLine::Search TorusLine::find_dip(double outer, double inner) const {
+  if (outer == inner) return {};
+  const Level here = level(inner);
+  const double error = value_error(inner);
+  if (here.value < -error) return {inner};
+  // If G rises from here on, it rises all the way out. Next to the axis the slope is not known.
+  constexpr double next_to_axis = 0x1p-20;
+  const double rise = outer < inner ? -here.half_slope : here.half_slope;
+  const bool rises = rise >= 0 && here.rho > next_to_axis;
+  if (rises && here.value >= margin(error, std::abs(inner - outer))) return {};
+  return find_sign(std::min(outer, inner), std::max(outer, inner), 1);
+}
+
+/// In the concave part: a point outside, if there is one.
+TorusLine::Search TorusLine::find_rise(double low, double high) const {
+  if (level(low).value > value_error(low)) return {low};
+  if (level(high).value > value_error(high)) return {high};
+  if (!(low < high)) return {std::nullopt, level(low).value < -value_error(low)};
+  return find_sign(low, high, -1);
+}
+
+/// In a part where sign * G is convex, and not negative at its ends: a point where it is negative, if there
+/// is one. Newton's iteration for the minimum, kept between bounds; it stops when the tangents show that all
+/// is positive.
 TorusLine::Search TorusLine::find_sign(double low, double high, double sign) const {
-  if (sign * value(low) < -value_error(low)) return {low};
-  if (sign * value(high) < -value_error(high)) return {high};
-  if (!(low < high)) return {std::nullopt, sign * value(low) > value_error(low)};
   constexpr int most_steps = 200;
   double x = low + (high - low) / 2;
   for (int step = 0; step < most_steps && low < x && x < high; ++step) {
-    const double height = sign * value(x);
+    const Level here = level(x);
+    const double height = sign * here.value;
     const double error = value_error(x);
     if (height < -error) return {x};
-    const double slope = 2 * sign * half_slope(x);
+    const double slope = 2 * sign * here.half_slope;
     const double farthest = slope > 0 ? x - low : high - x;
-    const double open = off_ > 0 ? error + slope_error() * (high - low) + inflection_error_ : 0;
+    const double open = margin(error, high - low);
     if (slope == 0) return {std::nullopt, height > open};
     if (height - std::abs(slope) * farthest > open) return {};
     (slope > 0 ? high : low) = x;
-    const double curvature = 2 * sign * half_curvature(x);
+    const double curvature = 2 * sign * half_curvature(here);
     const double next = x - slope / curvature;
     const bool shrinks = step % 4 != 3;  // now and then halve, so that the bounds close in from both sides
     x = shrinks && curvature > 0 && low < next && next < high ? next : low + (high - low) / 2;
@@ -148,32 +178,71 @@ TorusLine::Search TorusLine::find_sign(double low, double high, double sign) con
   return {std::nullopt, false};
 }
 
-/// Newton, and bisection where it would leave the bounds or does not halve them fast enough.
+/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is not in
+/// between.
+double TorusLine::first_guess(const Bracket& bracket) const {
+  const double way = bracket.positive - bracket.negative;
+  const Level inside = level(bracket.negative);
+  // `onwards` is half its slope on the way.
+  const double bend = half_curvature(inside);
+  const double onwards = way < 0 ? -inside.half_slope : inside.half_slope;
+  const double root = std::sqrt(onwards * onwards - bend * inside.value);
+  const double length = onwards > 0 ? -inside.value / (onwards + root) : (root - onwards) / bend;
+  const bool is_within = 0 < length && length < std::abs(way);
+  return is_within ? bracket.negative + std::copysign(length, way) : bracket.positive;
+}
+
+/// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line slants,
+/// what is left is no more than the step's square times the largest |G'' / 2| on the way; with the root at
+/// the start divided out, G'(x) / x more.
+bool TorusLine::is_last_step(double x, const Level& from, double step) const {
+  const double rounding = unit_roundoff * tube_ * (ring_ + tube_);
+  const double cube = from.rho * from.rho * from.rho;
+  const double bend =
+      squared_speed_ + turning_ / cube + (on_surface_ ? std::abs(2 * from.half_slope / x) : 0);
+  // Near enough that the distance from the axis does not shrink by more than a fourth, its cube to less than
+  // a third.
+  constexpr double change_of_bend = 3;
+  const bool is_near = 16 * squared_speed_ * step * step < from.rho * from.rho;
+  return is_near && change_of_bend * bend * step * step < rounding;
+}
+
+/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each beside
+/// the last but one.
 double TorusLine::root(const Bracket& bracket) const {
   double negative = bracket.negative;
   double positive = bracket.positive;
   if (on_surface_ && std::min(negative, positive) <= 0 && std::max(negative, positive) >= 0) return 0;
   constexpr int most_steps = 200;
-  double x = negative + (positive - negative) / 2;
-  double step_before = std::abs(positive - negative);
-  for (int step = 0; step < most_steps; ++step) {
-    const Level here = on_surface_ ? Level{value(x), half_slope(x)} : level(point_ + x * direction_);
+  double x = first_guess(bracket);
+  double step = std::abs(positive - negative);
+  double step_before = step;
+  for (int steps = 0; steps < most_steps; ++steps) {
+    const Level here = level(x);
     const double height = here.value;
     if (height == 0) return x;
     (height < 0 ? negative : positive) = x;
     // With the known root divided out, so is its slope: G = x H, H' = (G' - H) / x.
     const double slope = 2 * here.half_slope;
-    const double newton = on_surface_ ? height / (slope - height / x) : height / slope;
-    double next = x - newton;
+    const double change = on_surface_ ? height / (slope - height / x) : height / slope;
+    double next = x - change;
     const double low = std::min(negative, positive);
     const double high = std::max(negative, positive);
-    if (!(low < next && next < high) || std::abs(newton) > step_before / 2) next = low + (high - low) / 2;
-    step_before = std::abs(next - x);
+    if (is_last_step(x, here, change)) return std::clamp(next, low, high);
+    const bool halves = low < next && next < high && std::abs(change) <= step_before / 2;
+    if (!halves) next = low + (high - low) / 2;
+    step_before = step;
+    step = std::abs(next - x);
     if (next == x || next == low || next == high) return next;
-    if (step_before <= unit_roundoff * std::abs(x)) return next;
     x = next;
   }
   return x;
+}
+
+/// The root; anywhere between its bounds if both are before `begin`.
+double TorusLine::place(const Bracket& bracket, double begin) const {
+  const bool is_before = std::max(bracket.negative, bracket.positive) < begin;
+  return is_before ? bracket.negative + (bracket.positive - bracket.negative) / 2 : root(bracket);
 }
 
 TorusLine::Stretches TorusLine::stretches() {
@@ -182,8 +251,8 @@ TorusLine::Stretches TorusLine::stretches() {
   if (!whole) return result;
   const Range concave = concave_part(*whole);
   inflection_error_ = inflection_error(concave);
-  const Search first = find_sign(whole->low, concave.low, 1);
-  const Search second = find_sign(concave.high, whole->high, 1);
+  const Search first = find_dip(whole->low, concave.low);
+  const Search second = find_dip(whole->high, concave.high);
   // Nothing is hidden at the ends of the whole range, which are outside.
   result.certain =
       (first.certain || concave.low == whole->low) && (second.certain || concave.high == whole->high);
@@ -192,7 +261,7 @@ TorusLine::Stretches TorusLine::stretches() {
                                       .leave = {last_inside, outside_after}};
   };
   if (first.x && second.x) {
-    const Search rise = find_sign(concave.low, concave.high, -1);
+    const Search rise = find_rise(concave.low, concave.high);
     result.certain = result.certain && rise.certain;
     if (rise.x) {
       add(whole->low, *first.x, *first.x, *rise.x);
@@ -208,11 +277,11 @@ TorusLine::Stretches TorusLine::stretches() {
   return result;
 }
 
-TorusLine::Dips TorusLine::dips() {
+TorusLine::Dips TorusLine::dips(double begin) {
   const Stretches found = stretches();
   Dips result{.dip = {}, .count = found.count, .certain = found.certain};
   for (std::size_t i = 0; i < found.count; ++i) {
-    result.dip[i] = {root(found.stretch[i].enter), root(found.stretch[i].leave)};
+    result.dip[i] = {place(found.stretch[i].enter, begin), place(found.stretch[i].leave, begin)};
   }
   return result;
 }

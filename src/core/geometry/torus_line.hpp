@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <limits>
 #include <optional>
 
 #include "core/geometry/object_ray.hpp"
@@ -47,23 +48,24 @@ class TorusLine {
     std::size_t count = 0;
     bool certain = true;
   };
-  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the surface.
-  Dips dips();
+  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the surface. Those
+  /// before `begin` are only told roughly.
+  Dips dips(double begin = -std::numeric_limits<double>::infinity());
 
-  double value(double x) const;  ///< G; less what it is at x = 0, if the point is on the surface
-  double level_at_start() const {
-    return level(point_).value;
-  }  ///< what G is at x = 0 all the same, by rounding
-  double half_slope(double x) const { return level(point_ + x * direction_).half_slope; }  ///< G' / 2
-  double half_curvature(double x) const;                                                   ///< G'' / 2
+  double level_at_start() const;  ///< what G is at x = 0, by rounding, if the point is on the surface
+  double half_slope(double x) const { return level(x).half_slope; }           ///< G' / 2
+  double half_curvature(double x) const { return half_curvature(level(x)); }  ///< G'' / 2
 
  private:
-  /// G and G' / 2.
+  /// G at a point of the line; less what it is at x = 0, if the point there is on the surface.
   struct Level {
+    double rho;
     double value;
     double half_slope;
   };
-  Level level(const Vec3& p) const;
+  Level level(double x) const;
+  double value_from_start(double x, const Vec3& p, double rho) const;
+  double half_curvature(const Level& here) const;
 
   struct Range {
     double low;
@@ -76,9 +78,15 @@ class TorusLine {
     std::optional<double> x = {};
     bool certain = true;
   };
+  Search find_dip(double outer, double inner) const;
+  Search find_rise(double low, double high) const;
   Search find_sign(double low, double high, double sign) const;
+  double first_guess(const Bracket& bracket) const;
+  bool is_last_step(double x, const Level& from, double step) const;
+  double place(const Bracket& bracket, double begin) const;
   double value_error(double x) const;
   double slope_error() const;
+  double margin(double value_error, double length) const;
   double inflection_error(const Range& concave) const;
 
   Vec3 point_;
@@ -87,6 +95,7 @@ class TorusLine {
   double tube_;
   double squared_speed_;
   double passing_;  ///< sqrt(D): the line's angular momentum about the axis
+  double turning_;  ///< R D
   bool on_surface_;
   double off_ = 0;
   double inflection_error_ = 0;

@@ -41,6 +41,15 @@ inline Lanes lanes_of(double value) {
 
 // Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
 
+/// Whether a comparison is true in all lanes.
+inline bool all(const LaneMask& mask) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) == (1 << lane_count) - 1;
+#else
+  return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+#endif
+}
+
 inline Lanes min(const Lanes& a, const Lanes& b) {
 #ifdef __AVX__
   return _mm256_min_pd(a, b);
@@ -61,7 +70,7 @@ inline Lanes sqrt(const Lanes& a) {
 #ifdef __AVX__
   return _mm256_sqrt_pd(a);
 #else
-  Lanes result;
+  Lanes result{};
   for (int i = 0; i < lane_count; ++i) result[i] = std::sqrt(a[i]);
   return result;
 #endif

@@ -83,7 +83,9 @@ enum class Judgement { open, missed, met };
 class OutlinedRay {
  public:
   OutlinedRay(const Accelerator& accelerator, const WorldRay& ray)
-      : start_surface_(ray.start.surface), left_object_(accelerator.left_for_good(ray.start)) {
+      : start_surface_(ray.start.surface),
+        start_side_(ray.start.side),
+        left_object_(accelerator.left_for_good(ray.start)) {
     const Vec3& d = ray.direction;
     line_.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
     line_.direction = {d.x, d.y, d.z};
@@ -106,7 +108,11 @@ class OutlinedRay {
     if (outline.object == left_object_) return Judgement::missed;
     if (outline.kind == Outline::Kind::unknown) return Judgement::open;
     // Of that surface it is known otherwise where the ray meets it.
-    if (outline.surface == start_surface_) return Judgement::open;
+    if (outline.surface == start_surface_) {
+      const bool has_left = outline.kind == Outline::Kind::torus && start_side_ == Side::outside &&
+                            leaves_torus(outline, axes[outline.detail], line_);
+      return has_left ? Judgement::missed : Judgement::open;
+    }
     const auto verdict = judge_outline(outline, axes, line_, limit, last);
     if (verdict.missed) return Judgement::missed;
     return verdict.met ? Judgement::met : Judgement::open;
@@ -115,6 +121,7 @@ class OutlinedRay {
  private:
   OutlineLine<double> line_;
   std::uint32_t start_surface_;
+  Side start_side_;
   std::uint32_t left_object_;
 };
 
@@ -205,6 +212,7 @@ RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, R
 
 void Accelerator::fill_packet(std::span<const WorldRay> rays, RayPacket& packet) const {
   packet.count = rays.size();
+  packet.outwards = 0;
   // By component first, so that vectors are loaded and not put together lane by lane.
   enum Column { origin_x, direction_x = 3, begin = 6, certain_from, certain_to, limit, column_count };
   alignas(sizeof(Lanes)) std::array<std::array<double, packet_size>, column_count> columns;
@@ -221,6 +229,7 @@ void Accelerator::fill_packet(std::span<const WorldRay> rays, RayPacket& packet)
     columns[limit][i] = ray.t_max;
     packet.start_surfaces[i] = ray.start.surface;
     packet.left_objects[i] = left_for_good(ray.start);
+    packet.outwards |= static_cast<RayMask>(ray.start.side == Side::outside) << i;
   }
   for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
     const auto lanes = [&](std::size_t column) {
@@ -281,6 +290,9 @@ class OutlinedPacket {
         const RayMask open = rays_with(packet_.start_surfaces, outline.surface);
         verdict.missed &= ~open;
         verdict.met &= ~open;
+        const RayMask outwards = open & rays & packet_.outwards;
+        if (outline.kind == Outline::Kind::torus && outwards != 0)
+          verdict.missed |= outwards & leaving(outline, axes[outline.detail], outwards);
       }
     }
     if ((rays & left_some_) != 0) verdict.missed |= rays_with(packet_.left_objects, outline.object);
@@ -291,6 +303,17 @@ class OutlinedPacket {
 
  private:
   static constexpr RayMask group_mask = (1u << lane_count) - 1;
+
+  /// Those that leave a torus for good, of rays that start on it.
+  RayMask leaving(const Outline& torus, const OutlineAxis& axis, RayMask rays) const {
+    RayMask result = 0;
+    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+      const std::size_t first = group * lane_count;
+      if ((rays >> first & group_mask) == 0) continue;
+      result |= mask_of(leaves_torus(torus, axis, packet_.groups[group])) << first;
+    }
+    return result;
+  }
 
   const RayPacket& packet_;
   RayMask starts_on_surface_;

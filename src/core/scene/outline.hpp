@@ -95,6 +95,15 @@ inline Lanes square_root(const Lanes& x) {
   return sqrt(x);
 }
 
+inline bool all(bool a) {
+  return a;
+}
+
+template <class Real>
+Real along(const Vec3& axis, const std::array<Real, 3>& v) {
+  return axis.x * v[0] + axis.y * v[1] + axis.z * v[2];
+}
+
 template <class Real>
 std::array<Real, 3> way_to(const OutlineLine<Real>& line, const Vec3& place) {
   return {place.x - line.origin[0], place.y - line.origin[1], place.z - line.origin[2]};
@@ -166,52 +175,137 @@ auto judge_plane(const Outline& plane, const OutlineAxis& axis, const OutlineLin
 /// objects.
 inline constexpr double farthest_outline = 0x1p16;
 
-/// A torus: only whether it is missed, because the line passes by the ball and the slab around it, or through
-/// the hole in its middle. The outline is thicker than the torus by more than all roundings here.
+/// A line relative to a torus's center, with x = 0 where it is closest to that.
+template <class Real>
+struct TorusPass {
+  Real squared_speed;
+  Real squared_across;  ///< its distance from the center at x = 0
+  Real height;          ///< along the axis at x = 0
+  Real climb;           ///< and what x adds to it
+  Real from;            ///< only from here
+  Real to;              ///< up to here it can be in the torus
+
+  Real height_at(const Real& x) const { return height + x * climb; }
+  /// From the axis.
+  Real squared_distance_at(const Real& x) const {
+    const Real at = height_at(x);
+    return squared_across + x * x * squared_speed - at * at;
+  }
+};
+
+/// What is certain of a line within the bounds of a torus.
+template <class Mask>
+struct TorusVerdict {
+  Mask missed;
+  Mask enters;  ///< it is in the torus at `inside`, and not at the pass's `from`
+};
+
+/// A torus within the ball and the slab around it, by G in the middle of the line's way through them (see
+/// geometry/torus.hpp).
+///
+/// G'' / 2 = d^2 - R D / rho^3 is least where rho is, so there is a parabola below G all the way: with G's
+/// value and slope in the middle, and that curvature.
+template <class Real>
+auto judge_torus_closely(const TorusPass<Real>& pass, double ring, double tube, const Real& middle) {
+  using namespace outline_detail;
+  const double squared_ball = (ring + tube) * (ring + tube);
+  const Real height = pass.height_at(middle);
+  const Real squared_rho = pass.squared_distance_at(middle);
+  const Real rho = square_root(squared_rho > 0.0 ? squared_rho : 0.0 * squared_rho);
+  const Real outward = rho - ring;
+  const Real level = outward * outward + height * height - tube * tube;
+  const Real lateral = middle * pass.squared_speed - height * pass.climb;
+  const Real slope = size_of(outward * lateral / rho + height * pass.climb);
+
+  const Real squared_lateral_speed = pass.squared_speed - pass.climb * pass.climb;
+  const Real next_to_axis = pass.height * pass.climb / squared_lateral_speed;
+  const Real after_from = next_to_axis > pass.from ? next_to_axis : pass.from;
+  const Real squared_least = pass.squared_distance_at(after_from < pass.to ? after_from : pass.to);
+  const Real least = square_root(squared_least);
+  // Roundings are less than a sixteenth of that.
+  const double error = 0x1p-30 * squared_ball;
+  const Real turning = size_of((pass.squared_across - pass.height * pass.height) * squared_lateral_speed -
+                               pass.height * pass.height * pass.climb * pass.climb) +
+                       error * pass.squared_speed;
+  const Real bend = pass.squared_speed - ring * turning / (squared_least * least);
+  const Real half_way = (pass.to - pass.from) * 0.5;
+  const Real to_lowest = slope < bend * half_way ? slope / bend : half_way;
+  const Real lowest = level - (2.0 * slope - bend * to_lowest) * to_lowest;
+  using Mask = decltype(lowest > level);
+  // The torus itself is thinner: its G is less than twice that error larger.
+  return TorusVerdict<Mask>{.missed = lowest > error, .enters = level < -4.0 * error};
+}
+
+/// A torus: missed if the line passes by the ball and the slab around it, or through the hole in its middle,
+/// or else if it stays outside all the way through these. The outline is thicker than the torus by more than
+/// all roundings here.
 template <class Real>
 auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const OutlineLine<Real>& line,
                  const Real& limit) {
   using namespace outline_detail;
   const std::array<Real, 3> way = way_to(line, torus.place);
   const Real closest = dot(way, line.direction) * line.inverse_squared_speed;
-  // From here on the line relative to the center, from where it is closest.
   const std::array<Real, 3> across = {closest * line.direction[0] - way[0],
                                       closest * line.direction[1] - way[1],
                                       closest * line.direction[2] - way[2]};
-  const Vec3& axis = of_torus.normal;
   const double thickness = of_torus.thickness;
-  const auto along_axis = [&](const std::array<Real, 3>& v) {
-    return axis.x * v[0] + axis.y * v[1] + axis.z * v[2];
-  };
   const double ball = torus.radius + thickness;
-  const Real squared_across = dot(across, across);
-  const Real squared_way = dot(way, way);
-  const Real room = ball * ball - squared_across;
+  TorusPass<Real> pass{.squared_speed = line.squared_speed,
+                       .squared_across = dot(across, across),
+                       .height = along(of_torus.normal, across),
+                       .climb = along(of_torus.normal, line.direction),
+                       .from = {},
+                       .to = {}};
+  const Real room = ball * ball - pass.squared_across;
   const Real half = square_root((room > 0.0 ? room : 0.0 * room) * line.inverse_squared_speed);
   // The part of the line in the slab, as far as it is in the ball. Where the line is parallel to the slab the
   // quotients are huge or no numbers, and comparing leaves the ball's.
-  const Real height = along_axis(across);
-  const Real climb = along_axis(line.direction);
-  const Real first = (-thickness - height) / climb;
-  const Real second = (thickness - height) / climb;
+  const Real first = (-thickness - pass.height) / pass.climb;
+  const Real second = (thickness - pass.height) / pass.climb;
   const Real low = first < second ? first : second;
   const Real high = first < second ? second : first;
-  const Real from = low > -half ? low : -half;
-  const Real to = high < half ? high : half;
-  const auto squared_distance = [&](const Real& x) {
-    const Real at = height + x * climb;
-    return squared_across + x * x * line.squared_speed - at * at;
-  };
+  pass.from = low > -half ? low : -half;
+  pass.to = high < half ? high : half;
   const double hole = torus.radius - thickness;
   const double squared_hole = hole > 0 ? hole * hole : 0;
   using Mask = decltype(room < half);
-  const Mask through_hole = both(squared_distance(from) < squared_hole, squared_distance(to) < squared_hole);
+  const Mask through_hole = both(pass.squared_distance_at(pass.from) < squared_hole,
+                                 pass.squared_distance_at(pass.to) < squared_hole);
   // More than the bound on the error of a root that is grazed.
   const Real gap = 0x1p-20 * ball * line.inverse_speed;
-  const auto known = squared_way < farthest_outline * farthest_outline * ball * ball;
-  const Mask missed = either(room<0.0, from> to, through_hole, closest - half - gap > limit,
-                             closest + half + gap < line.begin);
-  return Verdict<Mask>{.missed = both(known, missed), .met = {}};
+  const Real squared_way = dot(way, way);
+  const Mask known = squared_way < farthest_outline * farthest_outline * ball * ball;
+  const Mask missed = either(room<0.0, pass.from> pass.to, through_hole, closest + pass.from - gap > limit,
+                             closest + pass.to + gap < line.begin);
+  const Verdict<Mask> roughly{.missed = both(known, missed), .met = {}};
+  if (all(roughly.missed)) return roughly;
+
+  const Real middle = (pass.from + pass.to) * 0.5;
+  const TorusVerdict<Mask> closely = judge_torus_closely(pass, torus.radius, thickness, middle);
+  // No bound on a root's error is larger than the whole way through.
+  const Real earliest = closest + pass.from - (pass.to - pass.from) - gap;
+  const Mask on_way = both(earliest > line.certain_from, closest + middle + gap < line.certain_to);
+  return Verdict<Mask>{.missed = either(roughly.missed, both(known, closely.missed)),
+                       .met = both(known, both(closely.enters, on_way))};
+}
+
+/// Whether a ray that starts on a torus and goes outwards leaves it for good: it starts farther from the axis
+/// than the ring is, where the torus is its own convex hull, and plainly goes away from there.
+template <class Real>
+auto leaves_torus(const Outline& torus, const OutlineAxis& of_torus, const OutlineLine<Real>& line) {
+  using namespace outline_detail;
+  const std::array<Real, 3> way = way_to(line, torus.place);
+  // Both negative, as is the way to the center.
+  const Real height = along(of_torus.normal, way);
+  const Real rho = square_root(dot(way, way) - height * height);
+  const Real climb = along(of_torus.normal, line.direction);
+  const Real lateral = height * climb - dot(way, line.direction);
+  // Far more than what rounding can have done to the start.
+  constexpr double plainly = 0x1p-20;
+  const double least = plainly * (torus.radius + of_torus.thickness);
+  const Real outward = rho - torus.radius;
+  const Real away = outward * lateral / rho - height * climb;
+  return both(both(outward > least, away * line.inverse_speed > least), line.begin >= 0.0);
 }
 
 /// Whatever it is, if it is known; `last` as of planes.

@@ -42,6 +42,7 @@ struct RayPacket {
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
   std::array<std::uint32_t, packet_size> start_surfaces;
+  RayMask outwards;  ///< of those that start on a surface
   /// The object that a ray has left for good.
   std::array<std::uint32_t, packet_size> left_objects;
 
