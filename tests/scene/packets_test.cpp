@@ -33,14 +33,15 @@ class Numbers {
   std::mt19937_64 engine_{20261121};
 };
 
-/// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a sphere) lines
-/// can be laid along its surface.
+/// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a sphere, or if
+/// it has a length a rod) lines can be laid along its surface.
 struct Target {
   Vec3 center;
   double reach;
   Vec3 axis{0, 0, 0};
   double ring = 0;
   double tube = 0;
+  double half_length = 0;
 };
 
 struct Crowd {
@@ -85,6 +86,32 @@ Crowd crowd(Numbers& numbers, Precision precision) {
     target.ring = factor * ring;
     target.tube = factor * tube;
   }
+  for (int i = 0; i < 30; ++i) {
+    const Vec3 center = numbers.point(4);
+    const Vec3 axis = numbers.direction();
+    const double half_length = numbers.size(0.1, 3);
+    const double radius = half_length * numbers.size(1e-4, 0.4);
+    const Vec3 from = center - half_length * axis;
+    const Vec3 to = center + half_length * axis;
+    const Transform scaled = scale(Vec3(numbers.size(0.2, 3)));
+    if (i % 3 == 0) crowd.add(Cylinder{.from = from, .to = to, .radius = radius}, center, half_length);
+    if (i % 3 == 1) {
+      crowd.add(Cone{.from = from, .to = to, .radius = radius, .radius2 = radius * numbers.within(0, 1)},
+                center, half_length);
+    }
+    if (i % 3 == 2) {
+      const Vec3 corner(radius, half_length, radius / 2);
+      const Entity bar = Entity(Box{.corner_a = -corner, .corner_b = corner});
+      crowd.add(
+          bar.transformed(rotate(numbers.point(180))).transformed(scaled).transformed(translate(center)),
+          center, half_length);
+      continue;
+    }
+    Target& target = crowd.targets.back();
+    target.axis = axis;
+    target.tube = radius;
+    target.half_length = half_length;
+  }
   for (int i = 0; i < 10; ++i) {
     const Vec3 center = numbers.point(4);
     const double size = numbers.size(0.05, 0.8);
@@ -102,10 +129,12 @@ Crowd crowd(Numbers& numbers, Precision precision) {
 /// Along the surface of a torus or sphere, a little outside or inside.
 WorldRay grazing_ray(const Target& target, Numbers& numbers) {
   const Vec3 radial = glm::normalize(glm::cross(target.axis, numbers.direction()));
-  const double turn = numbers.below(3) == 0 ? 3.14159265358979 : numbers.within(0, 6.3);
+  const bool is_rod = target.half_length > 0;
+  const double turn = is_rod ? 0 : numbers.below(3) == 0 ? 3.14159265358979 : numbers.within(0, 6.3);
   const Vec3 normal = std::cos(turn) * radial + std::sin(turn) * target.axis;
   const double off = 1 + numbers.size(1e-12, 0.1) * (numbers.below(2) == 0 ? 1 : -1);
-  const Vec3 place = target.center + target.ring * radial + off * target.tube * normal;
+  const Vec3 along_rod = numbers.within(-1, 1) * target.half_length * target.axis;
+  const Vec3 place = target.center + along_rod + target.ring * radial + off * target.tube * normal;
   const Vec3 along = numbers.below(2) == 0 && turn > 3.14 ? target.axis : numbers.direction();
   const Vec3 tangent = glm::normalize(along - glm::dot(along, normal) * normal);
   return {.origin = place - numbers.size(0.1, 100) * tangent, .direction = tangent};

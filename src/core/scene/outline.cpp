@@ -61,6 +61,30 @@ bool place_torus(const Surface& surface, const Placement& placement, Outline& ou
   return true;
 }
 
+/// That of something long is thicker by more than all roundings.
+bool place_rod(const Shape& shape, const Placement& placement, Outline& outline, OutlineAxis& of_rod) {
+  const std::optional<Spine> spine = shape.spine();
+  if (!spine) return false;
+  const Vec3 from = placement.point_to_world(spine->from);
+  const Vec3 to = placement.point_to_world(spine->to);
+  const Vec3 way = to - from;
+  const Transform& world = placement.to_world();
+  const double scale = even_scale(world);
+  const double most_scale =
+      std::sqrt(glm::dot(world.row_x, world.row_x) + glm::dot(world.row_y, world.row_y) +
+                glm::dot(world.row_z, world.row_z));
+  const double reach = spine->reach * (scale > 0 ? scale : most_scale);
+  constexpr double roundings = 0x1p-40;
+  outline.radius = reach + roundings * (reach + largest_component(from) + largest_component(to));
+  if (!has_fair_size(outline.radius) || !has_fair_size(largest_component(way))) return false;
+  // The boxes of what is short miss few rays.
+  constexpr double shortest = 4;
+  if (!(glm::length(way) > shortest * outline.radius)) return false;
+  outline.place = 0.5 * from + 0.5 * to;
+  of_rod.normal = unit_vector(way);
+  return true;
+}
+
 /// That of the smallest sphere that has the object within it, a little larger than that: crossings of other
 /// solids on its rim are known less well.
 Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
@@ -91,7 +115,13 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
   Outline outline;
   if (object.is_csg()) return outline_of_csg(scene, object);
   const Leaf& leaf = scene.leaves[object.first_leaf];
-  if (!leaf.shape->is_solid() || leaf.face_count != 1) return outline;
+  if (!leaf.shape->is_solid()) return outline;
+  if (place_rod(*leaf.shape, *leaf.placement, outline, axis)) {
+    outline.kind = Outline::Kind::rod;
+    outline.surface = scene.face_surfaces[leaf.first_face].surface;
+    return outline;
+  }
+  if (leaf.face_count != 1) return outline;
   const Surface surface = leaf.shape->surface(0);
   outline.surface = scene.face_surfaces[leaf.first_face].surface;
   switch (surface.kind) {
@@ -129,7 +159,7 @@ Outlines::Outlines(const CompiledScene& scene, std::span<const std::uint32_t> ob
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (list[i].kind != Outline::Kind::plane && list[i].kind != Outline::Kind::torus) continue;
+    if (!list[i].has_axis()) continue;
     list[i].detail = static_cast<std::uint32_t>(axes.size());
     axes.push_back(axis_of[i]);
   }

@@ -14,7 +14,7 @@ namespace crt::core {
 /// An object as the cheap tests see it. Few objects have an outline: those that scenes have many of and
 /// whose exact test costs much more. Small, as rays come by many of them.
 struct Outline {
-  enum class Kind : std::uint8_t { unknown, sphere, plane, torus };
+  enum class Kind : std::uint8_t { unknown, sphere, plane, torus, rod };
 
   Kind kind = Kind::unknown;
   /// The object is somewhere within: only what misses it is sure.
@@ -22,15 +22,17 @@ struct Outline {
   std::uint32_t object = nothing;
   std::uint32_t surface = nothing;  ///< its whole surface, or that of what encloses it
   /// Of a sphere its leaf, if the outline alone tells its crossings (in the standard tier, without a
-  /// transform); of planes and tori the number of their OutlineAxis.
+  /// transform); of others the number of their OutlineAxis.
   std::uint32_t detail = nothing;
   Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
   double radius = 0;    ///< the torus's is that of its ring
+
+  bool has_axis() const { return kind == Kind::plane || kind == Kind::torus || kind == Kind::rod; }
 };
 
-/// What more there is to tell of planes and tori.
+/// What more there is to tell of some.
 struct OutlineAxis {
-  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus
+  Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus or the rod
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
 };
 
@@ -308,6 +310,28 @@ auto leaves_torus(const Outline& torus, const OutlineAxis& of_torus, const Outli
   return both(both(outward > least, away * line.inverse_speed > least), line.begin >= 0.0);
 }
 
+/// A rod, which is somewhere in the endless cylinder about its axis: only whether the line misses that.
+///
+/// With m = d x n for the axis n, the two lines are |w . m| / |m| apart. Roundings change w . m and r |m| by
+/// less than 16 u (|w| + r) |d|; and whatever they make of the axis, it passes the rod as near as the radius
+/// says.
+template <class Real>
+auto judge_rod(const Outline& rod, const OutlineAxis& of_rod, const OutlineLine<Real>& line) {
+  using namespace outline_detail;
+  const std::array<Real, 3> way = way_to(line, rod.place);
+  const std::array<Real, 3>& d = line.direction;
+  const Vec3& n = of_rod.normal;
+  const std::array<Real, 3> across = {d[1] * n.z - d[2] * n.y, d[2] * n.x - d[0] * n.z,
+                                      d[0] * n.y - d[1] * n.x};
+  const Real speed = line.squared_speed * line.inverse_speed;
+  const Real error = slack * (size_of(way[0]) + size_of(way[1]) + size_of(way[2]) + rod.radius) * speed;
+  const Real apart = size_of(dot(way, across)) - error;
+  const double squared_radius = rod.radius * rod.radius;
+  using Mask = decltype(apart > 0.0);
+  return Verdict<Mask>{.missed = both(apart > 0.0, apart * apart > squared_radius * dot(across, across)),
+                       .met = {}};
+}
+
 /// Whatever it is, if it is known; `last` as of planes.
 template <class Real>
 auto judge_outline(const Outline& outline, std::span<const OutlineAxis> axes, const OutlineLine<Real>& line,
@@ -317,6 +341,8 @@ auto judge_outline(const Outline& outline, std::span<const OutlineAxis> axes, co
       return judge_sphere(outline, line, limit);
     case Outline::Kind::torus:
       return judge_torus(outline, axes[outline.detail], line, limit);
+    case Outline::Kind::rod:
+      return judge_rod(outline, axes[outline.detail], line);
     default:
       return judge_plane(outline, axes[outline.detail], line, limit, last);
   }
