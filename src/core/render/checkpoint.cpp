@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 #include <string_view>
+#include <type_traits>
 #include <vector>
 
 #include "core/render/tracer.hpp"
@@ -19,25 +21,15 @@ constexpr std::string_view magic = "CRT checkpoint 1 of " CRT_VERSION "\n";
 /// So many samples on each side tell one scene from another, if the picture has as many pixels.
 constexpr int probes_a_side = 32;
 
-template <class T>
-void add(ByteHash& hash, const T& number) {
-  static_assert(std::is_arithmetic_v<T> || std::is_enum_v<T>);
-  hash.add(std::as_bytes(std::span(&number, 1)));
+template <class... T>
+void add(ByteHash& hash, const T&... numbers) {
+  static_assert(((std::is_arithmetic_v<T> || std::is_enum_v<T>)&&...));
+  (hash.add(std::as_bytes(std::span(&numbers, 1))), ...);
 }
 
-void add_settings(ByteHash& hash, const Settings& settings) {
-  add(hash, settings.width);
-  add(hash, settings.height);
-  add(hash, settings.recursion_depth);
-  add(hash, settings.min_weight);
-  add(hash, settings.gamma);
-  add(hash, settings.seed);
-  add(hash, settings.precision);
-  add(hash, settings.target_error);
-  add(hash, settings.min_samples);
-  add(hash, settings.max_samples);
-  add(hash, settings.filter);
-  add(hash, settings.filter_width);
+void add_settings(ByteHash& hash, const Settings& s) {
+  add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision, s.target_error,
+      s.min_samples, s.max_samples, s.filter, s.filter_width);
 }
 
 /// The light along rays through the middles of pixels that are spread over the region.
@@ -80,9 +72,7 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
 std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits) {
   ByteHash hash;
   add_settings(hash, frame.settings());
-  for (const int number : {region.x, region.y, region.width, region.height}) add(hash, number);
-  add(hash, with_first_hits);
-  add(hash, frame.features().lens);
+  add(hash, region.x, region.y, region.width, region.height, with_first_hits, frame.features().lens);
   add_light(hash, frame, region);
   return hash.value();
 }
