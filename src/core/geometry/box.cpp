@@ -19,8 +19,7 @@ std::optional<Spine> BoxShape::spine() const {
   if (size.z > size[along]) along = 2;
   Vec3 across = 0.5 * size;
   across[along] = 0;
-  Spine spine{lower_ + across, upper_ - across, glm::length(across)};
-  return spine;
+  return Spine{lower_ + across, upper_ - across, glm::length(across)};
 }
 
 bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {

@@ -66,16 +66,13 @@ class Marks {
   Marks(const CameraRays& camera, const Region& region) : camera_(camera), region_(region) {}
 
   void add(const Rectangle& seen) {
-    if (seen.right < region_.x || seen.left >= region_.x + region_.width || seen.bottom < region_.y ||
-        seen.top >= region_.y + region_.height)
-      return;
+    if (is_beside(seen)) return;
     if (pixels_.empty()) pixels_.resize(pixel_count(region_));
     const int right = inside(seen.right, region_.x, region_.width);
     const int bottom = inside(seen.bottom, region_.y, region_.height);
     for (int y = inside(seen.top, region_.y, region_.height); y <= bottom; ++y) {
       for (int x = inside(seen.left, region_.x, region_.width); x <= right; ++x) {
-        pixels_[static_cast<std::size_t>(y) * static_cast<std::size_t>(region_.width) +
-                static_cast<std::size_t>(x)] = true;
+        pixels_[index_in(region_, x, y)] = true;
       }
     }
   }
@@ -93,8 +90,14 @@ class Marks {
     std::optional<PicturePlace> place;
   };
 
+  /// The pixel of the region that is nearest to a place.
   static int inside(double place, int begin, int size) {
-    return static_cast<int>(std::clamp(std::floor(place) - begin, 0.0, size - 1.0));
+    return begin + static_cast<int>(std::clamp(std::floor(place) - begin, 0.0, size - 1.0));
+  }
+
+  bool is_beside(const Rectangle& seen) const {
+    return seen.right < region_.x || seen.left >= region_.x + region_.width || seen.bottom < region_.y ||
+           seen.top >= region_.y + region_.height;
   }
 
   Rectangle around(const Point& from, const Point& to, double width) const {
@@ -112,10 +115,8 @@ class Marks {
       const Rectangle seen = around(from, to, width);
       const bool is_short =
           std::max(seen.right - seen.left, seen.bottom - seen.top) <= width + small_size / 2;
-      const bool is_beside = seen.right < region_.x || seen.left >= region_.x + region_.width ||
-                             seen.bottom < region_.y || seen.top >= region_.y + region_.height;
       if (is_short) add(seen);
-      if (is_short || is_beside) return;
+      if (is_short || is_beside(seen)) return;
     }
     const bool none_seen = !from.place && !to.place;
     if (halvings == most_halvings || (none_seen && halvings == enough_to_see_some)) return;

@@ -116,14 +116,13 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
   if (object.is_csg()) return outline_of_csg(scene, object);
   const Leaf& leaf = scene.leaves[object.first_leaf];
   if (!leaf.shape->is_solid()) return outline;
+  outline.surface = scene.face_surfaces[leaf.first_face].surface;
   if (place_rod(*leaf.shape, *leaf.placement, outline, axis)) {
     outline.kind = Outline::Kind::rod;
-    outline.surface = scene.face_surfaces[leaf.first_face].surface;
     return outline;
   }
   if (leaf.face_count != 1) return outline;
   const Surface surface = leaf.shape->surface(0);
-  outline.surface = scene.face_surfaces[leaf.first_face].surface;
   switch (surface.kind) {
     case SurfaceKind::sphere:
       outline.radius = surface.sizes[0];
