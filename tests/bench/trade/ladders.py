@@ -29,7 +29,7 @@ def crt_grid(with_lens: bool) -> list[Rung]:
     if with_lens:
         sizes = ((1, 4), (1, 16), (2, 16), (2, 64), (4, 64))
         return [Rung(GRID, f"{n} x {n} x {m}", {"supersampling": n, "dofsamples": m}) for n, m in sizes]
-    return [Rung(GRID, f"{n} x {n}", {"supersampling": n}) for n in (1, 2, 3, 4, 6, 8, 12, 16)]
+    return [Rung(GRID, f"{n} x {n}", {"supersampling": n}) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)]
 
 
 def crt_adaptive(family: str, least_samples: int, steps: tuple[float, ...]) -> list[Rung]:
