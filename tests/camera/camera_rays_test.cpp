@@ -8,6 +8,7 @@
 #include <glm/vec2.hpp>
 #include <numbers>
 #include <random>
+#include <span>
 
 using namespace crt::core;
 using crt::Camera;
@@ -366,4 +367,42 @@ TEST_CASE("a point appears where the ray to it starts from, in every projection"
   }
   camera.projection = Projection::pinhole;
   CHECK_FALSE(CameraRays(camera, 64, 48).place_of({2, 3, -5}));
+}
+
+TEST_CASE("several rays at once are the same to the last bit") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> place(-20, 100);
+  std::uniform_real_distribution<double> on_lens(-1, 1);
+  constexpr std::size_t most = 11;
+  for (const Projection projection : all_projections) {
+    // At the scales at the ends lengths are beyond what can be squared.
+    for (const double scale : {1.0, 1e-160, 1e160}) {
+      Camera camera = random_camera(random, projection);
+      camera.aperture = 300 * scale;
+      camera.focal_distance = 3 * scale;
+      const CameraRays rays(camera, 80, 60);
+      std::array<PicturePlace, most> places;
+      std::array<LensPoint, most> lens_points;
+      for (std::size_t i = 0; i < most; ++i) {
+        places[i] = {place(random), place(random)};
+        lens_points[i] = {on_lens(random), on_lens(random)};
+      }
+      for (std::size_t count = 0; count <= most; ++count) {
+        const std::span some = std::span(places).first(count);
+        std::array<CameraRay, most> found;
+        rays.rays(some, {}, found);
+        std::array<CameraRay, most> with_lens;
+        rays.rays(some, std::span(lens_points).first(count), with_lens);
+        for (std::size_t i = 0; i < count; ++i) {
+          const auto& [x, y] = places[i];
+          const CameraRay one = rays.ray(x, y);
+          CHECK(found[i].origin == one.origin);
+          CHECK(found[i].direction == one.direction);
+          const CameraRay through_lens = rays.ray(x, y, lens_points[i]);
+          CHECK(with_lens[i].origin == through_lens.origin);
+          CHECK(with_lens[i].direction == through_lens.direction);
+        }
+      }
+    }
+  }
 }

@@ -216,6 +216,8 @@ TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it 
       scene.entities.push_back(bar.transformed(rotate({0, 0, 41})));
     }
   }
+  // A needle, wider than a pixel where it begins.
+  scene.entities.push_back(Cone{{-24, 22, 0}, {24, 11.3, 0}, 0.6, 0.01, inert()});
   scene.settings.supersampling = 32;
   const Image truth = render(prepare(scene));
   scene.settings.target_error = 8.0 / 255;

@@ -95,7 +95,7 @@ TEST_CASE("a walk tells the points one after the other, wherever it begins and e
       for (const std::uint32_t count : {1u, 7u, 8u, 9u, 15u}) {
         SequenceWalk walk(sequence, begin, begin + count, with_lens);
         for (std::uint32_t i = begin; i < begin + count; ++i) {
-          const SequencePoint& point = walk.next();
+          const SequencePoint point = walk.next();
           const SequencePoint expected = with_lens ? sequence.point(i) : sequence.pixel_point(i);
           CHECK(point.pixel_u == expected.pixel_u);
           CHECK(point.pixel_v == expected.pixel_v);

@@ -1,6 +1,7 @@
 #include "core/camera/camera_rays.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 
@@ -129,6 +130,58 @@ void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay&
   result.origin += offset;
   // A lens wider than the focal distance of a spherical camera can hold the point in focus itself.
   if (to_focus != Vec3(0)) result.direction = unit(to_focus);
+}
+
+void CameraRays::rays(std::span<const PicturePlace> places, std::span<const LensPoint> lens_points,
+                      std::span<CameraRay> result) const {
+  const bool has_lens_points = !lens_points.empty();
+  const auto one_by_one = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      if (has_lens_points) {
+        ray(places[i].x, places[i].y, lens_points[i], result[i]);
+      } else {
+        ray(places[i].x, places[i].y, result[i]);
+      }
+    }
+  };
+  std::size_t done = 0;
+  if (projection_ == Projection::pinhole) {
+    for (; done + lane_count <= places.size(); done += lane_count) {
+      const LensPoint* on_lens = has_lens_points ? &lens_points[done] : nullptr;
+      if (!pinhole_rays(&places[done], on_lens, &result[done])) one_by_one(done, done + lane_count);
+    }
+  }
+  one_by_one(done, places.size());
+}
+
+bool CameraRays::pinhole_rays(const PicturePlace* places, const LensPoint* lens_points,
+                              CameraRay* result) const {
+  const auto gathered = [](const auto* values, auto member) {
+    return Lanes{values[0].*member, values[1].*member, values[2].*member, values[3].*member};
+  };
+  const Lanes to_right = across(gathered(places, &PicturePlace::x)) * half_across_;
+  const Lanes to_top = upwards(gathered(places, &PicturePlace::y)) * half_up_;
+  std::array<Lanes, 3> way;
+  std::array<Lanes, 3> origin;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    way[i] = forward_[axis] + to_right * right_[axis] + to_top * up_[axis];
+    origin[i] = lanes_of(position_[axis]);
+    if (lens_points == nullptr) continue;
+    const Lanes offset = lens_radius_ * (gathered(lens_points, &LensPoint::x) * right_[axis] +
+                                         gathered(lens_points, &LensPoint::y) * up_[axis]);
+    way[i] = focal_distance_ * way[i] - offset;
+    origin[i] += offset;
+  }
+  const Lanes square = dot(way, way);
+  if (!all((square > safe_square_min) & (square < safe_square_max))) return false;
+  const Lanes length = sqrt(square);
+  for (Lanes& component : way) component /= length;
+  for (int lane = 0; lane < lane_count; ++lane) {
+    result[lane].origin = Vec3(origin[0][lane], origin[1][lane], origin[2][lane]);
+    result[lane].direction = Vec3(way[0][lane], way[1][lane], way[2][lane]);
+  }
+  return true;
 }
 
 Vec3 CameraRays::to_plane(double nx, double ny) const {

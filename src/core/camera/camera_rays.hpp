@@ -6,8 +6,10 @@
 #pragma once
 
 #include <optional>
+#include <span>
 
 #include "core/camera/aperture_shape.hpp"
+#include "core/math/lanes.hpp"
 #include "crt/camera.hpp"
 #include "crt/vec.hpp"
 
@@ -41,6 +43,10 @@ class CameraRays {
   void ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
+  /// The same rays for several places at once; without points of the lens those through its middle.
+  void rays(std::span<const PicturePlace> places, std::span<const LensPoint> lens_points,
+            std::span<CameraRay> result) const;
+
   /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a camera
   /// that does not look there.
   std::optional<PicturePlace> place_of(const Vec3& point) const;
@@ -64,8 +70,17 @@ class CameraRays {
   void spherical_ray(double nx, double ny, CameraRay& ray) const;
   void cylindrical_ray(double nx, double ny, CameraRay& ray) const;
   void orthographic_ray(double nx, double ny, CameraRay& ray) const;
-  double across(double x) const { return 2 * x / width_ - 1; }
-  double upwards(double y) const { return 1 - 2 * y / height_; }
+  /// As many rays of a pinhole camera as there are lanes; no lens points for those through its middle. False
+  /// if lengths are so extreme that each must be found by itself.
+  bool pinhole_rays(const PicturePlace* places, const LensPoint* lens_points, CameraRay* result) const;
+  template <class Real>
+  Real across(const Real& x) const {
+    return 2.0 * x / width_ - 1.0;
+  }
+  template <class Real>
+  Real upwards(const Real& y) const {
+    return 1.0 - 2.0 * y / height_;
+  }
 
   Vec3 position_;
   Vec3 right_;

@@ -19,7 +19,8 @@ std::optional<Spine> BoxShape::spine() const {
   if (size.z > size[along]) along = 2;
   Vec3 across = 0.5 * size;
   across[along] = 0;
-  return Spine{lower_ + across, upper_ - across, glm::length(across)};
+  const double reach = glm::length(across);
+  return Spine{lower_ + across, upper_ - across, reach, reach};
 }
 
 bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {

@@ -34,7 +34,7 @@ class FrustumShape : public Shape {
 
   bool is_solid() const final { return true; }
   Bounds bounds() const final;
-  std::optional<Spine> spine() const final { return Spine{from_, to_, std::max(radii_[0], radii_[1])}; }
+  std::optional<Spine> spine() const final { return Spine{from_, to_, radii_[0], radii_[1]}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const final;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }

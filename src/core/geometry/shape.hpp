@@ -6,6 +6,7 @@
 // transform of the entity. Faces of a primitive are numbered from 0 in the order its header tells.
 #pragma once
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -47,11 +48,15 @@ struct SurfacePoint {
   double v = 0;
 };
 
-/// A line through something long: all of that is within `reach` of the line.
+/// A line through something long, and how far from the line that reaches at its ends; in between it reaches
+/// as far as a straight line from one to the other.
 struct Spine {
   Vec3 from;
   Vec3 to;
-  double reach = 0;
+  double from_reach = 0;
+  double to_reach = 0;
+
+  double most_reach() const { return std::max(from_reach, to_reach); }
 };
 
 class Shape {

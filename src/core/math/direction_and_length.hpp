@@ -15,11 +15,13 @@ struct DirectionAndLength {
   double length = 0;
 };
 
-/// Splits a vector. Where the square of its length would overflow or lose bits it is first scaled
-/// by a power of two, which changes nothing else.
+/// Between these the square of a length neither overflows nor loses bits.
+inline constexpr double safe_square_min = 0x1p-900;
+inline constexpr double safe_square_max = 0x1p+900;
+
+/// Splits a vector. Where the square of its length is not safe it is first scaled by a power of two, which
+/// changes nothing else.
 inline DirectionAndLength direction_and_length(const Vec3& v) {
-  constexpr double safe_square_min = 0x1p-900;
-  constexpr double safe_square_max = 0x1p+900;
   const double square = glm::dot(v, v);
   if (square > safe_square_min && square < safe_square_max) {
     const double length = std::sqrt(square);

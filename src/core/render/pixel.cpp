@@ -1,6 +1,7 @@
 #include "core/render/pixel.hpp"
 
 #include <algorithm>
+#include <utility>
 
 #include "core/math/random.hpp"
 #include "core/sampling/schedule.hpp"
@@ -19,53 +20,80 @@ void add(Tracer::Sample& sum, const Tracer::Sample& sample) {
   sum.dropped += sample.dropped;
 }
 
-/// Traces rays that belong to pixels, and adds what the i-th of them meets first to *sum_of(i), if that is
-/// there.
-template <class SumOf>
-void trace_with_first_hits(Tracer& tracer, std::span<const CameraRay> rays, std::span<Tracer::Sample> samples,
-                           const SumOf& sum_of) {
-  std::array<FirstHit, packet_size> first_hits;
-  tracer.trace(rays, samples, std::span(first_hits).first(rays.size()));
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    if (FirstHit* const sum = sum_of(i)) sum->add(first_hits[i]);
-  }
-}
+/// Camera rays that are gathered until there are enough of them to be traced together.
+class GatheredRays {
+ public:
+  GatheredRays(const Frame& frame, Tracer& tracer)
+      : camera_(frame.camera()), with_lens_(frame.features().lens), tracer_(tracer) {}
 
-/// Gathers camera rays until a packet is full. A pixel's sum is that of its subpixels' sums over the lens, in
-/// their order.
+  std::size_t count() const { return count_; }
+  bool is_full() const { return count_ == packet_size; }
+
+  /// One more, through a place of the picture and, if there is a lens, through a point of that.
+  void add(const PicturePlace& place, const LensPoint& lens_point) {
+    places_[count_] = place;
+    lens_points_[count_] = lens_point;
+    ++count_;
+  }
+
+  /// Traces and forgets them. What the i-th of them meets first is added to *first_hits_of(i), if that is
+  /// there; none of them is asked for if nobody is interested.
+  template <class FirstHitsOf>
+  std::span<const Tracer::Sample> trace(bool with_first_hits, const FirstHitsOf& first_hits_of) {
+    const std::size_t count = std::exchange(count_, 0);
+    const std::span<CameraRay> rays = std::span(rays_).first(count);
+    const std::size_t lens_points = with_lens_ ? count : 0;
+    camera_.rays(std::span(places_).first(count), std::span(lens_points_).first(lens_points), rays);
+    if (with_first_hits) {
+      std::array<FirstHit, packet_size> first_hits;
+      tracer_.trace(rays, samples_, std::span(first_hits).first(count));
+      for (std::size_t i = 0; i < count; ++i) {
+        if (FirstHit* const sum = first_hits_of(i)) sum->add(first_hits[i]);
+      }
+    } else {
+      tracer_.trace(rays, samples_);
+    }
+    return std::span(samples_).first(count);
+  }
+
+ private:
+  const CameraRays& camera_;
+  bool with_lens_;
+  Tracer& tracer_;
+  std::size_t count_ = 0;
+  std::array<PicturePlace, packet_size> places_;
+  std::array<LensPoint, packet_size> lens_points_;
+  std::array<CameraRay, packet_size> rays_;
+  std::array<Tracer::Sample, packet_size> samples_;
+};
+
+/// The rays of a grid. A pixel's sum is that of its subpixels' sums over the lens, in their order.
 class SampleSums {
  public:
   /// The sums of first hits belong to the pixels from `first_pixel` on; there may be none.
-  SampleSums(Tracer& tracer, int lens_points, const Tracer::Sample* first_pixel,
+  SampleSums(const Frame& frame, Tracer& tracer, int lens_points, const Tracer::Sample* first_pixel,
              std::span<FirstHit> first_hit_sums)
-      : tracer_(tracer),
+      : rays_(frame, tracer),
         lens_points_(lens_points),
         first_pixel_(first_pixel),
         first_hit_sums_(first_hit_sums) {}
 
-  /// Where the next ray is to go, and then that it is there.
-  CameraRay& next() { return rays_[count_]; }
-  void take(Tracer::Sample& pixel) {
-    pixels_[count_] = &pixel;
-    if (++count_ == packet_size) trace();
+  void take(const PicturePlace& place, const LensPoint& lens_point, Tracer::Sample& pixel) {
+    pixels_[rays_.count()] = &pixel;
+    rays_.add(place, lens_point);
+    if (rays_.is_full()) trace();
   }
 
   void trace() {
-    const std::span<const CameraRay> rays = std::span(rays_).first(count_);
-    if (first_hit_sums_.empty()) {
-      tracer_.trace(rays, samples_);
-    } else {
-      trace_with_first_hits(tracer_, rays, samples_,
-                            [&](std::size_t i) { return &first_hit_sums_[index_of(*pixels_[i])]; });
-    }
-    for (std::size_t i = 0; i < count_; ++i) {
-      add(lens_sum_, samples_[i]);
+    const std::span<const Tracer::Sample> samples = rays_.trace(
+        !first_hit_sums_.empty(), [&](std::size_t i) { return &first_hit_sums_[index_of(*pixels_[i])]; });
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      add(lens_sum_, samples[i]);
       if (++lens_point_ < lens_points_) continue;
       add(*pixels_[i], lens_sum_);
       lens_sum_ = {.alpha = 0};
       lens_point_ = 0;
     }
-    count_ = 0;
   }
 
  private:
@@ -73,64 +101,53 @@ class SampleSums {
     return static_cast<std::size_t>(&pixel - first_pixel_);
   }
 
-  Tracer& tracer_;
+  GatheredRays rays_;
   int lens_points_;
   const Tracer::Sample* first_pixel_;
   std::span<FirstHit> first_hit_sums_;
-  std::size_t count_ = 0;
-  std::array<CameraRay, packet_size> rays_;
   std::array<Tracer::Sample*, packet_size> pixels_{};
-  std::array<Tracer::Sample, packet_size> samples_;
   Tracer::Sample lens_sum_{.alpha = 0};
   int lens_point_ = 0;
 };
 
-/// Gathers the rays of passes, pixel by pixel and step by step, and hands on each step of a pixel as a whole.
+/// The rays of passes, pixel by pixel and step by step. Each step of a pixel is handed on as a whole.
 class StepSums {
  public:
-  StepSums(Tracer& tracer, bool with_first_hits) : tracer_(tracer), with_first_hits_(with_first_hits) {}
+  StepSums(const Frame& frame, Tracer& tracer, bool with_first_hits)
+      : rays_(frame, tracer), with_first_hits_(with_first_hits) {}
 
-  /// Where the next ray is to go, and then that it is there: of a pixel that has `count` samples before the
-  /// step and gets `size` more in it.
-  CameraRay& next() { return rays_[taken_]; }
-  void take(const PixelPlace& pixel, std::int64_t count, std::int64_t size) {
-    places_[taken_] = {&pixel, count, size};
-    if (++taken_ == packet_size) trace();
+  /// Of a pixel that has `count` samples before the step and gets `size` more in it.
+  void take(const PicturePlace& place, const LensPoint& lens_point, const PixelPlace& pixel,
+            std::int64_t count, std::int64_t size) {
+    steps_[rays_.count()] = {&pixel, count, size};
+    rays_.add(place, lens_point);
+    if (rays_.is_full()) trace();
   }
 
   void trace() {
-    const std::span<const CameraRay> rays = std::span(rays_).first(taken_);
-    if (with_first_hits_) {
-      trace_with_first_hits(tracer_, rays, samples_,
-                            [&](std::size_t i) { return places_[i].pixel->first_hits; });
-    } else {
-      tracer_.trace(rays, samples_);
-    }
-    for (std::size_t i = 0; i < taken_; ++i) {
-      const Tracer::Sample& sample = samples_[i];
+    const std::span<const Tracer::Sample> samples =
+        rays_.trace(with_first_hits_, [&](std::size_t i) { return steps_[i].pixel->first_hits; });
+    for (std::size_t i = 0; i < samples.size(); ++i) {
+      const Tracer::Sample& sample = samples[i];
       sum_.add(Lanes{sample.color.x, sample.color.y, sample.color.z, sample.alpha}, sample.identity,
                sample.dropped);
-      const Place& place = places_[i];
-      if (sum_.count < place.size) continue;
-      place.pixel->samples->add_step(place.count, sum_);
-      sum_ = {};
+      const StepOfPixel& step = steps_[i];
+      if (sum_.count < step.size) continue;
+      step.pixel->samples->add_step(step.count, sum_);
+      sum_.count = 0;
     }
-    taken_ = 0;
   }
 
  private:
-  struct Place {
+  struct StepOfPixel {
     const PixelPlace* pixel = nullptr;
     std::int64_t count = 0;
     std::int64_t size = 0;
   };
 
-  Tracer& tracer_;
+  GatheredRays rays_;
   bool with_first_hits_;
-  std::size_t taken_ = 0;
-  std::array<CameraRay, packet_size> rays_;
-  std::array<Place, packet_size> places_;
-  std::array<Tracer::Sample, packet_size> samples_;
+  std::array<StepOfPixel, packet_size> steps_;
   SampleSum sum_;
 };
 
@@ -144,17 +161,15 @@ void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& s
                    .dimension = lens_dimension};
   for (int row = 0; row < grid; ++row) {
     for (int column = 0; column < grid; ++column) {
-      const double place_x = x + frame.filter()((column + 0.5) / grid);
-      const double place_y = y + frame.filter()((row + 0.5) / grid);
+      const PicturePlace place = {x + frame.filter()((column + 0.5) / grid),
+                                  y + frame.filter()((row + 0.5) / grid)};
       if (!frame.features().lens) {
-        camera.ray(place_x, place_y, sums.next());
-        sums.take(pixel);
+        sums.take(place, {}, pixel);
         continue;
       }
       for (int i = 0; i < lens_points; ++i, ++use.sample) {
         const auto [u, v] = random_pair(frame.settings().seed, use);
-        camera.ray(place_x, place_y, camera.lens_point(u, v), sums.next());
-        sums.take(pixel);
+        sums.take(place, camera.lens_point(u, v), pixel);
       }
     }
   }
@@ -166,7 +181,7 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
                   std::span<FirstHit> first_hits, RenderStats& stats) {
   const bool lens = frame.features().lens;
   const int lens_points = lens ? frame.settings().dof_samples : 1;
-  SampleSums sums(tracer, lens_points, pixels.data(), first_hits);
+  SampleSums sums(frame, tracer, lens_points, pixels.data(), first_hits);
   auto pixel = pixels.begin();
   for (int y = region.y; y < region.y + region.height; ++y) {
     for (int x = region.x; x < region.x + region.width; ++x, ++pixel) {
@@ -194,7 +209,7 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
   const bool lens = frame.features().lens;
   const bool with_first_hits = std::any_of(
       pixels.begin(), pixels.end(), [](const PixelPlace& pixel) { return pixel.first_hits != nullptr; });
-  StepSums sums(tracer, with_first_hits);
+  StepSums sums(frame, tracer, with_first_hits);
   for (const PixelPlace& pixel : pixels) {
     const PixelSequence sequence(frame.settings().seed, pixel.x, pixel.y);
     SequenceWalk walk(sequence, static_cast<std::uint32_t>(range.begin),
@@ -203,15 +218,10 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
     for (std::int64_t count = range.begin; count < range.end; count += size) {
       size = samples_of_next_step(count);
       for (std::int64_t i = count; i < count + size; ++i) {
-        const SequencePoint& point = walk.next();
-        const double x = pixel.x + filter(point.pixel_u);
-        const double y = pixel.y + filter(point.pixel_v);
-        if (lens) {
-          camera.ray(x, y, camera.lens_point(point.lens_u, point.lens_v), sums.next());
-        } else {
-          camera.ray(x, y, sums.next());
-        }
-        sums.take(pixel, count, size);
+        const SequencePoint point = walk.next();
+        const PicturePlace place = {pixel.x + filter(point.pixel_u), pixel.y + filter(point.pixel_v)};
+        const LensPoint on_lens = lens ? camera.lens_point(point.lens_u, point.lens_v) : LensPoint{};
+        sums.take(place, on_lens, pixel, count, size);
       }
     }
   }

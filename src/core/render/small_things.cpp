@@ -16,8 +16,9 @@ namespace {
 
 /// In pixels: what is at least as wide and as high is not small.
 constexpr double small_size = 1;
-/// What covers less of a pixel is not looked for.
+/// What covers less of a pixel is not looked for, nor what is long and thinner.
 constexpr double least_area = 1.0 / 64;
+constexpr double least_width = least_area;
 /// What has a larger rectangle is long and seen askew.
 constexpr double most_pixels = 4096;
 
@@ -77,18 +78,35 @@ class Marks {
     }
   }
 
-  /// What is around a line and so wide, in pixels.
-  void add(const Spine& line, double width) {
-    add_between({line.from, camera_.place_of(line.from)}, {line.to, camera_.place_of(line.to)}, width, 0);
+  /// What is around a line, as far as it looks thin; false if it looks thin nowhere.
+  bool add(const Spine& line) {
+    const Point from = point_at(line.from, line.from_reach);
+    const Point to = point_at(line.to, line.to_reach);
+    if (is_wide(from, to)) return false;
+    add_between(from, to, 0);
+    return true;
   }
 
   std::vector<bool> take() { return std::move(pixels_); }
 
  private:
+  /// Of a line.
   struct Point {
     Vec3 position;
+    double reach;
+    double width;  ///< of what is around it, in pixels, about
     std::optional<PicturePlace> place;
   };
+
+  Point point_at(const Vec3& position, double reach) const {
+    return {position, reach, 2 * reach * camera_.least_pixels_per_unit(position), camera_.place_of(position)};
+  }
+
+  /// Whether all between two points is so wide. (The reach grows evenly along the line, and the distance from
+  /// the camera is convex: nothing in between looks thinner than both ends.)
+  static bool is_wide(const Point& from, const Point& to) {
+    return std::min(from.width, to.width) >= small_size;
+  }
 
   /// The pixel of the region that is nearest to a place.
   static int inside(double place, int begin, int size) {
@@ -100,30 +118,32 @@ class Marks {
            seen.top >= region_.y + region_.height;
   }
 
-  Rectangle around(const Point& from, const Point& to, double width) const {
+  static Rectangle around(const Point& from, const Point& to) {
+    const double width = std::max(from.width, to.width);
     const auto [left, right] = std::minmax(from.place->x, to.place->x);
     const auto [top, bottom] = std::minmax(from.place->y, to.place->y);
     return {left - width / 2, top - width / 2, right + width / 2, bottom + width / 2};
   }
 
   /// Halves the line until its parts are short in the picture, or not in it.
-  void add_between(const Point& from, const Point& to, double width, int halvings) {
+  void add_between(const Point& from, const Point& to, int halvings) {
     constexpr int most_halvings = 20;
     constexpr int enough_to_see_some = 6;
+    if (is_wide(from, to)) return;
     const bool both_seen = from.place && to.place;
     if (both_seen) {
-      const Rectangle seen = around(from, to, width);
+      const Rectangle seen = around(from, to);
+      const double width = std::max(from.width, to.width);
       const bool is_short =
           std::max(seen.right - seen.left, seen.bottom - seen.top) <= width + small_size / 2;
-      if (is_short) add(seen);
+      if (is_short && width >= least_width) add(seen);
       if (is_short || is_beside(seen)) return;
     }
     const bool none_seen = !from.place && !to.place;
     if (halvings == most_halvings || (none_seen && halvings == enough_to_see_some)) return;
-    const Vec3 middle = 0.5 * (from.position + to.position);
-    const Point point{middle, camera_.place_of(middle)};
-    add_between(from, point, width, halvings + 1);
-    add_between(point, to, width, halvings + 1);
+    const Point middle = point_at(0.5 * (from.position + to.position), 0.5 * (from.reach + to.reach));
+    add_between(from, middle, halvings + 1);
+    add_between(middle, to, halvings + 1);
   }
 
   const CameraRays& camera_;
@@ -141,18 +161,9 @@ std::optional<Spine> spine_of(const CompiledScene& scene, const SceneObject& obj
   const Vec3 scale(glm::length(Vec3(world.row_x.x, world.row_y.x, world.row_z.x)),
                    glm::length(Vec3(world.row_x.y, world.row_y.y, world.row_z.y)),
                    glm::length(Vec3(world.row_x.z, world.row_y.z, world.row_z.z)));
+  const double most_scale = largest_component(scale);
   return Spine{leaf.placement->point_to_world(spine->from), leaf.placement->point_to_world(spine->to),
-               spine->reach * largest_component(scale)};
-}
-
-/// How wide it looks where it is nearest, in pixels, about.
-double width_of(const Spine& spine, const CameraRays& camera) {
-  const Vec3 middle = 0.5 * (spine.from + spine.to);
-  double most = 0;
-  for (const Vec3& point : {spine.from, middle, spine.to}) {
-    most = std::max(most, 2 * spine.reach * camera.least_pixels_per_unit(point));
-  }
-  return most;
+               spine->from_reach * most_scale, spine->to_reach * most_scale};
 }
 
 }  // namespace
@@ -164,13 +175,8 @@ std::vector<bool> small_things(const Frame& frame, const Region& region) {
   Marks marks(camera, region);
   for (const SceneObject& object : scene.objects) {
     if (!object.solid || !object.bounds.finite() || object.bounds.empty()) continue;
-    if (const std::optional<Spine> spine = spine_of(scene, object)) {
-      const double width = width_of(*spine, camera);
-      if (width >= least_area && width < small_size) {
-        marks.add(*spine, width);
-        continue;
-      }
-    }
+    const std::optional<Spine> spine = spine_of(scene, object);
+    if (spine && marks.add(*spine)) continue;
     if (is_surely_large(camera, object.bounds)) continue;
     const std::optional<Rectangle> seen = seen_rectangle(camera, object.bounds);
     if (seen && is_small(*seen)) marks.add(*seen);

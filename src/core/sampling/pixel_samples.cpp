@@ -52,8 +52,10 @@ void PixelSamples::merge_blocks() {
 }
 
 void PixelSamples::add_step(std::int64_t count, const SampleSum& step) {
+  // No step reaches beyond a power of two.
+  const auto before = static_cast<std::uint64_t>(count);
+  if (before >= block_count && std::has_single_bit(before)) merge_blocks();
   const int exponent = block_exponent(count + step.count);
-  if (count > 0 && exponent != block_exponent(count)) merge_blocks();
   Channels& block = blocks_[static_cast<std::size_t>(count >> exponent)];
   block = rounded(to_doubles(block) + step.sum);
   const Channels low = rounded(step.low);

@@ -33,8 +33,8 @@ struct SampleSum {
 
   void add(const Lanes& values, std::uint64_t sample_identity, double lost) {
     if (count == 0) {
-      low = high = values;
-      identity = sample_identity;
+      *this = {values, values, values, lost, sample_identity, false, 1};
+      return;
     }
     ++count;
     sum += values;

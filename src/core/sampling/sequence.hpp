@@ -46,6 +46,8 @@ struct Recurrence {
 inline constexpr std::uint32_t points_at_once = 8;
 /// The bits of a coordinate of each of them. Vectors of GCC and Clang.
 using BitLanes = std::uint32_t __attribute__((vector_size(4 * points_at_once)));
+using SignedBitLanes = std::int32_t __attribute__((vector_size(4 * points_at_once)));
+using DoubleLanes = double __attribute__((vector_size(8 * points_at_once)));
 
 /// (Of one number, or of lanes.)
 template <class Bits>
@@ -151,15 +153,26 @@ class PixelSequence {
     return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
-  using Block = std::array<SequencePoint, sequence_detail::points_at_once>;
-  /// The same for as many points as make a block, from a multiple of their number on.
+  /// Points side by side, by dimension.
+  struct Block {
+    std::array<std::array<double, sequence_detail::points_at_once>, sequence_dimensions> coordinates{};
+
+    SequencePoint operator[](std::size_t i) const {
+      return {coordinates[0][i], coordinates[1][i], coordinates[2][i], coordinates[3][i]};
+    }
+    void set(std::size_t i, const SequencePoint& point) {
+      coordinates[0][i] = point.pixel_u;
+      coordinates[1][i] = point.pixel_v;
+      coordinates[2][i] = point.lens_u;
+      coordinates[3][i] = point.lens_v;
+    }
+  };
+  /// The same for as many points as make a block, from a multiple of their number on; without the lens only
+  /// their places on the pixel.
   void block(std::uint32_t first, bool with_lens, Block& points) const {
     const sequence_detail::Column high_bits = bits_of<sequence_dimensions>(first);
-    fill(points, &SequencePoint::pixel_u, 0, high_bits);
-    fill(points, &SequencePoint::pixel_v, 1, high_bits);
-    if (!with_lens) return;
-    fill(points, &SequencePoint::lens_u, 2, high_bits);
-    fill(points, &SequencePoint::lens_v, 3, high_bits);
+    const std::size_t dimensions = with_lens ? sequence_dimensions : 2;
+    for (std::size_t d = 0; d < dimensions; ++d) fill(points.coordinates[d], d, high_bits[d]);
   }
 
  private:
@@ -187,13 +200,18 @@ class PixelSequence {
     return result;
   }
 
-  void fill(Block& points, double SequencePoint::*coordinate, std::size_t dimension,
-            const sequence_detail::Column& high_bits) const {
+  void fill(std::array<double, sequence_detail::points_at_once>& coordinates, std::size_t dimension,
+            std::uint32_t high_bits) const {
     using namespace sequence_detail;
     BitLanes bits;
     std::memcpy(&bits, low_bit_table[dimension].data(), sizeof bits);
-    bits = reversed(scrambled_upwards(bits ^ high_bits[dimension], seeds_[dimension]));
-    for (std::uint32_t i = 0; i < points_at_once; ++i) points[i].*coordinate = fraction(bits[i]);
+    bits = reversed(scrambled_upwards(bits ^ high_bits, seeds_[dimension]));
+    // Processors turn only signed numbers into doubles side by side: from -1/2 to 1/2, exactly.
+    constexpr std::uint32_t middle = 0x80000000u;
+    const auto from_middle =
+        __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
+    const DoubleLanes fractions = 0x1p-32 * from_middle + 0.5;
+    std::memcpy(coordinates.data(), &fractions, sizeof fractions);
   }
 
   /// Apart from what else random numbers are drawn for at a pixel.
@@ -208,26 +226,32 @@ class SequenceWalk {
   SequenceWalk(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t end, bool with_lens)
       : sequence_(sequence), next_(begin), end_(end), with_lens_(with_lens) {}
 
-  /// To be used before the next one.
-  const SequencePoint& next() {
-    using sequence_detail::points_at_once;
-    const std::uint32_t place = next_ % points_at_once;
-    if (place == 0) {
-      in_block_ = end_ - next_ >= points_at_once;
-      if (in_block_) sequence_.block(next_, with_lens_, block_);
-    }
-    const std::uint32_t index = next_++;
-    if (!in_block_) block_[place] = with_lens_ ? sequence_.point(index) : sequence_.pixel_point(index);
-    return block_[place];
+  SequencePoint next() {
+    if (place_ == found_) find_more();
+    return points_[place_++];
   }
 
  private:
+  void find_more() {
+    using sequence_detail::points_at_once;
+    const bool is_block = next_ % points_at_once == 0 && end_ - next_ >= points_at_once;
+    if (is_block) {
+      sequence_.block(next_, with_lens_, points_);
+    } else {
+      points_.set(0, with_lens_ ? sequence_.point(next_) : sequence_.pixel_point(next_));
+    }
+    found_ = is_block ? points_at_once : 1;
+    place_ = 0;
+    next_ += found_;
+  }
+
   const PixelSequence& sequence_;
-  std::uint32_t next_;
+  std::uint32_t next_;  ///< that is not found yet
   std::uint32_t end_;
   bool with_lens_;
-  bool in_block_ = false;
-  PixelSequence::Block block_;
+  PixelSequence::Block points_;
+  std::uint32_t found_ = 0;
+  std::uint32_t place_ = 0;  ///< among these
 };
 
 }  // namespace crt::core

@@ -73,7 +73,7 @@ bool place_rod(const Shape& shape, const Placement& placement, Outline& outline,
   const double most_scale =
       std::sqrt(glm::dot(world.row_x, world.row_x) + glm::dot(world.row_y, world.row_y) +
                 glm::dot(world.row_z, world.row_z));
-  const double reach = spine->reach * (scale > 0 ? scale : most_scale);
+  const double reach = spine->most_reach() * (scale > 0 ? scale : most_scale);
   constexpr double roundings = 0x1p-40;
   outline.radius = reach + roundings * (reach + largest_component(from) + largest_component(to));
   if (!has_fair_size(outline.radius) || !has_fair_size(largest_component(way))) return false;
