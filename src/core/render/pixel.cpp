@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "core/math/random.hpp"
+#include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 #include "core/sampling/sequence.hpp"
 
@@ -151,6 +152,23 @@ class StepSums {
   SampleSum sum_;
 };
 
+/// The places of a tile along Morton's curve, which goes through a square quarter by quarter: packets of
+/// rays through pixels that follow each other keep together.
+struct TilePlace {
+  int x = 0;
+  int y = 0;
+};
+constexpr auto tile_places = [] {
+  std::array<TilePlace, std::size_t{Tiles::side} * Tiles::side> places;
+  for (unsigned i = 0; i < places.size(); ++i) {
+    for (unsigned bit = 0; i >> 2 * bit != 0; ++bit) {
+      places[i].x |= static_cast<int>((i >> 2 * bit & 1u) << bit);
+      places[i].y |= static_cast<int>((i >> (2 * bit + 1) & 1u) << bit);
+    }
+  }
+  return places;
+}();
+
 /// Takes the rays through one pixel.
 void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& sums, Tracer::Sample& pixel) {
   const CameraRays& camera = frame.camera();
@@ -182,24 +200,24 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
   const bool lens = frame.features().lens;
   const int lens_points = lens ? frame.settings().dof_samples : 1;
   SampleSums sums(frame, tracer, lens_points, pixels.data(), first_hits);
-  auto pixel = pixels.begin();
-  for (int y = region.y; y < region.y + region.height; ++y) {
-    for (int x = region.x; x < region.x + region.width; ++x, ++pixel) {
-      *pixel = {.alpha = 0};
-      take_pixel(frame, x, y, lens_points, sums, *pixel);
-    }
+  for (const TilePlace& place : tile_places) {
+    if (place.x >= region.width || place.y >= region.height) continue;
+    const int x = region.x + place.x;
+    const int y = region.y + place.y;
+    Tracer::Sample& pixel = pixels[index_in(region, x, y)];
+    pixel = {.alpha = 0};
+    take_pixel(frame, x, y, lens_points, sums, pixel);
   }
   sums.trace();
 
   const int grid = frame.settings().supersampling;
-  const auto pixel_count = static_cast<std::uint64_t>(pixel - pixels.begin());
   const double samples_per_pixel = static_cast<double>(grid) * grid * lens_points;
-  for (Tracer::Sample& done : pixels.first(pixel_count)) {
+  for (Tracer::Sample& done : pixels.first(pixel_count(region))) {
     done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel, done.dropped / samples_per_pixel};
   }
   for (FirstHit& hit : first_hits) hit.divide(std::int64_t{grid} * grid * lens_points);
-  stats.pixels += pixel_count;
-  if (lens) stats.lens_samples += pixel_count * static_cast<std::uint64_t>(samples_per_pixel);
+  stats.pixels += pixel_count(region);
+  if (lens) stats.lens_samples += pixel_count(region) * static_cast<std::uint64_t>(samples_per_pixel);
 }
 
 void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range,
