@@ -128,11 +128,11 @@ struct Counts {
 
 class Comparison {
  public:
-  /// None if the tree is not one object, or has no sketch.
   explicit Comparison(const Entity& tree, Precision precision)
       : accelerator_(compile(std::span(&tree, 1), precision)) {}
 
   const CompiledScene& scene() const { return accelerator_.compiled(); }
+  /// Whether the tree is one object that has a sketch.
   bool is_sketched() const {
     return scene().objects.size() == 1 && scene().objects.front().is_csg() && scene().programs.size() == 1 &&
            !program().sketch.empty();

@@ -65,6 +65,7 @@ class CsgSketch {
   /// A bit for each place. Places are numbered through all groups of spheres and then those of boxes; those
   /// at the end of a group may be empty.
   using Places = std::uint32_t;
+  static constexpr std::uint32_t bit_of(std::size_t index) { return std::uint32_t{1} << index; }
 
   /// As many as there are lanes, in the world.
   struct Spheres {
