@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "csg/continued_ray.hpp"
 #include "csg/plain_evaluation.hpp"
 #include "support/solids.hpp"
 
@@ -74,24 +75,6 @@ WorldRay random_ray(SolidMaker& make) {
       break;
   }
   return ray;
-}
-
-/// A ray that goes on from a hit, through it or back.
-WorldRay continued(const CompiledScene& scene, const CsgProgram& program, const WorldRay& ray,
-                   const CsgHit& hit, const Vec3& direction, core::Side side) {
-  WorldRay next;
-  next.origin = ray.origin + hit.t * ray.direction;
-  next.direction = direction;
-  const core::Leaf& leaf = scene.leaves[program.first_leaf + hit.leaf];
-  const core::FaceSurface& surface = scene.face_surfaces[leaf.first_face + hit.face];
-  const bool outside = (side == core::Side::outside) != surface.flipped;
-  const Vec3 size = glm::abs(next.origin);
-  next.start = {.leaf = program.first_leaf + hit.leaf,
-                .face = hit.face,
-                .surface = surface.surface,
-                .side = outside ? core::Side::outside : core::Side::inside,
-                .t_error = core::start_rounding * std::max({size.x, size.y, size.z})};
-  return next;
 }
 
 /// A plate with n by n holes in it, across y.

@@ -123,6 +123,17 @@ Vec3 Placement::point_to_world(const Vec3& object) const {
   return result;
 }
 
+std::optional<Vec3> Placement::exactly_to_world(const Vec3& object) const {
+  if (kind_ == Kind::affine) return std::nullopt;
+  Vec3 world;
+  for (int axis = 0; axis < 3; ++axis) {
+    const DoubleDouble place = two_sum(object[axis], to_world_.translation[axis]);
+    if (place.lo != 0) return std::nullopt;
+    world[axis] = place.hi;
+  }
+  return world;
+}
+
 Vec3 Placement::covector_to_world(const Vec3& object) const {
   if (kind_ != Kind::affine) return object;
   Vec3 result;

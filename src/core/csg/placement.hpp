@@ -1,6 +1,8 @@
 // Where a primitive's object space lies in the world.
 #pragma once
 
+#include <optional>
+
 #include "core/geometry/bounds.hpp"
 #include "core/geometry/exact_ray.hpp"
 #include "core/geometry/object_ray.hpp"
@@ -35,6 +37,8 @@ class Placement {
 
   Vec3 point_to_object(const Vec3& world) const;
   Vec3 point_to_world(const Vec3& object) const;
+  /// The same where doubles can tell it and no more than a move is done, to the last bit.
+  std::optional<Vec3> exactly_to_world(const Vec3& object) const;
 
   /// A covector (such as the gradient of a function of the object point) as the world sees it; its
   /// length matters.

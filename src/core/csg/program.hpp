@@ -12,6 +12,7 @@
 #include "core/csg/leaf_tree.hpp"
 #include "core/csg/node_paths.hpp"
 #include "core/csg/placement.hpp"
+#include "core/csg/sketch.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
 
@@ -56,7 +57,8 @@ struct CsgProgram {
   std::uint32_t first_leaf = 0;
   NodePaths paths;  ///< of deep programs: what takes the place of walking up from node to node
   LeafTree tree;    ///< over what of each leaf's box matters
-  Bounds bounds;    ///< of the object, in the world
+  CsgSketch sketch;
+  Bounds bounds;  ///< of the object, in the world
   std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -47,6 +48,17 @@ inline bool all(const LaneMask& mask) {
   return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) == (1 << lane_count) - 1;
 #else
   return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+#endif
+}
+
+/// The lanes of a comparison as bits.
+inline std::uint32_t mask_of(const LaneMask& lanes) {
+#ifdef __AVX__
+  return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)));
+#else
+  std::uint32_t mask = 0;
+  for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
+  return mask;
 #endif
 }
 

@@ -192,6 +192,7 @@ void Compiler::finish_program(CsgProgram& program) {
   boxes.reserve(leaves.size());
   for (const Leaf& leaf : leaves) boxes.push_back(leaf.bounds);
   program.tree = LeafTree(boxes, threads_);
+  program.sketch = CsgSketch(program, leaves, result_.face_surfaces);
 }
 
 void Compiler::finish_objects() {

@@ -69,6 +69,8 @@ class ObjectQuery {
   Kind& kind() { return static_cast<Kind&>(*this); }
   void test_leaf(std::uint32_t object_index, const SceneObject& object);
   void test_csg(std::uint32_t object_index, const SceneObject& object);
+  /// By a sketch of the object; false if that leaves anything open.
+  bool test_sketch(std::uint32_t object_index, const CsgProgram& program);
   /// As test_leaf() does it, without a look at anything else that would have to be fetched from memory.
   void test_sphere(const Outline& sphere);
 
@@ -156,6 +158,9 @@ template <class Kind>
 void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& object) {
   const CompiledScene& scene = accelerator_->compiled();
   const CsgProgram& program = scene.programs[object.program];
+  if constexpr (Kind::takes_one) {
+    if (test_sketch(object_index, program)) return;
+  }
   WorldRay csg_ray = *ray_;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
   CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg);
@@ -178,6 +183,45 @@ void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& 
     if (!kind().take(hit)) return;
   }
   kind().end(object_index, leaf, inside);
+}
+
+template <class Kind>
+bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const CsgProgram& program) {
+  if (program.sketch.empty()) return false;
+  const CompiledScene& scene = accelerator_->compiled();
+  const std::span<const Leaf> leaves =
+      std::span(scene.leaves).subspan(program.first_leaf, program.leaf_count());
+  const SketchedChange change = program.sketch.first_change(*ray_, limit_, leaves, scene.face_surfaces);
+  if (change.kind != SketchedChange::Kind::one) return change.kind == SketchedChange::Kind::none;
+  if constexpr (Kind::any_will_do) {
+    if (change.to < certain_end(*ray_)) {
+      kind().settle();
+      return true;
+    }
+  }
+  const std::uint32_t index = program.first_leaf + change.leaf;
+  const Leaf& leaf = scene.leaves[index];
+  const LineSpan span = RaySlabs(ray_->origin, ray_->direction).span(leaf.bounds);
+  CrossingList& crossings = work_->crossings;
+  crossings.clear();
+  leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings, work_->csg.escalations);
+  for (const Crossing& crossing : crossings) {
+    if (crossing.entering != change.into_leaf) continue;
+    // What rounding puts next to the leaf's box is told by the box.
+    if (!(crossing.t >= span.enter && crossing.t <= span.leave)) return false;
+    ++work_->csg.events;
+    kind().take({.t = crossing.t,
+                 .error = crossing.error,
+                 .t_low = crossing.t_low,
+                 .object = object_index,
+                 .leaf = index,
+                 .face = crossing.face,
+                 .surface = accelerator_->face_surface(leaf, crossing.face).surface,
+                 .root = crossing.root,
+                 .entering = change.into_object});
+    return true;
+  }
+  return false;
 }
 
 }  // namespace crt::core

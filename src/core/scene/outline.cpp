@@ -33,13 +33,9 @@ bool has_fair_size(double size) {
 
 /// Outlines of spheres and planes are where the objects are to the last bit, or there are none.
 bool place_exactly(const Surface& surface, const Placement& placement, Outline& outline) {
-  if (!placement.is_translation()) return false;
-  for (int axis = 0; axis < 3; ++axis) {
-    const DoubleDouble place = two_sum(surface.position[axis], placement.to_world().translation[axis]);
-    if (place.lo != 0) return false;
-    outline.place[axis] = place.hi;
-  }
-  return true;
+  const std::optional<Vec3> place = placement.exactly_to_world(surface.position);
+  if (place) outline.place = *place;
+  return place.has_value();
 }
 
 /// That of a torus is thicker by more than all roundings.

@@ -16,17 +16,6 @@ inline constexpr std::size_t packet_size = 16;
 /// A bit for each ray of a packet.
 using RayMask = std::uint32_t;
 
-/// The lanes of a comparison as bits.
-inline RayMask mask_of(const LaneMask& lanes) {
-#ifdef __AVX__
-  return static_cast<RayMask>(_mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)));
-#else
-  RayMask mask = 0;
-  for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
-  return mask;
-#endif
-}
-
 /// Calls use(index) for each bit that is set.
 template <class Use>
 void for_each_ray(RayMask mask, const Use& use) {

@@ -1,0 +1,227 @@
+// The sketch of small CSG objects against following all crossings: what it calls sure is so, to the bit.
+#include "core/csg/sketch.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/scene/accelerator.hpp"
+#include "csg/continued_ray.hpp"
+#include "support/solids.hpp"
+
+using namespace crt;
+using namespace crt::core;
+using namespace crt::test;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr std::uint32_t scene_count = 20'000;
+#else
+constexpr std::uint32_t scene_count = 500;
+#endif
+
+/// Trees of spheres and boxes, most of whose faces coincide, or all but.
+class Trees {
+ public:
+  explicit Trees(std::uint32_t seed) : make_(seed), grid_(make_.integer(0, 3)) {
+    // A whole tree may be far from the origin, or of any size.
+    if (make_.integer(0, 3) == 0) place_ = std::exp2(make_.integer(0, 24)) * make_.grid_point();
+    if (make_.integer(0, 3) == 0) unit_ = std::exp2(make_.integer(-80, 80));
+  }
+
+  SolidMaker& random() { return make_; }
+  Vec3 to_world(const Vec3& p) const { return unit_ * (place_ + p); }
+  double size_in_world(double size) const { return unit_ * size; }
+
+  Entity tree(int depth) {
+    if (depth == 0 || make_.integer(0, 5) == 0) return leaf();
+    std::vector<Entity> parts;
+    const int count = make_.integer(2, 4);
+    for (int i = 0; i < count; ++i) parts.push_back(tree(depth - 1));
+    switch (make_.integer(0, 2)) {
+      case 0:
+        return csg_union(parts);
+      case 1:
+        return csg_intersection(parts);
+      default:
+        return csg_difference(parts[0], std::span(parts).subspan(1));
+    }
+  }
+
+  /// A coordinate: of the grid, of the grid but for the last bits, or any.
+  double coordinate(double on_grid) {
+    if (grid_ == 0) return on_grid;
+    if (grid_ == 1) return on_grid + make_.real(-1, 1);
+    return on_grid + std::exp2(make_.integer(-54, -20)) * make_.integer(-3, 3);
+  }
+  Vec3 point() {
+    const Vec3 p = make_.grid_point();
+    return {coordinate(p.x), coordinate(p.y), coordinate(p.z)};
+  }
+
+ private:
+  Entity leaf() {
+    const Vec3 a = point();
+    if (make_.integer(0, 1) == 0) {
+      return Sphere{.center = to_world(a), .radius = size_in_world(coordinate(make_.integer(2, 4)))};
+    }
+    const Vec3 size(make_.integer(2, 4), make_.integer(2, 4), make_.integer(2, 4));
+    return Box{.corner_a = to_world(a), .corner_b = to_world(a + size)};
+  }
+
+  SolidMaker make_;
+  int grid_;
+  Vec3 place_{0, 0, 0};
+  double unit_ = 1;
+};
+
+/// Through the tree: anyhow, along the grid, or next to grazing one of its spheres.
+WorldRay random_ray(Trees& trees) {
+  SolidMaker& random = trees.random();
+  Vec3 origin(random.real(-9, 9), random.real(-9, 9), random.real(-9, 9));
+  Vec3 through(random.real(-3, 3), random.real(-3, 3), random.real(-3, 3));
+  switch (random.integer(0, 3)) {
+    case 0:
+      origin = 2.0 * trees.point();
+      through = trees.point();
+      break;
+    case 1: {
+      // One of the coordinates stays that of a plane, or of a sphere's side.
+      through = trees.point();
+      const int axis = random.integer(0, 2);
+      origin[axis] = through[axis] + std::exp2(random.integer(-60, -5)) * random.integer(-1, 1);
+      break;
+    }
+    default:
+      break;
+  }
+  if (origin == through) through += Vec3(1, 0, 0);
+  WorldRay ray;
+  ray.origin = trees.to_world(origin);
+  ray.direction = glm::normalize(through - origin) * (random.integer(0, 1) == 0 ? 1.0 : random.real(0.5, 2));
+  switch (random.integer(0, 3)) {
+    case 0:
+      ray.t_min = -infinity;
+      break;
+    case 1:
+      ray.t_min = trees.size_in_world(random.real(-1, 9));
+      ray.t_max = ray.t_min + trees.size_in_world(random.real(0, 9));
+      break;
+    default:
+      break;
+  }
+  return ray;
+}
+
+struct Counts {
+  std::uint64_t missed = 0;
+  std::uint64_t met = 0;
+  std::uint64_t open = 0;
+
+  std::uint64_t sure() const { return missed + met; }
+};
+
+class Comparison {
+ public:
+  explicit Comparison(const Entity& tree, Precision precision)
+      : accelerator_(compile(std::span(&tree, 1), precision)) {}
+
+  const CompiledScene& scene() const { return accelerator_.compiled(); }
+  /// Whether the tree is one object that has a sketch.
+  bool is_sketched() const {
+    return scene().objects.size() == 1 && scene().objects.front().is_csg() && scene().programs.size() == 1 &&
+           !program().sketch.empty();
+  }
+  const CsgProgram& program() const { return scene().programs.front(); }
+
+  /// Returns whether there is a hit.
+  bool compare(const WorldRay& ray, CsgHit& hit, Counts& counts) {
+    WorldRay whole = ray;
+    if (ray.t_max < infinity) whole.t_max = std::nextafter(ray.t_max, infinity);
+    CsgEvaluation evaluation(program(), scene().leaves, scene().face_surfaces, whole, csg_work_);
+    const bool found = evaluation.next(hit);
+    compare_change(ray, found ? &hit : nullptr, counts);
+    compare_nearest(ray, found && hit.t < ray.t_max ? &hit : nullptr);
+    return found;
+  }
+
+ private:
+  void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
+    const SketchedChange change =
+        program().sketch.first_change(ray, ray.t_max, scene().leaves, scene().face_surfaces);
+    switch (change.kind) {
+      case SketchedChange::Kind::open:
+        ++counts.open;
+        break;
+      case SketchedChange::Kind::none:
+        ++counts.missed;
+        REQUIRE(hit == nullptr);
+        break;
+      case SketchedChange::Kind::one:
+        ++counts.met;
+        REQUIRE(hit != nullptr);
+        REQUIRE(hit->leaf == change.leaf);
+        REQUIRE(hit->entering == change.into_object);
+        REQUIRE(hit->t - hit->error >= change.from);
+        REQUIRE(hit->t + hit->error <= change.to);
+        break;
+    }
+  }
+
+  /// What comes of it; `hit` is the first, if there is one.
+  void compare_nearest(const WorldRay& ray, const CsgHit* hit) {
+    const RayHit nearest = accelerator_.nearest(ray, work_);
+    REQUIRE(nearest.found() == (hit != nullptr));
+    REQUIRE(accelerator_.any(ray, work_) == (hit != nullptr));
+    if (hit == nullptr) return;
+    REQUIRE(nearest.t == hit->t);
+    REQUIRE(nearest.error == hit->error);
+    REQUIRE(nearest.t_low == hit->t_low);
+    REQUIRE(nearest.leaf == program().first_leaf + hit->leaf);
+    REQUIRE(nearest.face == hit->face);
+    REQUIRE(nearest.surface == hit->surface);
+    REQUIRE(nearest.root == hit->root);
+    REQUIRE(nearest.entering == hit->entering);
+  }
+
+  Accelerator accelerator_;
+  CsgWorkspace csg_work_;
+  RayWorkspace work_;
+};
+
+}  // namespace
+
+TEST_CASE("what a sketch calls sure is what following all crossings finds") {
+  Counts free;
+  Counts from_surface;
+  for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
+    Trees trees(seed);
+    Comparison comparison(trees.tree(trees.random().integer(1, 3)),
+                          seed % 4 == 3 ? Precision::exact : Precision::standard);
+    if (!comparison.is_sketched()) continue;
+    CAPTURE(seed);
+    for (int i = 0; i < 30; ++i) {
+      CAPTURE(i);
+      const WorldRay ray = random_ray(trees);
+      CsgHit hit;
+      if (!comparison.compare(ray, hit, free)) continue;
+      for (const Side side : {Side::outside, Side::inside}) {
+        for (int k = 0; k < 3; ++k) {
+          const Vec3 direction = k == 0 ? ray.direction : random_ray(trees).direction;
+          CsgHit next;
+          comparison.compare(continued(comparison.scene(), comparison.program(), ray, hit, direction, side),
+                             next, from_surface);
+        }
+      }
+    }
+  }
+  CHECK(free.met > scene_count);
+  CHECK(free.missed > scene_count);
+  CHECK(from_surface.met > scene_count / 20);
+  CHECK(from_surface.missed > scene_count);
+}
