@@ -7,7 +7,7 @@ namespace crt::core {
 
 void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
-    Seen& seen = round_[i];
+    Seen& seen = seen_[i];
     first_hits[i] = {};
     if (!seen.hit->found()) continue;
     // Behind a medium that lets nothing through the surface has not been looked at.
@@ -17,7 +17,7 @@ void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
 }
 
 void Tracer::look(std::span<const CameraRay> rays, std::span<FirstPlace> places) {
-  const std::span<WorldRay> world_rays = std::span(rays_).first(rays.size());
+  const std::span<WorldRay> world_rays = std::span(round_->rays).first(rays.size());
   for (std::size_t i = 0; i < rays.size(); ++i) Frame::eye_ray(rays[i], world_rays[i]);
   tick(static_cast<unsigned>(rays.size()));
   data_.intersect_each(world_rays, hits_, work_.rays);

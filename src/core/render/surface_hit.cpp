@@ -54,7 +54,7 @@ void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, W
   phong.view = ray.direction;
 
   const double to_viewer = point.entering ? 1 : -1;
-  surface.viewer_side = point.entering ? Side::outside : Side::inside;
+  data.start_point(ray, hit, point.entering ? Side::outside : Side::inside, surface.start);
   surface.face_normal = to_viewer * point.normal;
   if (material.bump) {
     phong.normal = visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction);

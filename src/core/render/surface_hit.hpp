@@ -12,7 +12,14 @@ struct SurfaceHit {
   double transparency = 0;
   Vec3 face_normal{0, 1, 0};  ///< of the geometry, turned to the viewer
   PhongSurface phong;         ///< its normal is that tilted by bumps
-  Side viewer_side = Side::outside;
+  StartPoint start;           ///< of rays that leave to the viewer's side
+
+  /// Of rays that go on behind the surface.
+  StartPoint start_behind() const {
+    StartPoint behind = start;
+    behind.side = opposite(start.side);
+    return behind;
+  }
 };
 
 /// Looks up the place where `ray` hits, with the material's colour and bumps there.

@@ -62,10 +62,7 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
     camera_media_ = nested(sample.media, frame.camera_media());
     camera_media_mark_ = sample.media.mark();
   }
-  for (std::size_t i = 0; i < packet_size; ++i) {
-    round_[i].ray = &rays_[i];
-    round_[i].hit = &hits_[i];
-  }
+  for (std::size_t i = 0; i < packet_size; ++i) seen_[i].hit = &hits_[i];
 }
 
 void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
@@ -74,42 +71,19 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
     SampleWork& work = work_.samples[i];
     work.media.release(camera_media_mark_);
     work.pending.clear();
+    work.goes_on = false;
     work.rays = 1;
     samples[i] = {};
-    Seen& seen = round_[i];
-    seen.work = &work;
-    seen.sample = &samples[i];
-    start_path(rays[i], work.media, rays_[i], seen.path);
+    round_->works[i] = &work;
+    round_->samples[i] = &samples[i];
+    start_path(rays[i], work.media, round_->rays[i], round_->paths[i]);
   }
-  std::size_t count = rays.size();
-  do {
-    follow(std::span(round_).first(count));
+  round_->count = rays.size();
+  while (round_->count > 0) {
+    follow();
     if (!first_hits.empty()) tell_first_hits(std::exchange(first_hits, {}));
-    count = take_round(samples.first(rays.size()));
-  } while (count > 0);
-}
-
-std::size_t Tracer::take_round(std::span<Sample> samples) {
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < samples.size(); ++i) {
-    SampleWork& work = work_.samples[i];
-    if (work.pending.empty()) continue;
-    if (work.rays++ == most_rays_per_sample) {
-      ++work_.stats.samples_over_ray_bound;
-      for (const PathRay& dropped : work.pending)
-        samples[i].dropped += largest_component(dropped.path.weight);
-      work.pending.clear();
-      continue;
-    }
-    Seen& seen = round_[count];
-    seen.work = &work;
-    seen.sample = &samples[i];
-    seen.path = work.pending.back().path;
-    rays_[count++] = work.pending.back().ray;
-    work.pending.pop_back();
-    work.media.release(seen.path.media_mark);
+    std::swap(round_, next_round_);
   }
-  return count;
 }
 
 void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path) {
@@ -122,30 +96,63 @@ void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay
   path.media_mark = media.mark();
 }
 
-void Tracer::follow(std::span<Seen> round) {
-  const std::span<const WorldRay> rays = std::span(rays_).first(round.size());
-  tick(static_cast<unsigned>(round.size()));
+void Tracer::follow() {
+  const std::size_t count = round_->count;
+  const std::span<const WorldRay> rays = std::span(round_->rays).first(count);
+  tick(static_cast<unsigned>(count));
   const bool together = go_together(rays);
   if (together) data_.intersect(rays, hits_, work_.rays);
 
   std::array<Seen*, packet_size> on_surface;
-  std::size_t count = 0;
-  for (std::size_t i = 0; i < round.size(); ++i) {
-    Seen& seen = round[i];
+  std::size_t surfaces = 0;
+  for (std::size_t i = 0; i < count; ++i) {
+    Seen& seen = seen_[i];
+    seen.work = round_->works[i];
+    seen.sample = round_->samples[i];
+    seen.ray = &rays[i];
+    seen.path = &round_->paths[i];
     const bool ask_alone = !together || (hits_[i].has_company && frame_.features().transparency);
     if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
-    if (see(seen)) on_surface[count++] = &seen;
+    seen.is_on_surface = see(seen);
+    if (seen.is_on_surface) on_surface[surfaces++] = &seen;
   }
-  add_light(std::span(on_surface).first(count));
-  for (std::size_t i = 0; i < count; ++i) {
-    Seen& seen = *on_surface[i];
-    seen.sample->color += seen.weight * seen.light;
-    split(seen);
+  add_light(std::span(on_surface).first(surfaces));
+  next_round_->count = 0;
+  for (Seen& seen : std::span(seen_).first(count)) {
+    if (seen.is_on_surface) {
+      seen.sample->color += seen.weight * seen.light;
+      split(seen);
+    }
+    go_on(seen);
   }
 }
 
+void Tracer::go_on(const Seen& seen) {
+  SampleWork& work = *seen.work;
+  std::vector<PathRay>& pending = work.pending;
+  const std::size_t place = next_round_->count;
+  if (!work.goes_on) {
+    if (pending.empty()) return;
+    if (work.rays == most_rays_per_sample) {
+      ++work_.stats.samples_over_ray_bound;
+      for (const PathRay& dropped : pending) seen.sample->dropped += largest_component(dropped.path.weight);
+      pending.clear();
+      return;
+    }
+    next_round_->rays[place] = pending.back().ray;
+    next_round_->paths[place] = pending.back().path;
+    pending.pop_back();
+  }
+  work.goes_on = false;
+  ++work.rays;
+  work.media.release(next_round_->paths[place].media_mark);
+  next_round_->works[place] = &work;
+  next_round_->samples[place] = seen.sample;
+  ++next_round_->count;
+}
+
 bool Tracer::see(Seen& seen) {
-  const PathState& path = seen.path;
+  const PathState& path = *seen.path;
   RenderStats& stats = work_.stats;
   ++(path.kind == RayKind::camera       ? stats.camera_rays
      : path.kind == RayKind::reflection ? stats.reflection_rays
@@ -158,7 +165,7 @@ bool Tracer::see(Seen& seen) {
     return false;
   }
   look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
-  if (identifies_) note(*seen.sample, met(seen.surface.point, seen.path.kind));
+  if (identifies_) note(*seen.sample, met(seen.surface.point, seen.path->kind));
   const SurfaceHit& surface = seen.surface;
   const Material& material = *surface.material->description;
   seen.light = ambient_light(frame_.ambient(), material.reflectivity);
@@ -166,8 +173,8 @@ bool Tracer::see(Seen& seen) {
 }
 
 bool Tracer::pass_medium(Seen& seen) const {
-  if (!frame_.features().absorption || seen.path.media == MediaLists::empty) return true;
-  const Medium& medium = seen.work->media.innermost(seen.path.media);
+  if (!frame_.features().absorption || seen.path->media == MediaLists::empty) return true;
+  const Medium& medium = seen.work->media.innermost(seen.path->media);
   seen.weight *= transmittance(data_.materials()[medium.material], seen.hit->t);
   return !is_black(seen.weight);
 }
@@ -175,7 +182,7 @@ bool Tracer::pass_medium(Seen& seen) const {
 void Tracer::see_background(Seen& seen) const {
   if (identifies_) note(*seen.sample, nothing);
   const Color background = data_.background().color(seen.ray->direction);
-  if (seen.path.kind == RayKind::camera) {
+  if (seen.path->kind == RayKind::camera) {
     seen.sample->alpha = background.a;
     seen.sample->color += background.a * seen.weight * rgb(background);
   } else {
@@ -188,14 +195,14 @@ bool Tracer::reaches(const PreparedLight& source, const Seen& seen, Rgb& light, 
   if (phong.diffuse <= 0 && phong.specular <= 0) return false;
   const Vec3& position = seen.surface.point.position;
   LightSample sample;
-  if (!source.sample(position, seen.path.path_length + seen.hit->t, sample)) return false;
+  if (!source.sample(position, seen.path->path_length + seen.hit->t, sample)) return false;
   if (glm::dot(sample.direction, seen.surface.face_normal) <= 0) return false;
   light = direct_light(phong, sample, source.color());
   if (is_black(light)) return false;
   shadow_ray.origin = position;
   shadow_ray.direction = sample.direction;
   shadow_ray.t_max = sample.distance;
-  data_.start_point(*seen.ray, *seen.hit, seen.surface.viewer_side, shadow_ray.start);
+  shadow_ray.start = seen.surface.start;
   shadow_ray.end_error = lamp_error(position, sample);
   return true;
 }
@@ -224,74 +231,81 @@ void Tracer::add_light(std::span<Seen*> seen) {
 Rgb Tracer::light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden) {
   const Features& features = frame_.features();
   if (!hidden) {
-    if (!features.absorption || seen.path.media == MediaLists::empty) return Rgb(1);
+    if (!features.absorption || seen.path->media == MediaLists::empty) return Rgb(1);
   } else if (!features.transparency) {
     return Rgb(0);
   }
-  return light_share(data_, shadow_ray, seen.work->media, seen.path.media, work_);
+  return light_share(data_, shadow_ray, seen.work->media, seen.path->media, work_);
 }
 
-void Tracer::split(Seen& seen) {
+void Tracer::split(const Seen& seen) {
   const SurfaceHit& surface = seen.surface;
   const Vec3& normal = surface.phong.normal;
   double mirror_share = surface.material->description->reflectivity;
   if (mirror_share <= 0 && surface.transparency <= 0) return;
 
   const WorldRay& ray = *seen.ray;
+  const MediaLists::List before = seen.path->media;
   MediaLists& media = seen.work->media;
   const std::uint32_t mirror_media_mark = media.mark();
-  StartPoint behind;
   Passage open;
   Refraction refraction;
   Rgb through_weight(0);
   if (surface.transparency > 0) {
-    const Side far_side = surface.viewer_side == Side::outside ? Side::inside : Side::outside;
-    data_.start_point(ray, *seen.hit, far_side, behind);
-    pass(seen, behind, open);
-    refraction = refract(ray.direction, normal, refractive_index(media, seen.path.media),
-                         refractive_index(media, open.media));
+    pass(seen, open);
+    refraction =
+        refract(ray.direction, normal, refractive_index(media, before), refractive_index(media, open.media));
     mirror_share += open.transparency * refraction.reflectance;
     through_weight = open.transparency * (1 - refraction.reflectance) * seen.weight * open.color;
   }
+  const Rgb mirror_weight = mirror_share * seen.weight;
+  const bool mirrors = mirror_share > 0 && is_worth_it(seen, mirror_weight);
+  const bool goes_through = !is_black(through_weight) && is_worth_it(seen, through_weight);
 
-  // The last one pushed is followed first; media lists made for it are dropped before the other's turn.
-  if (mirror_share > 0) {
-    if (PathRay* mirror = push(seen, RayKind::reflection, mirror_share * seen.weight)) {
-      mirror->ray.direction = kept_on_side(mirrored(ray.direction, normal), surface.face_normal);
-      data_.start_point(ray, *seen.hit, surface.viewer_side, mirror->ray.start);
-      mirror->path.media = seen.path.media;
-      mirror->path.media_mark = mirror_media_mark;
-    }
+  // What goes through is followed first; media lists made for it are dropped before the other's turn.
+  if (mirrors) {
+    const Departure mirror = depart(seen, RayKind::reflection, mirror_weight, goes_through);
+    mirror.ray->direction = kept_on_side(mirrored(ray.direction, normal), surface.face_normal);
+    mirror.ray->start = surface.start;
+    mirror.path->media = before;
+    mirror.path->media_mark = mirror_media_mark;
   }
-  if (is_black(through_weight)) return;
-  if (PathRay* through = push(seen, RayKind::refraction, through_weight)) {
-    through->ray.direction = kept_on_side(refraction.direction, -surface.face_normal);
-    through->ray.start = behind;
-    through->path.media = open.media;
-    through->path.media_mark = media.mark();
+  if (goes_through) {
+    const Departure through = depart(seen, RayKind::refraction, through_weight, false);
+    through.ray->direction = kept_on_side(refraction.direction, -surface.face_normal);
+    through.ray->start = surface.start_behind();
+    through.path->media = open.media;
+    through.path->media_mark = media.mark();
     if (surface.point.solid) ++work_.stats.media_changes;
   }
 }
 
-PathRay* Tracer::push(const Seen& seen, RayKind kind, const Rgb& weight) {
+bool Tracer::is_worth_it(const Seen& seen, const Rgb& weight) {
   const double least = frame_.settings().min_weight;
-  if (weight.x < least && weight.y < least && weight.z < least) {
-    ++work_.stats.rays_below_min_weight;
-    seen.sample->dropped += largest_component(weight);
-    return nullptr;
+  const bool is_too_weak = weight.x < least && weight.y < least && weight.z < least;
+  const bool is_too_deep = seen.path->bounces >= frame_.settings().recursion_depth;
+  if (!is_too_weak && !is_too_deep) return true;
+  ++(is_too_weak ? work_.stats.rays_below_min_weight : work_.stats.rays_beyond_depth);
+  seen.sample->dropped += largest_component(weight);
+  return false;
+}
+
+Tracer::Departure Tracer::depart(const Seen& seen, RayKind kind, const Rgb& weight, bool waits) {
+  SampleWork& work = *seen.work;
+  Departure departure{};
+  if (waits || work.rays == most_rays_per_sample) {
+    PathRay& pending = work.pending.emplace_back();
+    departure = {&pending.ray, &pending.path};
+  } else {
+    work.goes_on = true;
+    departure = {&next_round_->rays[next_round_->count], &next_round_->paths[next_round_->count]};
   }
-  if (seen.path.bounces >= frame_.settings().recursion_depth) {
-    ++work_.stats.rays_beyond_depth;
-    seen.sample->dropped += largest_component(weight);
-    return nullptr;
-  }
-  PathRay& next = seen.work->pending.emplace_back();
-  next.ray.origin = seen.surface.point.position;
-  next.path.kind = kind;
-  next.path.bounces = seen.path.bounces + 1;
-  next.path.path_length = seen.path.path_length + seen.hit->t;
-  next.path.weight = weight;
-  return &next;
+  departure.ray->origin = seen.surface.point.position;
+  departure.path->kind = kind;
+  departure.path->bounces = seen.path->bounces + 1;
+  departure.path->path_length = seen.path->path_length + seen.hit->t;
+  departure.path->weight = weight;
+  return departure;
 }
 
 RayHit Tracer::seen_of(const WorldRay& ray, const RayHit& hit) {
@@ -307,15 +321,16 @@ RayHit Tracer::seen_of(const WorldRay& ray, const RayHit& hit) {
   return seen;
 }
 
-void Tracer::pass(const Seen& seen, const StartPoint& behind, Passage& passage) {
+void Tracer::pass(const Seen& seen, Passage& passage) {
   const SurfaceHit& surface = seen.surface;
-  const MediaLists::List before = seen.path.media;
+  const MediaLists::List before = seen.path->media;
   MediaLists& media = seen.work->media;
   passage.transparency = surface.transparency;
   passage.color = surface.phong.color;
   passage.media = before;
   const auto ray_behind = [&] {
-    return WorldRay{.origin = surface.point.position, .direction = seen.ray->direction, .start = behind};
+    return WorldRay{
+        .origin = surface.point.position, .direction = seen.ray->direction, .start = surface.start_behind()};
   };
   if (seen.hit->has_company) {
     pass_company(ray_behind(), seen, passage);
@@ -349,7 +364,7 @@ void Tracer::pass_company(const WorldRay& behind, const Seen& seen, Passage& pas
     }
     if (!solid) return;
     if (crossing.entering) {
-      const bool is_new = !media.holds(seen.path.media, crossing.object);
+      const bool is_new = !media.holds(seen.path->media, crossing.object);
       if (is_new && entered.size() < most_media_at_once) entered.push_back(crossing);
     } else {
       passage.media = media.left(passage.media, crossing.object);

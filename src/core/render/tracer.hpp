@@ -14,11 +14,11 @@
 
 namespace crt::core {
 
-/// Traces camera rays on one thread, up to packet_size side by side. Mirrored and refracted rays wait on a
-/// stack of each sample, each with its weight: its share of the light that the camera ray brings. In every
-/// round each sample follows the last ray on its stack, and the rounds' rays, and the shadow rays of each
-/// light, travel as packets where they go nearly the same way. A sample does not depend on what is traced
-/// beside it.
+/// Traces camera rays on one thread, up to packet_size side by side. Each ray has its weight: its share of
+/// the light that the camera ray brings. In every round each sample follows one ray. Of those that go on from
+/// where that ends the last one is followed in the next round, and the other waits on the sample's stack. The
+/// rounds' rays, and the shadow rays of each light, travel as packets where they go nearly the same way. A
+/// sample does not depend on what is traced beside it.
 class Tracer {
  public:
   /// All three must outlive the tracer, and nothing else may use the workspace meanwhile.
@@ -45,22 +45,33 @@ class Tracer {
   void look(std::span<const CameraRay> rays, std::span<FirstPlace> places);
 
  private:
+  /// A ray for each sample that is not done yet.
+  struct Round {
+    std::size_t count = 0;
+    std::array<WorldRay, packet_size> rays;  ///< apart from the rest: together they are asked for
+    std::array<PathState, packet_size> paths;
+    std::array<SampleWork*, packet_size> works;
+    std::array<Sample*, packet_size> samples;
+  };
+
   /// A sample's ray in this round, and what it meets.
   struct Seen {
     SampleWork* work = nullptr;
     Sample* sample = nullptr;
-    const WorldRay* ray = nullptr;  ///< of the round
+    const WorldRay* ray = nullptr;
     RayHit* hit = nullptr;
-    PathState path;
+    const PathState* path = nullptr;
+    bool is_on_surface = false;
     SurfaceHit surface;
     Rgb weight{0, 0, 0};
     Rgb light{0, 0, 0};
   };
 
   void start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path);
-  /// Takes the next ray of each sample that has one, and says of how many.
-  std::size_t take_round(std::span<Sample> samples);
-  void follow(std::span<Seen> round);
+  /// Follows the rays of this round, and makes the next.
+  void follow();
+  /// Takes a sample into the next round, if it has a ray left.
+  void go_on(const Seen& seen);
   /// Whether there is a surface, whose light is still to come; else the ray is done.
   bool see(Seen& seen);
   void see_background(Seen& seen) const;
@@ -77,10 +88,18 @@ class Tracer {
   /// A light as it reaches a surface if nothing hides it, and the ray that finds out; false if it cannot.
   bool reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const;
 
-  /// Puts the mirrored and the refracted ray on the stack, if they are worth it.
-  void split(Seen& seen);
-  /// Puts a ray on the stack that has done one bounce more, if it is worth it, for the caller to fill in.
-  PathRay* push(const Seen& seen, RayKind kind, const Rgb& weight);
+  /// Sends the mirrored and the refracted ray on, if they are worth it.
+  void split(const Seen& seen);
+  /// Whether a ray of that weight is to go on from a surface.
+  bool is_worth_it(const Seen& seen, const Rgb& weight);
+  /// Where a ray is written that goes on.
+  struct Departure {
+    WorldRay* ray;
+    PathState* path;
+  };
+  /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
+  /// fills in its direction, its start and its media.
+  Departure depart(const Seen& seen, RayKind kind, const Rgb& weight, bool waits);
 
   /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
   /// several the one whose object was written first.
@@ -92,7 +111,7 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  void pass(const Seen& seen, const StartPoint& behind, Passage& passage);
+  void pass(const Seen& seen, Passage& passage);
   /// Adds what other objects at the place do.
   void pass_company(const WorldRay& behind, const Seen& seen, Passage& passage);
   double refractive_index(const MediaLists& lists, MediaLists::List media) const;
@@ -113,10 +132,11 @@ class Tracer {
   std::uint32_t camera_media_mark_ = 0;
   unsigned ticks_ = 0;
   bool identifies_ = false;
-  // The rays of this round and what they hit, apart from the rest: together they are asked for.
-  std::array<WorldRay, packet_size> rays_;
+  std::array<Round, 2> rounds_;
+  Round* round_ = rounds_.data();           ///< this one
+  Round* next_round_ = rounds_.data() + 1;  ///< is made meanwhile
   std::array<RayHit, packet_size> hits_;
-  std::array<Seen, packet_size> round_;
+  std::array<Seen, packet_size> seen_;
   std::array<WorldRay, packet_size> shadow_rays_;
 };
 

@@ -35,7 +35,8 @@ struct PathRay {
 /// One of the samples that are traced side by side.
 struct SampleWork {
   MediaLists media;
-  std::vector<PathRay> pending;  ///< a stack
+  bool goes_on = false;          ///< with a ray of the next round
+  std::vector<PathRay> pending;  ///< a stack: what follows when that is done
   int rays = 0;                  ///< followed so far
 };
 

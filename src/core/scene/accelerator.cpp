@@ -7,6 +7,7 @@
 #include <span>
 
 #include "core/math/vector.hpp"
+#include "core/scene/apart.hpp"
 #include "core/scene/embree_tree.hpp"
 #include "core/scene/memory.hpp"
 #include "core/scene/object_query.hpp"
@@ -34,6 +35,15 @@ bool any_surface_is_shared(const CompiledScene& scene) {
   return false;
 }
 
+/// More than what boxes grow by for Embree, and more than the roundings of places.
+double margin_of(const Bounds& total) {
+  constexpr double of_extent = 0x1p-20;
+  constexpr double of_place = 0x1p-40;
+  const Vec3 extents = total.upper / 2.0 - total.lower / 2.0;
+  const double farthest = std::max(largest_component(total.lower), largest_component(total.upper));
+  return of_extent * largest_component(extents) + of_place * farthest;
+}
+
 std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
   std::vector<std::uint32_t> enclosed(scene.leaves.size(), nothing);
   const auto count = static_cast<std::uint32_t>(scene.objects.size());
@@ -53,7 +63,7 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
 
 }  // namespace
 
-Accelerator::Accelerator(CompiledScene compiled)
+Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials)
     : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
   std::vector<std::uint32_t> bounded;
@@ -73,10 +83,15 @@ Accelerator::Accelerator(CompiledScene compiled)
   unbounded_ = Outlines(compiled_, unbounded);
   enclosed_ = enclosed_objects(compiled_);
   if (bounded.empty()) return;
+  margin_ = margin_of(total);
+  apart_ = objects_apart(compiled_, materials, bounded, unbounded_, margin_);
   std::vector<Bounds> boxes;
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
   tree_ = std::make_unique<EmbreeTree>(boxes, total);
+  if (boxes.size() > BoxRow::most_boxes) return;
+  for (Bounds& box : boxes) box = {box.lower - Vec3(margin_), box.upper + Vec3(margin_)};
+  box_row_ = BoxRow(boxes);
 }
 
 Accelerator::~Accelerator() = default;
@@ -86,7 +101,7 @@ MemoryUse Accelerator::memory() const {
   for (const Outlines* outlines : {&bounded_, &unbounded_}) {
     use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes);
   }
-  use.tree += bytes_of(enclosed_) + (tree_ ? tree_->bytes() : 0);
+  use.tree += bytes_of(enclosed_) + bytes_of(apart_) + box_row_.bytes() + (tree_ ? tree_->bytes() : 0);
   return use;
 }
 
@@ -124,6 +139,26 @@ std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
   return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : nothing;
 }
 
+std::uint32_t Accelerator::entered_apart(const StartPoint& start) const {
+  if (apart_.empty() || start.leaf == nothing) return nothing;
+  const std::uint32_t object = enclosed_[start.leaf];
+  const bool enters = object != nothing && apart_[object] != 0 && left_for_good(start) == nothing;
+  return enters ? object : nothing;
+}
+
+bool Accelerator::is_in_room(std::uint32_t object, const WorldRay& ray, double to) const {
+  const Bounds& box = compiled_.objects[object].bounds;
+  const auto holds = [&](double t) {
+    bool within = true;
+    for (int axis = 0; axis < 3; ++axis) {
+      const double place = std::fma(t, ray.direction[axis], ray.origin[axis]);
+      within = within && place >= box.lower[axis] - margin_ && place <= box.upper[axis] + margin_;
+    }
+    return within;
+  };
+  return holds(ray.t_min) && holds(to);
+}
+
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
   if (!(ray.end_error > 0)) return false;
   const Vec3 normal =
@@ -138,9 +173,8 @@ void Accelerator::traverse(Kind& query) const {
     if (query.limit() <= query.ray().t_min) return;
     query.test(outline.object);
   }
-  if (!tree_ || query.limit() <= query.ray().t_min) return;
-  const WorldRay& ray = query.ray();
-  tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), [&](std::uint32_t box) {
+  if (query.limit() <= query.ray().t_min) return;
+  visit_boxes(query.ray(), query.limit(), [&](std::uint32_t box) {
     query.test(bounded_.list[box].object);
     return query.limit();
   });

@@ -7,7 +7,9 @@
 #include <vector>
 
 #include "core/math/vector.hpp"
+#include "core/scene/box_row.hpp"
 #include "core/scene/compile.hpp"
+#include "core/scene/embree_tree.hpp"
 #include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/scene/ray_packet.hpp"
@@ -15,13 +17,12 @@
 
 namespace crt::core {
 
-class EmbreeTree;
-
 /// Finds crossings: a tree of boxes says which objects a ray may meet, cheap tests which of these it surely
 /// misses, the rest happens exactly, in double. Objects without end stay outside of the tree.
 class Accelerator {
  public:
-  explicit Accelerator(CompiledScene compiled);
+  /// `materials` are those of the scene, which need not hold them itself.
+  Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials);
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;
@@ -67,14 +68,21 @@ class Accelerator {
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
   /// The object that a ray has left for good when it starts: it cannot meet the object again.
   std::uint32_t left_for_good(const StartPoint& start) const;
+  /// The solid that a ray starts on the surface of, into it, if it keeps apart from all else.
+  std::uint32_t entered_apart(const StartPoint& start) const;
+  /// Whether the piece of a ray up to a t is where nothing but one object is that keeps apart.
+  bool is_in_room(std::uint32_t object, const WorldRay& ray, double to) const;
 
  private:
   template <class Kind>
   void traverse(Kind& query) const;
+  /// The boxes of those that have an end, as EmbreeTree::traverse() has it.
+  template <class Visit>
+  void visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const;
   template <class Kind>
   void traverse_filtered(Kind& query) const;
   template <class Kind>
-  void traverse_filtered(RayPacket& packet, std::span<Kind> queries) const;
+  void traverse_filtered(RayPacket& packet, RayMask going, std::span<Kind> queries) const;
   void fill_packet(std::span<const WorldRay> rays, RayPacket& packet) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
@@ -85,9 +93,24 @@ class Accelerator {
   /// By leaf: the object that is all within it; nothing if there is none, or if a line may leave the leaf and
   /// meet it again.
   std::vector<std::uint32_t> enclosed_;
+  /// More than what rounding does to places in the scene: of two objects that are farther apart neither
+  /// matters where the other is.
+  double margin_ = 0;
+  std::vector<std::uint8_t> apart_;         ///< by object: see objects_apart(); empty if there are none
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
+  BoxRow box_row_;                          ///< takes its place for single rays if there are few boxes
   bool objects_share_surfaces_ = false;
 };
+
+template <class Visit>
+void Accelerator::visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const {
+  if (!tree_) return;
+  if (bounded_.list.size() <= BoxRow::most_boxes && BoxRow::takes(ray)) {
+    box_row_.traverse(ray, limit, visit);
+  } else {
+    tree_->traverse(ray.origin, ray.direction, ray.t_min, limit, visit);
+  }
+}
 
 /// Crossings before that are surely not of a surface through the ray's end.
 inline double certain_end(const WorldRay& ray) {

@@ -76,6 +76,17 @@ class Any final : public ObjectQuery<Any> {
   }
 };
 
+/// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
+/// is elsewhere it cannot meet before. Else it has asked nothing.
+bool leaves_apart(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work, RayHit& hit) {
+  const std::uint32_t solid = accelerator.entered_apart(ray.start);
+  if (solid == nothing) return false;
+  Nearest query;
+  query.start(accelerator, ray, work, hit);
+  query.test(solid);
+  return hit.found() && accelerator.is_in_room(solid, ray, query.limit());
+}
+
 /// As a hit there would have it.
 double reach_of_plane(const WorldRay& ray, double last) {
   return last + company_width(ray, last, 0);
@@ -112,8 +123,8 @@ void Accelerator::traverse_filtered(Kind& query) const {
       test(outline, unbounded_.axes);
     }
   }
-  if (tree_ && !is_done()) {
-    tree_->traverse(ray.origin, ray.direction, ray.t_min, query.limit(), [&](std::uint32_t box) {
+  if (!is_done()) {
+    visit_boxes(ray, query.limit(), [&](std::uint32_t box) {
       test(bounded_.list[box], bounded_.axes);
       return query.limit();
     });
@@ -126,6 +137,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
 
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit best;
+  if (leaves_apart(*this, ray, work, best)) return best;
   Nearest query;
   query.start(*this, ray, work, best);
   traverse_filtered(query);
@@ -204,9 +216,8 @@ void Accelerator::fill_packet(std::span<const WorldRay> rays, RayPacket& packet)
 }
 
 template <class Kind>
-void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) const {
+void Accelerator::traverse_filtered(RayPacket& packet, RayMask going, std::span<Kind> queries) const {
   const OutlinedPacket outlined(packet);
-  RayMask going = packet.all();
   const auto settle = [&](std::size_t ray) {
     packet.set_limit(ray, queries[ray].limit());
     if (queries[ray].limit() <= queries[ray].ray().t_min) going &= ~(RayMask{1} << ray);
@@ -261,12 +272,17 @@ void Accelerator::traverse_filtered(RayPacket& packet, std::span<Kind> queries) 
 }
 
 void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
-  if (rays.empty()) return;
-  RayPacket packet;
-  fill_packet(rays, packet);
-  std::array<Nearest, packet_size> queries;
-  for (std::size_t i = 0; i < rays.size(); ++i) queries[i].start(*this, rays[i], work, hits[i]);
-  traverse_filtered(packet, std::span<Nearest>(queries));
+  RayMask open = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (!leaves_apart(*this, rays[i], work, hits[i])) open |= RayMask{1} << i;
+  }
+  if (open != 0) {
+    RayPacket packet;
+    fill_packet(rays, packet);
+    std::array<Nearest, packet_size> queries;
+    for_each_ray(open, [&](std::size_t i) { queries[i].start(*this, rays[i], work, hits[i]); });
+    traverse_filtered(packet, open, std::span<Nearest>(queries));
+  }
   for (std::size_t i = 0; i < rays.size(); ++i) {
     if (hits[i].has_company) hits[i] = gather_company(rays[i], hits[i], work);
   }
@@ -279,7 +295,7 @@ RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) con
   fill_packet(rays, packet);
   std::array<Any, packet_size> queries;
   for (std::size_t i = 0; i < rays.size(); ++i) queries[i].start(*this, rays[i], work);
-  traverse_filtered(packet, std::span<Any>(queries));
+  traverse_filtered(packet, packet.all(), std::span<Any>(queries));
   RayMask found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(queries[i].found) << i;
   return found;

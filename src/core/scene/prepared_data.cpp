@@ -24,10 +24,6 @@ void check_scene(const Scene& scene) {
   validate(scene.settings);
 }
 
-Side opposite(Side side) {
-  return side == Side::outside ? Side::inside : Side::outside;
-}
-
 /// Gives crossings of one surface one t, whosever they are.
 void unify_coincident(std::vector<RayHit>& crossings) {
   std::sort(crossings.begin(), crossings.end(), [](const RayHit& a, const RayHit& b) {
@@ -56,7 +52,7 @@ struct PreparedData::Geometry {
       : precision(scene.settings.precision),
         materials(std::move(compiled.materials)),
         has_csg(!compiled.programs.empty()),
-        accelerator(std::move(compiled)) {
+        accelerator(std::move(compiled), materials) {
     entities.reserve(scene.entities.size());
     for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
   }

@@ -70,6 +70,10 @@ struct HitPoint {
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
 
+inline Side opposite(Side side) {
+  return side == Side::outside ? Side::inside : Side::outside;
+}
+
 /// Memory and counters that one thread reuses from ray to ray.
 struct RayWorkspace {
   std::uint64_t intersection_tests = 0;  ///< rays against objects

@@ -1,0 +1,21 @@
+// Which solids keep apart from everything else: a ray inside of one can meet nothing but it.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "core/scene/compile.hpp"
+#include "core/scene/outline.hpp"
+
+namespace crt::core {
+
+/// By object: 1 for those that light enters and whose box, grown by `margin`, touches no other object's,
+/// grown likewise. `bounded` are the objects that have an end, in an order in which neighbours are near each
+/// other; `unbounded` the others. O(n log n); where that does not suffice to find out, an object does not
+/// count as one that keeps apart.
+std::vector<std::uint8_t> objects_apart(const CompiledScene& scene, std::span<const SharedMaterial> materials,
+                                        std::span<const std::uint32_t> bounded, const Outlines& unbounded,
+                                        double margin);
+
+}  // namespace crt::core
