@@ -129,7 +129,7 @@ struct Counts {
 class Comparison {
  public:
   explicit Comparison(const Entity& tree, Precision precision)
-      : accelerator_(compile(std::span(&tree, 1), precision)) {}
+      : Comparison(compile(std::span(&tree, 1), precision)) {}
 
   const CompiledScene& scene() const { return accelerator_.compiled(); }
   /// Whether the tree is one object that has a sketch.
@@ -151,6 +151,9 @@ class Comparison {
   }
 
  private:
+  explicit Comparison(CompiledScene compiled)
+      : materials_(compiled.materials), accelerator_(std::move(compiled), materials_) {}
+
   void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
     const SketchedChange change =
         program().sketch.first_change(ray, ray.t_max, scene().leaves, scene().face_surfaces);
@@ -189,6 +192,7 @@ class Comparison {
     REQUIRE(nearest.entering == hit->entering);
   }
 
+  std::vector<SharedMaterial> materials_;
   Accelerator accelerator_;
   CsgWorkspace csg_work_;
   RayWorkspace work_;
