@@ -69,7 +69,7 @@ class Bench:
     def trade(self, name: str) -> dict:
         quick = self.options.quick
         plan = trade_measure.Plan(
-            library=self.bin.parent / "lib/libcrt.so", folder=self.folder / "scenes",
+            library=self.bin.parent / "lib/libcrt.so", folder=self.folder / "scenes/trade",
             rounds=self.options.rounds or (1 if quick else 5), patience=10 if quick else 100, quick=quick, say=self.say,
             divisor=4 if quick else 1)
         return trade_measure.measure(name, plan)
@@ -78,7 +78,7 @@ class Bench:
         return honesty.QUICK if self.options.quick else tuple(honesty.CLASSES)
 
     def honesty(self, name: str) -> dict:
-        return honesty.measure(name, self.bin / HONESTY, self.folder / "scenes", self.options.quick)
+        return honesty.measure(name, self.bin / HONESTY, self.folder / "scenes/trade", self.options.quick)
 
     def own(self, name: str) -> dict:
         """A program of ours that writes JSON to standard output and its progress to standard error."""
