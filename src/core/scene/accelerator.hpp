@@ -68,6 +68,7 @@ class Accelerator {
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
   /// The object that a ray has left for good when it starts: it cannot meet the object again.
   std::uint32_t left_for_good(const StartPoint& start) const;
+  bool some_keep_apart() const { return !apart_.empty(); }
   /// The solid that a ray starts on the surface of, into it, if it keeps apart from all else.
   std::uint32_t entered_apart(const StartPoint& start) const;
   /// Whether the piece of a ray up to a t is where nothing but one object is that keeps apart.

@@ -79,6 +79,7 @@ class Any final : public ObjectQuery<Any> {
 /// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
 /// is elsewhere it cannot meet before. Else it has asked nothing.
 bool leaves_apart(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work, RayHit& hit) {
+  if (!accelerator.some_keep_apart()) return false;
   const std::uint32_t solid = accelerator.entered_apart(ray.start);
   if (solid == nothing) return false;
   Nearest query;
