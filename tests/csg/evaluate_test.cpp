@@ -8,6 +8,7 @@
 #include <glm/common.hpp>
 #include <limits>
 
+#include "core/math/vector.hpp"
 #include "csg/continued_ray.hpp"
 #include "csg/plain_evaluation.hpp"
 #include "support/solids.hpp"
@@ -129,6 +130,44 @@ Entity alternating(int n) {
 }
 
 }  // namespace
+
+TEST_CASE("a ray that starts on a face is on the side that it is said to be on, however flat it goes") {
+  SolidMaker make(7);
+  CsgWorkspace work;
+  constexpr std::uint32_t upper_y = 3;
+  for (int trial = 0; trial < 2000; ++trial) {
+    const Vec3 size(make.real(1, 3), make.real(1, 3), make.real(1, 3));
+    const Vec3 corner(make.real(-9, 9), make.real(-9, 9), make.real(-9, 9));
+    const Entity hole = Box{.corner_a = corner, .corner_b = corner + size};
+    const bool is_cutter = trial % 2 == 0;
+    const Vec3 around(1);
+    const CompiledScene scene = compiled(
+        is_cutter ? csg_difference(Box{.corner_a = corner - around, .corner_b = corner + size + around},
+                                   std::vector<Entity>{hole})
+                  : hole ^ Sphere{corner, 20});
+    const CsgProgram& program = scene.programs.front();
+    // On the hole's upper face, but for some last bits, and into it.
+    WorldRay ray;
+    ray.origin = corner + Vec3(0.5, 1, 0.5) * size;
+    const double away = trial % 3 == 0 ? -infinity : infinity;
+    for (int ulps = make.integer(0, 3); ulps > 0; --ulps) ray.origin.y = std::nextafter(ray.origin.y, away);
+    ray.direction = {make.real(-1, 1), -std::exp2(make.real(-80, 0)), make.real(-1, 1)};
+    std::uint32_t leaf = program.first_leaf;
+    while (scene.leaves[leaf].face_count != 6 || scene.leaves[leaf].complemented != is_cutter) ++leaf;
+    const core::FaceSurface& surface = scene.face_surfaces[scene.leaves[leaf].first_face + upper_y];
+    ray.start = {.leaf = leaf,
+                 .face = upper_y,
+                 .surface = surface.surface,
+                 .side = surface.flipped ? core::Side::outside : core::Side::inside,
+                 .t_error = core::start_rounding * core::largest_component(ray.origin)};
+    CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, ray, work);
+    REQUIRE(evaluation.starts_inside() == !is_cutter);
+    CsgHit hit;
+    REQUIRE(evaluation.next(hit));
+    REQUIRE(hit.entering == is_cutter);
+    REQUIRE(hit.t > 0.01);
+  }
+}
 
 TEST_CASE("the tree of boxes agrees with the plain evaluation to the bit") {
   std::size_t hits = 0;

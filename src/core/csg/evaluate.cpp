@@ -66,7 +66,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       face_surfaces_(face_surfaces),
       ray_(ray),
       work_(workspace),
-      slabs_(ray.origin, ray.direction),
+      slabs_(ray.origin, ray.direction, ray.start.t_error),
       first_stamp_(++workspace.stamp_) {
   if (!program.paths.empty()) {
     paths_.emplace(program.paths, work_.paths_, first_stamp_);

@@ -26,8 +26,13 @@ class RaySlabs {
   /// Above that the line is parallel to the slab, or all but, and the quotient must be taken.
   static constexpr double largest_inverse = 0x1p1000;
 
-  RaySlabs(const Vec3& origin, const Vec3& direction)
-      : origin_(origin), direction_(direction), origin_slack_(4 * slack * largest_component(origin)) {
+  /// `origin_error` is how far rounding may have put the origin from where it is meant to be: the spans hold
+  /// those of all lines that may be meant.
+  RaySlabs(const Vec3& origin, const Vec3& direction, double origin_error = 0)
+      : origin_(origin),
+        direction_(direction),
+        origin_error_(origin_error),
+        origin_slack_(origin_error + 4 * slack * largest_component(origin)) {
     for (int axis = 0; axis < 3; ++axis) inverse_[axis] = 1 / direction[axis];
   }
 
@@ -59,13 +64,14 @@ class RaySlabs {
         clip_steep(static_cast<int>(axis), lower[axis], upper[axis], enter, leave);
         continue;
       }
+      const double error = origin_error_ * std::abs(inverse);
       for (std::size_t i = 0; i < Count; ++i) {
         const double first = (lower[axis][i] - o) * inverse;
         const double second = (upper[axis][i] - o) * inverse;
         const double low = first < second ? first : second;
         const double high = first < second ? second : first;
-        const double safe_low = low - slack * std::abs(low);
-        const double safe_high = high + slack * std::abs(high);
+        const double safe_low = low - slack * std::abs(low) - error;
+        const double safe_high = high + slack * std::abs(high) + error;
         enter[i] = safe_low > enter[i] ? safe_low : enter[i];
         leave[i] = safe_high < leave[i] ? safe_high : leave[i];
       }
@@ -88,14 +94,16 @@ class RaySlabs {
       const double second = (upper[i] - o) / d;
       const double low = std::min(first, second);
       const double high = std::max(first, second);
-      enter[i] = std::max(enter[i], low - slack * std::abs(low));
-      leave[i] = std::min(leave[i], high + slack * std::abs(high));
+      const double error = origin_error_ / std::abs(d);
+      enter[i] = std::max(enter[i], low - slack * std::abs(low) - error);
+      leave[i] = std::min(leave[i], high + slack * std::abs(high) + error);
     }
   }
 
   Vec3 origin_;
   Vec3 direction_;
   Vec3 inverse_{0, 0, 0};
+  double origin_error_;
   /// Rounding may have put a line that starts on the side of a box next to it.
   double origin_slack_;
 };
