@@ -3,34 +3,21 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
-#include <random>
 #include <vector>
 
 #include "core/scene/accelerator.hpp"
 #include "core/scene/prepared_data.hpp"
+#include "scene/numbers.hpp"
 
 using namespace crt;
 using namespace crt::core;
+using crt::test::Numbers;
 
 namespace {
 
-class Numbers {
- public:
-  double within(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(engine_); }
-  Vec3 point(double size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
-  Vec3 direction() {
-    Vec3 v = point(1);
-    while (glm::dot(v, v) < 0.01) v = point(1);
-    return glm::normalize(v);
-  }
-
- private:
-  std::mt19937_64 engine_{20261122};
-};
+constexpr std::uint64_t seed = 20261122;
 
 /// Solids of all kinds in a row, each in a box of half the size 1, with a gap between every two.
 std::vector<Entity> row_of_solids(double gap, int count) {
@@ -96,7 +83,7 @@ WorldRay onwards(const PreparedData& data, const WorldRay& ray, const RayHit& hi
 int check_alike(const Scene& first, const Scene& second, double size, const Vec3& place, int count) {
   const PreparedData data(first);
   const PreparedData other(second);
-  Numbers numbers;
+  Numbers numbers(seed);
   RayWorkspace work;
   RayWorkspace other_work;
   std::array<RayHit, packet_size> hits;

@@ -3,35 +3,20 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <glm/geometric.hpp>
-#include <random>
 #include <vector>
 
 #include "core/scene/prepared_data.hpp"
+#include "scene/numbers.hpp"
 
 using namespace crt;
 using namespace crt::core;
+using crt::test::Numbers;
 
 namespace {
 
-class Numbers {
- public:
-  double within(double low, double high) {
-    return std::uniform_real_distribution<double>(low, high)(engine_);
-  }
-  int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(engine_); }
-  Vec3 point(double size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
-  Vec3 direction() {
-    Vec3 v = point(1);
-    while (glm::dot(v, v) < 0.01) v = point(1);
-    return glm::normalize(v);
-  }
-  /// Of very different sizes.
-  double size(double low, double high) { return low * std::pow(high / low, within(0, 1)); }
-
- private:
-  std::mt19937_64 engine_{20261121};
-};
+constexpr std::uint64_t seed = 20261121;
 
 /// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a sphere, or if
 /// it has a length a rod) lines can be laid along its surface.
@@ -181,7 +166,7 @@ bool same(const RayHit& a, const RayHit& b) {
 }
 
 void check_packets(Precision precision, int packets) {
-  Numbers numbers;
+  Numbers numbers(seed);
   for (int round = 0; round < 4; ++round) {
     const Crowd crowd = ::crowd(numbers, precision);
     const PreparedData data(crowd.scene);
@@ -227,7 +212,7 @@ TEST_CASE("so it does in the exact tier") {
 }
 
 TEST_CASE("so it does at lenses however far from the origin they are") {
-  Numbers numbers;
+  Numbers numbers(seed);
   RayWorkspace work;
   std::vector<RayHit> line;
   for (int exponent = 0; exponent <= 44; exponent += 4) {

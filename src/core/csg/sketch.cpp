@@ -8,17 +8,13 @@
 #include "core/csg/evaluate.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/sketch_ends.hpp"
+#include "core/math/vector.hpp"
 
 namespace crt::core {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Squares of such sizes, and of what matters beside them, are normal numbers.
-bool has_fair_size(double size) {
-  return size > 0x1p-300 && size < 0x1p300;
-}
 
 /// Of a box.
 constexpr bool is_upper(std::uint32_t face) {

@@ -49,6 +49,9 @@ struct Bounds {
     }
   }
 
+  /// With a margin on all sides.
+  Bounds grown(double margin) const { return {lower - Vec3(margin), upper + Vec3(margin)}; }
+
   /// What both have in common; may be empty.
   Bounds clipped(const Bounds& other) const {
     Bounds result;

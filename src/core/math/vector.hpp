@@ -20,6 +20,13 @@ inline double rounding_of(double x) {
   return unit_roundoff * std::abs(x);
 }
 
+/// Squares of such sizes, and of what matters beside them, are normal numbers.
+inline bool has_fair_size(double size) {
+  constexpr double smallest = 0x1p-300;
+  constexpr double largest = 0x1p300;
+  return size > smallest && size < largest;
+}
+
 inline double largest_component(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }

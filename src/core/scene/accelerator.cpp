@@ -90,7 +90,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
   tree_ = std::make_unique<EmbreeTree>(boxes, total);
   if (boxes.size() > BoxRow::most_boxes) return;
-  for (Bounds& box : boxes) box = {box.lower - Vec3(margin_), box.upper + Vec3(margin_)};
+  for (Bounds& box : boxes) box = box.grown(margin_);
   box_row_ = BoxRow(boxes);
 }
 
@@ -147,12 +147,12 @@ std::uint32_t Accelerator::entered_apart(const StartPoint& start) const {
 }
 
 bool Accelerator::is_in_room(std::uint32_t object, const WorldRay& ray, double to) const {
-  const Bounds& box = compiled_.objects[object].bounds;
+  const Bounds room = compiled_.objects[object].bounds.grown(margin_);
   const auto holds = [&](double t) {
     bool within = true;
     for (int axis = 0; axis < 3; ++axis) {
       const double place = std::fma(t, ray.direction[axis], ray.origin[axis]);
-      within = within && place >= box.lower[axis] - margin_ && place <= box.upper[axis] + margin_;
+      within = within && place >= room.lower[axis] && place <= room.upper[axis];
     }
     return within;
   };

@@ -15,10 +15,6 @@ namespace {
 /// So many boxes are looked at for one object.
 constexpr int most_looks = 1024;
 
-Bounds grown(const Bounds& box, double margin) {
-  return {box.lower - Vec3(margin), box.upper + Vec3(margin)};
-}
-
 bool lets_light_in(const Material& material) {
   const auto* color = std::get_if<Color>(&material.color);
   return material.transparency > 0 || color == nullptr || color->a < 1;
@@ -98,7 +94,7 @@ std::vector<std::uint8_t> objects_apart(const CompiledScene& scene, std::span<co
         })) {
       return false;
     }
-    const Bounds room = grown(object.bounds, 2 * margin);
+    const Bounds room = object.bounds.grown(2 * margin);
     for (const Outline& other : unbounded.list) {
       const bool passes = other.kind == Outline::Kind::plane
                               ? passes_by(other, unbounded.axes[other.detail], room)

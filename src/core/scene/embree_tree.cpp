@@ -186,8 +186,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
     extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
   }
   if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
-  total_.lower = total.lower - Vec3(2 * box_margin / scale_);
-  total_.upper = total.upper + Vec3(2 * box_margin / scale_);
+  total_ = total.grown(2 * box_margin / scale_);
 
   auto handles = std::make_unique<Handles>();
 #ifdef CRT_TASKS_THREADS

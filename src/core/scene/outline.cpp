@@ -24,13 +24,6 @@ double even_scale(const Transform& transform) {
   return std::sqrt(square);
 }
 
-/// Squares of such sizes, and of what matters beside them, are normal numbers.
-bool has_fair_size(double size) {
-  constexpr double smallest = 0x1p-300;
-  constexpr double largest = 0x1p300;
-  return size > smallest && size < largest;
-}
-
 /// Outlines of spheres and planes are where the objects are to the last bit, or there are none.
 bool place_exactly(const Surface& surface, const Placement& placement, Outline& outline) {
   const std::optional<Vec3> place = placement.exactly_to_world(surface.position);
