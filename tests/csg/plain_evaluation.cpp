@@ -46,7 +46,8 @@ class Plain {
   void collect(std::uint32_t index) {
     const Leaf& leaf = this->leaf(index);
     if (leaf.bounds.empty()) return;
-    const core::LineSpan span = core::RaySlabs(ray_.origin, ray_.direction, ray_.start.t_error).span(leaf.bounds);
+    const core::LineSpan span =
+        core::RaySlabs(ray_.origin, ray_.direction, ray_.start.t_error).span(leaf.bounds);
     if (span.empty() || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max) return;
     core::ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
     object_ray.start =
