@@ -11,8 +11,8 @@ void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
     first_hits[i] = {};
     if (!seen.hit->found()) continue;
     // Behind a medium that lets nothing through the surface has not been looked at.
-    if (is_black(seen.weight)) look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
-    first_hits[i] = {.normal = seen.surface.phong.normal, .color = seen.surface.phong.color};
+    if (is_black(seen.weight)) look_up(data_, *seen.ray, *seen.hit, work_, seen.surface, lit(i));
+    first_hits[i] = {.normal = lit(i).normal(), .color = lit(i).color()};
   }
 }
 

@@ -19,9 +19,9 @@ Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
 
 }  // namespace
 
-void Tracer::split(const Seen& seen) {
+void Tracer::split(const Seen& seen, const SurfaceLane& lit) {
   const SurfaceHit& surface = seen.surface;
-  const Vec3& normal = surface.phong.normal;
+  const Vec3 normal = lit.normal();
   double mirror_share = surface.material->description->reflectivity;
   if (mirror_share <= 0 && surface.transparency <= 0) return;
 
@@ -33,7 +33,7 @@ void Tracer::split(const Seen& seen) {
   Refraction refraction;
   Rgb through_weight(0);
   if (surface.transparency > 0) {
-    pass(seen, open);
+    pass(seen, lit.color(), open);
     refraction =
         refract(ray.direction, normal, refractive_index(media, before), refractive_index(media, open.media));
     mirror_share += open.transparency * refraction.reflectance;
@@ -46,14 +46,14 @@ void Tracer::split(const Seen& seen) {
   // What goes through is followed first; media lists made for it are dropped before the other's turn.
   if (mirrors) {
     const Departure mirror = depart(seen, RayKind::reflection, mirror_weight, goes_through);
-    mirror.ray->direction = kept_on_side(mirrored(ray.direction, normal), surface.face_normal);
+    mirror.ray->direction = kept_on_side(mirrored(ray.direction, normal), lit.face_normal());
     mirror.ray->start = surface.start;
     mirror.path->media = before;
     mirror.path->media_mark = mirror_media_mark;
   }
   if (goes_through) {
     const Departure through = depart(seen, RayKind::refraction, through_weight, false);
-    through.ray->direction = kept_on_side(refraction.direction, -surface.face_normal);
+    through.ray->direction = kept_on_side(refraction.direction, -lit.face_normal());
     through.ray->start = surface.start_behind();
     through.path->media = open.media;
     through.path->media_mark = media.mark();
@@ -89,12 +89,12 @@ Tracer::Departure Tracer::depart(const Seen& seen, RayKind kind, const Rgb& weig
   return departure;
 }
 
-void Tracer::pass(const Seen& seen, Passage& passage) {
+void Tracer::pass(const Seen& seen, const Rgb& color, Passage& passage) {
   const SurfaceHit& surface = seen.surface;
   const MediaLists::List before = seen.path->media;
   MediaLists& media = seen.work->media;
   passage.transparency = surface.transparency;
-  passage.color = surface.phong.color;
+  passage.color = color;
   passage.media = before;
   const auto ray_behind = [&] {
     return WorldRay{

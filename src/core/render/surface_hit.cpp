@@ -38,29 +38,39 @@ double left_of(double absorption, double length) {
 }  // namespace
 
 void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-             SurfaceHit& surface) {
+             SurfaceHit& surface, const SurfaceLane& lit) {
   const PreparedMaterial& material = data.materials()[data.hit_material(hit)];
-  HitPoint& point = surface.point;
-  PhongSurface& phong = surface.phong;
-  data.hit_point(ray, hit, material.pattern || material.bump, point);
   surface.material = &material;
-
-  const Color color = material_color(material, point, work.stats);
-  phong.color = rgb(color);
-  surface.transparency = material.opaque ? 0 : material.transparency(color.a);
-  phong.diffuse = material.diffuse(surface.transparency);
-  phong.specular = material.description->specular;
-  phong.shininess = material.description->shininess;
-  phong.view = ray.direction;
-
-  const double to_viewer = point.entering ? 1 : -1;
-  data.start_point(ray, hit, point.entering ? Side::outside : Side::inside, surface.start);
-  surface.face_normal = to_viewer * point.normal;
-  if (material.bump) {
-    phong.normal = visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction);
-  } else {
-    phong.normal = to_viewer * point.normal;
+  data.start_point(ray, hit, hit.entering ? Side::outside : Side::inside, surface.start);
+  PhongSurfaces& phong = lit.group.phong;
+  const int lane = static_cast<int>(lit.lane);
+  phong.specular[lane] = material.description->specular;
+  phong.shininess[lane] = material.description->shininess;
+  phong.view.set(lit.lane, ray.direction);
+  const double to_viewer = hit.entering ? 1 : -1;
+  if (material.plain) {
+    const WorldPoint place = data.world_point(ray, hit);
+    const Vec3 normal = to_viewer * place.normal;
+    lit.group.position.set(lit.lane, place.position);
+    lit.group.face_normal.set(lit.lane, normal);
+    phong.normal.set(lit.lane, normal);
+    phong.color.set(lit.lane, rgb(material.color));
+    phong.diffuse[lane] = material.diffuse(0);
+    return;
   }
+
+  HitPoint& point = surface.point;
+  data.hit_point(ray, hit, material.pattern || material.bump, point);
+  const Color color = material_color(material, point, work.stats);
+  surface.transparency = material.opaque ? 0 : material.transparency(color.a);
+  const Vec3 face_normal = to_viewer * point.normal;
+  lit.group.position.set(lit.lane, point.position);
+  lit.group.face_normal.set(lit.lane, face_normal);
+  phong.normal.set(lit.lane, material.bump
+                                 ? visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction)
+                                 : face_normal);
+  phong.color.set(lit.lane, rgb(color));
+  phong.diffuse[lane] = material.diffuse(surface.transparency);
 }
 
 CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,

@@ -1,18 +1,17 @@
 // A hit with its material looked up: all that light needs to know of the place.
 #pragma once
 
+#include "core/render/surface_group.hpp"
 #include "core/render/workspace.hpp"
-#include "core/shading/phong.hpp"
 
 namespace crt::core {
 
 struct SurfaceHit {
-  HitPoint point;
   const PreparedMaterial* material = nullptr;
+  StartPoint start;  ///< of rays that leave to the viewer's side
+  // The rest only of surfaces that rays go on from, or that patterns or bumps are on.
   double transparency = 0;
-  Vec3 face_normal{0, 1, 0};  ///< of the geometry, turned to the viewer
-  PhongSurface phong;         ///< its normal is that tilted by bumps
-  StartPoint start;           ///< of rays that leave to the viewer's side
+  HitPoint point;
 
   /// Of rays that go on behind the surface.
   StartPoint start_behind() const {
@@ -24,7 +23,7 @@ struct SurfaceHit {
 
 /// Looks up the place where `ray` hits, with the material's colour and bumps there.
 void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-             SurfaceHit& surface);
+             SurfaceHit& surface, const SurfaceLane& lit);
 
 /// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
 struct CrossingFilter {

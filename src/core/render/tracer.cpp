@@ -20,21 +20,25 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   return list;
 }
 
-/// How far rounding may put a lamp from a surface that it is meant to be on.
-double lamp_error(const Vec3& point, const LightSample& sample) {
-  if (std::isinf(sample.distance)) return 0;
+/// How far rounding may put a lamp from surfaces that it is meant to be on.
+Lanes lamp_errors(const VectorLanes& points, const LightSamples& light) {
   constexpr double roundings = 16;
-  return roundings * unit_roundoff *
-         std::fma(sample.distance, largest_component(sample.direction), largest_component(point));
+  const Lanes error = roundings * unit_roundoff *
+                      fma(light.distances, largest_component(light.directions), largest_component(points));
+  return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
+}
+
+LaneMask is_black(const VectorLanes& light) {
+  return (light.x == 0.0) & (light.y == 0.0) & (light.z == 0.0);
 }
 
 /// A surface as it is met: a primitive, the triangles of a mesh all alike.
-std::uint64_t met(const HitPoint& point, RayKind kind) {
+std::uint64_t met(const PreparedData& data, const RayHit& hit, RayKind kind) {
   constexpr std::uint64_t is_surface = std::uint64_t{1} << 32;
   constexpr std::uint64_t is_entered = std::uint64_t{1} << 33;
   constexpr int place_of_kind = 34;
-  return (point.solid ? point.leaf : is_surface | point.entity_id) | (point.entering ? is_entered : 0) |
-         static_cast<std::uint64_t>(kind) << place_of_kind;
+  return (data.is_solid(hit) ? hit.leaf : is_surface | data.entity_id(hit)) |
+         (hit.entering ? is_entered : 0) | static_cast<std::uint64_t>(kind) << place_of_kind;
 }
 
 /// A lamp's shadow.
@@ -92,8 +96,7 @@ void Tracer::follow() {
   const bool together = go_together(rays);
   if (together) data_.intersect(rays, hits_, work_.rays);
 
-  std::array<Seen*, packet_size> on_surface;
-  std::size_t surfaces = 0;
+  RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
     Seen& seen = seen_[i];
     seen.work = round_->works[i];
@@ -102,21 +105,21 @@ void Tracer::follow() {
     seen.path = &round_->paths[i];
     const bool ask_alone = !together || (hits_[i].has_company && frame_.features().transparency);
     if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
-    seen.is_on_surface = see(seen);
-    if (seen.is_on_surface) on_surface[surfaces++] = &seen;
+    if (see(seen, lit(i))) on_surface |= RayMask{1} << i;
   }
-  add_light(std::span(on_surface).first(surfaces));
+  add_light(on_surface);
   next_round_->count = 0;
-  for (Seen& seen : std::span(seen_).first(count)) {
-    if (seen.is_on_surface) {
-      seen.sample->color += seen.weight * seen.light;
-      split(seen);
+  for (std::size_t i = 0; i < count; ++i) {
+    const Seen& seen = seen_[i];
+    if ((on_surface >> i & 1u) != 0) {
+      seen.sample->color += seen.weight * lit(i).light();
+      if (!seen.surface.material->plain) split(seen, lit(i));
     }
     go_on(seen);
   }
 }
 
-bool Tracer::see(Seen& seen) {
+bool Tracer::see(Seen& seen, const SurfaceLane& surface) {
   const PathState& path = *seen.path;
   RenderStats& stats = work_.stats;
   ++(path.kind == RayKind::camera       ? stats.camera_rays
@@ -129,11 +132,11 @@ bool Tracer::see(Seen& seen) {
     see_background(seen);
     return false;
   }
-  look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
-  if (identifies_) note(*seen.sample, met(seen.surface.point, seen.path->kind));
-  const SurfaceHit& surface = seen.surface;
-  const Material& material = *surface.material->description;
-  seen.light = ambient_light(frame_.ambient(), material.reflectivity);
+  look_up(data_, *seen.ray, *seen.hit, work_, seen.surface, surface);
+  if (identifies_) note(*seen.sample, met(data_, *seen.hit, seen.path->kind));
+  const Material& material = *seen.surface.material->description;
+  surface.group.light.set(surface.lane, ambient_light(frame_.ambient(), material.reflectivity));
+  surface.group.path_length[static_cast<int>(surface.lane)] = path.path_length + seen.hit->t;
   return true;
 }
 
@@ -155,39 +158,48 @@ void Tracer::see_background(Seen& seen) const {
   }
 }
 
-bool Tracer::reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const {
-  const PhongSurface& phong = seen.surface.phong;
-  if (phong.diffuse <= 0 && phong.specular <= 0) return false;
-  const Vec3& position = seen.surface.point.position;
-  LightSample sample;
-  if (!source.sample(position, seen.path->path_length + seen.hit->t, sample)) return false;
-  if (glm::dot(sample.direction, seen.surface.face_normal) <= 0) return false;
-  light = direct_light(phong, sample, source.color());
-  if (is_black(light)) return false;
-  shadow_ray.origin = position;
-  shadow_ray.direction = sample.direction;
-  shadow_ray.t_max = sample.distance;
-  shadow_ray.start = seen.surface.start;
-  shadow_ray.end_error = lamp_error(position, sample);
-  return true;
+void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
+  shadows_.count = 0;
+  for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
+    const SurfaceGroup& surfaces = lit_[first / lane_count];
+    const PhongSurfaces& phong = surfaces.phong;
+    LightSamples sample;
+    LaneMask lit = (phong.diffuse > 0.0) | (phong.specular > 0.0);
+    lit &= source.sample(surfaces.position, surfaces.path_length, sample);
+    lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
+    const VectorLanes light = direct_light(phong, sample, source.color(), lit);
+    lit &= ~is_black(light);
+    const Lanes end_errors = lamp_errors(surfaces.position, sample);
+    const RayMask group_mask = (RayMask{1} << lane_count) - 1;
+    for_each_ray(mask_of(lit) & on_surface >> first & group_mask, [&](std::size_t lane) {
+      const std::size_t index = shadows_.count++;
+      shadows_.surfaces[index] = first + lane;
+      shadows_.lights[index] = light[lane];
+      WorldRay& ray = shadows_.rays[index];
+      ray.origin = surfaces.position[lane];
+      ray.direction = sample.directions[lane];
+      ray.t_max = sample.distances[static_cast<int>(lane)];
+      ray.start = seen_[first + lane].surface.start;
+      ray.end_error = end_errors[static_cast<int>(lane)];
+    });
+  }
 }
 
-void Tracer::add_light(std::span<Seen*> seen) {
-  std::array<Seen*, packet_size> lit;
-  std::array<Rgb, packet_size> lights;
+void Tracer::add_light(RayMask on_surface) {
   std::size_t lamp = 0;
   for (const PreparedLight& source : frame_.lights()) {
-    std::size_t count = 0;
-    for (Seen* surface : seen) {
-      if (reaches(source, *surface, lights[count], shadow_rays_[count])) lit[count++] = surface;
-    }
-    work_.stats.shadow_rays += count;
-    tick(static_cast<unsigned>(count));
-    const RayMask hidden = data_.occluded_each(std::span(shadow_rays_).first(count), work_.rays);
-    for (std::size_t i = 0; i < count; ++i) {
+    send_to(source, on_surface);
+    const std::span<const WorldRay> rays = std::span(shadows_.rays).first(shadows_.count);
+    work_.stats.shadow_rays += rays.size();
+    tick(static_cast<unsigned>(rays.size()));
+    const RayMask hidden = data_.occluded_each(rays, work_.rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const Seen& seen = seen_[shadows_.surfaces[i]];
       const bool is_hidden = (hidden >> i & 1u) != 0;
-      if (is_hidden && identifies_) note(*lit[i]->sample, shaded_from(lamp));
-      lit[i]->light += lights[i] * light_share_of(shadow_rays_[i], *lit[i], is_hidden);
+      if (is_hidden && identifies_) note(*seen.sample, shaded_from(lamp));
+      const SurfaceLane surface = lit(shadows_.surfaces[i]);
+      const Rgb light = shadows_.lights[i] * light_share_of(rays[i], seen, is_hidden);
+      surface.group.light.set(surface.lane, surface.light() + light);
     }
     ++lamp;
   }

@@ -61,10 +61,8 @@ class Tracer {
     const WorldRay* ray = nullptr;
     RayHit* hit = nullptr;
     const PathState* path = nullptr;
-    bool is_on_surface = false;
     SurfaceHit surface;
     Rgb weight{0, 0, 0};
-    Rgb light{0, 0, 0};
   };
 
   void start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path);
@@ -73,7 +71,7 @@ class Tracer {
   /// Takes a sample into the next round, if it has a ray left.
   void go_on(const Seen& seen);
   /// Whether there is a surface, whose light is still to come; else the ray is done.
-  bool see(Seen& seen);
+  bool see(Seen& seen, const SurfaceLane& surface);
   void see_background(Seen& seen) const;
   /// Takes from the weight what the medium on the way to a hit absorbs; whether anything is left.
   bool pass_medium(Seen& seen) const;
@@ -81,15 +79,19 @@ class Tracer {
   /// What the camera rays of the round that was just followed have met.
   void tell_first_hits(std::span<FirstHit> first_hits);
 
-  /// Adds the light of all lights that the surfaces send back along the paths.
-  void add_light(std::span<Seen*> seen);
+  /// Of a sample's ray, by its number in the round.
+  SurfaceLane lit(std::size_t index) {
+    return {lit_[index / lane_count], index % static_cast<std::size_t>(lane_count)};
+  }
+  /// Adds the light of all lights that these surfaces send back along the paths.
+  void add_light(RayMask on_surface);
+  /// Makes the rays that find out which of some surfaces a light reaches; to the others none comes.
+  void send_to(const PreparedLight& source, RayMask on_surface);
   /// What gets through along the way to a light, of which it is known whether anything is met there.
   Rgb light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden);
-  /// A light as it reaches a surface if nothing hides it, and the ray that finds out; false if it cannot.
-  bool reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const;
 
   /// Sends the mirrored and the refracted ray on, if they are worth it.
-  void split(const Seen& seen);
+  void split(const Seen& seen, const SurfaceLane& lit);
   /// Whether a ray of that weight is to go on from a surface.
   bool is_worth_it(const Seen& seen, const Rgb& weight);
   /// Where a ray is written that goes on.
@@ -111,7 +113,7 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  void pass(const Seen& seen, Passage& passage);
+  void pass(const Seen& seen, const Rgb& color, Passage& passage);
   /// Adds what other objects at the place do.
   void pass_company(const WorldRay& behind, const Seen& seen, Passage& passage);
   double refractive_index(const MediaLists& lists, MediaLists::List media) const;
@@ -137,7 +139,15 @@ class Tracer {
   Round* next_round_ = rounds_.data() + 1;  ///< is made meanwhile
   std::array<RayHit, packet_size> hits_;
   std::array<Seen, packet_size> seen_;
-  std::array<WorldRay, packet_size> shadow_rays_;
+  std::array<SurfaceGroup, packet_size / lane_count> lit_;
+  /// Rays to a light, and what comes along them if they meet nothing.
+  struct Shadows {
+    std::size_t count = 0;
+    std::array<WorldRay, packet_size> rays;
+    std::array<std::size_t, packet_size> surfaces;  ///< that they start on, by their numbers in the round
+    std::array<Rgb, packet_size> lights;
+  };
+  Shadows shadows_;
 };
 
 }  // namespace crt::core

@@ -175,8 +175,19 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
   point.solid = is_solid(hit);
 }
 
+WorldPoint PreparedData::world_point(const WorldRay& ray, const RayHit& hit) const {
+  const Leaf& leaf = accelerator_->leaf(hit.leaf);
+  const SurfacePoint surface = accelerator_->surface_point(ray, hit, false);
+  return {.position = leaf.placement->point_to_world(surface.position),
+          .normal = leaf.placement->normal_to_world(leaf.complemented ? -surface.normal : surface.normal)};
+}
+
 std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
   return accelerator_->leaf(hit.leaf).material;
+}
+
+std::uint32_t PreparedData::entity_id(const RayHit& hit) const {
+  return accelerator_->leaf(hit.leaf).entity_id;
 }
 
 bool PreparedData::is_solid(const RayHit& hit) const {

@@ -70,6 +70,12 @@ struct HitPoint {
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
 
+/// Only where in the world it is.
+struct WorldPoint {
+  Vec3 position{0, 0, 0};
+  Vec3 normal{0, 1, 0};  ///< unit length, out of the solid
+};
+
 inline Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
@@ -137,8 +143,13 @@ class PreparedData {
     return point;
   }
 
+  WorldPoint world_point(const WorldRay& ray, const RayHit& hit) const;
+
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
+
+  /// The user's number of what a hit is of.
+  std::uint32_t entity_id(const RayHit& hit) const;
 
   /// Whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const;

@@ -19,6 +19,8 @@ struct PreparedMaterial {
   std::optional<PreparedPattern> bump;
   /// Lets nothing through anywhere.
   bool opaque = true;
+  /// Looks the same everywhere, and no ray goes on from it.
+  bool plain = true;
   bool absorbing = false;
 
   /// The share of light let through where the colour's alpha is `alpha`: a gap in the colour lets

@@ -1,0 +1,81 @@
+// Four vectors side by side, by component: each operation does to every one of them what it does to a Vec3,
+// to the last bit.
+#pragma once
+
+#include "core/math/direction_and_length.hpp"
+#include "core/math/lanes.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+struct VectorLanes {
+  Lanes x{};
+  Lanes y{};
+  Lanes z{};
+
+  Vec3 operator[](std::size_t lane) const {
+    const int i = static_cast<int>(lane);
+    return {x[i], y[i], z[i]};
+  }
+  void set(std::size_t lane, const Vec3& v) {
+    const int i = static_cast<int>(lane);
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
+/// The same vector in each lane.
+inline VectorLanes lanes_of(const Vec3& v) {
+  return {lanes_of(v.x), lanes_of(v.y), lanes_of(v.z)};
+}
+
+inline VectorLanes operator-(const VectorLanes& v) {
+  return {-v.x, -v.y, -v.z};
+}
+inline VectorLanes operator+(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline VectorLanes operator-(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline VectorLanes operator*(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+inline VectorLanes operator*(const Lanes& factor, const VectorLanes& v) {
+  return {factor * v.x, factor * v.y, factor * v.z};
+}
+inline VectorLanes operator/(const VectorLanes& v, const Lanes& divisor) {
+  return {v.x / divisor, v.y / divisor, v.z / divisor};
+}
+
+inline Lanes dot(const VectorLanes& a, const VectorLanes& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline Lanes largest_component(const VectorLanes& v) {
+  return max(max(size_of(v.x), size_of(v.y)), size_of(v.z));
+}
+
+struct DirectionsAndLengths {
+  VectorLanes directions;
+  Lanes lengths{};
+};
+
+/// Of four vectors what direction_and_length() says of each.
+inline DirectionsAndLengths directions_and_lengths(const VectorLanes& v) {
+  const Lanes squares = dot(v, v);
+  if (all((squares > safe_square_min) & (squares < safe_square_max))) {
+    const Lanes lengths = sqrt(squares);
+    return {v / lengths, lengths};
+  }
+  DirectionsAndLengths result;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const DirectionAndLength one = direction_and_length(v[lane]);
+    result.directions.set(lane, one.direction);
+    result.lengths[static_cast<int>(lane)] = one.length;
+  }
+  return result;
+}
+
+}  // namespace crt::core
