@@ -7,6 +7,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -46,6 +47,15 @@ struct SurfacePoint {
   Vec3 normal;    ///< unit length, in object space, out of the solid
   double u = 0;
   double v = 0;
+};
+
+/// The number of a face for each lane.
+using FaceLanes = std::array<std::uint32_t, lane_count>;
+
+/// Of as many points as there are lanes, without u and v.
+struct SurfacePointLanes {
+  VectorLanes position;
+  VectorLanes normal;
 };
 
 /// A line through something long, and how far from the line that reaches at its ends; in between it reaches
@@ -94,6 +104,12 @@ class Shape {
   /// `with_uv`, u and v need not be set: they may cost more than the rest.
   virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
                                      bool with_uv = true) const = 0;
+
+  /// The same where as many rays as there are lanes cross, to the last bit; false if that is not told here.
+  virtual bool surface_points(const RayLanes& /*rays*/, const Lanes& /*t*/, const FaceLanes& /*faces*/,
+                              SurfacePointLanes& /*points*/) const {
+    return false;
+  }
 
   /// How many faces there are, and the surface that a face is a piece of (for finding faces that
   /// coincide).

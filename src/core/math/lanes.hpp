@@ -62,6 +62,12 @@ inline std::uint32_t mask_of(const LaneMask& lanes) {
 #endif
 }
 
+/// Those of which the bit is set.
+inline LaneMask lanes_with(std::uint32_t mask) {
+  constexpr LaneMask bits = {1, 2, 4, 8};
+  return (bits & static_cast<std::int64_t>(mask)) != 0;
+}
+
 inline Lanes min(const Lanes& a, const Lanes& b) {
 #ifdef __AVX__
   return _mm256_min_pd(a, b);
@@ -108,6 +114,14 @@ inline Lanes size_of(const Lanes& x) {
 #endif
 }
 
+/// What power_of_two_below() says of each.
+inline Lanes powers_of_two_below(const Lanes& x) {
+  constexpr std::int64_t exponent_bits = 0x7ff0000000000000;
+  constexpr std::int64_t smallest = 0x0010000000000000;
+  const LaneMask bits = reinterpret_cast<LaneMask>(x) & exponent_bits;
+  return reinterpret_cast<Lanes>(bits > smallest ? bits : LaneMask{} + smallest);
+}
+
 /// Of vectors by component, of doubles or of lanes.
 template <class Real>
 Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
@@ -130,6 +144,11 @@ inline DoubleDoubleLanes two_sum(const Lanes& a, const Lanes& b) {
   const Lanes b_part = sum - a;
   const Lanes a_part = sum - b_part;
   return {sum, (a - a_part) + (b - b_part)};
+}
+
+inline DoubleDoubleLanes two_product(const Lanes& a, const Lanes& b) {
+  const Lanes product = a * b;
+  return {product, fma(a, b, -product)};
 }
 
 inline DoubleDoubleLanes operator+(const DoubleDoubleLanes& a, const DoubleDoubleLanes& b) {

@@ -57,6 +57,35 @@ inline Lanes largest_component(const VectorLanes& v) {
   return max(max(size_of(v.x), size_of(v.y)), size_of(v.z));
 }
 
+// By component.
+inline VectorLanes min(const VectorLanes& a, const VectorLanes& b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+inline VectorLanes max(const VectorLanes& a, const VectorLanes& b) {
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+
+/// Of each lane that of `a` or that of `b`.
+inline VectorLanes chosen(const LaneMask& first, const VectorLanes& a, const VectorLanes& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
+/// As accurate_dot() has it, before its last rounding.
+inline DoubleDoubleLanes accurate_dot(const VectorLanes& a, const VectorLanes& b) {
+  const DoubleDoubleLanes x = two_product(a.x, b.x);
+  const DoubleDoubleLanes y = two_product(a.y, b.y);
+  const DoubleDoubleLanes z = two_product(a.z, b.z);
+  const DoubleDoubleLanes xy = two_sum(x.hi, y.hi);
+  const DoubleDoubleLanes xyz = two_sum(xy.hi, z.hi);
+  return two_sum(xyz.hi, xyz.lo + xy.lo + (x.lo + y.lo + z.lo));
+}
+
+inline VectorLanes unit_vectors(const VectorLanes& v) {
+  const VectorLanes scaled = 1.0 / powers_of_two_below(largest_component(v)) * v;
+  const DoubleDoubleLanes square = accurate_dot(scaled, scaled);
+  return scaled / sqrt(square.hi + square.lo);
+}
+
 struct DirectionsAndLengths {
   VectorLanes directions;
   Lanes lengths{};

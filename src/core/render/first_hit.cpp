@@ -7,12 +7,15 @@ namespace crt::core {
 
 void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
-    Seen& seen = seen_[i];
+    const Seen& seen = seen_[i];
     first_hits[i] = {};
     if (!seen.hit->found()) continue;
     // Behind a medium that lets nothing through the surface has not been looked at.
-    if (is_black(seen.weight)) look_up(data_, *seen.ray, *seen.hit, work_, seen.surface, lit(i));
-    first_hits[i] = {.normal = lit(i).normal(), .color = lit(i).color()};
+    if (is_black(seen.weight)) {
+      surface(i).hit().material = &data_.materials()[data_.hit_material(*seen.hit)];
+      look_up(data_, *seen.ray, *seen.hit, work_, surface(i));
+    }
+    first_hits[i] = {.normal = surface(i).normal(), .color = surface(i).color()};
   }
 }
 

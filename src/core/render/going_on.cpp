@@ -19,21 +19,22 @@ Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
 
 }  // namespace
 
-void Tracer::split(const Seen& seen, const SurfaceLane& lit) {
-  const SurfaceHit& surface = seen.surface;
-  const Vec3 normal = lit.normal();
-  double mirror_share = surface.material->description->reflectivity;
-  if (mirror_share <= 0 && surface.transparency <= 0) return;
+void Tracer::split(const Seen& seen, const SurfaceLane& surface) {
+  const SurfaceHit& hit = surface.hit();
+  double mirror_share = hit.material->description->reflectivity;
+  if (mirror_share <= 0 && hit.transparency <= 0) return;
 
   const WorldRay& ray = *seen.ray;
+  const Vec3 normal = surface.normal();
+  const Vec3 face_normal = surface.face_normal();
   const MediaLists::List before = seen.path->media;
   MediaLists& media = seen.work->media;
   const std::uint32_t mirror_media_mark = media.mark();
   Passage open;
   Refraction refraction;
   Rgb through_weight(0);
-  if (surface.transparency > 0) {
-    pass(seen, lit.color(), open);
+  if (hit.transparency > 0) {
+    pass(seen, surface, open);
     refraction =
         refract(ray.direction, normal, refractive_index(media, before), refractive_index(media, open.media));
     mirror_share += open.transparency * refraction.reflectance;
@@ -45,19 +46,19 @@ void Tracer::split(const Seen& seen, const SurfaceLane& lit) {
 
   // What goes through is followed first; media lists made for it are dropped before the other's turn.
   if (mirrors) {
-    const Departure mirror = depart(seen, RayKind::reflection, mirror_weight, goes_through);
-    mirror.ray->direction = kept_on_side(mirrored(ray.direction, normal), lit.face_normal());
-    mirror.ray->start = surface.start;
+    const Departure mirror = depart(seen, surface.position(), RayKind::reflection, mirror_weight, goes_through);
+    mirror.ray->direction = kept_on_side(mirrored(ray.direction, normal), face_normal);
+    mirror.ray->start = hit.start;
     mirror.path->media = before;
     mirror.path->media_mark = mirror_media_mark;
   }
   if (goes_through) {
-    const Departure through = depart(seen, RayKind::refraction, through_weight, false);
-    through.ray->direction = kept_on_side(refraction.direction, -lit.face_normal());
-    through.ray->start = surface.start_behind();
+    const Departure through = depart(seen, surface.position(), RayKind::refraction, through_weight, false);
+    through.ray->direction = kept_on_side(refraction.direction, -face_normal);
+    through.ray->start = hit.start_behind();
     through.path->media = open.media;
     through.path->media_mark = media.mark();
-    if (surface.point.solid) ++work_.stats.media_changes;
+    if (data_.is_solid(*seen.hit)) ++work_.stats.media_changes;
   }
 }
 
@@ -71,7 +72,7 @@ bool Tracer::is_worth_it(const Seen& seen, const Rgb& weight) {
   return false;
 }
 
-Tracer::Departure Tracer::depart(const Seen& seen, RayKind kind, const Rgb& weight, bool waits) {
+Tracer::Departure Tracer::depart(const Seen& seen, const Vec3& place, RayKind kind, const Rgb& weight, bool waits) {
   SampleWork& work = *seen.work;
   Departure departure{};
   if (waits || work.rays == most_rays_per_sample) {
@@ -81,7 +82,7 @@ Tracer::Departure Tracer::depart(const Seen& seen, RayKind kind, const Rgb& weig
     work.goes_on = true;
     departure = {&next_round_->rays[next_round_->count], &next_round_->paths[next_round_->count]};
   }
-  departure.ray->origin = seen.surface.point.position;
+  departure.ray->origin = place;
   departure.path->kind = kind;
   departure.path->bounces = seen.path->bounces + 1;
   departure.path->path_length = seen.path->path_length + seen.hit->t;
@@ -89,26 +90,27 @@ Tracer::Departure Tracer::depart(const Seen& seen, RayKind kind, const Rgb& weig
   return departure;
 }
 
-void Tracer::pass(const Seen& seen, const Rgb& color, Passage& passage) {
-  const SurfaceHit& surface = seen.surface;
+void Tracer::pass(const Seen& seen, const SurfaceLane& surface, Passage& passage) {
+  const RayHit& hit = *seen.hit;
   const MediaLists::List before = seen.path->media;
   MediaLists& media = seen.work->media;
-  passage.transparency = surface.transparency;
-  passage.color = color;
+  passage.transparency = surface.hit().transparency;
+  passage.color = surface.color();
   passage.media = before;
   const auto ray_behind = [&] {
-    return WorldRay{
-        .origin = surface.point.position, .direction = seen.ray->direction, .start = surface.start_behind()};
+    return WorldRay{.origin = surface.position(),
+                    .direction = seen.ray->direction,
+                    .start = surface.hit().start_behind()};
   };
-  if (seen.hit->has_company) {
+  if (hit.has_company) {
     pass_company(ray_behind(), seen, passage);
-  } else if (surface.point.solid) {
+  } else if (data_.is_solid(hit)) {
     const auto exit_of = [&](std::uint32_t object) {
       return data_.stay(ray_behind(), object, work_.rays).exit;
     };
-    const Medium medium{surface.point.object, surface.point.material};
-    passage.media = surface.point.entering ? entered_in_order(media, before, medium, exit_of)
-                                           : media.left(before, medium.object);
+    const Medium medium{hit.object, data_.hit_material(hit)};
+    passage.media =
+        hit.entering ? entered_in_order(media, before, medium, exit_of) : media.left(before, medium.object);
   }
 }
 

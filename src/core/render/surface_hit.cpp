@@ -35,42 +35,72 @@ double left_of(double absorption, double length) {
   return absorption > 0 ? std::exp(-absorption * length) : 1;
 }
 
+/// Of a surface as the ray that hits it sees it.
+Side side_before(const RayHit& hit) {
+  return hit.entering ? Side::outside : Side::inside;
+}
+
+void set_material(const PreparedMaterial& material, const Rgb& color, double transparency, std::size_t lane,
+                  PhongSurfaces& surfaces) {
+  const int i = static_cast<int>(lane);
+  surfaces.color.set(lane, color);
+  surfaces.diffuse[i] = material.diffuse(transparency);
+  surfaces.specular[i] = material.description->specular;
+  surfaces.shininess[i] = material.description->shininess;
+}
+
 }  // namespace
 
 void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-             SurfaceHit& surface, const SurfaceLane& lit) {
-  const PreparedMaterial& material = data.materials()[data.hit_material(hit)];
-  surface.material = &material;
-  data.start_point(ray, hit, hit.entering ? Side::outside : Side::inside, surface.start);
-  PhongSurfaces& phong = lit.group.phong;
-  const int lane = static_cast<int>(lit.lane);
-  phong.specular[lane] = material.description->specular;
-  phong.shininess[lane] = material.description->shininess;
-  phong.view.set(lit.lane, ray.direction);
-  const double to_viewer = hit.entering ? 1 : -1;
-  if (material.plain) {
-    const WorldPoint place = data.world_point(ray, hit);
-    const Vec3 normal = to_viewer * place.normal;
-    lit.group.position.set(lit.lane, place.position);
-    lit.group.face_normal.set(lit.lane, normal);
-    phong.normal.set(lit.lane, normal);
-    phong.color.set(lit.lane, rgb(material.color));
-    phong.diffuse[lane] = material.diffuse(0);
-    return;
-  }
-
-  HitPoint& point = surface.point;
+             const SurfaceLane& surface) {
+  const PreparedMaterial& material = *surface.hit().material;
+  HitPoint point;
   data.hit_point(ray, hit, material.pattern || material.bump, point);
   const Color color = material_color(material, point, work.stats);
-  surface.transparency = material.opaque ? 0 : material.transparency(color.a);
+  const double transparency = material.opaque ? 0 : material.transparency(color.a);
+  surface.hit().transparency = transparency;
+  surface.hit().start = data.start_point(ray, hit, side_before(hit));
+
+  SurfaceGroup& group = surface.group;
+  PhongSurfaces& phong = group.phong;
+  set_material(material, rgb(color), transparency, surface.lane, phong);
+  phong.view.set(surface.lane, ray.direction);
+  const double to_viewer = point.entering ? 1 : -1;
   const Vec3 face_normal = to_viewer * point.normal;
-  lit.group.position.set(lit.lane, point.position);
-  lit.group.face_normal.set(lit.lane, face_normal);
-  phong.normal.set(lit.lane, material.bump
-                                 ? visible_normal(to_viewer * bumped_normal(data, material, point, work), ray.direction)
-                                 : face_normal);
-  phong.color.set(lit.lane, rgb(color));
-  phong.diffuse[lane] = material.diffuse(surface.transparency);
+  group.position.set(surface.lane, point.position);
+  group.face_normal.set(surface.lane, face_normal);
+  if (material.bump) {
+    const Vec3 bumped = to_viewer * bumped_normal(data, material, point, work);
+    phong.normal.set(surface.lane, visible_normal(bumped, ray.direction));
+  } else {
+    phong.normal.set(surface.lane, face_normal);
+  }
+}
+
+void look_up_uniform(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
+                     std::span<const RayHit, lane_count> hits, RayMask uniform, SurfaceGroup& group) {
+  const RayLanes lines = ray_lanes(rays);
+  const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
+  SurfacePointLanes points;
+  data.hit_points(rays, hits, lines, t, uniform, points);
+  group.position = points.position;
+  std::uint32_t entering = 0;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    entering |= static_cast<std::uint32_t>(hits[lane].entering) << lane;
+  }
+  group.face_normal = chosen(lanes_with(entering), points.normal, -points.normal);
+  group.phong.normal = group.face_normal;
+  group.phong.view = lines.direction;
+
+  const Lanes start_errors = start_rounding * largest_component(lines.at(t));
+  for_each_ray(uniform, [&](std::size_t lane) {
+    SurfaceHit& hit = group.hits[lane];
+    const PreparedMaterial& material = *hit.material;
+    hit.transparency = material.opaque ? 0 : material.transparency(material.color.a);
+    set_material(material, rgb(material.color), hit.transparency, lane, group.phong);
+    hit.start = data.start_face(hits[lane], side_before(hits[lane]));
+    hit.start.t_error = start_errors[static_cast<int>(lane)];
+  });
 }
 
 CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,

@@ -1,4 +1,4 @@
-// A hit with its material looked up: all that light needs to know of the place.
+// Hits with their materials looked up.
 #pragma once
 
 #include "core/render/surface_group.hpp"
@@ -6,24 +6,15 @@
 
 namespace crt::core {
 
-struct SurfaceHit {
-  const PreparedMaterial* material = nullptr;
-  StartPoint start;  ///< of rays that leave to the viewer's side
-  // The rest only of surfaces that rays go on from, or that patterns or bumps are on.
-  double transparency = 0;
-  HitPoint point;
-
-  /// Of rays that go on behind the surface.
-  StartPoint start_behind() const {
-    StartPoint behind = start;
-    behind.side = opposite(start.side);
-    return behind;
-  }
-};
-
-/// Looks up the place where `ray` hits, with the material's colour and bumps there.
+/// Looks up the place where `ray` hits, with the colour and bumps there of the surface's material, which is
+/// known already.
 void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-             SurfaceHit& surface, const SurfaceLane& lit);
+             const SurfaceLane& surface);
+
+/// The same for those of a group of rays that have their bit in `uniform`, whose materials are. It may write
+/// into other lanes, too.
+void look_up_uniform(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
+                     std::span<const RayHit, lane_count> hits, RayMask uniform, SurfaceGroup& group);
 
 /// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
 struct CrossingFilter {

@@ -11,6 +11,9 @@ namespace crt::core {
 
 namespace {
 
+/// The rays of one group of lanes.
+constexpr RayMask group_mask = (RayMask{1} << lane_count) - 1;
+
 /// Rays between two looks at the progress.
 constexpr unsigned ticks_per_poll = 256;
 
@@ -105,15 +108,16 @@ void Tracer::follow() {
     seen.path = &round_->paths[i];
     const bool ask_alone = !together || (hits_[i].has_company && frame_.features().transparency);
     if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
-    if (see(seen, lit(i))) on_surface |= RayMask{1} << i;
+    on_surface |= static_cast<RayMask>(see(seen, surface(i))) << i;
   }
+  look_up_each(on_surface);
   add_light(on_surface);
   next_round_->count = 0;
   for (std::size_t i = 0; i < count; ++i) {
     const Seen& seen = seen_[i];
     if ((on_surface >> i & 1u) != 0) {
-      seen.sample->color += seen.weight * lit(i).light();
-      if (!seen.surface.material->plain) split(seen, lit(i));
+      seen.sample->color += seen.weight * surface(i).light();
+      if (!surface(i).hit().material->ends_paths) split(seen, surface(i));
     }
     go_on(seen);
   }
@@ -132,12 +136,29 @@ bool Tracer::see(Seen& seen, const SurfaceLane& surface) {
     see_background(seen);
     return false;
   }
-  look_up(data_, *seen.ray, *seen.hit, work_, seen.surface, surface);
-  if (identifies_) note(*seen.sample, met(data_, *seen.hit, seen.path->kind));
-  const Material& material = *seen.surface.material->description;
-  surface.group.light.set(surface.lane, ambient_light(frame_.ambient(), material.reflectivity));
+  const PreparedMaterial& material = data_.materials()[data_.hit_material(*seen.hit)];
+  surface.hit().material = &material;
+  surface.group.light.set(surface.lane, ambient_light(frame_.ambient(), material.description->reflectivity));
   surface.group.path_length[static_cast<int>(surface.lane)] = path.path_length + seen.hit->t;
+  if (identifies_) note(*seen.sample, met(data_, *seen.hit, path.kind));
   return true;
+}
+
+void Tracer::look_up_each(RayMask on_surface) {
+  for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
+    RayMask uniform = 0;
+    RayMask others = 0;
+    SurfaceGroup& group = surfaces_[first / lane_count];
+    for_each_ray(on_surface >> first & group_mask, [&](std::size_t lane) {
+      (group.hits[lane].material->uniform() ? uniform : others) |= RayMask{1} << lane;
+    });
+    const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
+    const auto hits = std::span(hits_).subspan(first).first<lane_count>();
+    if (uniform != 0) look_up_uniform(data_, rays, hits, uniform, group);
+    for_each_ray(others, [&](std::size_t lane) {
+      look_up(data_, rays[lane], hits[lane], work_, {group, lane});
+    });
+  }
 }
 
 bool Tracer::pass_medium(Seen& seen) const {
@@ -161,7 +182,7 @@ void Tracer::see_background(Seen& seen) const {
 void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
   shadows_.count = 0;
   for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
-    const SurfaceGroup& surfaces = lit_[first / lane_count];
+    const SurfaceGroup& surfaces = surfaces_[first / lane_count];
     const PhongSurfaces& phong = surfaces.phong;
     LightSamples sample;
     LaneMask lit = (phong.diffuse > 0.0) | (phong.specular > 0.0);
@@ -170,7 +191,6 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
     const VectorLanes light = direct_light(phong, sample, source.color(), lit);
     lit &= ~is_black(light);
     const Lanes end_errors = lamp_errors(surfaces.position, sample);
-    const RayMask group_mask = (RayMask{1} << lane_count) - 1;
     for_each_ray(mask_of(lit) & on_surface >> first & group_mask, [&](std::size_t lane) {
       const std::size_t index = shadows_.count++;
       shadows_.surfaces[index] = first + lane;
@@ -179,7 +199,7 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
       ray.origin = surfaces.position[lane];
       ray.direction = sample.directions[lane];
       ray.t_max = sample.distances[static_cast<int>(lane)];
-      ray.start = seen_[first + lane].surface.start;
+      ray.start = surfaces.hits[lane].start;
       ray.end_error = end_errors[static_cast<int>(lane)];
     });
   }
@@ -197,9 +217,9 @@ void Tracer::add_light(RayMask on_surface) {
       const Seen& seen = seen_[shadows_.surfaces[i]];
       const bool is_hidden = (hidden >> i & 1u) != 0;
       if (is_hidden && identifies_) note(*seen.sample, shaded_from(lamp));
-      const SurfaceLane surface = lit(shadows_.surfaces[i]);
+      const SurfaceLane lit = surface(shadows_.surfaces[i]);
       const Rgb light = shadows_.lights[i] * light_share_of(rays[i], seen, is_hidden);
-      surface.group.light.set(surface.lane, surface.light() + light);
+      lit.group.light.set(lit.lane, lit.light() + light);
     }
     ++lamp;
   }

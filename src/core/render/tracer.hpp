@@ -61,7 +61,6 @@ class Tracer {
     const WorldRay* ray = nullptr;
     RayHit* hit = nullptr;
     const PathState* path = nullptr;
-    SurfaceHit surface;
     Rgb weight{0, 0, 0};
   };
 
@@ -72,6 +71,8 @@ class Tracer {
   void go_on(const Seen& seen);
   /// Whether there is a surface, whose light is still to come; else the ray is done.
   bool see(Seen& seen, const SurfaceLane& surface);
+  /// Looks up those surfaces.
+  void look_up_each(RayMask on_surface);
   void see_background(Seen& seen) const;
   /// Takes from the weight what the medium on the way to a hit absorbs; whether anything is left.
   bool pass_medium(Seen& seen) const;
@@ -80,8 +81,8 @@ class Tracer {
   void tell_first_hits(std::span<FirstHit> first_hits);
 
   /// Of a sample's ray, by its number in the round.
-  SurfaceLane lit(std::size_t index) {
-    return {lit_[index / lane_count], index % static_cast<std::size_t>(lane_count)};
+  SurfaceLane surface(std::size_t index) {
+    return {surfaces_[index / lane_count], index % static_cast<std::size_t>(lane_count)};
   }
   /// Adds the light of all lights that these surfaces send back along the paths.
   void add_light(RayMask on_surface);
@@ -91,7 +92,7 @@ class Tracer {
   Rgb light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden);
 
   /// Sends the mirrored and the refracted ray on, if they are worth it.
-  void split(const Seen& seen, const SurfaceLane& lit);
+  void split(const Seen& seen, const SurfaceLane& surface);
   /// Whether a ray of that weight is to go on from a surface.
   bool is_worth_it(const Seen& seen, const Rgb& weight);
   /// Where a ray is written that goes on.
@@ -101,7 +102,7 @@ class Tracer {
   };
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
   /// fills in its direction, its start and its media.
-  Departure depart(const Seen& seen, RayKind kind, const Rgb& weight, bool waits);
+  Departure depart(const Seen& seen, const Vec3& place, RayKind kind, const Rgb& weight, bool waits);
 
   /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
   /// several the one whose object was written first.
@@ -113,7 +114,7 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  void pass(const Seen& seen, const Rgb& color, Passage& passage);
+  void pass(const Seen& seen, const SurfaceLane& surface, Passage& passage);
   /// Adds what other objects at the place do.
   void pass_company(const WorldRay& behind, const Seen& seen, Passage& passage);
   double refractive_index(const MediaLists& lists, MediaLists::List media) const;
@@ -139,7 +140,7 @@ class Tracer {
   Round* next_round_ = rounds_.data() + 1;  ///< is made meanwhile
   std::array<RayHit, packet_size> hits_;
   std::array<Seen, packet_size> seen_;
-  std::array<SurfaceGroup, packet_size / lane_count> lit_;
+  std::array<SurfaceGroup, packet_size / lane_count> surfaces_;
   /// Rays to a light, and what comes along them if they meet nothing.
   struct Shadows {
     std::size_t count = 0;

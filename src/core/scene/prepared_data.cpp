@@ -1,6 +1,7 @@
 #include "core/scene/prepared_data.hpp"
 
 #include <algorithm>
+#include <bit>
 #include <chrono>
 #include <climits>
 #include <cmath>
@@ -175,11 +176,35 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
   point.solid = is_solid(hit);
 }
 
-WorldPoint PreparedData::world_point(const WorldRay& ray, const RayHit& hit) const {
-  const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const SurfacePoint surface = accelerator_->surface_point(ray, hit, false);
-  return {.position = leaf.placement->point_to_world(surface.position),
-          .normal = leaf.placement->normal_to_world(leaf.complemented ? -surface.normal : surface.normal)};
+void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
+                              std::span<const RayHit, lane_count> hits, const RayLanes& lines,
+                              const Lanes& t, RayMask wanted, SurfacePointLanes& points) const {
+  while (wanted != 0) {
+    const RayHit& first = hits[static_cast<std::size_t>(std::countr_zero(wanted))];
+    const Leaf& leaf = accelerator_->leaf(first.leaf);
+    RayMask alike = 0;
+    FaceLanes faces;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const bool is_alike = hits[lane].leaf == first.leaf;
+      faces[lane] = is_alike ? hits[lane].face : first.face;
+      alike |= static_cast<RayMask>(is_alike) << lane;
+    }
+    alike &= wanted;
+    wanted &= ~alike;
+    SurfacePointLanes found;
+    if (leaf.placement->is_identity() && leaf.shape->surface_points(lines, t, faces, found)) {
+      const LaneMask chosen_lanes = lanes_with(alike);
+      points.position = chosen(chosen_lanes, found.position, points.position);
+      points.normal = chosen(chosen_lanes, leaf.complemented ? -found.normal : found.normal, points.normal);
+      continue;
+    }
+    for_each_ray(alike, [&](std::size_t lane) {
+      const SurfacePoint point = accelerator_->surface_point(rays[lane], hits[lane], false);
+      points.position.set(lane, leaf.placement->point_to_world(point.position));
+      points.normal.set(lane,
+                        leaf.placement->normal_to_world(leaf.complemented ? -point.normal : point.normal));
+    });
+  }
 }
 
 std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
@@ -194,20 +219,22 @@ bool PreparedData::is_solid(const RayHit& hit) const {
   return accelerator_->object(hit.object).solid;
 }
 
-void PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side, StartPoint& start) const {
+StartPoint PreparedData::start_face(const RayHit& hit, Side side) const {
   const Leaf& leaf = accelerator_->leaf(hit.leaf);
   const FaceSurface& face = accelerator_->face_surface(leaf, hit.face);
   // `side` is of the object; a cutter and a flipped face each turn it round once.
   if (leaf.complemented != face.flipped) side = opposite(side);
+  return {.leaf = hit.leaf, .face = hit.face, .surface = face.surface, .side = side};
+}
+
+StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
+  StartPoint start = start_face(hit, side);
   double farthest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
   }
-  start.leaf = hit.leaf;
-  start.face = hit.face;
-  start.surface = face.surface;
-  start.side = side;
   start.t_error = start_rounding * farthest;
+  return start;
 }
 
 const CompiledScene& PreparedData::compiled() const {

@@ -70,12 +70,6 @@ struct HitPoint {
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
 
-/// Only where in the world it is.
-struct WorldPoint {
-  Vec3 position{0, 0, 0};
-  Vec3 normal{0, 1, 0};  ///< unit length, out of the solid
-};
-
 inline Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
@@ -143,7 +137,10 @@ class PreparedData {
     return point;
   }
 
-  WorldPoint world_point(const WorldRay& ray, const RayHit& hit) const;
+  /// Places and outward normals alone, in the world: of those hits of a group of rays that have their bit in
+  /// `wanted`.
+  void hit_points(std::span<const WorldRay, lane_count> rays, std::span<const RayHit, lane_count> hits,
+                  const RayLanes& lines, const Lanes& t, RayMask wanted, SurfacePointLanes& points) const;
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const;
@@ -156,12 +153,9 @@ class PreparedData {
 
   /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
   /// have unit length.
-  void start_point(const WorldRay& ray, const RayHit& hit, Side side, StartPoint& start) const;
-  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
-    StartPoint start;
-    start_point(ray, hit, side, start);
-    return start;
-  }
+  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
+  /// The same but for its error.
+  StartPoint start_face(const RayHit& hit, Side side) const;
 
   /// The objects, and what they are made of.
   const CompiledScene& compiled() const;

@@ -6,8 +6,8 @@ namespace crt::core {
 
 PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& textures)
     : description(material) {
-  if (const auto* uniform = std::get_if<Color>(&description->color)) {
-    color = *uniform;
+  if (const auto* plain = std::get_if<Color>(&description->color)) {
+    color = *plain;
   } else {
     pattern.emplace(std::get<Pattern>(description->color), textures);
   }
@@ -15,7 +15,7 @@ PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& 
 
   const bool gapless = pattern ? pattern->opaque() : color.a == 1;
   opaque = gapless && description->transparency == 0;
-  plain = opaque && !pattern && !bump && description->reflectivity <= 0;
+  ends_paths = opaque && description->reflectivity <= 0;
   const Color& absorption = description->absorption;
   absorbing = !opaque && (absorption.r > 0 || absorption.g > 0 || absorption.b > 0);
 }
