@@ -49,10 +49,8 @@ void set_material(const PreparedMaterial& material, const Rgb& color, double tra
   surfaces.shininess[i] = material.description->shininess;
 }
 
-}  // namespace
-
-void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-             const SurfaceLane& surface) {
+void look_up_one(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
+                 const SurfaceLane& surface) {
   const PreparedMaterial& material = *surface.hit().material;
   HitPoint point;
   data.hit_point(ray, hit, material.pattern || material.bump, point);
@@ -100,6 +98,22 @@ void look_up_uniform(const PreparedData& data, std::span<const WorldRay, lane_co
     set_material(material, rgb(material.color), hit.transparency, lane, group.phong);
     hit.start = data.start_face(hits[lane], side_before(hits[lane]));
     hit.start.t_error = start_errors[static_cast<int>(lane)];
+  });
+}
+
+}  // namespace
+
+void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
+             std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work) {
+  RayMask uniform = 0;
+  for_each_ray(seen, [&](std::size_t lane) {
+    const PreparedMaterial& material = data.materials()[data.hit_material(hits[lane])];
+    group.hits[lane].material = &material;
+    uniform |= static_cast<RayMask>(material.uniform()) << lane;
+  });
+  if (uniform != 0) look_up_uniform(data, rays, hits, uniform, group);
+  for_each_ray(seen & ~uniform, [&](std::size_t lane) {
+    look_up_one(data, rays[lane], hits[lane], work, {group, lane});
   });
 }
 

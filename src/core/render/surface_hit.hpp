@@ -6,15 +6,10 @@
 
 namespace crt::core {
 
-/// Looks up the place where `ray` hits, with the colour and bumps there of the surface's material, which is
-/// known already.
-void look_up(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-             const SurfaceLane& surface);
-
-/// The same for those of a group of rays that have their bit in `uniform`, whose materials are. It may write
-/// into other lanes, too.
-void look_up_uniform(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
-                     std::span<const RayHit, lane_count> hits, RayMask uniform, SurfaceGroup& group);
+/// Looks up the places where those of a group of rays hit that have their bit in `seen`, with their
+/// materials' colours and bumps there. Lanes of others may change, too.
+void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
+             std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work);
 
 /// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
 struct CrossingFilter {

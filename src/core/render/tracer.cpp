@@ -6,6 +6,7 @@
 
 #include "core/math/vector.hpp"
 #include "core/render/shadow.hpp"
+#include "core/render/surface_hit.hpp"
 
 namespace crt::core {
 
@@ -52,28 +53,29 @@ std::uint64_t shaded_from(std::size_t lamp) {
 }  // namespace
 
 Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
-    : frame_(frame), data_(frame.data()), work_(work), progress_(progress) {
+    : frame_(frame),
+      data_(frame.data()),
+      work_(work),
+      progress_(progress),
+      has_transparency_(frame.features().transparency) {
   for (SampleWork& sample : work.samples) {
     sample.media.release(0);
     camera_media_ = nested(sample.media, frame.camera_media());
     camera_media_mark_ = sample.media.mark();
+    sample.pending.clear();
+    sample.goes_on = false;
   }
-  for (std::size_t i = 0; i < packet_size; ++i) seen_[i].hit = &hits_[i];
 }
 
 void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
                    std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    SampleWork& work = work_.samples[i];
-    work.media.release(camera_media_mark_);
-    work.pending.clear();
-    work.goes_on = false;
-    work.rays = 1;
     samples[i] = {};
-    round_->works[i] = &work;
     round_->samples[i] = &samples[i];
-    start_path(rays[i], work.media, round_->rays[i], round_->paths[i]);
+    round_->works[i] = &work_.samples[i];
+    start_path(i, rays[i]);
   }
+  work_.stats.camera_rays += rays.size();
   round_->count = rays.size();
   while (round_->count > 0) {
     follow();
@@ -82,14 +84,20 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
   }
 }
 
-void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path) {
-  Frame::eye_ray(camera_ray, ray);
-  path = {.media = camera_media_};
-  if (frame_.features().transparency && !frame_.one_viewpoint()) {
-    find_surrounding_media(data_, ray, work_.surrounding, work_);
-    path.media = nested(media, work_.surrounding);
+void Tracer::start_path(std::size_t ray, const CameraRay& camera_ray) {
+  SampleWork& work = *round_->works[ray];
+  PathState& path = round_->paths[ray];
+  work.rays = 1;
+  Frame::eye_ray(camera_ray, round_->rays[ray]);
+  path = {};
+  if (!has_transparency_) return;
+  work.media.release(camera_media_mark_);
+  path.media = camera_media_;
+  if (!frame_.one_viewpoint()) {
+    find_surrounding_media(data_, round_->rays[ray], work_.surrounding, work_);
+    path.media = nested(work.media, work_.surrounding);
   }
-  path.media_mark = media.mark();
+  path.media_mark = work.media.mark();
 }
 
 void Tracer::follow() {
@@ -101,81 +109,68 @@ void Tracer::follow() {
 
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    Seen& seen = seen_[i];
-    seen.work = round_->works[i];
-    seen.sample = round_->samples[i];
-    seen.ray = &rays[i];
-    seen.path = &round_->paths[i];
-    const bool ask_alone = !together || (hits_[i].has_company && frame_.features().transparency);
+    const bool ask_alone = !together || (hits_[i].has_company && has_transparency_);
     if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
-    on_surface |= static_cast<RayMask>(see(seen, surface(i))) << i;
+    on_surface |= static_cast<RayMask>(see(i)) << i;
   }
   look_up_each(on_surface);
   add_light(on_surface);
   next_round_->count = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const Seen& seen = seen_[i];
     if ((on_surface >> i & 1u) != 0) {
-      seen.sample->color += seen.weight * surface(i).light();
-      if (!surface(i).hit().material->ends_paths) split(seen, surface(i));
+      round_->samples[i]->color += round_->paths[i].weight * surface(i).light();
+      if (!surface(i).hit().material->ends_paths) split(i);
     }
-    go_on(seen);
+    if (!round_->works[i]->is_done()) go_on(i);
   }
 }
 
-bool Tracer::see(Seen& seen, const SurfaceLane& surface) {
-  const PathState& path = *seen.path;
-  RenderStats& stats = work_.stats;
-  ++(path.kind == RayKind::camera       ? stats.camera_rays
-     : path.kind == RayKind::reflection ? stats.reflection_rays
-                                        : stats.refraction_rays);
-  if (seen.hit->has_company && frame_.features().transparency) *seen.hit = seen_of(*seen.ray, *seen.hit);
-  seen.weight = path.weight;
-  if (!pass_medium(seen)) return false;
-  if (!seen.hit->found()) {
-    see_background(seen);
+bool Tracer::see(std::size_t ray) {
+  RayHit& hit = hits_[ray];
+  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays[ray], hit);
+  if (!pass_medium(ray)) return false;
+  if (!hit.found()) {
+    see_background(ray);
     return false;
   }
-  const PreparedMaterial& material = data_.materials()[data_.hit_material(*seen.hit)];
-  surface.hit().material = &material;
-  surface.group.light.set(surface.lane, ambient_light(frame_.ambient(), material.description->reflectivity));
-  surface.group.path_length[static_cast<int>(surface.lane)] = path.path_length + seen.hit->t;
-  if (identifies_) note(*seen.sample, met(data_, *seen.hit, path.kind));
+  if (identifies_) note(*round_->samples[ray], met(data_, hit, round_->paths[ray].kind));
   return true;
 }
 
 void Tracer::look_up_each(RayMask on_surface) {
   for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
-    RayMask uniform = 0;
-    RayMask others = 0;
     SurfaceGroup& group = surfaces_[first / lane_count];
-    for_each_ray(on_surface >> first & group_mask, [&](std::size_t lane) {
-      (group.hits[lane].material->uniform() ? uniform : others) |= RayMask{1} << lane;
-    });
+    const RayMask seen = on_surface >> first & group_mask;
     const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
     const auto hits = std::span(hits_).subspan(first).first<lane_count>();
-    if (uniform != 0) look_up_uniform(data_, rays, hits, uniform, group);
-    for_each_ray(others, [&](std::size_t lane) {
-      look_up(data_, rays[lane], hits[lane], work_, {group, lane});
+    look_up(data_, rays, hits, seen, group, work_);
+    for_each_ray(seen, [&](std::size_t lane) {
+      const PathState& path = round_->paths[first + lane];
+      const double reflectivity = group.hits[lane].material->description->reflectivity;
+      group.light.set(lane, ambient_light(frame_.ambient(), reflectivity));
+      group.path_length[static_cast<int>(lane)] = path.path_length + hits[lane].t;
     });
   }
 }
 
-bool Tracer::pass_medium(Seen& seen) const {
-  if (!frame_.features().absorption || seen.path->media == MediaLists::empty) return true;
-  const Medium& medium = seen.work->media.innermost(seen.path->media);
-  seen.weight *= transmittance(data_.materials()[medium.material], seen.hit->t);
-  return !is_black(seen.weight);
+bool Tracer::pass_medium(std::size_t ray) {
+  PathState& path = round_->paths[ray];
+  if (path.media == MediaLists::empty || !frame_.features().absorption) return true;
+  const Medium& medium = round_->works[ray]->media.innermost(path.media);
+  path.weight *= transmittance(data_.materials()[medium.material], hits_[ray].t);
+  return !is_black(path.weight);
 }
 
-void Tracer::see_background(Seen& seen) const {
-  if (identifies_) note(*seen.sample, nothing);
-  const Color background = data_.background().color(seen.ray->direction);
-  if (seen.path->kind == RayKind::camera) {
-    seen.sample->alpha = background.a;
-    seen.sample->color += background.a * seen.weight * rgb(background);
+void Tracer::see_background(std::size_t ray) {
+  Sample& sample = *round_->samples[ray];
+  const PathState& path = round_->paths[ray];
+  if (identifies_) note(sample, nothing);
+  const Color background = data_.background().color(round_->rays[ray].direction);
+  if (path.kind == RayKind::camera) {
+    sample.alpha = background.a;
+    sample.color += background.a * path.weight * rgb(background);
   } else {
-    seen.sample->color += seen.weight * rgb(background);
+    sample.color += path.weight * rgb(background);
   }
 }
 
@@ -193,7 +188,7 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
     const Lanes end_errors = lamp_errors(surfaces.position, sample);
     for_each_ray(mask_of(lit) & on_surface >> first & group_mask, [&](std::size_t lane) {
       const std::size_t index = shadows_.count++;
-      shadows_.surfaces[index] = first + lane;
+      shadows_.rays_to[index] = first + lane;
       shadows_.lights[index] = light[lane];
       WorldRay& ray = shadows_.rays[index];
       ray.origin = surfaces.position[lane];
@@ -214,25 +209,25 @@ void Tracer::add_light(RayMask on_surface) {
     tick(static_cast<unsigned>(rays.size()));
     const RayMask hidden = data_.occluded_each(rays, work_.rays);
     for (std::size_t i = 0; i < rays.size(); ++i) {
-      const Seen& seen = seen_[shadows_.surfaces[i]];
+      const std::size_t ray = shadows_.rays_to[i];
       const bool is_hidden = (hidden >> i & 1u) != 0;
-      if (is_hidden && identifies_) note(*seen.sample, shaded_from(lamp));
-      const SurfaceLane lit = surface(shadows_.surfaces[i]);
-      const Rgb light = shadows_.lights[i] * light_share_of(rays[i], seen, is_hidden);
+      if (is_hidden && identifies_) note(*round_->samples[ray], shaded_from(lamp));
+      const SurfaceLane lit = surface(ray);
+      const Rgb light = shadows_.lights[i] * light_share_of(rays[i], ray, is_hidden);
       lit.group.light.set(lit.lane, lit.light() + light);
     }
     ++lamp;
   }
 }
 
-Rgb Tracer::light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden) {
-  const Features& features = frame_.features();
+Rgb Tracer::light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hidden) {
+  const MediaLists::List media = round_->paths[ray].media;
   if (!hidden) {
-    if (!features.absorption || seen.path->media == MediaLists::empty) return Rgb(1);
-  } else if (!features.transparency) {
+    if (media == MediaLists::empty || !frame_.features().absorption) return Rgb(1);
+  } else if (!has_transparency_) {
     return Rgb(0);
   }
-  return light_share(data_, shadow_ray, seen.work->media, seen.path->media, work_);
+  return light_share(data_, shadow_ray, round_->works[ray]->media, media, work_);
 }
 
 RayHit Tracer::seen_of(const WorldRay& ray, const RayHit& hit) {
