@@ -40,13 +40,15 @@ Side side_before(const RayHit& hit) {
   return hit.entering ? Side::outside : Side::inside;
 }
 
-void set_material(const PreparedMaterial& material, const Rgb& color, double transparency, std::size_t lane,
+/// In some of the lanes.
+void set_material(const PreparedMaterial& material, const Rgb& color, double transparency, RayMask lanes,
                   PhongSurfaces& surfaces) {
-  const int i = static_cast<int>(lane);
-  surfaces.color.set(lane, color);
-  surfaces.diffuse[i] = material.diffuse(transparency);
-  surfaces.specular[i] = material.description->specular;
-  surfaces.shininess[i] = material.description->shininess;
+  const LaneMask mask = lanes_with(lanes);
+  const auto set = [&](Lanes& values, double value) { values = mask ? lanes_of(value) : values; };
+  surfaces.color = chosen(mask, lanes_of(color), surfaces.color);
+  set(surfaces.diffuse, material.diffuse(transparency));
+  set(surfaces.specular, material.description->specular);
+  set(surfaces.shininess, material.description->shininess);
 }
 
 void look_up_one(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
@@ -61,7 +63,7 @@ void look_up_one(const PreparedData& data, const WorldRay& ray, const RayHit& hi
 
   SurfaceGroup& group = surface.group;
   PhongSurfaces& phong = group.phong;
-  set_material(material, rgb(color), transparency, surface.lane, phong);
+  set_material(material, rgb(color), transparency, RayMask{1} << surface.lane, phong);
   phong.view.set(surface.lane, ray.direction);
   const double to_viewer = point.entering ? 1 : -1;
   const Vec3 face_normal = to_viewer * point.normal;
@@ -93,12 +95,21 @@ void look_up_uniform(const PreparedData& data, std::span<const WorldRay, lane_co
   const Lanes start_errors = start_rounding * largest_component(lines.at(t));
   for_each_ray(uniform, [&](std::size_t lane) {
     SurfaceHit& hit = group.hits[lane];
-    const PreparedMaterial& material = *hit.material;
-    hit.transparency = material.opaque ? 0 : material.transparency(material.color.a);
-    set_material(material, rgb(material.color), hit.transparency, lane, group.phong);
     hit.start = data.start_face(hits[lane], side_before(hits[lane]));
     hit.start.t_error = start_errors[static_cast<int>(lane)];
   });
+  for (RayMask to_come = uniform; to_come != 0;) {
+    const PreparedMaterial& material = *group.hits[first_ray(to_come)].material;
+    const double transparency = material.opaque ? 0 : material.transparency(material.color.a);
+    RayMask alike = 0;
+    for_each_ray(to_come, [&](std::size_t lane) {
+      if (group.hits[lane].material != &material) return;
+      group.hits[lane].transparency = transparency;
+      alike |= RayMask{1} << lane;
+    });
+    set_material(material, rgb(material.color), transparency, alike, group.phong);
+    to_come &= ~alike;
+  }
 }
 
 }  // namespace

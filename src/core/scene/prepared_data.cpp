@@ -1,7 +1,6 @@
 #include "core/scene/prepared_data.hpp"
 
 #include <algorithm>
-#include <bit>
 #include <chrono>
 #include <climits>
 #include <cmath>
@@ -81,6 +80,8 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
     geometry_ = std::make_shared<const Geometry>(scene, compile(scene.entities, scene.settings.precision));
   }
   accelerator_ = &geometry_->accelerator;
+  leaves_ = accelerator_->compiled().leaves;
+  face_surfaces_ = accelerator_->compiled().face_surfaces;
   for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
   for (const PreparedMaterial& material : materials_) opaque_.push_back(material.opaque);
   background_ = std::make_unique<PreparedBackground>(scene.background, textures_);
@@ -157,7 +158,7 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
 }
 
 void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const {
-  const Leaf& leaf = accelerator_->leaf(hit.leaf);
+  const Leaf& leaf = leaves_[hit.leaf];
   const SurfacePoint surface = accelerator_->surface_point(ray, hit, with_uv);
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);
@@ -180,8 +181,8 @@ void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
                               std::span<const RayHit, lane_count> hits, const RayLanes& lines,
                               const Lanes& t, RayMask wanted, SurfacePointLanes& points) const {
   while (wanted != 0) {
-    const RayHit& first = hits[static_cast<std::size_t>(std::countr_zero(wanted))];
-    const Leaf& leaf = accelerator_->leaf(first.leaf);
+    const RayHit& first = hits[first_ray(wanted)];
+    const Leaf& leaf = leaves_[first.leaf];
     RayMask alike = 0;
     FaceLanes faces;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
@@ -207,24 +208,8 @@ void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
   }
 }
 
-std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
-  return accelerator_->leaf(hit.leaf).material;
-}
-
-std::uint32_t PreparedData::entity_id(const RayHit& hit) const {
-  return accelerator_->leaf(hit.leaf).entity_id;
-}
-
 bool PreparedData::is_solid(const RayHit& hit) const {
   return accelerator_->object(hit.object).solid;
-}
-
-StartPoint PreparedData::start_face(const RayHit& hit, Side side) const {
-  const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const FaceSurface& face = accelerator_->face_surface(leaf, hit.face);
-  // `side` is of the object; a cutter and a flipped face each turn it round once.
-  if (leaf.complemented != face.flipped) side = opposite(side);
-  return {.leaf = hit.leaf, .face = hit.face, .surface = face.surface, .side = side};
 }
 
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
@@ -239,10 +224,6 @@ StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Sid
 
 const CompiledScene& PreparedData::compiled() const {
   return accelerator_->compiled();
-}
-
-const Leaf& PreparedData::leaf(const HitPoint& point) const {
-  return accelerator_->leaf(point.leaf);
 }
 
 }  // namespace crt::core
