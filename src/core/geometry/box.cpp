@@ -100,19 +100,14 @@ SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& cross
   return result;
 }
 
-bool BoxShape::surface_points(const RayLanes& rays, const Lanes& t, const FaceLanes& faces,
+bool BoxShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face_index,
                               SurfacePointLanes& points) const {
+  const PlaneFace& face = faces_[face_index];
   const VectorLanes size = lanes_of(upper_ - lower_);
   const VectorLanes offset = min(size, max(rays.from_center(lower_, t), {}));
   points.position = min(lanes_of(upper_), lanes_of(lower_) + offset);
-  for (std::size_t lane = 0; lane < faces.size(); ++lane) {
-    const PlaneFace& face = faces_[faces[lane]];
-    const int across = face.axis();
-    Vec3 position = points.position[lane];
-    position[across] = face.position()[across];
-    points.position.set(lane, position);
-    points.normal.set(lane, face.unit_normal());
-  }
+  points.position[face.axis()] = lanes_of(face.position()[face.axis()]);
+  points.normal = lanes_of(face.unit_normal());
   return true;
 }
 

@@ -40,7 +40,7 @@ SurfacePoint PlaneShape::surface_point(const ObjectRay& ray, const Crossing& cro
           .v = glm::dot(relative, axes_.v)};
 }
 
-bool PlaneShape::surface_points(const RayLanes& rays, const Lanes& t, const FaceLanes& /*faces*/,
+bool PlaneShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t /*face*/,
                                 SurfacePointLanes& points) const {
   const Vec3& place = face_.position();
   points.normal = lanes_of(face_.unit_normal());

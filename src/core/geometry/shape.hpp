@@ -7,7 +7,6 @@
 #pragma once
 
 #include <algorithm>
-#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -48,9 +47,6 @@ struct SurfacePoint {
   double u = 0;
   double v = 0;
 };
-
-/// The number of a face for each lane.
-using FaceLanes = std::array<std::uint32_t, lane_count>;
 
 /// Of as many points as there are lanes, without u and v.
 struct SurfacePointLanes {
@@ -105,8 +101,9 @@ class Shape {
   virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
                                      bool with_uv = true) const = 0;
 
-  /// The same where as many rays as there are lanes cross, to the last bit; false if that is not told here.
-  virtual bool surface_points(const RayLanes& /*rays*/, const Lanes& /*t*/, const FaceLanes& /*faces*/,
+  /// The same where as many rays as there are lanes cross one face, to the last bit; false if that is not
+  /// told here.
+  virtual bool surface_points(const RayLanes& /*rays*/, const Lanes& /*t*/, std::uint32_t /*face*/,
                               SurfacePointLanes& /*points*/) const {
     return false;
   }

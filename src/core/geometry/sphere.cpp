@@ -86,7 +86,7 @@ SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& cr
   return result;
 }
 
-bool SphereShape::surface_points(const RayLanes& rays, const Lanes& t, const FaceLanes& /*faces*/,
+bool SphereShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t /*face*/,
                                  SurfacePointLanes& points) const {
   const VectorLanes offset = rays.from_center(center_, t);
   const LaneMask is_apart = largest_component(offset) > 0.0;

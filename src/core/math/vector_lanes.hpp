@@ -13,8 +13,11 @@ struct VectorLanes {
   Lanes y{};
   Lanes z{};
 
-  Vec3 operator[](std::size_t lane) const {
-    const int i = static_cast<int>(lane);
+  /// By axis.
+  Lanes& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  Vec3 lane(std::size_t index) const {
+    const int i = static_cast<int>(index);
     return {x[i], y[i], z[i]};
   }
   void set(std::size_t lane, const Vec3& v) {
@@ -100,7 +103,7 @@ inline DirectionsAndLengths directions_and_lengths(const VectorLanes& v) {
   }
   DirectionsAndLengths result;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const DirectionAndLength one = direction_and_length(v[lane]);
+    const DirectionAndLength one = direction_and_length(v.lane(lane));
     result.directions.set(lane, one.direction);
     result.lengths[static_cast<int>(lane)] = one.length;
   }

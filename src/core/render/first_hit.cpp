@@ -6,18 +6,11 @@
 namespace crt::core {
 
 void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
-  RayMask found = 0;
-  bool all_seen = true;
-  for (std::size_t i = 0; i < first_hits.size(); ++i) {
-    if (!hits_[i].found()) continue;
-    found |= RayMask{1} << i;
-    all_seen = all_seen && !is_black(round_->paths[i].weight);
-  }
-  // Behind a medium that lets nothing through surfaces have not been looked up.
-  if (!all_seen) look_up_each(found);
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
     first_hits[i] = {};
-    if ((found >> i & 1u) == 0) continue;
+    if (!hits_[i].found()) continue;
+    // Behind a medium that lets nothing through the surface has not been looked up.
+    if (is_black(round_->paths[i].weight)) look_up_each(RayMask{1} << i);
     first_hits[i] = {.normal = surface(i).normal(), .color = surface(i).color()};
   }
 }

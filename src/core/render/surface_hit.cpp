@@ -35,11 +35,6 @@ double left_of(double absorption, double length) {
   return absorption > 0 ? std::exp(-absorption * length) : 1;
 }
 
-/// Of a surface as the ray that hits it sees it.
-Side side_before(const RayHit& hit) {
-  return hit.entering ? Side::outside : Side::inside;
-}
-
 /// In some of the lanes.
 void set_material(const PreparedMaterial& material, const Rgb& color, double transparency, RayMask lanes,
                   PhongSurfaces& surfaces) {
@@ -59,73 +54,66 @@ void look_up_one(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   const Color color = material_color(material, point, work.stats);
   const double transparency = material.opaque ? 0 : material.transparency(color.a);
   surface.hit().transparency = transparency;
-  surface.hit().start = data.start_point(ray, hit, side_before(hit));
 
   SurfaceGroup& group = surface.group;
-  PhongSurfaces& phong = group.phong;
-  set_material(material, rgb(color), transparency, RayMask{1} << surface.lane, phong);
-  phong.view.set(surface.lane, ray.direction);
+  set_material(material, rgb(color), transparency, RayMask{1} << surface.lane, group.phong);
   const double to_viewer = point.entering ? 1 : -1;
   const Vec3 face_normal = to_viewer * point.normal;
   group.position.set(surface.lane, point.position);
   group.face_normal.set(surface.lane, face_normal);
   if (material.bump) {
     const Vec3 bumped = to_viewer * bumped_normal(data, material, point, work);
-    phong.normal.set(surface.lane, visible_normal(bumped, ray.direction));
+    group.phong.normal.set(surface.lane, visible_normal(bumped, ray.direction));
   } else {
-    phong.normal.set(surface.lane, face_normal);
+    group.phong.normal.set(surface.lane, face_normal);
   }
 }
 
-void look_up_uniform(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
-                     std::span<const RayHit, lane_count> hits, RayMask uniform, SurfaceGroup& group) {
-  const RayLanes lines = ray_lanes(rays);
-  const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
-  SurfacePointLanes points;
-  data.hit_points(rays, hits, lines, t, uniform, points);
-  group.position = points.position;
-  std::uint32_t entering = 0;
+/// Those of a group of rays that hit the same face of the same leaf, from the same side.
+RayMask rays_like(const RayHit& first, std::span<const RayHit, lane_count> hits) {
+  RayMask alike = 0;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    entering |= static_cast<std::uint32_t>(hits[lane].entering) << lane;
+    const RayHit& hit = hits[lane];
+    const bool is_alike =
+        hit.leaf == first.leaf && hit.face == first.face && hit.entering == first.entering;
+    alike |= static_cast<RayMask>(is_alike) << lane;
   }
-  group.face_normal = chosen(lanes_with(entering), points.normal, -points.normal);
-  group.phong.normal = group.face_normal;
-  group.phong.view = lines.direction;
-
-  const Lanes start_errors = start_rounding * largest_component(lines.at(t));
-  for_each_ray(uniform, [&](std::size_t lane) {
-    SurfaceHit& hit = group.hits[lane];
-    hit.start = data.start_face(hits[lane], side_before(hits[lane]));
-    hit.start.t_error = start_errors[static_cast<int>(lane)];
-  });
-  for (RayMask to_come = uniform; to_come != 0;) {
-    const PreparedMaterial& material = *group.hits[first_ray(to_come)].material;
-    const double transparency = material.opaque ? 0 : material.transparency(material.color.a);
-    RayMask alike = 0;
-    for_each_ray(to_come, [&](std::size_t lane) {
-      if (group.hits[lane].material != &material) return;
-      group.hits[lane].transparency = transparency;
-      alike |= RayMask{1} << lane;
-    });
-    set_material(material, rgb(material.color), transparency, alike, group.phong);
-    to_come &= ~alike;
-  }
+  return alike;
 }
 
 }  // namespace
 
 void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
              std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work) {
-  RayMask uniform = 0;
-  for_each_ray(seen, [&](std::size_t lane) {
-    const PreparedMaterial& material = data.materials()[data.hit_material(hits[lane])];
-    group.hits[lane].material = &material;
-    uniform |= static_cast<RayMask>(material.uniform()) << lane;
-  });
-  if (uniform != 0) look_up_uniform(data, rays, hits, uniform, group);
-  for_each_ray(seen & ~uniform, [&](std::size_t lane) {
-    look_up_one(data, rays[lane], hits[lane], work, {group, lane});
-  });
+  const RayLanes lines = ray_lanes(rays);
+  const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
+  const Lanes start_errors = start_rounding * largest_component(lines.at(t));
+  group.phong.view = lines.direction;
+  for (RayMask to_come = seen; to_come != 0;) {
+    const RayHit& hit = hits[first_ray(to_come)];
+    const RayMask alike = rays_like(hit, hits) & to_come;
+    to_come &= ~alike;
+    const PreparedMaterial& material = data.materials()[data.hit_material(hit)];
+    const double transparency = material.opaque ? 0 : material.transparency(material.color.a);
+    const StartPoint start = data.start_face(hit, hit.entering ? Side::outside : Side::inside);
+    for_each_ray(alike, [&](std::size_t lane) {
+      group.hits[lane] = {&material, transparency, start};
+      group.hits[lane].start.t_error = start_errors[static_cast<int>(lane)];
+    });
+    if (!material.uniform()) {
+      for_each_ray(alike, [&](std::size_t lane) {
+        look_up_one(data, rays[lane], hits[lane], work, {group, lane});
+      });
+      continue;
+    }
+    SurfacePointLanes points;
+    data.hit_points(rays, hits, lines, t, alike, points);
+    const LaneMask lanes = lanes_with(alike);
+    group.position = chosen(lanes, points.position, group.position);
+    group.face_normal = chosen(lanes, hit.entering ? points.normal : -points.normal, group.face_normal);
+    group.phong.normal = chosen(lanes, group.face_normal, group.phong.normal);
+    set_material(material, rgb(material.color), transparency, alike, group.phong);
+  }
 }
 
 CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,

@@ -7,7 +7,7 @@
 namespace crt::core {
 
 /// Looks up the places where those of a group of rays hit that have their bit in `seen`, with their
-/// materials' colours and bumps there. Lanes of others may change, too.
+/// materials' colours and bumps there.
 void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
              std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work);
 

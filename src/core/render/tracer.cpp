@@ -189,10 +189,10 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
     for_each_ray(mask_of(lit) & on_surface >> first & group_mask, [&](std::size_t lane) {
       const std::size_t index = shadows_.count++;
       shadows_.rays_to[index] = first + lane;
-      shadows_.lights[index] = light[lane];
+      shadows_.lights[index] = light.lane(lane);
       WorldRay& ray = shadows_.rays[index];
-      ray.origin = surfaces.position[lane];
-      ray.direction = sample.directions[lane];
+      ray.origin = surfaces.position.lane(lane);
+      ray.direction = sample.directions.lane(lane);
       ray.t_max = sample.distances[static_cast<int>(lane)];
       ray.start = surfaces.hits[lane].start;
       ray.end_error = end_errors[static_cast<int>(lane)];

@@ -179,33 +179,19 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
 
 void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
                               std::span<const RayHit, lane_count> hits, const RayLanes& lines,
-                              const Lanes& t, RayMask wanted, SurfacePointLanes& points) const {
-  while (wanted != 0) {
-    const RayHit& first = hits[first_ray(wanted)];
-    const Leaf& leaf = leaves_[first.leaf];
-    RayMask alike = 0;
-    FaceLanes faces;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const bool is_alike = hits[lane].leaf == first.leaf;
-      faces[lane] = is_alike ? hits[lane].face : first.face;
-      alike |= static_cast<RayMask>(is_alike) << lane;
-    }
-    alike &= wanted;
-    wanted &= ~alike;
-    SurfacePointLanes found;
-    if (leaf.placement->is_identity() && leaf.shape->surface_points(lines, t, faces, found)) {
-      const LaneMask chosen_lanes = lanes_with(alike);
-      points.position = chosen(chosen_lanes, found.position, points.position);
-      points.normal = chosen(chosen_lanes, leaf.complemented ? -found.normal : found.normal, points.normal);
-      continue;
-    }
-    for_each_ray(alike, [&](std::size_t lane) {
-      const SurfacePoint point = accelerator_->surface_point(rays[lane], hits[lane], false);
-      points.position.set(lane, leaf.placement->point_to_world(point.position));
-      points.normal.set(lane,
-                        leaf.placement->normal_to_world(leaf.complemented ? -point.normal : point.normal));
-    });
+                              const Lanes& t, RayMask alike, SurfacePointLanes& points) const {
+  const RayHit& first = hits[first_ray(alike)];
+  const Leaf& leaf = leaves_[first.leaf];
+  const Placement& placement = *leaf.placement;
+  if (placement.is_identity() && leaf.shape->surface_points(lines, t, first.face, points)) {
+    if (leaf.complemented) points.normal = -points.normal;
+    return;
   }
+  for_each_ray(alike, [&](std::size_t lane) {
+    const SurfacePoint point = accelerator_->surface_point(rays[lane], hits[lane], false);
+    points.position.set(lane, placement.point_to_world(point.position));
+    points.normal.set(lane, placement.normal_to_world(leaf.complemented ? -point.normal : point.normal));
+  });
 }
 
 bool PreparedData::is_solid(const RayHit& hit) const {

@@ -137,10 +137,10 @@ class PreparedData {
     return point;
   }
 
-  /// Places and outward normals alone, in the world: of those hits of a group of rays that have their bit in
-  /// `wanted`.
+  /// Places and outward normals alone, in the world: where those of a group of rays that have their bit in
+  /// `alike` hit one face of one leaf, each at its t. `lines` are those of all the group.
   void hit_points(std::span<const WorldRay, lane_count> rays, std::span<const RayHit, lane_count> hits,
-                  const RayLanes& lines, const Lanes& t, RayMask wanted, SurfacePointLanes& points) const;
+                  const RayLanes& lines, const Lanes& t, RayMask alike, SurfacePointLanes& points) const;
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const { return leaves_[hit.leaf].material; }
