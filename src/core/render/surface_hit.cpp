@@ -74,8 +74,7 @@ RayMask rays_like(const RayHit& first, std::span<const RayHit, lane_count> hits)
   RayMask alike = 0;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const RayHit& hit = hits[lane];
-    const bool is_alike =
-        hit.leaf == first.leaf && hit.face == first.face && hit.entering == first.entering;
+    const bool is_alike = hit.leaf == first.leaf && hit.face == first.face && hit.entering == first.entering;
     alike |= static_cast<RayMask>(is_alike) << lane;
   }
   return alike;

@@ -178,8 +178,8 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
 }
 
 void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
-                              std::span<const RayHit, lane_count> hits, const RayLanes& lines,
-                              const Lanes& t, RayMask alike, SurfacePointLanes& points) const {
+                              std::span<const RayHit, lane_count> hits, const RayLanes& lines, const Lanes& t,
+                              RayMask alike, SurfacePointLanes& points) const {
   const RayHit& first = hits[first_ray(alike)];
   const Leaf& leaf = leaves_[first.leaf];
   const Placement& placement = *leaf.placement;
