@@ -262,9 +262,15 @@ void Accelerator::traverse_filtered(RayPacket& packet, RayMask going, std::span<
     }
   }
   if (tree_ && going != 0) {
-    tree_->traverse(packet, going, [&](std::uint32_t box, RayMask rays) {
-      return test(bounded_.list[box], bounded_.axes, rays);
-    });
+    if (std::optional<Shaft> shaft = Shaft::around(packet, bounded_box_)) {
+      shaft_tree_.traverse(*shaft, [&](std::uint32_t box) {
+        if (test(bounded_.list[box], bounded_.axes, going) != 0) shaft->set_limits(packet);
+      });
+    } else {
+      tree_->traverse(packet, going, [&](std::uint32_t box, RayMask rays) {
+        return test(bounded_.list[box], bounded_.axes, rays);
+      });
+    }
   }
   if (!planes_last) return;
   for (const Outline& outline : unbounded_.list) {
