@@ -2,9 +2,12 @@
 // one by one. Vectors of GCC and Clang, which turn them into what the machine has.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+
+#include "core/math/vector.hpp"
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -42,12 +45,20 @@ inline Lanes lanes_of(double value) {
 
 // Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
 
-/// Whether a comparison is true in all lanes.
+/// Whether a comparison is true in all lanes, or in any.
 inline bool all(const LaneMask& mask) {
 #ifdef __AVX__
   return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) == (1 << lane_count) - 1;
 #else
   return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+#endif
+}
+
+inline bool any(const LaneMask& mask) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 #endif
 }
 
@@ -89,12 +100,58 @@ inline Lanes sqrt(const Lanes& a) {
 }
 
 inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
+#ifdef __FMA__
+  return _mm256_fmadd_pd(a, b, c);
+#else
   Lanes result;
   for (int i = 0; i < lane_count; ++i) result[i] = std::fma(a[i], b[i], c[i]);
   return result;
+#endif
 }
 
-/// The absolute value, of a double or of lanes.
+// Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles gives a
+// bool, and comparing lanes a mask of lanes.
+
+using std::fma;
+
+inline bool all(bool a) {
+  return a;
+}
+inline bool any(bool a) {
+  return a;
+}
+
+inline bool both(bool a, bool b) {
+  return a && b;
+}
+inline LaneMask both(const LaneMask& a, const LaneMask& b) {
+  return a & b;
+}
+inline bool either(bool a, bool b) {
+  return a || b;
+}
+inline LaneMask either(const LaneMask& a, const LaneMask& b) {
+  return a | b;
+}
+template <class Mask, class... More>
+Mask either(const Mask& a, const Mask& b, const More&... more) {
+  return either(either(a, b), more...);
+}
+inline bool neither(bool a, bool b) {
+  return !a && !b;
+}
+inline LaneMask neither(const LaneMask& a, const LaneMask& b) {
+  return ~(a | b);
+}
+
+inline double square_root(double x) {
+  return std::sqrt(x);
+}
+inline Lanes square_root(const Lanes& x) {
+  return sqrt(x);
+}
+
+/// The absolute value.
 inline double size_of(double x) {
   return std::abs(x);
 }
@@ -106,6 +163,29 @@ inline Lanes size_of(const Lanes& x) {
   for (int i = 0; i < lane_count; ++i) result[i] = std::abs(x[i]);
   return result;
 #endif
+}
+
+/// Vec3, or one whose components are lanes. What there is for the former in core/math/vector.hpp and of GLM:
+template <class Real>
+using Vec3Of = glm::vec<3, Real>;
+
+inline Lanes dot(const Vec3Of<Lanes>& a, const Vec3Of<Lanes>& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline Lanes largest_component(const Vec3Of<Lanes>& v) {
+  return max(max(size_of(v.x), size_of(v.y)), size_of(v.z));
+}
+
+inline Lanes rounding_of(const Lanes& x) {
+  return unit_roundoff * size_of(x);
+}
+
+inline Lanes power_of_two_below(const Lanes& x) {
+  constexpr long long exponent_bits = 0x7ff0000000000000;
+  constexpr long long smallest = 0x0010000000000000;
+  const LaneMask power = reinterpret_cast<LaneMask>(x) & exponent_bits;
+  return reinterpret_cast<Lanes>(power > smallest ? power : LaneMask{} + smallest);
 }
 
 /// Of vectors by component, of doubles or of lanes.

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/sphere.hpp"
 #include "core/scene/accelerator.hpp"
+#include "core/scene/certain_end.hpp"
 
 namespace crt::core {
 
@@ -19,34 +19,17 @@ namespace crt::core {
 template <class Kind>
 class ObjectQuery {
  public:
-  ObjectQuery() = default;
-  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work) {
-    start(accelerator, ray, work);
-  }
-  void start(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work) {
-    accelerator_ = &accelerator;
-    ray_ = &ray;
-    work_ = &work;
-    limit_ = ray.t_max;
-  }
+  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
+      : accelerator_(accelerator), ray_(ray), work_(work), limit_(ray.t_max) {}
 
   /// Nothing at t > limit() matters any more; below t_min, the query is done.
   double limit() const { return limit_; }
   void set_limit(double limit) { limit_ = limit; }
-  const WorldRay& ray() const { return *ray_; }
-
-  void test(const Outline& outline) {
-    const bool outline_will_do = outline.kind == Outline::Kind::sphere && outline.detail != nothing;
-    if (outline_will_do && ray_->start.surface != outline.surface) {
-      test_sphere(outline);
-    } else {
-      test(outline.object);
-    }
-  }
+  const WorldRay& ray() const { return ray_; }
 
   void test(std::uint32_t object_index) {
-    ++work_->intersection_tests;
-    const SceneObject& object = accelerator_->object(object_index);
+    ++work_.intersection_tests;
+    const SceneObject& object = accelerator_.object(object_index);
     if (object.is_csg()) {
       test_csg(object_index, object);
     } else {
@@ -59,7 +42,7 @@ class ObjectQuery {
 
   /// Whether a crossing is before the ray's end and not at it.
   bool is_on_way(const RayHit& hit) const {
-    return hit.t < certain_end(*ray_) || (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
+    return hit.t < certain_end(ray_) || (hit.t < ray_.t_max && !accelerator_.is_at_end(ray_, hit));
   }
 
   bool begin(std::uint32_t /*object*/, bool /*starts_inside*/) { return true; }
@@ -71,8 +54,6 @@ class ObjectQuery {
   void test_csg(std::uint32_t object_index, const SceneObject& object);
   /// By a sketch of the object; false if that leaves anything open.
   bool test_sketch(std::uint32_t object_index, const CsgProgram& program);
-  /// As test_leaf() does it, without a look at anything else that would have to be fetched from memory.
-  void test_sphere(const Outline& sphere);
 
   /// A leaf that is an object of its own, whose crossings are in the workspace.
   struct LoneLeaf {
@@ -82,56 +63,39 @@ class ObjectQuery {
     const ObjectRay& object_ray;
     bool solid;
   };
-  template <class SurfaceOf>
-  void follow(const LoneLeaf& lone, bool inside, const SurfaceOf& surface_of);
+  void follow(const LoneLeaf& lone, bool inside);
 
-  const Accelerator* accelerator_ = nullptr;
-  const WorldRay* ray_ = nullptr;
-  RayWorkspace* work_ = nullptr;
-  double limit_ = 0;
+  const Accelerator& accelerator_;
+  const WorldRay& ray_;
+  RayWorkspace& work_;
+  double limit_;
 };
 
 template <class Kind>
 void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject& object) {
-  const Leaf& leaf = accelerator_->leaf(object.first_leaf);
-  ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
-  CrossingList& crossings = work_->crossings;
+  const Leaf& leaf = accelerator_.leaf(object.first_leaf);
+  ObjectRay object_ray = accelerator_.object_ray(object.first_leaf, ray_);
+  CrossingList& crossings = work_.crossings;
   crossings.clear();
   // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
   constexpr double more_than_rounding = 0x1p-50;
-  const double start = farthest_start(*ray_);
-  object_ray.begin = ray_->t_min;
+  const double start = farthest_start(ray_);
+  object_ray.begin = ray_.t_min;
   if (Kind::takes_one) object_ray.first_above = start + more_than_rounding * std::abs(start);
-  const bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
-  follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside,
-         [&](std::uint32_t face) { return accelerator_->face_surface(leaf, face).surface; });
+  const bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations);
+  follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside);
 }
 
 template <class Kind>
-void ObjectQuery<Kind>::test_sphere(const Outline& sphere) {
-  ++work_->intersection_tests;
-  const Leaf& leaf = accelerator_->leaf(sphere.detail);
-  ObjectRay object_ray;
-  object_ray.origin = ray_->origin;
-  object_ray.direction = ray_->direction;
-  work_->crossings.clear();
-  const SphereShape shape({.center = sphere.place, .radius = sphere.radius});
-  const bool inside = shape.crossings(object_ray, work_->crossings);
-  follow({sphere.object, sphere.detail, leaf, object_ray, true}, inside,
-         [&](std::uint32_t) { return sphere.surface; });
-}
-
-template <class Kind>
-template <class SurfaceOf>
-void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside, const SurfaceOf& surface_of) {
-  const CrossingList& crossings = work_->crossings;
+void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside) {
+  const CrossingList& crossings = work_.crossings;
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = lone.object_ray.start.face != no_face;
   std::size_t index = 0;
   for (; index < crossings.size(); ++index) {
     const Crossing& crossing = crossings[index];
-    if (crossing.t > ray_->t_min &&
-        (starts_here || !is_at_start(lone.leaf, *ray_, lone.object_ray, crossing))) {
+    if (crossing.t > ray_.t_min &&
+        (starts_here || !is_at_start(lone.leaf, ray_, lone.object_ray, crossing))) {
       break;
     }
     inside = crossing.entering;
@@ -146,7 +110,7 @@ void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside, const SurfaceO
                      .object = lone.object,
                      .leaf = lone.index,
                      .face = crossing.face,
-                     .surface = surface_of(crossing.face),
+                     .surface = accelerator_.face_surface(lone.leaf, crossing.face).surface,
                      .root = crossing.root,
                      .entering = crossing.entering};
     if (!kind().take(hit)) return;
@@ -156,14 +120,14 @@ void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside, const SurfaceO
 
 template <class Kind>
 void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& object) {
-  const CompiledScene& scene = accelerator_->compiled();
+  const CompiledScene& scene = accelerator_.compiled();
   const CsgProgram& program = scene.programs[object.program];
   if constexpr (Kind::takes_one) {
     if (test_sketch(object_index, program)) return;
   }
-  WorldRay csg_ray = *ray_;
+  WorldRay csg_ray = ray_;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
-  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg);
+  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_.csg);
   bool inside = evaluation.starts_inside();
   std::uint32_t leaf = program.first_leaf;
   if (!kind().begin(object_index, inside)) return;
@@ -188,35 +152,35 @@ void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& 
 template <class Kind>
 bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const CsgProgram& program) {
   if (program.sketch.empty()) return false;
-  const CompiledScene& scene = accelerator_->compiled();
+  const CompiledScene& scene = accelerator_.compiled();
   const std::span<const Leaf> leaves =
       std::span(scene.leaves).subspan(program.first_leaf, program.leaf_count());
-  const SketchedChange change = program.sketch.first_change(*ray_, limit_, leaves, scene.face_surfaces);
+  const SketchedChange change = program.sketch.first_change(ray_, limit_, leaves, scene.face_surfaces);
   if (change.kind != SketchedChange::Kind::one) return change.kind == SketchedChange::Kind::none;
   if constexpr (Kind::any_will_do) {
-    if (change.to < certain_end(*ray_)) {
+    if (change.to < certain_end(ray_)) {
       kind().settle();
       return true;
     }
   }
   const std::uint32_t index = program.first_leaf + change.leaf;
   const Leaf& leaf = scene.leaves[index];
-  const LineSpan span = RaySlabs(ray_->origin, ray_->direction).span(leaf.bounds);
-  CrossingList& crossings = work_->crossings;
+  const LineSpan span = RaySlabs(ray_.origin, ray_.direction).span(leaf.bounds);
+  CrossingList& crossings = work_.crossings;
   crossings.clear();
-  leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings, work_->csg.escalations);
+  leaf_crossings(leaf, ray_, accelerator_.object_ray(index, ray_), crossings, work_.csg.escalations);
   for (const Crossing& crossing : crossings) {
     if (crossing.entering != change.into_leaf) continue;
     // What rounding puts next to the leaf's box is told by the box.
     if (!(crossing.t >= span.enter && crossing.t <= span.leave)) return false;
-    ++work_->csg.events;
+    ++work_.csg.events;
     kind().take({.t = crossing.t,
                  .error = crossing.error,
                  .t_low = crossing.t_low,
                  .object = object_index,
                  .leaf = index,
                  .face = crossing.face,
-                 .surface = accelerator_->face_surface(leaf, crossing.face).surface,
+                 .surface = accelerator_.face_surface(leaf, crossing.face).surface,
                  .root = crossing.root,
                  .entering = change.into_object});
     return true;
