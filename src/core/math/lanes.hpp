@@ -20,8 +20,9 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = decltype(Lanes{} < Lanes{});
 inline constexpr int lane_count = 4;
 
-/// As many floats.
+/// As many floats, and integers of their size.
 using FloatLanes = float __attribute__((vector_size(16)));
+using IntLanes = std::int32_t __attribute__((vector_size(16)));
 
 /// Each rounded to the nearest float.
 inline FloatLanes to_floats(const Lanes& a) {
@@ -71,6 +72,12 @@ inline std::uint32_t mask_of(const LaneMask& lanes) {
   for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
   return mask;
 #endif
+}
+
+/// The reverse: true in the lanes whose bit is set.
+inline LaneMask lanes_with(std::uint32_t mask) {
+  constexpr LaneMask bits = {1, 2, 4, 8};
+  return (bits & static_cast<long long>(mask)) != 0;
 }
 
 inline Lanes min(const Lanes& a, const Lanes& b) {

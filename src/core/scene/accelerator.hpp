@@ -83,8 +83,8 @@ class Accelerator {
   template <class QueryOf>
   RayMask traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
                             const QueryOf& query_of) const;
-  /// What the rays of a packet have left for good.
-  void note_left(std::span<const WorldRay> rays, RayPacket& packet) const;
+  /// On what the rays of a packet start, and what they have left for good.
+  void note_starts(std::span<const WorldRay> rays, RayPacket& packet) const;
   /// Whether the piece of a ray up to a t is where nothing but one object is that keeps apart.
   bool is_in_room(std::uint32_t object, const WorldRay& ray, double to) const;
   /// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <string>
@@ -42,6 +43,20 @@ float round_up(double value) {
 
 float round_down(double value) {
   return -round_up(-value);
+}
+
+/// round_up() of each, if it is not negative.
+FloatLanes round_up_length(const Lanes& length) {
+  const FloatLanes nearest = to_floats(length);
+  // -1 where it is true.
+  const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
+  return reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
+}
+
+/// Into a column of numbers by ray, from one on.
+template <class Numbers, class Column>
+void put(const Numbers& lanes, Column& column, std::size_t first) {
+  std::memcpy(&column[first], &lanes, sizeof lanes);
 }
 
 /// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
@@ -323,7 +338,7 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
     clip(lines, enter, leave);
     const Lanes start = max(lines.begin, enter);
     const Lanes end = min(packet.limits[group], leave);
-    const RayMask meeting = rays >> (first_ray + first) & mask_of(start <= end);
+    const RayMask meeting = RayPacket::lanes(rays, group) & mask_of(start <= end);
     some = some || meeting != 0;
     traversal.t_start[group] = start;
     // As ObjectRay::from_center() has it.
@@ -333,19 +348,14 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
           two_sum(lines.origin[axis], lanes_of(-center_[static_cast<int>(axis)]));
       place[axis] = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
     }
-    const Lanes length = (end - start) * scale_;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const auto i = static_cast<int>(lane);
-      const std::size_t ray = first + lane;
-      valid[ray] = (meeting >> lane & 1u) != 0 ? -1 : 0;
-      to_trace.org_x[ray] = static_cast<float>(place[0][i]);
-      to_trace.org_y[ray] = static_cast<float>(place[1][i]);
-      to_trace.org_z[ray] = static_cast<float>(place[2][i]);
-      to_trace.dir_x[ray] = static_cast<float>(lines.direction[0][i]);
-      to_trace.dir_y[ray] = static_cast<float>(lines.direction[1][i]);
-      to_trace.dir_z[ray] = static_cast<float>(lines.direction[2][i]);
-      to_trace.tfar[ray] = std::max(round_up(length[i]), 0.0f);
-    }
+    put(__builtin_convertvector(lanes_with(meeting), IntLanes), valid, first);
+    put(to_floats(place[0]), to_trace.org_x, first);
+    put(to_floats(place[1]), to_trace.org_y, first);
+    put(to_floats(place[2]), to_trace.org_z, first);
+    put(to_floats(lines.direction[0]), to_trace.dir_x, first);
+    put(to_floats(lines.direction[1]), to_trace.dir_y, first);
+    put(to_floats(lines.direction[2]), to_trace.dir_z, first);
+    put(round_up_length((end - start) * scale_), to_trace.tfar, first);
   }
   if (!some) return;
   for (std::size_t ray = 0; ray < Count; ++ray) {

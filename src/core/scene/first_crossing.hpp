@@ -87,16 +87,17 @@ FirstCrossing<Real> first_crossing(const Outline& outline, std::span<const Outli
 }
 
 /// As the general test has it.
-inline RayHit first_hit(const Outline& outline, std::uint32_t leaf, double t, double error, bool entering) {
+inline void write_first(const Outline& outline, std::uint32_t leaf, double t, double error, bool entering,
+                        RayHit& hit) {
   const bool is_second = outline.kind == Outline::Kind::sphere && !entering;
-  return {.t = t,
-          .error = error,
-          .object = outline.object,
-          .leaf = leaf,
-          .face = 0,
-          .surface = outline.surface,
-          .root = static_cast<std::uint8_t>(is_second),
-          .entering = entering};
+  hit = {.t = t,
+         .error = error,
+         .object = outline.object,
+         .leaf = leaf,
+         .face = 0,
+         .surface = outline.surface,
+         .root = static_cast<std::uint8_t>(is_second),
+         .entering = entering};
 }
 
 }  // namespace crt::core

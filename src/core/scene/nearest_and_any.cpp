@@ -23,8 +23,10 @@ bool test_told(Kind& query, const OutlineLine<double>& line, const Outline& outl
   const auto first = first_crossing(outline, axes, line);
   if (first.unknown) return false;
   ++work.intersection_tests;
-  if (first.found && first.t <= query.limit())
-    query.take(first_hit(outline, leaf, first.t, first.error, first.entering));
+  if (!first.found || !(first.t <= query.limit())) return true;
+  RayHit hit;
+  write_first(outline, leaf, first.t, first.error, first.entering, hit);
+  query.take(hit);
   return true;
 }
 
@@ -33,7 +35,6 @@ bool test_told(Kind& query, const OutlineLine<double>& line, const Outline& outl
 /// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
 /// is elsewhere it cannot meet before. Else it has asked nothing.
 bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
-  if (apart_.empty()) return false;
   const std::uint32_t solid = entered_apart(ray.start);
   if (solid == nothing) return false;
   Nearest query(*this, ray, work, hit);
@@ -88,7 +89,7 @@ void Accelerator::traverse_filtered(Kind& query, RayWorkspace& work) const {
 
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit best;
-  if (leaves_apart(ray, work, best)) return best;
+  if (!apart_.empty() && leaves_apart(ray, work, best)) return best;
   Nearest query(*this, ray, work, best);
   traverse_filtered(query, work);
   if (best.has_company) best = gather_company(ray, best, work);

@@ -34,16 +34,19 @@ class Nearest final : public ObjectQuery<Nearest> {
       : ObjectQuery(accelerator, ray, work), best_(best) {}
 
   bool take(const RayHit& hit) {
-    take(hit, hit.t + company_width(ray(), hit.t, hit.error));
+    take(hit.t, hit.t_low, hit.object, hit.t + company_width(ray(), hit.t, hit.error),
+         [&](RayHit& best) { best = hit; });
     return false;
   }
 
-  /// `reach` is up to where it may have company.
-  void take(const RayHit& hit, double reach) {
-    if (!(hit.t < ray().t_max)) return;
-    if (std::tie(hit.t, hit.t_low, hit.object) < std::tie(best_.t, best_.t_low, best_.object)) {
+  /// `reach` is up to where it may have company. write(hit) writes it where it stays: a copy of what has just
+  /// been written waits until that has reached the cache.
+  template <class Write>
+  void take(double t, double t_low, std::uint32_t object, double reach, const Write& write) {
+    if (!(t < ray().t_max)) return;
+    if (std::tie(t, t_low, object) < std::tie(best_.t, best_.t_low, best_.object)) {
       const bool has_company = best_.t <= reach;
-      best_ = hit;
+      write(best_);
       best_.has_company = has_company;
       set_limit(std::min(limit(), reach));
     } else {
@@ -66,7 +69,12 @@ class Any final : public ObjectQuery<Any> {
     if (is_on_way(hit)) settle();
     return false;
   }
-  void take(const RayHit& hit, double /*reach*/) { take(hit); }
+  template <class Write>
+  void take(double /*t*/, double /*t_low*/, std::uint32_t /*object*/, double /*reach*/, const Write& write) {
+    RayHit hit;
+    write(hit);
+    take(hit);
+  }
 
   void settle() {
     found = true;

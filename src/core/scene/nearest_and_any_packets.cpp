@@ -54,11 +54,11 @@ class PacketTests {
       const RayMask lanes = RayPacket::lanes(met, group);
       if (lanes == 0) continue;
       // As a hit there would have it.
-      const Lanes reach = last[group] + company_width(plain_ray(packet_.groups[group]), last[group], Lanes{});
-      for_each_ray(lanes, [&](std::size_t lane) {
-        ask(group * lane_count + lane,
-            [&](Kind& query) { query.set_limit(std::min(query.limit(), reach[static_cast<int>(lane)])); });
-      });
+      const OutlineLine<Lanes>& lines = packet_.groups[group];
+      const Lanes reach = last[group] + company_width(plain_ray(lines), last[group], Lanes{});
+      Lanes& limits = packet_.limits[group];
+      limits = both(lanes_with(lanes), reach < limits) ? reach : limits;
+      going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * lane_count));
     }
   }
 
@@ -92,8 +92,12 @@ class PacketTests {
       const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
       for_each_ray(found, [&](std::size_t lane) {
         const auto i = static_cast<int>(lane);
-        const RayHit hit = first_hit(outline, leaf, first.t[i], first.error[i], first.entering[i] != 0);
-        ask(group * lane_count + lane, [&](Kind& query) { query.take(hit, reach[i]); });
+        const double t = first.t[i];
+        const auto write = [&](RayHit& hit) {
+          write_first(outline, leaf, t, first.error[i], first.entering[i] != 0, hit);
+        };
+        ask(group * lane_count + lane,
+            [&](Kind& query) { query.take(t, 0, outline.object, reach[i], write); });
       });
     }
     return open << (group * lane_count);
@@ -136,27 +140,35 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
   return tests.going();
 }
 
-void Accelerator::note_left(std::span<const WorldRay> rays, RayPacket& packet) const {
+void Accelerator::note_starts(std::span<const WorldRay> rays, RayPacket& packet) const {
+  packet.start_surfaces.fill(nothing);
   packet.left_objects.fill(nothing);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const StartPoint& start = rays[i].start;
     if (start.leaf == nothing) continue;
+    const RayMask bit = RayMask{1} << i;
+    packet.start_surfaces[i] = start.surface;
+    packet.on_surface |= bit;
+    if (start.side == Side::outside) packet.outwards |= bit;
     // Neighbours start on the same face more often than not.
     const bool as_before = i > 0 && start.is_to_same_side(rays[i - 1].start);
-    packet.left_objects[i] = as_before ? packet.left_objects[i - 1] : left_for_good(start);
-    packet.left_some |= static_cast<RayMask>(packet.left_objects[i] != nothing) << i;
+    const std::uint32_t left = as_before ? packet.left_objects[i - 1] : left_for_good(start);
+    packet.left_objects[i] = left;
+    if (left != nothing) packet.left_some |= bit;
   }
 }
 
 void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
-  RayMask open = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    hits[i] = {};
-    if (!leaves_apart(rays[i], work, hits[i])) open |= RayMask{1} << i;
+  std::fill_n(hits.begin(), rays.size(), RayHit{});
+  RayMask open = RayPacket::all(rays.size());
+  if (!apart_.empty()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (leaves_apart(rays[i], work, hits[i])) open &= ~(RayMask{1} << i);
+    }
   }
   if (open != 0) {
     RayPacket packet(rays);
-    note_left(rays, packet);
+    note_starts(rays, packet);
     traverse_filtered(packet, open, work,
                       [&](std::size_t ray) { return Nearest(*this, rays[ray], work, hits[ray]); });
   }
@@ -169,10 +181,10 @@ void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits
 RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {
   if (rays.empty()) return 0;
   RayPacket packet(rays);
-  note_left(rays, packet);
-  const RayMask left = traverse_filtered(packet, packet.all(), work,
-                                         [&](std::size_t ray) { return Any(*this, rays[ray], work); });
-  return packet.all() & ~left;
+  note_starts(rays, packet);
+  const RayMask all = RayPacket::all(rays.size());
+  return all &
+         ~traverse_filtered(packet, all, work, [&](std::size_t ray) { return Any(*this, rays[ray], work); });
 }
 
 }  // namespace crt::core

@@ -13,11 +13,10 @@ using RayGroup = std::array<const WorldRay*, lane_count>;
 
 /// What is beyond the last ray is like it, so that no lane holds nonsense.
 RayGroup group_from(std::span<const WorldRay> rays, std::size_t first) {
-  RayGroup group;
-  for (std::size_t lane = 0; lane < group.size(); ++lane) {
-    group[lane] = &rays[std::min(first + lane, rays.size() - 1)];
-  }
-  return group;
+  const WorldRay* ray = &rays[first];
+  const std::size_t last = rays.size() - 1 - first;
+  if (last >= lane_count - 1) return {ray, ray + 1, ray + 2, ray + 3};
+  return {ray, ray + std::min<std::size_t>(1, last), ray + std::min<std::size_t>(2, last), ray + last};
 }
 
 /// One number of each.
@@ -54,22 +53,14 @@ void fill(const RayGroup& group, OutlineLine<Lanes>& lines, Lanes& limits) {
 
 }  // namespace
 
-RayPacket::RayPacket(std::span<const WorldRay> rays) : count(rays.size()) {
-  for (std::size_t group = 0; group < group_count; ++group) {
-    const std::size_t first = group * lane_count;
-    if (first < count || group == 0) {
-      fill(group_from(rays, first), groups[group], limits[group]);
-    } else {
-      groups[group] = groups[group - 1];
-      limits[group] = limits[group - 1];
-    }
+RayPacket::RayPacket(std::span<const WorldRay> rays) {
+  std::size_t group = 0;
+  for (; group * lane_count < rays.size(); ++group) {
+    fill(group_from(rays, group * lane_count), groups[group], limits[group]);
   }
-  start_surfaces.fill(nothing);
-  for (std::size_t i = 0; i < count; ++i) {
-    const StartPoint& start = rays[i].start;
-    start_surfaces[i] = start.surface;
-    on_surface |= static_cast<RayMask>(start.surface != nothing) << i;
-    outwards |= static_cast<RayMask>(start.side == Side::outside) << i;
+  for (; group < group_count; ++group) {
+    groups[group] = groups[group - 1];
+    limits[group] = limits[group - 1];
   }
 }
 

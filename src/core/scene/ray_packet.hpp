@@ -27,10 +27,9 @@ struct RayPacket {
   static constexpr std::size_t group_count = packet_size / lane_count;
   static constexpr RayMask group_mask = (1u << lane_count) - 1;
 
-  /// What rays leave behind where they start remains to be said.
+  /// There is at least one ray. On what they start remains to be set.
   explicit RayPacket(std::span<const WorldRay> rays);
 
-  std::size_t count = 0;
   std::array<OutlineLine<Lanes>, group_count> groups;
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
@@ -44,7 +43,7 @@ struct RayPacket {
   /// A group's rays, by lane.
   static RayMask lanes(RayMask rays, std::size_t group) { return rays >> (group * lane_count) & group_mask; }
 
-  RayMask all() const { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
+  static RayMask all(std::size_t count) { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
   double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
   void set_limit(std::size_t ray, double limit) {
     limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
