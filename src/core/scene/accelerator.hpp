@@ -78,7 +78,7 @@ class Accelerator {
   template <class Visit>
   void visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const;
   template <class Kind>
-  void traverse_filtered(Kind& query, RayWorkspace& work) const;
+  void traverse_filtered(Kind& query) const;
   /// Returns the rays that still go, of those which do.
   template <class QueryOf>
   RayMask traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,

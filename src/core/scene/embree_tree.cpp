@@ -281,10 +281,9 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
-void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leave) const {
+LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  enter = lanes_of(-infinity);
-  leave = lanes_of(infinity);
+  LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
   LaneMask steep{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
@@ -293,18 +292,19 @@ void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leav
     const Lanes second = (total_.upper[axis] - lines.origin[i]) * inverse;
     const Lanes low = min(first, second);
     const Lanes high = max(first, second);
-    enter = max(enter, low - RaySlabs::slack * size_of(low));
-    leave = min(leave, high + RaySlabs::slack * size_of(high));
+    span.enter = max(span.enter, low - RaySlabs::slack * size_of(low));
+    span.leave = min(span.leave, high + RaySlabs::slack * size_of(high));
     steep |= size_of(inverse) > RaySlabs::largest_inverse;
   }
   for_each_ray(mask_of(steep), [&](std::size_t ray) {
     const auto i = static_cast<int>(ray);
     const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
     const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
-    const LineSpan span = RaySlabs(origin, direction).span(total_);
-    enter[i] = span.enter;
-    leave[i] = span.leave;
+    const LineSpan of_ray = RaySlabs(origin, direction).span(total_);
+    span.enter[i] = of_ray.enter;
+    span.leave[i] = of_ray.leave;
   });
+  return span;
 }
 
 void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
@@ -333,11 +333,9 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
   for (std::size_t first = 0; first < Count; first += lane_count) {
     const std::size_t group = (first_ray + first) / lane_count;
     const OutlineLine<Lanes>& lines = packet.groups[group];
-    Lanes enter;
-    Lanes leave;
-    clip(lines, enter, leave);
-    const Lanes start = max(lines.begin, enter);
-    const Lanes end = min(packet.limits[group], leave);
+    const LineSpanLanes inside = clip(lines);
+    const Lanes start = max(lines.begin, inside.enter);
+    const Lanes end = min(packet.limits[group], inside.leave);
     const RayMask meeting = RayPacket::lanes(rays, group) & mask_of(start <= end);
     some = some || meeting != 0;
     traversal.t_start[group] = start;

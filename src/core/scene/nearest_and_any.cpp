@@ -17,23 +17,21 @@ namespace {
 /// Whether the outline alone could tell what the exact test of an object would.
 template <class Kind>
 bool test_told(Kind& query, const OutlineLine<double>& line, const Outline& outline,
-               std::span<const OutlineAxis> axes, RayWorkspace& work) {
+               std::span<const OutlineAxis> axes) {
   const std::uint32_t leaf = leaf_told(outline, axes);
   if (leaf == nothing || query.ray().start.surface == outline.surface) return false;
-  const auto first = first_crossing(outline, axes, line);
+  const FirstCrossing<double> first = first_crossing(outline, axes, line);
   if (first.unknown) return false;
-  ++work.intersection_tests;
+  ++query.work().intersection_tests;
   if (!first.found || !(first.t <= query.limit())) return true;
-  RayHit hit;
-  write_first(outline, leaf, first.t, first.error, first.entering, hit);
-  query.take(hit);
+  const double reach = first.t + company_width(plain_ray(line), first.t, first.error);
+  query.take(first.t, 0, outline.object, reach,
+             [&](RayHit& hit) { write_first(outline, leaf, first.t, first.error, first.entering, hit); });
   return true;
 }
 
 }  // namespace
 
-/// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
-/// is elsewhere it cannot meet before. Else it has asked nothing.
 bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
   const std::uint32_t solid = entered_apart(ray.start);
   if (solid == nothing) return false;
@@ -45,7 +43,7 @@ bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& 
 }
 
 template <class Kind>
-void Accelerator::traverse_filtered(Kind& query, RayWorkspace& work) const {
+void Accelerator::traverse_filtered(Kind& query) const {
   const WorldRay& ray = query.ray();
   const OutlinedRay outlined(*this, ray);
   const auto is_done = [&] { return query.limit() <= ray.t_min; };
@@ -58,7 +56,7 @@ void Accelerator::traverse_filtered(Kind& query, RayWorkspace& work) const {
         return;
       }
     }
-    if (!test_told(query, outlined.line(), outline, axes, work)) query.test(outline.object);
+    if (!test_told(query, outlined.line(), outline, axes)) query.test(outline.object);
   };
 
   // A plane that is met bounds what else matters; where exactly is only asked if nothing is before it.
@@ -68,9 +66,9 @@ void Accelerator::traverse_filtered(Kind& query, RayWorkspace& work) const {
     if (planes_last && outline.kind == Outline::Kind::plane) {
       double last = 0;
       const Judgement judgement = outlined.judge(outline, unbounded_.axes, query.limit(), last);
+      if (judgement != Judgement::met) continue;
       // As a hit there would have it.
-      const double reach = last + company_width(ray, last, 0);
-      if (judgement == Judgement::met) query.set_limit(std::min(query.limit(), reach));
+      query.set_limit(std::min(query.limit(), last + company_width(ray, last, 0)));
     } else {
       test(outline, unbounded_.axes);
     }
@@ -91,14 +89,14 @@ RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit best;
   if (!apart_.empty() && leaves_apart(ray, work, best)) return best;
   Nearest query(*this, ray, work, best);
-  traverse_filtered(query, work);
+  traverse_filtered(query);
   if (best.has_company) best = gather_company(ray, best, work);
   return best;
 }
 
 bool Accelerator::any(const WorldRay& ray, RayWorkspace& work) const {
   Any query(*this, ray, work);
-  traverse_filtered(query, work);
+  traverse_filtered(query);
   return query.found;
 }
 

@@ -26,6 +26,7 @@ class ObjectQuery {
   double limit() const { return limit_; }
   void set_limit(double limit) { limit_ = limit; }
   const WorldRay& ray() const { return ray_; }
+  RayWorkspace& work() const { return work_; }
 
   void test(std::uint32_t object_index) {
     ++work_.intersection_tests;
