@@ -32,6 +32,10 @@ constexpr float float_infinity = std::numeric_limits<float>::infinity();
 /// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
 constexpr double box_margin = 0x1p-22;
 
+/// In the same units: Embree takes no ray that starts farther away. None that does so where it should enter
+/// the box around all meets anything, but rounding may put it there.
+constexpr double farthest_place = 0x1p60;
+
 float round_up(double value) {
   const auto nearest = static_cast<float>(value);
   if (!(static_cast<double>(nearest) < value)) return nearest;
@@ -265,7 +269,9 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   ray.origin = origin;
   ray.direction = direction;
   const Vec3 start = ray.from_center(center_, t_start);
-  const auto place = [&](int axis) { return static_cast<float>(start[axis] * scale_); };
+  const auto place = [&](int axis) {
+    return static_cast<float>(std::clamp(start[axis] * scale_, -farthest_place, farthest_place));
+  };
   const auto way = [&](int axis) { return static_cast<float>(direction[axis] * direction_scale); };
   ray_hit.ray.org_x = place(0);
   ray_hit.ray.org_y = place(1);
@@ -344,7 +350,8 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const DoubleDoubleLanes offset =
           two_sum(lines.origin[axis], lanes_of(-center_[static_cast<int>(axis)]));
-      place[axis] = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
+      const Lanes at = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
+      place[axis] = max(min(at, lanes_of(farthest_place)), lanes_of(-farthest_place));
     }
     put(__builtin_convertvector(lanes_with(meeting), IntLanes), valid, first);
     put(to_floats(place[0]), to_trace.org_x, first);
