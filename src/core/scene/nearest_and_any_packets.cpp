@@ -63,12 +63,13 @@ class PacketTests {
   }
 
  private:
-  template <class Ask>
-  void ask(std::size_t ray, const Ask& ask) {
+  /// use(query) of one ray, and what it changes.
+  template <class Use>
+  void ask(std::size_t ray, const Use& use) {
     const double before = packet_.limit(ray);
     Kind query = query_of_(ray);
     query.set_limit(before);
-    ask(query);
+    use(query);
     if (query.limit() == before) return;
     packet_.set_limit(ray, query.limit());
     const RayMask bit = RayMask{1} << ray;

@@ -20,17 +20,17 @@ template <class Kind>
 class ObjectQuery {
  public:
   ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
-      : accelerator_(accelerator), ray_(ray), work_(work), limit_(ray.t_max) {}
+      : accelerator_(&accelerator), ray_(&ray), work_(&work), limit_(ray.t_max) {}
 
   /// Nothing at t > limit() matters any more; below t_min, the query is done.
   double limit() const { return limit_; }
   void set_limit(double limit) { limit_ = limit; }
-  const WorldRay& ray() const { return ray_; }
-  RayWorkspace& work() const { return work_; }
+  const WorldRay& ray() const { return *ray_; }
+  RayWorkspace& work() const { return *work_; }
 
   void test(std::uint32_t object_index) {
-    ++work_.intersection_tests;
-    const SceneObject& object = accelerator_.object(object_index);
+    ++work_->intersection_tests;
+    const SceneObject& object = accelerator_->object(object_index);
     if (object.is_csg()) {
       test_csg(object_index, object);
     } else {
@@ -43,7 +43,7 @@ class ObjectQuery {
 
   /// Whether a crossing is before the ray's end and not at it.
   bool is_on_way(const RayHit& hit) const {
-    return hit.t < certain_end(ray_) || (hit.t < ray_.t_max && !accelerator_.is_at_end(ray_, hit));
+    return hit.t < certain_end(*ray_) || (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
   }
 
   bool begin(std::uint32_t /*object*/, bool /*starts_inside*/) { return true; }
@@ -66,37 +66,37 @@ class ObjectQuery {
   };
   void follow(const LoneLeaf& lone, bool inside);
 
-  const Accelerator& accelerator_;
-  const WorldRay& ray_;
-  RayWorkspace& work_;
+  const Accelerator* accelerator_;
+  const WorldRay* ray_;
+  RayWorkspace* work_;
   double limit_;
 };
 
 template <class Kind>
 void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject& object) {
-  const Leaf& leaf = accelerator_.leaf(object.first_leaf);
-  ObjectRay object_ray = accelerator_.object_ray(object.first_leaf, ray_);
-  CrossingList& crossings = work_.crossings;
+  const Leaf& leaf = accelerator_->leaf(object.first_leaf);
+  ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
+  CrossingList& crossings = work_->crossings;
   crossings.clear();
   // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
   constexpr double more_than_rounding = 0x1p-50;
-  const double start = farthest_start(ray_);
-  object_ray.begin = ray_.t_min;
+  const double start = farthest_start(*ray_);
+  object_ray.begin = ray_->t_min;
   if (Kind::takes_one) object_ray.first_above = start + more_than_rounding * std::abs(start);
-  const bool inside = leaf_crossings(leaf, ray_, object_ray, crossings, work_.leaf_escalations);
+  const bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
   follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside);
 }
 
 template <class Kind>
 void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside) {
-  const CrossingList& crossings = work_.crossings;
+  const CrossingList& crossings = work_->crossings;
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = lone.object_ray.start.face != no_face;
   std::size_t index = 0;
   for (; index < crossings.size(); ++index) {
     const Crossing& crossing = crossings[index];
-    if (crossing.t > ray_.t_min &&
-        (starts_here || !is_at_start(lone.leaf, ray_, lone.object_ray, crossing))) {
+    if (crossing.t > ray_->t_min &&
+        (starts_here || !is_at_start(lone.leaf, *ray_, lone.object_ray, crossing))) {
       break;
     }
     inside = crossing.entering;
@@ -111,7 +111,7 @@ void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside) {
                      .object = lone.object,
                      .leaf = lone.index,
                      .face = crossing.face,
-                     .surface = accelerator_.face_surface(lone.leaf, crossing.face).surface,
+                     .surface = accelerator_->face_surface(lone.leaf, crossing.face).surface,
                      .root = crossing.root,
                      .entering = crossing.entering};
     if (!kind().take(hit)) return;
@@ -121,14 +121,14 @@ void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside) {
 
 template <class Kind>
 void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& object) {
-  const CompiledScene& scene = accelerator_.compiled();
+  const CompiledScene& scene = accelerator_->compiled();
   const CsgProgram& program = scene.programs[object.program];
   if constexpr (Kind::takes_one) {
     if (test_sketch(object_index, program)) return;
   }
-  WorldRay csg_ray = ray_;
+  WorldRay csg_ray = *ray_;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
-  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_.csg);
+  CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg);
   bool inside = evaluation.starts_inside();
   std::uint32_t leaf = program.first_leaf;
   if (!kind().begin(object_index, inside)) return;
@@ -153,35 +153,35 @@ void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& 
 template <class Kind>
 bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const CsgProgram& program) {
   if (program.sketch.empty()) return false;
-  const CompiledScene& scene = accelerator_.compiled();
+  const CompiledScene& scene = accelerator_->compiled();
   const std::span<const Leaf> leaves =
       std::span(scene.leaves).subspan(program.first_leaf, program.leaf_count());
-  const SketchedChange change = program.sketch.first_change(ray_, limit_, leaves, scene.face_surfaces);
+  const SketchedChange change = program.sketch.first_change(*ray_, limit_, leaves, scene.face_surfaces);
   if (change.kind != SketchedChange::Kind::one) return change.kind == SketchedChange::Kind::none;
   if constexpr (Kind::any_will_do) {
-    if (change.to < certain_end(ray_)) {
+    if (change.to < certain_end(*ray_)) {
       kind().settle();
       return true;
     }
   }
   const std::uint32_t index = program.first_leaf + change.leaf;
   const Leaf& leaf = scene.leaves[index];
-  const LineSpan span = RaySlabs(ray_.origin, ray_.direction).span(leaf.bounds);
-  CrossingList& crossings = work_.crossings;
+  const LineSpan span = RaySlabs(ray_->origin, ray_->direction).span(leaf.bounds);
+  CrossingList& crossings = work_->crossings;
   crossings.clear();
-  leaf_crossings(leaf, ray_, accelerator_.object_ray(index, ray_), crossings, work_.csg.escalations);
+  leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings, work_->csg.escalations);
   for (const Crossing& crossing : crossings) {
     if (crossing.entering != change.into_leaf) continue;
     // What rounding puts next to the leaf's box is told by the box.
     if (!(crossing.t >= span.enter && crossing.t <= span.leave)) return false;
-    ++work_.csg.events;
+    ++work_->csg.events;
     kind().take({.t = crossing.t,
                  .error = crossing.error,
                  .t_low = crossing.t_low,
                  .object = object_index,
                  .leaf = index,
                  .face = crossing.face,
-                 .surface = accelerator_.face_surface(leaf, crossing.face).surface,
+                 .surface = accelerator_->face_surface(leaf, crossing.face).surface,
                  .root = crossing.root,
                  .entering = change.into_object});
     return true;
