@@ -237,6 +237,32 @@ void check_reversal(const MakeSubject& make, int count) {
   }
 }
 
+namespace {
+
+/// Rays side by side cross where each does by itself, to the last bit.
+void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
+  ray.origin_low = ray.direction_low = Vec3(0);
+  CrossingList crossings;
+  shape.crossings(ray, crossings);
+  for (const Crossing& crossing : crossings) {
+    core::RayLanes rays;
+    core::Lanes t{};
+    for (std::size_t lane = 0; lane < core::lane_count; ++lane) {
+      const double factor = lane == 2 ? 1 : 0.5 + static_cast<double>(lane);
+      rays.origin.set(lane, factor * ray.origin);
+      rays.direction.set(lane, ray.direction / factor);
+      t[static_cast<int>(lane)] = crossing.t * factor;
+    }
+    core::SurfacePointLanes points;
+    if (!shape.surface_points(rays, t, crossing.face, points)) return;
+    const core::SurfacePoint point = shape.surface_point(ray, crossing);
+    REQUIRE(points.position.lane(2) == point.position);
+    REQUIRE(points.normal.lane(2) == point.normal);
+  }
+}
+
+}  // namespace
+
 void check_surface_points(const MakeSubject& make, int count, bool unit_square) {
   Random random(4);
   for (int i = 0; i < count; ++i) {
@@ -246,6 +272,7 @@ void check_surface_points(const MakeSubject& make, int count, bool unit_square) 
     const ObjectRay ray = random_ray(random, subject);
     CrossingList crossings;
     shape->crossings(ray, crossings);
+    check_side_by_side(*shape, ray);
     for (const Crossing& crossing : crossings) {
       const core::SurfacePoint point = shape->surface_point(ray, crossing);
       const RealVec p(point.position);

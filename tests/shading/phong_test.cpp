@@ -11,6 +11,44 @@ namespace {
 
 const Vec3 up(0, 1, 0);
 
+struct PhongSurface {
+  Rgb color{1, 1, 1};
+  double diffuse = 1;
+  double specular = 0;
+  double shininess = 3;
+  Vec3 normal{0, 1, 0};
+  Vec3 view{0, -1, 0};
+};
+
+struct LightSample {
+  Vec3 direction{0, 1, 0};
+  double distance = 0;
+  double intensity = 1;
+};
+
+/// What one surface sends back that has a mirror in the shade beside it.
+Rgb direct_light(const PhongSurface& surface, const LightSample& light, const Rgb& light_color) {
+  PhongSurfaces surfaces;
+  surfaces.specular = lanes_of(1);
+  surfaces.shininess = lanes_of(5);
+  surfaces.normal = lanes_of(up);
+  surfaces.view = lanes_of(-up);
+  LightSamples samples;
+  samples.directions = lanes_of(-up);
+  samples.intensities = lanes_of(1);
+  constexpr int lane = 1;
+  surfaces.color.set(lane, surface.color);
+  surfaces.diffuse[lane] = surface.diffuse;
+  surfaces.specular[lane] = surface.specular;
+  surfaces.shininess[lane] = surface.shininess;
+  surfaces.normal.set(lane, surface.normal);
+  surfaces.view.set(lane, surface.view);
+  samples.directions.set(lane, light.direction);
+  samples.distances[lane] = light.distance;
+  samples.intensities[lane] = light.intensity;
+  return direct_light(surfaces, samples, light_color, samples.intensities > 0.0).lane(lane);
+}
+
 }  // namespace
 
 TEST_CASE("diffuse light is the cosine times the light, the material and their strengths") {

@@ -2,9 +2,11 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <optional>
 
 using namespace crt::core;
 using crt::FalloffModel;
@@ -12,16 +14,38 @@ using crt::Vec3;
 
 namespace {
 
+struct LightSample {
+  Vec3 direction;
+  double distance = 0;
+  double intensity = 0;
+};
+
+/// What a point gets that has others beside it; nothing if it is in the dark.
+std::optional<LightSample> sample_of(const crt::Light& light, const Vec3& point, double path_length = 0,
+                                     FalloffModel model = FalloffModel::light) {
+  VectorLanes points;
+  Lanes path_lengths;
+  const std::array<Vec3, lane_count> beside = {Vec3(0), 2.0 * point, point, -3.0 * point + Vec3(1e-3, 7, 1)};
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    points.set(lane, beside[lane]);
+    path_lengths[static_cast<int>(lane)] = lane == 2 ? path_length : 77;
+  }
+  LightSamples samples;
+  const LaneMask lit = PreparedLight(light, model).sample(points, path_lengths, samples);
+  if ((mask_of(lit) >> 2 & 1u) == 0) return std::nullopt;
+  return LightSample{samples.directions.lane(2), samples.distances[2], samples.intensities[2]};
+}
+
 LightSample sampled(const crt::Light& light, const Vec3& point, double path_length = 0,
                     FalloffModel model = FalloffModel::light) {
-  LightSample sample;
-  REQUIRE(PreparedLight(light, model).sample(point, path_length, sample));
-  return sample;
+  const std::optional<LightSample> sample = sample_of(light, point, path_length, model);
+  REQUIRE(sample);
+  return *sample;
 }
 
 bool shines_on(const crt::Light& light, const Vec3& point) {
-  LightSample sample;
-  return PreparedLight(light, FalloffModel::light).sample(point, 0, sample) && sample.intensity > 0;
+  const std::optional<LightSample> sample = sample_of(light, point);
+  return sample && sample->intensity > 0;
 }
 
 constexpr double pi = std::numbers::pi;

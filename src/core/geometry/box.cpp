@@ -84,22 +84,31 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
   return faces;
 }
 
-SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool /*with_uv*/) const {
+SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   const PlaneFace& face = faces_[crossing.face];
   const int across = face.axis();
-  Vec3 share;
+  const Vec3 size = upper_ - lower_;
+  const Vec3 offset = glm::clamp(ray.from_center(lower_, crossing.t), Vec3(0), size);
   SurfacePoint result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const double size = upper_[axis] - lower_[axis];
-    const double offset = std::clamp(ray.from_center(lower_, crossing.t)[axis], 0.0, size);
-    share[axis] = offset / size;
-    result.position[axis] = std::min(lower_[axis] + offset, upper_[axis]);
-  }
+  result.position = glm::min(lower_ + offset, upper_);
   result.position[across] = face.position()[across];
   result.normal = face.unit_normal();
+  if (!with_uv) return result;
+  const Vec3 share = offset / size;
   result.u = across == 0 ? share.z : share.x;
   result.v = across == 1 ? share.z : share.y;
   return result;
+}
+
+bool BoxShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face_index,
+                              SurfacePointLanes& points) const {
+  const PlaneFace& face = faces_[face_index];
+  const VectorLanes size = lanes_of(upper_ - lower_);
+  const VectorLanes offset = min(size, max(rays.from_center(lower_, t), {}));
+  points.position = min(lanes_of(upper_), lanes_of(lower_) + offset);
+  points.position[face.axis()] = lanes_of(face.position()[face.axis()]);
+  points.normal = lanes_of(face.unit_normal());
+  return true;
 }
 
 void validate(const Box& box) {

@@ -24,6 +24,8 @@ class BoxShape final : public Shape {
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
+  bool surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face_index,
+                      SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
   std::size_t bytes() const override { return sizeof *this; }

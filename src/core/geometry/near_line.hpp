@@ -50,7 +50,7 @@ struct NearLineOf {
   void move_to(const Ray& ray, const Vec3& center, const Real& t, const Real& t_low = Real{}) {
     shift_ = t;
     shift_low_ = t_low;
-    point = ray.from_center(center, t, t_low) * inverse_unit_;
+    point = inverse_unit_ * ray.from_center(center, t, t_low);
   }
   void move_to(const ObjectRay& ray, const Vec3& center, const DoubleDouble& t) {
     move_to(ray, center, t.hi, t.lo);
@@ -74,7 +74,7 @@ struct NearLineOf {
   template <class Ray>
   NearLineOf(const Ray& ray, double unit) : unit_(unit), inverse_unit_(Real{} + 1 / unit) {
     direction_scale_ = 1.0 / power_of_two_below(largest_component(ray.direction));
-    direction = ray.direction * direction_scale_;
+    direction = direction_scale_ * ray.direction;
     squared_speed = dot(direction, direction);
   }
 

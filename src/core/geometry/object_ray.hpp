@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/geometry/plain_ray.hpp"
 #include "core/math/double_double.hpp"
 #include "crt/vec.hpp"
 

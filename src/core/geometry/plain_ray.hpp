@@ -1,7 +1,7 @@
 // A ray, or several side by side, in a space that it is known in without rounding: the world's.
 #pragma once
 
-#include "core/math/lanes.hpp"
+#include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
@@ -12,14 +12,21 @@ struct PlainRay {
   Vec3Of<Real> origin;
   Vec3Of<Real> direction;
 
-  Vec3Of<Real> from_center(const Vec3& center, const Real& t, const Real& t_low) const {
-    Vec3Of<Real> result;
-    for (int axis = 0; axis < 3; ++axis) {
-      const auto offset = two_sum(origin[axis], Real{} - center[axis]);
-      result[axis] = fma(t, direction[axis], offset.hi) + (offset.lo + t_low * direction[axis]);
-    }
-    return result;
+  /// The points at t, each component rounded once.
+  Vec3Of<Real> at(const Real& t) const {
+    return {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y), fma(t, direction.z, origin.z)};
+  }
+
+  Vec3Of<Real> from_center(const Vec3& center, const Real& t, const Real& t_low = Real{}) const {
+    const auto component = [&](const Real& from, const Real& along, double place) {
+      const auto offset = two_sum(from, spread<Real>(-place));
+      return fma(t, along, offset.hi) + (offset.lo + t_low * along);
+    };
+    return {component(origin.x, direction.x, center.x), component(origin.y, direction.y, center.y),
+            component(origin.z, direction.z, center.z)};
   }
 };
+
+using RayLanes = PlainRay<Lanes>;
 
 }  // namespace crt::core

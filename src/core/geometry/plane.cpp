@@ -40,6 +40,14 @@ SurfacePoint PlaneShape::surface_point(const ObjectRay& ray, const Crossing& cro
           .v = glm::dot(relative, axes_.v)};
 }
 
+bool PlaneShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t /*face*/,
+                                SurfacePointLanes& points) const {
+  const Vec3& place = face_.position();
+  points.normal = lanes_of(face_.unit_normal());
+  points.position = lanes_of(place) + face_.onto_plane(rays.from_center(place, t));
+  return true;
+}
+
 void validate(const Plane& plane) {
   check_direction("normal", plane.normal);
   check_coordinates("position", plane.position);

@@ -80,6 +80,7 @@ class PlaneFace {
 
   /// The point at t, relative to the position and moved onto the plane.
   Vec3 onto_plane(const Vec3& relative) const;
+  VectorLanes onto_plane(const VectorLanes& relative) const;
 
   /// position + relative, exactly on the plane where the plane is across a coordinate axis.
   Vec3 absolute(const Vec3& relative) const { return position_ + relative; }

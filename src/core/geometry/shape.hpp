@@ -48,6 +48,12 @@ struct SurfacePoint {
   double v = 0;
 };
 
+/// Of as many points as there are lanes, without u and v.
+struct SurfacePointLanes {
+  VectorLanes position;
+  VectorLanes normal;
+};
+
 /// A line through something long, and how far from the line that reaches at its ends; in between it reaches
 /// as far as a straight line from one to the other.
 struct Spine {
@@ -94,6 +100,13 @@ class Shape {
   /// `with_uv`, u and v need not be set: they may cost more than the rest.
   virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
                                      bool with_uv = true) const = 0;
+
+  /// The same where as many rays as there are lanes cross one face, to the last bit; false if that is not
+  /// told here.
+  virtual bool surface_points(const RayLanes& /*rays*/, const Lanes& /*t*/, std::uint32_t /*face*/,
+                              SurfacePointLanes& /*points*/) const {
+    return false;
+  }
 
   /// How many faces there are, and the surface that a face is a piece of (for finding faces that
   /// coincide).

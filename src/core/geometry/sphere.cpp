@@ -67,6 +67,15 @@ SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& cr
   return result;
 }
 
+bool SphereShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t /*face*/,
+                                 SurfacePointLanes& points) const {
+  const VectorLanes offset = rays.from_center(center_, t);
+  const LaneMask is_apart = largest_component(offset) > 0.0;
+  points.normal = unit_vectors(chosen(is_apart, offset, -rays.direction));
+  points.position = lanes_of(center_) + lanes_of(radius_) * points.normal;
+  return true;
+}
+
 Surface SphereShape::surface(std::uint32_t) const {
   return {.kind = SurfaceKind::sphere, .position = center_ + Vec3(0.0), .sizes = {radius_, 0}};
 }

@@ -64,6 +64,8 @@ class SphereShape final : public Shape {
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
+  bool surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face,
+                      SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
 
 #include "core/math/vector.hpp"
 
@@ -74,10 +75,10 @@ inline std::uint32_t mask_of(const LaneMask& lanes) {
 #endif
 }
 
-/// The reverse: true in the lanes whose bit is set.
+/// Those of which the bit is set.
 inline LaneMask lanes_with(std::uint32_t mask) {
   constexpr LaneMask bits = {1, 2, 4, 8};
-  return (bits & static_cast<long long>(mask)) != 0;
+  return (bits & static_cast<std::int64_t>(mask)) != 0;
 }
 
 inline Lanes min(const Lanes& a, const Lanes& b) {
@@ -172,27 +173,25 @@ inline Lanes size_of(const Lanes& x) {
 #endif
 }
 
-/// Vec3, or one whose components are lanes. What there is for the former in core/math/vector.hpp and of GLM:
+/// The same number in a Real, which is a double or lanes.
 template <class Real>
-using Vec3Of = glm::vec<3, Real>;
-
-inline Lanes dot(const Vec3Of<Lanes>& a, const Vec3Of<Lanes>& b) {
-  return a.x * b.x + a.y * b.y + a.z * b.z;
+Real spread(double value) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return value;
+  } else {
+    return lanes_of(value);
+  }
 }
 
-inline Lanes largest_component(const Vec3Of<Lanes>& v) {
-  return max(max(size_of(v.x), size_of(v.y)), size_of(v.z));
-}
-
+// As core/math/vector.hpp has it, of each.
 inline Lanes rounding_of(const Lanes& x) {
   return unit_roundoff * size_of(x);
 }
-
 inline Lanes power_of_two_below(const Lanes& x) {
-  constexpr long long exponent_bits = 0x7ff0000000000000;
-  constexpr long long smallest = 0x0010000000000000;
-  const LaneMask power = reinterpret_cast<LaneMask>(x) & exponent_bits;
-  return reinterpret_cast<Lanes>(power > smallest ? power : LaneMask{} + smallest);
+  constexpr std::int64_t exponent_bits = 0x7ff0000000000000;
+  constexpr std::int64_t smallest = 0x0010000000000000;
+  const LaneMask bits = reinterpret_cast<LaneMask>(x) & exponent_bits;
+  return reinterpret_cast<Lanes>(bits > smallest ? bits : LaneMask{} + smallest);
 }
 
 /// Of vectors by component, of doubles or of lanes.
@@ -217,6 +216,11 @@ inline DoubleDoubleLanes two_sum(const Lanes& a, const Lanes& b) {
   const Lanes b_part = sum - a;
   const Lanes a_part = sum - b_part;
   return {sum, (a - a_part) + (b - b_part)};
+}
+
+inline DoubleDoubleLanes two_product(const Lanes& a, const Lanes& b) {
+  const Lanes product = a * b;
+  return {product, fma(a, b, -product)};
 }
 
 inline DoubleDoubleLanes operator+(const DoubleDoubleLanes& a, const DoubleDoubleLanes& b) {

@@ -7,12 +7,11 @@ namespace crt::core {
 
 void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
-    Seen& seen = seen_[i];
     first_hits[i] = {};
-    if (!seen.hit->found()) continue;
-    // Behind a medium that lets nothing through the surface has not been looked at.
-    if (is_black(seen.weight)) look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
-    first_hits[i] = {.normal = seen.surface.phong.normal, .color = seen.surface.phong.color};
+    if (!hits_[i].found()) continue;
+    // Behind a medium that lets nothing through the surface has not been looked up.
+    if (is_black(round_->paths[i].weight)) look_up_each(RayMask{1} << i);
+    first_hits[i] = {.normal = surface(i).normal(), .color = surface(i).color()};
   }
 }
 

@@ -28,11 +28,11 @@ class Frame {
 
   /// A camera's ray in the world. What is at its very start, to rounding, is passed: an eye on a surface sees
   /// what is before it, or from within what is behind it.
+  /// An end that `ray` has is kept.
   static void eye_ray(const CameraRay& camera_ray, WorldRay& ray) {
-    ray = {};
     ray.origin = camera_ray.origin;
     ray.direction = camera_ray.direction;
-    ray.start.t_error = start_rounding * largest_component(camera_ray.origin);
+    ray.start = {.t_error = start_rounding * largest_component(camera_ray.origin)};
   }
 
   /// Whether all camera rays start at one point off all surfaces, so that the same solids surround them all;

@@ -6,10 +6,14 @@
 
 #include "core/math/vector.hpp"
 #include "core/render/shadow.hpp"
+#include "core/render/surface_hit.hpp"
 
 namespace crt::core {
 
 namespace {
+
+/// The rays of one group of lanes.
+constexpr RayMask group_mask = (RayMask{1} << lane_count) - 1;
 
 /// Rays between two looks at the progress.
 constexpr unsigned ticks_per_poll = 256;
@@ -20,21 +24,25 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   return list;
 }
 
-/// How far rounding may put a lamp from a surface that it is meant to be on.
-double lamp_error(const Vec3& point, const LightSample& sample) {
-  if (std::isinf(sample.distance)) return 0;
+/// How far rounding may put a lamp from surfaces that it is meant to be on.
+Lanes lamp_errors(const VectorLanes& points, const LightSamples& light) {
   constexpr double roundings = 16;
-  return roundings * unit_roundoff *
-         std::fma(sample.distance, largest_component(sample.direction), largest_component(point));
+  const Lanes error = roundings * unit_roundoff *
+                      fma(light.distances, largest_component(light.directions), largest_component(points));
+  return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
+}
+
+LaneMask is_black(const VectorLanes& light) {
+  return (light.x == 0.0) & (light.y == 0.0) & (light.z == 0.0);
 }
 
 /// A surface as it is met: a primitive, the triangles of a mesh all alike.
-std::uint64_t met(const HitPoint& point, RayKind kind) {
+std::uint64_t met(const PreparedData& data, const RayHit& hit, RayKind kind) {
   constexpr std::uint64_t is_surface = std::uint64_t{1} << 32;
   constexpr std::uint64_t is_entered = std::uint64_t{1} << 33;
   constexpr int place_of_kind = 34;
-  return (point.solid ? point.leaf : is_surface | point.entity_id) | (point.entering ? is_entered : 0) |
-         static_cast<std::uint64_t>(kind) << place_of_kind;
+  return (data.is_solid(hit) ? hit.leaf : is_surface | data.entity_id(hit)) |
+         (hit.entering ? is_entered : 0) | static_cast<std::uint64_t>(kind) << place_of_kind;
 }
 
 /// A lamp's shadow.
@@ -45,28 +53,29 @@ std::uint64_t shaded_from(std::size_t lamp) {
 }  // namespace
 
 Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
-    : frame_(frame), data_(frame.data()), work_(work), progress_(progress) {
+    : frame_(frame),
+      data_(frame.data()),
+      work_(work),
+      progress_(progress),
+      has_transparency_(frame.features().transparency) {
   for (SampleWork& sample : work.samples) {
     sample.media.release(0);
     camera_media_ = nested(sample.media, frame.camera_media());
     camera_media_mark_ = sample.media.mark();
+    sample.pending.clear();
+    sample.goes_on = false;
   }
-  for (std::size_t i = 0; i < packet_size; ++i) seen_[i].hit = &hits_[i];
 }
 
 void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
                    std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < rays.size(); ++i) {
-    SampleWork& work = work_.samples[i];
-    work.media.release(camera_media_mark_);
-    work.pending.clear();
-    work.goes_on = false;
-    work.rays = 1;
     samples[i] = {};
-    round_->works[i] = &work;
     round_->samples[i] = &samples[i];
-    start_path(rays[i], work.media, round_->rays[i], round_->paths[i]);
+    round_->works[i] = &work_.samples[i];
+    start_path(i, rays[i]);
   }
+  work_.stats.camera_rays += rays.size();
   round_->count = rays.size();
   while (round_->count > 0) {
     follow();
@@ -75,14 +84,20 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
   }
 }
 
-void Tracer::start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path) {
-  Frame::eye_ray(camera_ray, ray);
-  path = {.media = camera_media_};
-  if (frame_.features().transparency && !frame_.one_viewpoint()) {
-    find_surrounding_media(data_, ray, work_.surrounding, work_);
-    path.media = nested(media, work_.surrounding);
+void Tracer::start_path(std::size_t ray, const CameraRay& camera_ray) {
+  SampleWork& work = *round_->works[ray];
+  PathState& path = round_->paths[ray];
+  work.rays = 1;
+  Frame::eye_ray(camera_ray, round_->rays[ray]);
+  path = {};
+  if (!has_transparency_) return;
+  work.media.release(camera_media_mark_);
+  path.media = camera_media_;
+  if (!frame_.one_viewpoint()) {
+    find_surrounding_media(data_, round_->rays[ray], work_.surrounding, work_);
+    path.media = nested(work.media, work_.surrounding);
   }
-  path.media_mark = media.mark();
+  path.media_mark = work.media.mark();
 }
 
 void Tracer::follow() {
@@ -92,115 +107,127 @@ void Tracer::follow() {
   const bool together = go_together(rays);
   if (together) data_.intersect(rays, hits_, work_.rays);
 
-  std::array<Seen*, packet_size> on_surface;
-  std::size_t surfaces = 0;
+  RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    Seen& seen = seen_[i];
-    seen.work = round_->works[i];
-    seen.sample = round_->samples[i];
-    seen.ray = &rays[i];
-    seen.path = &round_->paths[i];
-    const bool ask_alone = !together || (hits_[i].has_company && frame_.features().transparency);
+    const bool ask_alone = !together || (hits_[i].has_company && has_transparency_);
     if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
-    seen.is_on_surface = see(seen);
-    if (seen.is_on_surface) on_surface[surfaces++] = &seen;
+    on_surface |= static_cast<RayMask>(see(i)) << i;
   }
-  add_light(std::span(on_surface).first(surfaces));
+  look_up_each(on_surface);
+  add_light(on_surface);
   next_round_->count = 0;
-  for (Seen& seen : std::span(seen_).first(count)) {
-    if (seen.is_on_surface) {
-      seen.sample->color += seen.weight * seen.light;
-      split(seen);
+  for (std::size_t i = 0; i < count; ++i) {
+    if ((on_surface >> i & 1u) != 0) {
+      round_->samples[i]->color += round_->paths[i].weight * surface(i).light();
+      if (!surface(i).hit().material->ends_paths) split(i);
     }
-    go_on(seen);
+    if (!round_->works[i]->is_done()) go_on(i);
   }
 }
 
-bool Tracer::see(Seen& seen) {
-  const PathState& path = *seen.path;
-  RenderStats& stats = work_.stats;
-  ++(path.kind == RayKind::camera       ? stats.camera_rays
-     : path.kind == RayKind::reflection ? stats.reflection_rays
-                                        : stats.refraction_rays);
-  if (seen.hit->has_company && frame_.features().transparency) *seen.hit = seen_of(*seen.ray, *seen.hit);
-  seen.weight = path.weight;
-  if (!pass_medium(seen)) return false;
-  if (!seen.hit->found()) {
-    see_background(seen);
+bool Tracer::see(std::size_t ray) {
+  RayHit& hit = hits_[ray];
+  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays[ray], hit);
+  if (!pass_medium(ray)) return false;
+  if (!hit.found()) {
+    see_background(ray);
     return false;
   }
-  look_up(data_, *seen.ray, *seen.hit, work_, seen.surface);
-  if (identifies_) note(*seen.sample, met(seen.surface.point, seen.path->kind));
-  const SurfaceHit& surface = seen.surface;
-  const Material& material = *surface.material->description;
-  seen.light = ambient_light(frame_.ambient(), material.reflectivity);
+  if (identifies_) note(*round_->samples[ray], met(data_, hit, round_->paths[ray].kind));
   return true;
 }
 
-bool Tracer::pass_medium(Seen& seen) const {
-  if (!frame_.features().absorption || seen.path->media == MediaLists::empty) return true;
-  const Medium& medium = seen.work->media.innermost(seen.path->media);
-  seen.weight *= transmittance(data_.materials()[medium.material], seen.hit->t);
-  return !is_black(seen.weight);
-}
-
-void Tracer::see_background(Seen& seen) const {
-  if (identifies_) note(*seen.sample, nothing);
-  const Color background = data_.background().color(seen.ray->direction);
-  if (seen.path->kind == RayKind::camera) {
-    seen.sample->alpha = background.a;
-    seen.sample->color += background.a * seen.weight * rgb(background);
-  } else {
-    seen.sample->color += seen.weight * rgb(background);
+void Tracer::look_up_each(RayMask on_surface) {
+  for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
+    SurfaceGroup& group = surfaces_[first / lane_count];
+    const RayMask seen = on_surface >> first & group_mask;
+    const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
+    const auto hits = std::span(hits_).subspan(first).first<lane_count>();
+    look_up(data_, rays, hits, seen, group, work_);
+    for_each_ray(seen, [&](std::size_t lane) {
+      const PathState& path = round_->paths[first + lane];
+      const double reflectivity = group.hits[lane].material->description->reflectivity;
+      group.light.set(lane, ambient_light(frame_.ambient(), reflectivity));
+      group.path_length[static_cast<int>(lane)] = path.path_length + hits[lane].t;
+    });
   }
 }
 
-bool Tracer::reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const {
-  const PhongSurface& phong = seen.surface.phong;
-  if (phong.diffuse <= 0 && phong.specular <= 0) return false;
-  const Vec3& position = seen.surface.point.position;
-  LightSample sample;
-  if (!source.sample(position, seen.path->path_length + seen.hit->t, sample)) return false;
-  if (glm::dot(sample.direction, seen.surface.face_normal) <= 0) return false;
-  light = direct_light(phong, sample, source.color());
-  if (is_black(light)) return false;
-  shadow_ray.origin = position;
-  shadow_ray.direction = sample.direction;
-  shadow_ray.t_max = sample.distance;
-  shadow_ray.start = seen.surface.start;
-  shadow_ray.end_error = lamp_error(position, sample);
-  return true;
+bool Tracer::pass_medium(std::size_t ray) {
+  PathState& path = round_->paths[ray];
+  if (path.media == MediaLists::empty || !frame_.features().absorption) return true;
+  const Medium& medium = round_->works[ray]->media.innermost(path.media);
+  path.weight *= transmittance(data_.materials()[medium.material], hits_[ray].t);
+  return !is_black(path.weight);
 }
 
-void Tracer::add_light(std::span<Seen*> seen) {
-  std::array<Seen*, packet_size> lit;
-  std::array<Rgb, packet_size> lights;
+void Tracer::see_background(std::size_t ray) {
+  Sample& sample = *round_->samples[ray];
+  const PathState& path = round_->paths[ray];
+  if (identifies_) note(sample, nothing);
+  const Color background = data_.background().color(round_->rays[ray].direction);
+  if (path.kind == RayKind::camera) {
+    sample.alpha = background.a;
+    sample.color += background.a * path.weight * rgb(background);
+  } else {
+    sample.color += path.weight * rgb(background);
+  }
+}
+
+void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
+  shadows_.count = 0;
+  for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
+    const SurfaceGroup& surfaces = surfaces_[first / lane_count];
+    const PhongSurfaces& phong = surfaces.phong;
+    LightSamples sample;
+    LaneMask lit = (phong.diffuse > 0.0) | (phong.specular > 0.0);
+    lit &= source.sample(surfaces.position, surfaces.path_length, sample);
+    lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
+    const VectorLanes light = direct_light(phong, sample, source.color(), lit);
+    lit &= ~is_black(light);
+    const Lanes end_errors = lamp_errors(surfaces.position, sample);
+    for_each_ray(mask_of(lit) & on_surface >> first & group_mask, [&](std::size_t lane) {
+      const std::size_t index = shadows_.count++;
+      shadows_.rays_to[index] = first + lane;
+      shadows_.lights[index] = light.lane(lane);
+      WorldRay& ray = shadows_.rays[index];
+      ray.origin = surfaces.position.lane(lane);
+      ray.direction = sample.directions.lane(lane);
+      ray.t_max = sample.distances[static_cast<int>(lane)];
+      ray.start = surfaces.hits[lane].start;
+      ray.end_error = end_errors[static_cast<int>(lane)];
+    });
+  }
+}
+
+void Tracer::add_light(RayMask on_surface) {
   std::size_t lamp = 0;
   for (const PreparedLight& source : frame_.lights()) {
-    std::size_t count = 0;
-    for (Seen* surface : seen) {
-      if (reaches(source, *surface, lights[count], shadow_rays_[count])) lit[count++] = surface;
-    }
-    work_.stats.shadow_rays += count;
-    tick(static_cast<unsigned>(count));
-    const RayMask hidden = data_.occluded_each(std::span(shadow_rays_).first(count), work_.rays);
-    for (std::size_t i = 0; i < count; ++i) {
+    send_to(source, on_surface);
+    const std::span<const WorldRay> rays = std::span(shadows_.rays).first(shadows_.count);
+    work_.stats.shadow_rays += rays.size();
+    tick(static_cast<unsigned>(rays.size()));
+    const RayMask hidden = data_.occluded_each(rays, work_.rays);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::size_t ray = shadows_.rays_to[i];
       const bool is_hidden = (hidden >> i & 1u) != 0;
-      if (is_hidden && identifies_) note(*lit[i]->sample, shaded_from(lamp));
-      lit[i]->light += lights[i] * light_share_of(shadow_rays_[i], *lit[i], is_hidden);
+      if (is_hidden && identifies_) note(*round_->samples[ray], shaded_from(lamp));
+      const SurfaceLane lit = surface(ray);
+      const Rgb light = shadows_.lights[i] * light_share_of(rays[i], ray, is_hidden);
+      lit.group.light.set(lit.lane, lit.light() + light);
     }
     ++lamp;
   }
 }
 
-Rgb Tracer::light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden) {
-  const Features& features = frame_.features();
+Rgb Tracer::light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hidden) {
+  const MediaLists::List media = round_->paths[ray].media;
   if (!hidden) {
-    if (!features.absorption || seen.path->media == MediaLists::empty) return Rgb(1);
-  } else if (!features.transparency) {
+    if (media == MediaLists::empty || !frame_.features().absorption) return Rgb(1);
+  } else if (!has_transparency_) {
     return Rgb(0);
   }
-  return light_share(data_, shadow_ray, seen.work->media, seen.path->media, work_);
+  return light_share(data_, shadow_ray, round_->works[ray]->media, media, work_);
 }
 
 RayHit Tracer::seen_of(const WorldRay& ray, const RayHit& hit) {

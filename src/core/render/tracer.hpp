@@ -8,7 +8,7 @@
 #include "core/render/first_hit.hpp"
 #include "core/render/frame.hpp"
 #include "core/render/progress.hpp"
-#include "core/render/surface_hit.hpp"
+#include "core/render/surface_group.hpp"
 #include "core/scene/ray_packet.hpp"
 #include "core/shading/phong.hpp"
 
@@ -45,7 +45,7 @@ class Tracer {
   void look(std::span<const CameraRay> rays, std::span<FirstPlace> places);
 
  private:
-  /// A ray for each sample that is not done yet.
+  /// A ray for each sample that is not done yet. Below they are known by their numbers in the round.
   struct Round {
     std::size_t count = 0;
     std::array<WorldRay, packet_size> rays;  ///< apart from the rest: together they are asked for
@@ -54,44 +54,37 @@ class Tracer {
     std::array<Sample*, packet_size> samples;
   };
 
-  /// A sample's ray in this round, and what it meets.
-  struct Seen {
-    SampleWork* work = nullptr;
-    Sample* sample = nullptr;
-    const WorldRay* ray = nullptr;
-    RayHit* hit = nullptr;
-    const PathState* path = nullptr;
-    bool is_on_surface = false;
-    SurfaceHit surface;
-    Rgb weight{0, 0, 0};
-    Rgb light{0, 0, 0};
-  };
-
-  void start_path(const CameraRay& camera_ray, MediaLists& media, WorldRay& ray, PathState& path);
+  void start_path(std::size_t ray, const CameraRay& camera_ray);
   /// Follows the rays of this round, and makes the next.
   void follow();
-  /// Takes a sample into the next round, if it has a ray left.
-  void go_on(const Seen& seen);
+  /// Takes a ray's sample into the next round, if it has a ray left.
+  void go_on(std::size_t ray);
   /// Whether there is a surface, whose light is still to come; else the ray is done.
-  bool see(Seen& seen);
-  void see_background(Seen& seen) const;
+  bool see(std::size_t ray);
+  void see_background(std::size_t ray);
   /// Takes from the weight what the medium on the way to a hit absorbs; whether anything is left.
-  bool pass_medium(Seen& seen) const;
+  bool pass_medium(std::size_t ray);
 
   /// What the camera rays of the round that was just followed have met.
   void tell_first_hits(std::span<FirstHit> first_hits);
 
-  /// Adds the light of all lights that the surfaces send back along the paths.
-  void add_light(std::span<Seen*> seen);
+  /// What a ray of this round meets, once it has been looked up.
+  SurfaceLane surface(std::size_t ray) {
+    return {surfaces_[ray / lane_count], ray % static_cast<std::size_t>(lane_count)};
+  }
+  /// Looks up what the rays meet that are on a surface.
+  void look_up_each(RayMask on_surface);
+  /// Adds the light of all lights that these surfaces send back along the paths.
+  void add_light(RayMask on_surface);
+  /// Makes the rays that find out which of some surfaces a light reaches; to the others none comes.
+  void send_to(const PreparedLight& source, RayMask on_surface);
   /// What gets through along the way to a light, of which it is known whether anything is met there.
-  Rgb light_share_of(const WorldRay& shadow_ray, const Seen& seen, bool hidden);
-  /// A light as it reaches a surface if nothing hides it, and the ray that finds out; false if it cannot.
-  bool reaches(const PreparedLight& source, const Seen& seen, Rgb& light, WorldRay& shadow_ray) const;
+  Rgb light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hidden);
 
   /// Sends the mirrored and the refracted ray on, if they are worth it.
-  void split(const Seen& seen);
-  /// Whether a ray of that weight is to go on from a surface.
-  bool is_worth_it(const Seen& seen, const Rgb& weight);
+  void split(std::size_t ray);
+  /// Whether one of that weight is to go on from where a ray ends.
+  bool is_worth_it(std::size_t ray, const Rgb& weight);
   /// Where a ray is written that goes on.
   struct Departure {
     WorldRay* ray;
@@ -99,7 +92,7 @@ class Tracer {
   };
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
   /// fills in its direction, its start and its media.
-  Departure depart(const Seen& seen, RayKind kind, const Rgb& weight, bool waits);
+  Departure depart(std::size_t ray, RayKind kind, const Rgb& weight, bool waits);
 
   /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
   /// several the one whose object was written first.
@@ -111,9 +104,9 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  void pass(const Seen& seen, Passage& passage);
+  void pass(std::size_t ray, Passage& passage);
   /// Adds what other objects at the place do.
-  void pass_company(const WorldRay& behind, const Seen& seen, Passage& passage);
+  void pass_company(const WorldRay& behind, std::size_t ray, Passage& passage);
   double refractive_index(const MediaLists& lists, MediaLists::List media) const;
 
   /// Counts rays; lets the progress speak now and then.
@@ -130,14 +123,22 @@ class Tracer {
   MediaLists::List camera_media_ = MediaLists::empty;
   /// Of the lists that all camera rays need.
   std::uint32_t camera_media_mark_ = 0;
+  bool has_transparency_;
   unsigned ticks_ = 0;
   bool identifies_ = false;
   std::array<Round, 2> rounds_;
   Round* round_ = rounds_.data();           ///< this one
   Round* next_round_ = rounds_.data() + 1;  ///< is made meanwhile
   std::array<RayHit, packet_size> hits_;
-  std::array<Seen, packet_size> seen_;
-  std::array<WorldRay, packet_size> shadow_rays_;
+  std::array<SurfaceGroup, packet_size / lane_count> surfaces_;
+  /// Rays to a light, and what comes along them if they meet nothing.
+  struct Shadows {
+    std::size_t count = 0;
+    std::array<WorldRay, packet_size> rays;
+    std::array<std::size_t, packet_size> rays_to;  ///< the rays to the surfaces where they start
+    std::array<Rgb, packet_size> lights;
+  };
+  Shadows shadows_;
 };
 
 }  // namespace crt::core

@@ -80,6 +80,8 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
     geometry_ = std::make_shared<const Geometry>(scene, compile(scene.entities, scene.settings.precision));
   }
   accelerator_ = &geometry_->accelerator;
+  leaves_ = accelerator_->compiled().leaves;
+  face_surfaces_ = accelerator_->compiled().face_surfaces;
   for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
   for (const PreparedMaterial& material : materials_) opaque_.push_back(material.opaque);
   background_ = std::make_unique<PreparedBackground>(scene.background, textures_);
@@ -156,7 +158,7 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
 }
 
 void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const {
-  const Leaf& leaf = accelerator_->leaf(hit.leaf);
+  const Leaf& leaf = leaves_[hit.leaf];
   const SurfacePoint surface = accelerator_->surface_point(ray, hit, with_uv);
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);
@@ -175,36 +177,39 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
   point.solid = is_solid(hit);
 }
 
-std::uint32_t PreparedData::hit_material(const RayHit& hit) const {
-  return accelerator_->leaf(hit.leaf).material;
+void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
+                              std::span<const RayHit, lane_count> hits, const RayLanes& lines, const Lanes& t,
+                              RayMask alike, SurfacePointLanes& points) const {
+  const RayHit& first = hits[first_ray(alike)];
+  const Leaf& leaf = leaves_[first.leaf];
+  const Placement& placement = *leaf.placement;
+  if (placement.is_identity() && leaf.shape->surface_points(lines, t, first.face, points)) {
+    if (leaf.complemented) points.normal = -points.normal;
+    return;
+  }
+  for_each_ray(alike, [&](std::size_t lane) {
+    const SurfacePoint point = accelerator_->surface_point(rays[lane], hits[lane], false);
+    points.position.set(lane, placement.point_to_world(point.position));
+    points.normal.set(lane, placement.normal_to_world(leaf.complemented ? -point.normal : point.normal));
+  });
 }
 
 bool PreparedData::is_solid(const RayHit& hit) const {
   return accelerator_->object(hit.object).solid;
 }
 
-void PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side, StartPoint& start) const {
-  const Leaf& leaf = accelerator_->leaf(hit.leaf);
-  const FaceSurface& face = accelerator_->face_surface(leaf, hit.face);
-  // `side` is of the object; a cutter and a flipped face each turn it round once.
-  if (leaf.complemented != face.flipped) side = opposite(side);
+StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
+  StartPoint start = start_face(hit, side);
   double farthest = 0;
   for (int axis = 0; axis < 3; ++axis) {
     farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
   }
-  start.leaf = hit.leaf;
-  start.face = hit.face;
-  start.surface = face.surface;
-  start.side = side;
   start.t_error = start_rounding * farthest;
+  return start;
 }
 
 const CompiledScene& PreparedData::compiled() const {
   return accelerator_->compiled();
-}
-
-const Leaf& PreparedData::leaf(const HitPoint& point) const {
-  return accelerator_->leaf(point.leaf);
 }
 
 }  // namespace crt::core

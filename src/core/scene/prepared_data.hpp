@@ -137,26 +137,37 @@ class PreparedData {
     return point;
   }
 
+  /// Places and outward normals alone, in the world: where those of a group of rays that have their bit in
+  /// `alike` hit one face of one leaf, each at its t. `lines` are those of all the group.
+  void hit_points(std::span<const WorldRay, lane_count> rays, std::span<const RayHit, lane_count> hits,
+                  const RayLanes& lines, const Lanes& t, RayMask alike, SurfacePointLanes& points) const;
+
   /// The material of a hit, without the rest.
-  std::uint32_t hit_material(const RayHit& hit) const;
+  std::uint32_t hit_material(const RayHit& hit) const { return leaves_[hit.leaf].material; }
+
+  /// The user's number of what a hit is of.
+  std::uint32_t entity_id(const RayHit& hit) const { return leaves_[hit.leaf].entity_id; }
 
   /// Whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const;
 
   /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
   /// have unit length.
-  void start_point(const WorldRay& ray, const RayHit& hit, Side side, StartPoint& start) const;
-  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
-    StartPoint start;
-    start_point(ray, hit, side, start);
-    return start;
+  StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
+  /// The same but for its error.
+  StartPoint start_face(const RayHit& hit, Side side) const {
+    const Leaf& leaf = leaves_[hit.leaf];
+    const FaceSurface& face = face_surfaces_[leaf.first_face + hit.face];
+    // `side` is of the object; a cutter and a flipped face each turn it round once.
+    if (leaf.complemented != face.flipped) side = opposite(side);
+    return {.leaf = hit.leaf, .face = hit.face, .surface = face.surface, .side = side};
   }
 
   /// The objects, and what they are made of.
   const CompiledScene& compiled() const;
 
   /// The primitive in its place that a hit is of: bumps ask for it.
-  const Leaf& leaf(const HitPoint& point) const;
+  const Leaf& leaf(const HitPoint& point) const { return leaves_[point.leaf]; }
 
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
   const PreparedBackground& background() const { return *background_; }
@@ -178,7 +189,10 @@ class PreparedData {
   std::vector<bool> opaque_;  ///< by material
   std::unique_ptr<const PreparedBackground> background_;
   Features features_;
-  const Accelerator* accelerator_ = nullptr;  ///< of the geometry
+  // Of the geometry:
+  const Accelerator* accelerator_ = nullptr;
+  std::span<const Leaf> leaves_;
+  std::span<const FaceSurface> face_surfaces_;
   double prepare_seconds_ = 0;
 };
 

@@ -16,10 +16,15 @@ inline constexpr std::size_t packet_size = 16;
 /// A bit for each ray of a packet.
 using RayMask = std::uint32_t;
 
+/// Of the bits that are set, of which there must be one.
+inline std::size_t first_ray(RayMask mask) {
+  return static_cast<std::size_t>(std::countr_zero(mask));
+}
+
 /// Calls use(index) for each bit that is set.
 template <class Use>
 void for_each_ray(RayMask mask, const Use& use) {
-  for (; mask != 0; mask &= mask - 1) use(static_cast<std::size_t>(std::countr_zero(mask)));
+  for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
 }
 
 /// Up to packet_size rays by component, as vector instructions take them.

@@ -1,22 +1,38 @@
 #include "core/shading/phong.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "core/shading/fresnel.hpp"
 
 namespace crt::core {
 
-Rgb direct_light(const PhongSurface& surface, const LightSample& light, const Rgb& light_color) {
-  const double cosine = glm::dot(light.direction, surface.normal);
-  if (!(cosine > 0)) return Rgb(0);
-  double strength = surface.diffuse * cosine;
-  if (surface.specular > 0) {
-    const Vec3 reflected = mirrored(-light.direction, surface.normal);
-    const double alignment = std::max(0.0, -glm::dot(reflected, surface.view));
-    strength += surface.specular * std::pow(alignment, surface.shininess);
+namespace {
+
+/// Where the mask says so: the powers are taken one by one, and few surfaces shine.
+Lanes powers(const Lanes& bases, const Lanes& exponents, std::uint32_t mask) {
+  Lanes result{};
+  for (int lane = 0; lane < lane_count; ++lane) {
+    if ((mask >> lane & 1u) != 0) result[lane] = std::pow(bases[lane], exponents[lane]);
   }
-  return strength * light.intensity * light_color * surface.color;
+  return result;
+}
+
+}  // namespace
+
+VectorLanes direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
+                         const LaneMask& lit) {
+  const VectorLanes& normal = surfaces.normal;
+  const Lanes cosine = dot(light.directions, normal);
+  const LaneMask before = cosine > 0.0;
+  Lanes strength = surfaces.diffuse * cosine;
+  const LaneMask shines = surfaces.specular > 0.0;
+  if (const std::uint32_t mask = mask_of(lit & before & shines); mask != 0) {
+    const VectorLanes from_light = -light.directions;
+    const VectorLanes mirrored = from_light - 2.0 * dot(from_light, normal) * normal;
+    const Lanes alignment = max(Lanes{}, -dot(mirrored, surfaces.view));
+    const Lanes highlight = surfaces.specular * powers(alignment, surfaces.shininess, mask);
+    strength += shines ? highlight : Lanes{};
+  }
+  strength = before ? strength : Lanes{};
+  return strength * light.intensities * lanes_of(light_color) * surfaces.color;
 }
 
 }  // namespace crt::core

@@ -7,14 +7,14 @@
 
 namespace crt::core {
 
-/// A point of a surface and the ray that sees it.
-struct PhongSurface {
-  Rgb color{1, 1, 1};
-  double diffuse = 1;
-  double specular = 0;
-  double shininess = 3;
-  Vec3 normal{0, 1, 0};  ///< unit length, turned to the viewer
-  Vec3 view{0, -1, 0};   ///< unit length, from the viewer to the point
+/// Points of as many surfaces as there are lanes, and the rays that see them.
+struct PhongSurfaces {
+  VectorLanes color;
+  Lanes diffuse{};
+  Lanes specular{};
+  Lanes shininess{};
+  VectorLanes normal;  ///< unit length, turned to the viewer
+  VectorLanes view;    ///< unit length, from the viewer to the point
 };
 
 /// What the point gets of all lights' ambient shares, lit or not.
@@ -23,7 +23,8 @@ inline Rgb ambient_light(const Rgb& ambient, double reflectivity) {
 }
 
 /// The diffuse and the specular light of one light that nothing hides; black if it is behind the
-/// surface.
-Rgb direct_light(const PhongSurface& surface, const LightSample& light, const Rgb& light_color);
+/// surface. Only lanes of `lit` are asked for, others may hold anything.
+VectorLanes direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
+                         const LaneMask& lit);
 
 }  // namespace crt::core

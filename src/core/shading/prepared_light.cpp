@@ -1,6 +1,5 @@
 #include "core/shading/prepared_light.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -56,44 +55,45 @@ PreparedLight::PreparedLight(const CylinderLight& light)
       axis_(direction_and_length(light.pointing - light.origin).direction),
       radius_(light.radius) {}
 
-bool PreparedLight::sample(const Vec3& point, double path_length, LightSample& light) const {
-  light.intensity = 1;
+LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_lengths,
+                               LightSamples& light) const {
+  light.intensities = lanes_of(1);
   if (kind_ == Kind::parallel) {
-    light.direction = -axis_;
-    light.distance = std::numeric_limits<double>::infinity();
-    return true;
+    light.directions = lanes_of(-axis_);
+    light.distances = lanes_of(std::numeric_limits<double>::infinity());
+    return light.distances > 0.0;
   }
   if (kind_ == Kind::cylinder) {
-    light.direction = -axis_;
-    light.distance = way_in_cylinder(point);
+    light.directions = lanes_of(-axis_);
+    light.distances = way_in_cylinder(points);
   } else {
-    const DirectionAndLength to_light = direction_and_length(origin_ - point);
-    light.direction = to_light.direction;
-    light.distance = to_light.length;
+    const DirectionsAndLengths to_light = directions_and_lengths(lanes_of(origin_) - points);
+    light.directions = to_light.directions;
+    light.distances = to_light.lengths;
   }
-  if (!(light.distance > 0)) return false;
-  if (kind_ == Kind::spot) light.intensity = cone_share(light.direction);
+  if (kind_ == Kind::spot) light.intensities = cone_share(light.directions);
   if (falloff_ != 0) {
-    const double way = counts_path_ ? path_length + light.distance : light.distance;
-    light.intensity *= std::min(falloff_ / (way * way), largest_intensity);
+    const Lanes way = counts_path_ ? path_lengths + light.distances : light.distances;
+    light.intensities *= min(lanes_of(largest_intensity), falloff_ / (way * way));
   }
-  return true;
+  return light.distances > 0.0;
 }
 
-double PreparedLight::way_in_cylinder(const Vec3& point) const {
-  const Vec3 from_origin = point - origin_;
-  const double along = glm::dot(from_origin, axis_);
-  const Vec3 from_axis = from_origin - along * axis_;
-  return glm::dot(from_axis, from_axis) <= radius_ * radius_ ? along : 0;
+Lanes PreparedLight::way_in_cylinder(const VectorLanes& points) const {
+  const VectorLanes axis = lanes_of(axis_);
+  const VectorLanes from_origin = points - lanes_of(origin_);
+  const Lanes along = dot(from_origin, axis);
+  const VectorLanes from_axis = from_origin - along * axis;
+  return dot(from_axis, from_axis) <= radius_ * radius_ ? along : Lanes{};
 }
 
-double PreparedLight::cone_share(const Vec3& to_light) const {
-  const Vec3 difference = to_light + axis_;
-  const double versine = std::min(2.0, 0.5 * glm::dot(difference, difference));
-  if (versine > rim_versine_) return 0;
-  if (versine <= rim_versine_ - fading_versine_) return 1;
-  const double share = (rim_versine_ - versine) / fading_versine_;
-  return share * share * (3 - 2 * share);
+Lanes PreparedLight::cone_share(const VectorLanes& to_light) const {
+  const VectorLanes difference = to_light + lanes_of(axis_);
+  const Lanes versine = min(0.5 * dot(difference, difference), lanes_of(2));
+  const Lanes share = (rim_versine_ - versine) / fading_versine_;
+  const Lanes fading = share * share * (3.0 - 2.0 * share);
+  const Lanes within_rim = versine <= rim_versine_ - fading_versine_ ? lanes_of(1) : fading;
+  return versine > rim_versine_ ? Lanes{} : within_rim;
 }
 
 }  // namespace crt::core

@@ -1,17 +1,18 @@
 // Lights, as a point that may be lit sees them.
 #pragma once
 
+#include "core/math/vector_lanes.hpp"
 #include "core/shading/rgb.hpp"
 #include "crt/light.hpp"
 #include "crt/settings.hpp"
 
 namespace crt::core {
 
-/// A light seen from a point, before anything stands in its way.
-struct LightSample {
-  Vec3 direction{0, 1, 0};  ///< to the light, unit length
-  double distance = 0;      ///< to the light; infinite for a parallel one
-  double intensity = 1;     ///< what distance and the light's own shape leave of it
+/// A light seen from as many points as there are lanes, before anything stands in its way.
+struct LightSamples {
+  VectorLanes directions;  ///< to the light, unit length
+  Lanes distances{};       ///< to the light; infinite for a parallel one
+  Lanes intensities{};     ///< what distance and the light's own shape leave of it
 };
 
 class PreparedLight {
@@ -23,9 +24,9 @@ class PreparedLight {
   /// What every point gets of it, lit or not, if it mirrors nothing.
   Rgb ambient() const { return ambient_ * color_; }
 
-  /// The light at a point; false where it does not shine. `path_length` is the way from the camera to the
-  /// point, over all bounces.
-  bool sample(const Vec3& point, double path_length, LightSample& light) const;
+  /// The light at points; returns where it shines. `path_lengths` are the ways from the camera to the
+  /// points, over all bounces.
+  LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, LightSamples& light) const;
 
  private:
   explicit PreparedLight(const PointLight& light);
@@ -36,8 +37,8 @@ class PreparedLight {
   enum class Kind { point, parallel, spot, cylinder };
 
   /// From where the light comes in; 0 beside the cylinder and before its begin.
-  double way_in_cylinder(const Vec3& point) const;
-  double cone_share(const Vec3& to_light) const;
+  Lanes way_in_cylinder(const VectorLanes& points) const;
+  Lanes cone_share(const VectorLanes& to_light) const;
 
   Kind kind_;
   Rgb color_;

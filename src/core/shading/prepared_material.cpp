@@ -15,6 +15,7 @@ PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& 
 
   const bool gapless = pattern ? pattern->opaque() : color.a == 1;
   opaque = gapless && description->transparency == 0;
+  ends_paths = opaque && description->reflectivity <= 0;
   const Color& absorption = description->absorption;
   absorbing = !opaque && (absorption.r > 0 || absorption.g > 0 || absorption.b > 0);
 }

@@ -19,7 +19,12 @@ struct PreparedMaterial {
   std::optional<PreparedPattern> bump;
   /// Lets nothing through anywhere.
   bool opaque = true;
+  /// No ray goes on from it.
+  bool ends_paths = true;
   bool absorbing = false;
+
+  /// Looks the same everywhere.
+  bool uniform() const { return !pattern && !bump; }
 
   /// The share of light let through where the colour's alpha is `alpha`: a gap in the colour lets
   /// all of it through.

@@ -1,0 +1,119 @@
+// Four vectors side by side, by component: each operation does to every one of them what it does to a Vec3,
+// to the last bit.
+#pragma once
+
+#include <type_traits>
+
+#include "core/math/direction_and_length.hpp"
+#include "core/math/lanes.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+struct VectorLanes {
+  Lanes x{};
+  Lanes y{};
+  Lanes z{};
+
+  /// By axis.
+  Lanes& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+
+  Vec3 lane(std::size_t index) const {
+    const int i = static_cast<int>(index);
+    return {x[i], y[i], z[i]};
+  }
+  void set(std::size_t lane, const Vec3& v) {
+    const int i = static_cast<int>(lane);
+    x[i] = v.x;
+    y[i] = v.y;
+    z[i] = v.z;
+  }
+};
+
+/// A Vec3, or for lanes as many of them.
+template <class Real>
+using Vec3Of = std::conditional_t<std::is_same_v<Real, double>, Vec3, VectorLanes>;
+
+/// The same vector in each lane.
+inline VectorLanes lanes_of(const Vec3& v) {
+  return {lanes_of(v.x), lanes_of(v.y), lanes_of(v.z)};
+}
+
+inline VectorLanes operator-(const VectorLanes& v) {
+  return {-v.x, -v.y, -v.z};
+}
+inline VectorLanes operator+(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x + b.x, a.y + b.y, a.z + b.z};
+}
+inline VectorLanes operator-(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x - b.x, a.y - b.y, a.z - b.z};
+}
+inline VectorLanes operator*(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x * b.x, a.y * b.y, a.z * b.z};
+}
+inline VectorLanes operator*(const Lanes& factor, const VectorLanes& v) {
+  return {factor * v.x, factor * v.y, factor * v.z};
+}
+inline VectorLanes operator/(const VectorLanes& v, const Lanes& divisor) {
+  return {v.x / divisor, v.y / divisor, v.z / divisor};
+}
+
+inline Lanes dot(const VectorLanes& a, const VectorLanes& b) {
+  return a.x * b.x + a.y * b.y + a.z * b.z;
+}
+
+inline Lanes largest_component(const VectorLanes& v) {
+  return max(max(size_of(v.x), size_of(v.y)), size_of(v.z));
+}
+
+// By component.
+inline VectorLanes min(const VectorLanes& a, const VectorLanes& b) {
+  return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
+}
+inline VectorLanes max(const VectorLanes& a, const VectorLanes& b) {
+  return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+
+/// Of each lane that of `a` or that of `b`.
+inline VectorLanes chosen(const LaneMask& first, const VectorLanes& a, const VectorLanes& b) {
+  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
+/// As accurate_dot() has it, before its last rounding.
+inline DoubleDoubleLanes accurate_dot(const VectorLanes& a, const VectorLanes& b) {
+  const DoubleDoubleLanes x = two_product(a.x, b.x);
+  const DoubleDoubleLanes y = two_product(a.y, b.y);
+  const DoubleDoubleLanes z = two_product(a.z, b.z);
+  const DoubleDoubleLanes xy = two_sum(x.hi, y.hi);
+  const DoubleDoubleLanes xyz = two_sum(xy.hi, z.hi);
+  return two_sum(xyz.hi, xyz.lo + xy.lo + (x.lo + y.lo + z.lo));
+}
+
+inline VectorLanes unit_vectors(const VectorLanes& v) {
+  const VectorLanes scaled = 1.0 / power_of_two_below(largest_component(v)) * v;
+  const DoubleDoubleLanes square = accurate_dot(scaled, scaled);
+  return scaled / sqrt(square.hi + square.lo);
+}
+
+struct DirectionsAndLengths {
+  VectorLanes directions;
+  Lanes lengths{};
+};
+
+/// Of four vectors what direction_and_length() says of each.
+inline DirectionsAndLengths directions_and_lengths(const VectorLanes& v) {
+  const Lanes squares = dot(v, v);
+  if (all((squares > safe_square_min) & (squares < safe_square_max))) {
+    const Lanes lengths = sqrt(squares);
+    return {v / lengths, lengths};
+  }
+  DirectionsAndLengths result;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const DirectionAndLength one = direction_and_length(v.lane(lane));
+    result.directions.set(lane, one.direction);
+    result.lengths[static_cast<int>(lane)] = one.length;
+  }
+  return result;
+}
+
+}  // namespace crt::core

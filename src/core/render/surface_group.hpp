@@ -1,0 +1,48 @@
+// Surfaces that rays meet, side by side: what light needs to know of them, by component.
+#pragma once
+
+#include <array>
+
+#include "core/scene/prepared_data.hpp"
+#include "core/shading/phong.hpp"
+
+namespace crt::core {
+
+/// What rays that go on from a surface need of it.
+struct SurfaceHit {
+  const PreparedMaterial* material = nullptr;
+  double transparency = 0;
+  StartPoint start;  ///< of those that leave to the viewer's side
+
+  /// Of those that go on behind the surface.
+  StartPoint start_behind() const {
+    StartPoint behind = start;
+    behind.side = opposite(start.side);
+    return behind;
+  }
+};
+
+/// As many surfaces as there are lanes. What lanes hold whose rays have met none is of no use.
+struct SurfaceGroup {
+  std::array<SurfaceHit, lane_count> hits;
+  VectorLanes position;
+  VectorLanes face_normal;  ///< of the geometry, turned to the viewer
+  PhongSurfaces phong;      ///< its normal is that tilted by bumps
+  Lanes path_length{};      ///< from the camera
+  VectorLanes light;        ///< that they send back, as far as it has been added up
+};
+
+/// One of them.
+struct SurfaceLane {
+  SurfaceGroup& group;
+  std::size_t lane;
+
+  SurfaceHit& hit() const { return group.hits[lane]; }
+  Vec3 position() const { return group.position.lane(lane); }
+  Vec3 normal() const { return group.phong.normal.lane(lane); }
+  Vec3 face_normal() const { return group.face_normal.lane(lane); }
+  Rgb color() const { return group.phong.color.lane(lane); }
+  Rgb light() const { return group.light.lane(lane); }
+};
+
+}  // namespace crt::core

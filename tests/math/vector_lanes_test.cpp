@@ -1,0 +1,84 @@
+#include "core/math/vector_lanes.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <random>
+
+#include "core/math/vector.hpp"
+
+using namespace crt::core;
+using crt::Vec3;
+
+namespace {
+
+/// Vectors of all sizes, with components that are far apart.
+class Vectors {
+ public:
+  Vec3 next() {
+    const double size = std::ldexp(1, static_cast<int>(exponents_(engine_)));
+    Vec3 v;
+    for (int axis = 0; axis < 3; ++axis) {
+      v[axis] =
+          size * components_(engine_) * (axis == 2 ? std::ldexp(1, -static_cast<int>(engine_() % 60)) : 1);
+    }
+    return v;
+  }
+  std::array<Vec3, lane_count> four() { return {next(), next(), next(), next()}; }
+
+ private:
+  std::mt19937_64 engine_{1};
+  std::uniform_real_distribution<double> components_{-1, 1};
+  std::uniform_int_distribution<int> exponents_{-1000, 1000};
+};
+
+VectorLanes side_by_side(const std::array<Vec3, lane_count>& vectors) {
+  VectorLanes result;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) result.set(lane, vectors[lane]);
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("vectors side by side are computed with as each by itself, to the last bit") {
+  Vectors vectors;
+  for (int i = 0; i < 100000; ++i) {
+    const auto a = vectors.four();
+    const auto b = vectors.four();
+    const VectorLanes lanes_a = side_by_side(a);
+    const VectorLanes lanes_b = side_by_side(b);
+    const Lanes dots = dot(lanes_a, lanes_b);
+    const DoubleDoubleLanes accurate = accurate_dot(lanes_a, lanes_b);
+    const Lanes largest = largest_component(lanes_a);
+    const DirectionsAndLengths split = directions_and_lengths(lanes_a);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const int k = static_cast<int>(lane);
+      REQUIRE((lanes_a + lanes_b).lane(lane) == a[lane] + b[lane]);
+      REQUIRE((lanes_a - lanes_b).lane(lane) == a[lane] - b[lane]);
+      REQUIRE((lanes_a * lanes_b).lane(lane) == a[lane] * b[lane]);
+      const double expected_dot = glm::dot(a[lane], b[lane]);
+      const DoubleDouble expected_accurate = accurate_dot(a[lane], b[lane]);
+      REQUIRE((dots[k] == expected_dot || std::isnan(expected_dot)));
+      REQUIRE((accurate.hi[k] == expected_accurate.hi || std::isnan(expected_accurate.hi)));
+      REQUIRE((accurate.lo[k] == expected_accurate.lo || std::isnan(expected_accurate.lo)));
+      REQUIRE(largest[k] == largest_component(a[lane]));
+      REQUIRE(unit_vectors(lanes_a).lane(lane) == unit_vector(a[lane]));
+      const DirectionAndLength expected = direction_and_length(a[lane]);
+      REQUIRE(split.directions.lane(lane) == expected.direction);
+      REQUIRE(split.lengths[k] == expected.length);
+    }
+  }
+}
+
+TEST_CASE("lanes are chosen by mask") {
+  const VectorLanes a = lanes_of(Vec3(1, 2, 3));
+  const VectorLanes b = lanes_of(Vec3(4, 5, 6));
+  for (std::uint32_t mask = 0; mask < 1u << lane_count; ++mask) {
+    const VectorLanes c = chosen(lanes_with(mask), a, b);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      CHECK(c.lane(lane) == ((mask >> lane & 1u) != 0 ? Vec3(1, 2, 3) : Vec3(4, 5, 6)));
+    }
+    CHECK(mask_of(lanes_with(mask)) == mask);
+  }
+}
