@@ -242,6 +242,88 @@ TEST_CASE("so it does at lenses however far from the origin they are") {
   }
 }
 
+namespace {
+
+/// Rays that are nasty for spheres and for planes across an axis.
+WorldRay ray_near(const Sphere& sphere, Numbers& numbers) {
+  const Vec3 d = numbers.direction();
+  const Vec3 across = glm::normalize(glm::cross(d, numbers.direction()));
+  const int kind = numbers.below(4);
+  const double off = kind == 0   ? numbers.within(0, 1)
+                     : kind == 1 ? 1 + numbers.size(1e-17, 1e-3) * (numbers.below(2) == 0 ? 1 : -1)
+                     : kind == 2 ? numbers.size(1e-17, 1)
+                                 : numbers.within(0, 1.5);
+  // From inside, from nearby, or from so far away that the way there has no digits left for the sphere.
+  const double away = numbers.below(3) == 0 ? numbers.within(0, 1) : numbers.size(1, 1e20);
+  WorldRay ray{.origin = sphere.center + sphere.radius * (off * across - away * d), .direction = d};
+  if (numbers.below(4) == 0) {
+    // All but along the planes, or just along them.
+    const int axis = numbers.below(3);
+    ray.direction[axis] = numbers.below(3) == 0 ? 0 : ray.direction[axis] * numbers.size(1e-300, 1e-3);
+    if (!(largest_component(ray.direction) > 0)) ray.direction = {0, 0, 1};
+    ray.direction = glm::normalize(ray.direction);
+  }
+  if (numbers.below(4) == 0) ray.t_min = numbers.within(-1, 2) * sphere.radius * away;
+  if (numbers.below(4) == 0) ray.t_max = ray.t_min + numbers.within(0, 2) * sphere.radius * away;
+  return ray;
+}
+
+void check_first_crossings(const PreparedData& data, const std::vector<WorldRay>& rays, RayWorkspace& work,
+                           int& met) {
+  std::array<RayHit, packet_size> hits;
+  std::vector<RayHit> line;
+  data.intersect(rays, hits, work);
+  const RayMask hidden = data.occluded(rays, work);
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const RayHit alone = data.intersect(rays[k], work);
+    REQUIRE(same(alone, hits[k]));
+    // The crossings are found by the shapes themselves.
+    data.crossings(rays[k], false, line, work);
+    REQUIRE(alone.found() == !line.empty());
+    REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
+    if (!alone.found() || alone.has_company) continue;
+    REQUIRE(same(alone, line.front()));
+    ++met;
+  }
+}
+
+}  // namespace
+
+TEST_CASE("so it does at spheres and planes of any size, from inside, afar, all but beside, and from them") {
+  Numbers numbers(seed);
+  RayWorkspace work;
+  int met = 0;
+  for (int round = 0; round < 60; ++round) {
+    const double scale = numbers.size(1e-90, 1e90);
+    const Sphere sphere{.center = scale * numbers.point(numbers.below(2) == 0 ? 1 : 1e6),
+                        .radius = scale * numbers.size(1e-3, 1)};
+    Scene scene;
+    scene.entities = {sphere};
+    for (int axis = 0; axis < 3; ++axis) {
+      Vec3 normal(0);
+      normal[axis] = numbers.below(2) == 0 ? numbers.size(1e-3, 1e3) : -numbers.size(1e-3, 1e3);
+      const Vec3 beside = sphere.center + sphere.radius * numbers.point(3);
+      if (numbers.below(2) == 0) scene.entities.emplace_back(Plane{.normal = normal, .position = beside});
+    }
+    const PreparedData data(scene);
+    for (int i = 0; i < 100; ++i) {
+      std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+      for (WorldRay& ray : rays) ray = ray_near(sphere, numbers);
+      check_first_crossings(data, rays, work, met);
+      for (WorldRay& ray : rays) {
+        const RayHit hit = data.intersect(ray, work);
+        if (!hit.found() || numbers.below(4) == 0) continue;
+        const Vec3 place = data.hit_point(ray, hit).position;
+        ray = {.origin = place,
+               .direction = numbers.direction(),
+               .start = data.start_point(ray, hit, numbers.below(2) == 0 ? Side::outside : Side::inside)};
+      }
+      check_first_crossings(data, rays, work, met);
+    }
+  }
+  CHECK(met > 10000);
+}
+
 TEST_CASE("rays go together that go nearly the same way") {
   std::vector<WorldRay> rays(4);
   for (WorldRay& ray : rays) ray.direction = {0, 0, 1};

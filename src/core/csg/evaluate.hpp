@@ -48,6 +48,11 @@ struct StartPoint {
   Side side = Side::outside;  ///< of that surface, by its canonical orientation
   /// How far rounding may have put the start from *other* surfaces that are there too: see is_at_start().
   double t_error = 0;
+
+  /// Whether both are on one face, to one side of its surface.
+  bool is_to_same_side(const StartPoint& other) const {
+    return leaf == other.leaf && face == other.face && side == other.side;
+  }
 };
 
 /// What rounding makes of a point that was meant to be on several surfaces: it is this far from them at most,
@@ -144,8 +149,12 @@ bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& obje
 inline constexpr double flattest_start = 0x1p24;
 
 /// Up to where surfaces through the start may be met.
+template <class Real>
+Real farthest_start(const Real& begin, const Real& start_error) {
+  return begin + flattest_start * start_error;
+}
 inline double farthest_start(const WorldRay& ray) {
-  return ray.t_min + flattest_start * ray.start.t_error;
+  return farthest_start(ray.t_min, ray.start.t_error);
 }
 
 /// Whether a crossing near the start is of a surface through it.

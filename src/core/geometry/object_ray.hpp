@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <limits>
 
+#include "core/geometry/plain_ray.hpp"
 #include "core/math/double_double.hpp"
-#include "core/math/vector_lanes.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
@@ -47,27 +47,6 @@ struct ObjectRay {
                      (offset.lo + origin_low[axis] + t * direction_low[axis] + t_low * direction[axis]);
     }
     return result;
-  }
-};
-
-/// As many rays as there are lanes, in a space that is the world's: without low parts.
-struct RayLanes {
-  VectorLanes origin;
-  VectorLanes direction;
-
-  /// The points at t, each component rounded once.
-  VectorLanes at(const Lanes& t) const {
-    return {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y), fma(t, direction.z, origin.z)};
-  }
-
-  /// As ObjectRay has it, for the center of one primitive.
-  VectorLanes from_center(const Vec3& center, const Lanes& t) const {
-    const auto component = [&t](const Lanes& from, const Lanes& along, double place) {
-      const DoubleDoubleLanes offset = two_sum(from, lanes_of(-place));
-      return fma(t, along, offset.hi) + (offset.lo + 0.0);
-    };
-    return {component(origin.x, direction.x, center.x), component(origin.y, direction.y, center.y),
-            component(origin.z, direction.z, center.z)};
   }
 };
 

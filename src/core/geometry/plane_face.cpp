@@ -47,24 +47,14 @@ double PlaneFace::meeting_error(double t, double reach, double normal_length, do
 }
 
 PlaneFace::Meeting PlaneFace::meet_axis_plane(const ObjectRay& ray) const {
-  Meeting result;
   const double speed = ray.direction[axis_];
-  result.rate = normal_[axis_] > 0 ? speed : -speed;
-  if (speed == 0) return result;
-  const DoubleDouble way = two_sum(position_[axis_], -ray.origin[axis_]);
-  const double quotient = way.hi / speed;
-  if (!std::isfinite(quotient)) return result;
-  const double remainder = std::fma(-quotient, speed, way.hi) +
-                           (way.lo - ray.origin_low[axis_] - quotient * ray.direction_low[axis_]);
-  const DoubleDouble t = two_sum(quotient, remainder / speed);
-  if (!std::isfinite(t.hi)) return result;
-  result.found = true;
-  result.t = t.hi;
-  result.t_low = t.lo;
-  // The computed value is within a few u^2 of the true one before its last rounding.
-  constexpr double last_rounding = 1 + 0x1p-40;
-  result.error = rounding_of(t.hi) * last_rounding;
-  return result;
+  const auto meeting = AxisMeeting<double>::of(position_[axis_], ray.origin[axis_], speed,
+                                               ray.origin_low[axis_], ray.direction_low[axis_]);
+  return {.found = meeting.found,
+          .t = meeting.t,
+          .t_low = meeting.t_low,
+          .error = meeting.error,
+          .rate = normal_[axis_] > 0 ? speed : -speed};
 }
 
 Vec3 PlaneFace::point(const ObjectRay& ray, const Meeting& meeting) const {

@@ -2,11 +2,43 @@
 // computes t here, so faces that coincide across a coordinate axis get the same bits.
 #pragma once
 
+#include <limits>
+
 #include "core/geometry/object_ray.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/stretch.hpp"
+#include "core/math/lanes.hpp"
 
 namespace crt::core {
+
+/// Where a line, or as many as a Real has lanes, meets a plane across a coordinate axis. Of the line only
+/// what it has along that axis counts.
+template <class Real>
+struct AxisMeeting {
+  decltype(Real{} < Real{}) found{};  ///< else the rest means nothing
+  Real t{};
+  Real t_low{};
+  Real error{};  ///< all as in PlaneFace::Meeting
+
+  static AxisMeeting of(const Real& position, const Real& origin, const Real& speed,
+                        const Real& origin_low = Real{}, const Real& speed_low = Real{});
+};
+
+template <class Real>
+AxisMeeting<Real> AxisMeeting<Real>::of(const Real& position, const Real& origin, const Real& speed,
+                                        const Real& origin_low, const Real& speed_low) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  const auto way = two_sum(position, -origin);
+  const Real quotient = way.hi / speed;  // no number if the line is parallel
+  const Real remainder = fma(-quotient, speed, way.hi) + (way.lo - origin_low - quotient * speed_low);
+  const auto sum = two_sum(quotient, remainder / speed);
+  // The computed value is within a few u^2 of the true one before its last rounding.
+  constexpr double last_rounding = 1 + 0x1p-40;
+  return {.found = both(size_of(quotient) <= largest, size_of(sum.hi) <= largest),
+          .t = sum.hi,
+          .t_low = sum.lo,
+          .error = rounding_of(sum.hi) * last_rounding};
+}
 
 class PlaneFace {
  public:

@@ -4,7 +4,6 @@
 
 #include "core/geometry/angles.hpp"
 #include "core/geometry/checks.hpp"
-#include "core/geometry/near_line.hpp"
 #include "core/geometry/stretch.hpp"
 
 namespace crt::core {
@@ -23,28 +22,10 @@ Bounds SphereShape::bounds() const {
 
 bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (ray.start.face == 0) return crossings_from_surface(ray, out);
-  const NearLine line = NearLine::at_closest(ray, center_, unit_);
-  const double r = scaled_radius_;
-  const double a = line.squared_speed;
-  const double closest = line.closest();
-  const double distance = glm::length(line.at(closest));
-  if (!(distance < r)) return false;
-
-  const double root = std::sqrt(a * (r + distance) * (r - distance));
-  const double half_chord = root / a;
-  const double t_enter = line.to_t(closest - half_chord);
-  const double t_leave = line.to_t(closest + half_chord);
-  if (!(t_enter < t_leave)) return false;
-  const double reach = 2 * r;
-  const double longest = grazing_error(line, reach, r);
-  out.push_back({.t = t_enter,
-                 .error = standard_error(line, t_enter, reach, root / r, longest),
-                 .root = 0,
-                 .entering = true});
-  out.push_back({.t = t_leave,
-                 .error = standard_error(line, t_leave, reach, root / r, longest),
-                 .root = 1,
-                 .entering = false});
+  const auto chord = SphereChord<double>::of(ray, center_, radius_, unit_);
+  if (!chord.found) return false;
+  out.push_back({.t = chord.enter.t, .error = chord.enter.error, .root = 0, .entering = true});
+  out.push_back({.t = chord.leave.t, .error = chord.leave.error, .root = 1, .entering = false});
   return false;
 }
 

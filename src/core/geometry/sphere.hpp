@@ -9,9 +9,52 @@
 // Tests: tests/geometry/sphere_test.cpp
 #pragma once
 
+#include "core/geometry/near_line.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
+
+/// Where a line, or as many as a Real has lanes, enters and leaves a sphere.
+template <class Real>
+struct SphereChord {
+  struct End {
+    Real t{};
+    Real error{};  ///< as in Crossing
+  };
+  decltype(Real{} < Real{}) found{};  ///< else the ends mean nothing
+  End enter;
+  End leave;
+
+  /// Of a line that does not start on the surface. `unit` is the sphere's (see below).
+  template <class Ray>
+  static SphereChord of(const Ray& ray, const Vec3& center, double radius, double unit);
+};
+
+template <class Real>
+template <class Ray>
+SphereChord<Real> SphereChord<Real>::of(const Ray& ray, const Vec3& center, double radius, double unit) {
+  SphereChord chord;
+  const auto line = NearLineOf<Real>::at_closest(ray, center, unit);
+  const double r = radius / unit;
+  const Real a = line.squared_speed;
+  const Real closest = line.closest();
+  const Vec3Of<Real> nearest = line.at(closest);
+  const Real distance = square_root(dot(nearest, nearest));
+  chord.found = distance < r;
+  if (!any(chord.found)) return chord;
+
+  const Real root = square_root(a * (r + distance) * (r - distance));
+  const Real half_chord = root / a;
+  chord.enter.t = line.to_t(closest - half_chord);
+  chord.leave.t = line.to_t(closest + half_chord);
+  chord.found = both(chord.found, chord.enter.t < chord.leave.t);
+  const double reach = 2 * r;
+  const Real approach = root / r;
+  const Real longest = grazing_error(line, reach, r);
+  chord.enter.error = standard_error(line, chord.enter.t, reach, approach, longest);
+  chord.leave.error = standard_error(line, chord.leave.t, reach, approach, longest);
+  return chord;
+}
 
 class SphereShape final : public Shape {
  public:

@@ -2,9 +2,13 @@
 // one by one. Vectors of GCC and Clang, which turn them into what the machine has.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
+#include <type_traits>
+
+#include "core/math/vector.hpp"
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -17,8 +21,9 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = decltype(Lanes{} < Lanes{});
 inline constexpr int lane_count = 4;
 
-/// As many floats.
+/// As many floats, and integers of their size.
 using FloatLanes = float __attribute__((vector_size(16)));
+using IntLanes = std::int32_t __attribute__((vector_size(16)));
 
 /// Each rounded to the nearest float.
 inline FloatLanes to_floats(const Lanes& a) {
@@ -42,12 +47,20 @@ inline Lanes lanes_of(double value) {
 
 // Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
 
-/// Whether a comparison is true in all lanes.
+/// Whether a comparison is true in all lanes, or in any.
 inline bool all(const LaneMask& mask) {
 #ifdef __AVX__
   return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) == (1 << lane_count) - 1;
 #else
   return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
+#endif
+}
+
+inline bool any(const LaneMask& mask) {
+#ifdef __AVX__
+  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
+#else
+  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
 #endif
 }
 
@@ -95,12 +108,58 @@ inline Lanes sqrt(const Lanes& a) {
 }
 
 inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
+#ifdef __FMA__
+  return _mm256_fmadd_pd(a, b, c);
+#else
   Lanes result;
   for (int i = 0; i < lane_count; ++i) result[i] = std::fma(a[i], b[i], c[i]);
   return result;
+#endif
 }
 
-/// The absolute value, of a double or of lanes.
+// Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles gives a
+// bool, and comparing lanes a mask of lanes.
+
+using std::fma;
+
+inline bool all(bool a) {
+  return a;
+}
+inline bool any(bool a) {
+  return a;
+}
+
+inline bool both(bool a, bool b) {
+  return a && b;
+}
+inline LaneMask both(const LaneMask& a, const LaneMask& b) {
+  return a & b;
+}
+inline bool either(bool a, bool b) {
+  return a || b;
+}
+inline LaneMask either(const LaneMask& a, const LaneMask& b) {
+  return a | b;
+}
+template <class Mask, class... More>
+Mask either(const Mask& a, const Mask& b, const More&... more) {
+  return either(either(a, b), more...);
+}
+inline bool neither(bool a, bool b) {
+  return !a && !b;
+}
+inline LaneMask neither(const LaneMask& a, const LaneMask& b) {
+  return ~(a | b);
+}
+
+inline double square_root(double x) {
+  return std::sqrt(x);
+}
+inline Lanes square_root(const Lanes& x) {
+  return sqrt(x);
+}
+
+/// The absolute value.
 inline double size_of(double x) {
   return std::abs(x);
 }
@@ -114,8 +173,21 @@ inline Lanes size_of(const Lanes& x) {
 #endif
 }
 
-/// What power_of_two_below() says of each.
-inline Lanes powers_of_two_below(const Lanes& x) {
+/// The same number in a Real, which is a double or lanes.
+template <class Real>
+Real spread(double value) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return value;
+  } else {
+    return lanes_of(value);
+  }
+}
+
+// As core/math/vector.hpp has it, of each.
+inline Lanes rounding_of(const Lanes& x) {
+  return unit_roundoff * size_of(x);
+}
+inline Lanes power_of_two_below(const Lanes& x) {
   constexpr std::int64_t exponent_bits = 0x7ff0000000000000;
   constexpr std::int64_t smallest = 0x0010000000000000;
   const LaneMask bits = reinterpret_cast<LaneMask>(x) & exponent_bits;

@@ -2,6 +2,8 @@
 // to the last bit.
 #pragma once
 
+#include <type_traits>
+
 #include "core/math/direction_and_length.hpp"
 #include "core/math/lanes.hpp"
 #include "crt/vec.hpp"
@@ -27,6 +29,10 @@ struct VectorLanes {
     z[i] = v.z;
   }
 };
+
+/// A Vec3, or for lanes as many of them.
+template <class Real>
+using Vec3Of = std::conditional_t<std::is_same_v<Real, double>, Vec3, VectorLanes>;
 
 /// The same vector in each lane.
 inline VectorLanes lanes_of(const Vec3& v) {
@@ -84,7 +90,7 @@ inline DoubleDoubleLanes accurate_dot(const VectorLanes& a, const VectorLanes& b
 }
 
 inline VectorLanes unit_vectors(const VectorLanes& v) {
-  const VectorLanes scaled = 1.0 / powers_of_two_below(largest_component(v)) * v;
+  const VectorLanes scaled = 1.0 / power_of_two_below(largest_component(v)) * v;
   const DoubleDoubleLanes square = accurate_dot(scaled, scaled);
   return scaled / sqrt(square.hi + square.lo);
 }

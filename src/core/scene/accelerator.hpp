@@ -69,11 +69,8 @@ class Accelerator {
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
   /// The object that a ray has left for good when it starts: it cannot meet the object again.
   std::uint32_t left_for_good(const StartPoint& start) const;
-  bool some_keep_apart() const { return !apart_.empty(); }
   /// The solid that a ray starts on the surface of, into it, if it keeps apart from all else.
   std::uint32_t entered_apart(const StartPoint& start) const;
-  /// Whether the piece of a ray up to a t is where nothing but one object is that keeps apart.
-  bool is_in_room(std::uint32_t object, const WorldRay& ray, double to) const;
 
  private:
   template <class Kind>
@@ -83,9 +80,17 @@ class Accelerator {
   void visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const;
   template <class Kind>
   void traverse_filtered(Kind& query) const;
-  template <class Kind>
-  void traverse_filtered(RayPacket& packet, RayMask going, std::span<Kind> queries) const;
-  void fill_packet(std::span<const WorldRay> rays, RayPacket& packet) const;
+  /// Returns the rays that still go, of those which do.
+  template <class QueryOf>
+  RayMask traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
+                            const QueryOf& query_of) const;
+  /// On what the rays of a packet start, and what they have left for good.
+  void note_starts(std::span<const WorldRay> rays, RayPacket& packet) const;
+  /// Whether the piece of a ray up to a t is where nothing but one object is that keeps apart.
+  bool is_in_room(std::uint32_t object, const WorldRay& ray, double to) const;
+  /// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
+  /// is elsewhere it cannot meet before. Else the hit is left empty.
+  bool leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
@@ -114,15 +119,6 @@ void Accelerator::visit_boxes(const WorldRay& ray, double limit, const Visit& vi
   } else {
     tree_->traverse(ray.origin, ray.direction, ray.t_min, limit, visit);
   }
-}
-
-/// Crossings before that are surely not of a surface through the ray's end.
-inline double certain_end(const WorldRay& ray) {
-  if (!(ray.end_error > 0)) return ray.t_max;
-  // How far before the end the crossing of a surface through it may be; the flatter the ray, the farther.
-  constexpr double relative_width = 0x1p-26;
-  return ray.t_max - relative_width *
-                         std::fma(ray.t_max, largest_component(ray.direction), largest_component(ray.origin));
 }
 
 }  // namespace crt::core

@@ -5,6 +5,7 @@
 #include <atomic>
 #include <bit>
 #include <cmath>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <string>
@@ -31,6 +32,10 @@ constexpr float float_infinity = std::numeric_limits<float>::infinity();
 /// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
 constexpr double box_margin = 0x1p-22;
 
+/// In the same units: Embree takes no ray that starts farther away. None that does so where it should enter
+/// the box around all meets anything, but rounding may put it there.
+constexpr double farthest_place = 0x1p60;
+
 float round_up(double value) {
   const auto nearest = static_cast<float>(value);
   if (!(static_cast<double>(nearest) < value)) return nearest;
@@ -42,6 +47,20 @@ float round_up(double value) {
 
 float round_down(double value) {
   return -round_up(-value);
+}
+
+/// round_up() of each, if it is not negative.
+FloatLanes round_up_length(const Lanes& length) {
+  const FloatLanes nearest = to_floats(length);
+  // -1 where it is true.
+  const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
+  return reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
+}
+
+/// Into a column of numbers by ray, from one on.
+template <class Numbers, class Column>
+void put(const Numbers& lanes, Column& column, std::size_t first) {
+  std::memcpy(&column[first], &lanes, sizeof lanes);
 }
 
 /// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
@@ -250,7 +269,9 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   ray.origin = origin;
   ray.direction = direction;
   const Vec3 start = ray.from_center(center_, t_start);
-  const auto place = [&](int axis) { return static_cast<float>(start[axis] * scale_); };
+  const auto place = [&](int axis) {
+    return static_cast<float>(std::clamp(start[axis] * scale_, -farthest_place, farthest_place));
+  };
   const auto way = [&](int axis) { return static_cast<float>(direction[axis] * direction_scale); };
   ray_hit.ray.org_x = place(0);
   ray_hit.ray.org_y = place(1);
@@ -266,10 +287,9 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
-void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leave) const {
+LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  enter = lanes_of(-infinity);
-  leave = lanes_of(infinity);
+  LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
   LaneMask steep{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
@@ -278,18 +298,19 @@ void EmbreeTree::clip(const OutlineLine<Lanes>& lines, Lanes& enter, Lanes& leav
     const Lanes second = (total_.upper[axis] - lines.origin[i]) * inverse;
     const Lanes low = min(first, second);
     const Lanes high = max(first, second);
-    enter = max(enter, low - RaySlabs::slack * size_of(low));
-    leave = min(leave, high + RaySlabs::slack * size_of(high));
+    span.enter = max(span.enter, low - RaySlabs::slack * size_of(low));
+    span.leave = min(span.leave, high + RaySlabs::slack * size_of(high));
     steep |= size_of(inverse) > RaySlabs::largest_inverse;
   }
   for_each_ray(mask_of(steep), [&](std::size_t ray) {
     const auto i = static_cast<int>(ray);
     const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
     const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
-    const LineSpan span = RaySlabs(origin, direction).span(total_);
-    enter[i] = span.enter;
-    leave[i] = span.leave;
+    const LineSpan of_ray = RaySlabs(origin, direction).span(total_);
+    span.enter[i] = of_ray.enter;
+    span.leave[i] = of_ray.leave;
   });
+  return span;
 }
 
 void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
@@ -318,12 +339,10 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
   for (std::size_t first = 0; first < Count; first += lane_count) {
     const std::size_t group = (first_ray + first) / lane_count;
     const OutlineLine<Lanes>& lines = packet.groups[group];
-    Lanes enter;
-    Lanes leave;
-    clip(lines, enter, leave);
-    const Lanes start = max(lines.begin, enter);
-    const Lanes end = min(packet.limits[group], leave);
-    const RayMask meeting = rays >> (first_ray + first) & mask_of(start <= end);
+    const LineSpanLanes inside = clip(lines);
+    const Lanes start = max(lines.begin, inside.enter);
+    const Lanes end = min(packet.limits[group], inside.leave);
+    const RayMask meeting = RayPacket::lanes(rays, group) & mask_of(start <= end);
     some = some || meeting != 0;
     traversal.t_start[group] = start;
     // As ObjectRay::from_center() has it.
@@ -331,21 +350,17 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const DoubleDoubleLanes offset =
           two_sum(lines.origin[axis], lanes_of(-center_[static_cast<int>(axis)]));
-      place[axis] = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
+      const Lanes at = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
+      place[axis] = max(min(at, lanes_of(farthest_place)), lanes_of(-farthest_place));
     }
-    const Lanes length = (end - start) * scale_;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const auto i = static_cast<int>(lane);
-      const std::size_t ray = first + lane;
-      valid[ray] = (meeting >> lane & 1u) != 0 ? -1 : 0;
-      to_trace.org_x[ray] = static_cast<float>(place[0][i]);
-      to_trace.org_y[ray] = static_cast<float>(place[1][i]);
-      to_trace.org_z[ray] = static_cast<float>(place[2][i]);
-      to_trace.dir_x[ray] = static_cast<float>(lines.direction[0][i]);
-      to_trace.dir_y[ray] = static_cast<float>(lines.direction[1][i]);
-      to_trace.dir_z[ray] = static_cast<float>(lines.direction[2][i]);
-      to_trace.tfar[ray] = std::max(round_up(length[i]), 0.0f);
-    }
+    put(__builtin_convertvector(lanes_with(meeting), IntLanes), valid, first);
+    put(to_floats(place[0]), to_trace.org_x, first);
+    put(to_floats(place[1]), to_trace.org_y, first);
+    put(to_floats(place[2]), to_trace.org_z, first);
+    put(to_floats(lines.direction[0]), to_trace.dir_x, first);
+    put(to_floats(lines.direction[1]), to_trace.dir_y, first);
+    put(to_floats(lines.direction[2]), to_trace.dir_z, first);
+    put(round_up_length((end - start) * scale_), to_trace.tfar, first);
   }
   if (!some) return;
   for (std::size_t ray = 0; ray < Count; ++ray) {

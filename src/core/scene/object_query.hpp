@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "core/geometry/sphere.hpp"
 #include "core/scene/accelerator.hpp"
+#include "core/scene/certain_end.hpp"
 
 namespace crt::core {
 
@@ -19,30 +19,14 @@ namespace crt::core {
 template <class Kind>
 class ObjectQuery {
  public:
-  ObjectQuery() = default;
-  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work) {
-    start(accelerator, ray, work);
-  }
-  void start(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work) {
-    accelerator_ = &accelerator;
-    ray_ = &ray;
-    work_ = &work;
-    limit_ = ray.t_max;
-  }
+  ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
+      : accelerator_(&accelerator), ray_(&ray), work_(&work), limit_(ray.t_max) {}
 
   /// Nothing at t > limit() matters any more; below t_min, the query is done.
   double limit() const { return limit_; }
   void set_limit(double limit) { limit_ = limit; }
   const WorldRay& ray() const { return *ray_; }
-
-  void test(const Outline& outline) {
-    const bool outline_will_do = outline.kind == Outline::Kind::sphere && outline.detail != nothing;
-    if (outline_will_do && ray_->start.surface != outline.surface) {
-      test_sphere(outline);
-    } else {
-      test(outline.object);
-    }
-  }
+  RayWorkspace& work() const { return *work_; }
 
   void test(std::uint32_t object_index) {
     ++work_->intersection_tests;
@@ -71,8 +55,6 @@ class ObjectQuery {
   void test_csg(std::uint32_t object_index, const SceneObject& object);
   /// By a sketch of the object; false if that leaves anything open.
   bool test_sketch(std::uint32_t object_index, const CsgProgram& program);
-  /// As test_leaf() does it, without a look at anything else that would have to be fetched from memory.
-  void test_sphere(const Outline& sphere);
 
   /// A leaf that is an object of its own, whose crossings are in the workspace.
   struct LoneLeaf {
@@ -82,13 +64,12 @@ class ObjectQuery {
     const ObjectRay& object_ray;
     bool solid;
   };
-  template <class SurfaceOf>
-  void follow(const LoneLeaf& lone, bool inside, const SurfaceOf& surface_of);
+  void follow(const LoneLeaf& lone, bool inside);
 
-  const Accelerator* accelerator_ = nullptr;
-  const WorldRay* ray_ = nullptr;
-  RayWorkspace* work_ = nullptr;
-  double limit_ = 0;
+  const Accelerator* accelerator_;
+  const WorldRay* ray_;
+  RayWorkspace* work_;
+  double limit_;
 };
 
 template <class Kind>
@@ -103,27 +84,11 @@ void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject&
   object_ray.begin = ray_->t_min;
   if (Kind::takes_one) object_ray.first_above = start + more_than_rounding * std::abs(start);
   const bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
-  follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside,
-         [&](std::uint32_t face) { return accelerator_->face_surface(leaf, face).surface; });
+  follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside);
 }
 
 template <class Kind>
-void ObjectQuery<Kind>::test_sphere(const Outline& sphere) {
-  ++work_->intersection_tests;
-  const Leaf& leaf = accelerator_->leaf(sphere.detail);
-  ObjectRay object_ray;
-  object_ray.origin = ray_->origin;
-  object_ray.direction = ray_->direction;
-  work_->crossings.clear();
-  const SphereShape shape({.center = sphere.place, .radius = sphere.radius});
-  const bool inside = shape.crossings(object_ray, work_->crossings);
-  follow({sphere.object, sphere.detail, leaf, object_ray, true}, inside,
-         [&](std::uint32_t) { return sphere.surface; });
-}
-
-template <class Kind>
-template <class SurfaceOf>
-void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside, const SurfaceOf& surface_of) {
+void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside) {
   const CrossingList& crossings = work_->crossings;
   // Another object's surface that coincides with the one the ray starts on is at the start as well.
   const bool starts_here = lone.object_ray.start.face != no_face;
@@ -146,7 +111,7 @@ void ObjectQuery<Kind>::follow(const LoneLeaf& lone, bool inside, const SurfaceO
                      .object = lone.object,
                      .leaf = lone.index,
                      .face = crossing.face,
-                     .surface = surface_of(crossing.face),
+                     .surface = accelerator_->face_surface(lone.leaf, crossing.face).surface,
                      .root = crossing.root,
                      .entering = crossing.entering};
     if (!kind().take(hit)) return;

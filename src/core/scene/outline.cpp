@@ -121,7 +121,10 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
       break;
     case SurfaceKind::plane:
       axis.normal = scaled_to_one(surface.direction);
-      if (place_exactly(surface, *leaf.placement, outline)) outline.kind = Outline::Kind::plane;
+      if (!place_exactly(surface, *leaf.placement, outline)) break;
+      outline.kind = Outline::Kind::plane;
+      if (!leaf.exact && leaf.placement->is_identity() && coordinate_axis(axis.normal) >= 0)
+        axis.leaf = object.first_leaf;
       break;
     case SurfaceKind::torus:
       if (place_torus(surface, *leaf.placement, outline, axis) && has_fair_size(axis.thickness) &&

@@ -34,7 +34,14 @@ struct Outline {
 struct OutlineAxis {
   Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus or the rod
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
+  std::uint32_t leaf = nothing;  ///< of a plane across a coordinate axis, as Outline::detail of a sphere
 };
+
+/// The leaf of an object whose outline alone tells its crossings; else nothing.
+inline std::uint32_t leaf_told(const Outline& outline, std::span<const OutlineAxis> axes) {
+  if (outline.kind == Outline::Kind::sphere) return outline.detail;
+  return outline.kind == Outline::Kind::plane ? axes[outline.detail].leaf : nothing;
+}
 
 struct CompiledScene;
 
@@ -56,6 +63,7 @@ struct OutlineLine {
   Real inverse_squared_speed;
   Real inverse_speed;
   Real begin;         ///< crossings before it do not count
+  Real start_error;   ///< as StartPoint::t_error
   Real certain_from;  ///< crossings behind it and before certain_to count
   Real certain_to;    ///< finite
 };
@@ -71,35 +79,6 @@ namespace outline_detail {
 /// Relative, 128 roundings: what the sums below can be off by, and what the exact test may decide
 /// otherwise, with room to spare.
 inline constexpr double slack = 0x1p-46;
-
-// Comparing doubles gives a bool, and comparing lanes a mask of lanes.
-inline bool both(bool a, bool b) {
-  return a && b;
-}
-inline LaneMask both(const LaneMask& a, const LaneMask& b) {
-  return a & b;
-}
-inline bool either(bool a, bool b) {
-  return a || b;
-}
-inline LaneMask either(const LaneMask& a, const LaneMask& b) {
-  return a | b;
-}
-template <class Mask, class... More>
-Mask either(const Mask& a, const Mask& b, const More&... more) {
-  return either(either(a, b), more...);
-}
-
-inline double square_root(double x) {
-  return std::sqrt(x);
-}
-inline Lanes square_root(const Lanes& x) {
-  return sqrt(x);
-}
-
-inline bool all(bool a) {
-  return a;
-}
 
 template <class Real>
 Real along(const Vec3& axis, const std::array<Real, 3>& v) {

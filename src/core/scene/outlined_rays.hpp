@@ -7,12 +7,10 @@
 #include <span>
 
 #include "core/scene/accelerator.hpp"
+#include "core/scene/certain_end.hpp"
 #include "core/scene/ray_packet.hpp"
 
 namespace crt::core {
-
-/// Cheap tests take only finite ends.
-inline constexpr double largest_end = 0x1p900;
 
 /// What a cheap test may say of an object.
 enum class Judgement { open, missed, met };
@@ -31,9 +29,12 @@ class OutlinedRay {
     line_.inverse_squared_speed = 1 / line_.squared_speed;
     line_.inverse_speed = std::sqrt(line_.inverse_squared_speed);
     line_.begin = ray.t_min;
+    line_.start_error = ray.start.t_error;
     line_.certain_from = farthest_start(ray);
-    line_.certain_to = std::min(certain_end(ray), largest_end);
+    line_.certain_to = finite_end(certain_end(ray));
   }
+
+  const OutlineLine<double>& line() const { return line_; }
 
   Judgement judge(const Outline& outline, std::span<const OutlineAxis> axes, double limit) const {
     double last;
@@ -63,19 +64,15 @@ class OutlinedRay {
   std::uint32_t left_object_;
 };
 
-inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, std::uint32_t value) {
-  RayMask mask = 0;
-  for (std::size_t i = 0; i < packet_size; ++i) mask |= static_cast<RayMask>(values[i] == value) << i;
-  return mask;
-}
-
 /// A packet and the cheap tests.
 class OutlinedPacket {
  public:
-  explicit OutlinedPacket(RayPacket& packet)
-      : packet_(packet),
-        starts_on_surface_(packet.all() & ~rays_with(packet.start_surfaces, nothing)),
-        left_some_(packet.all() & ~rays_with(packet.left_objects, nothing)) {}
+  explicit OutlinedPacket(const RayPacket& packet) : packet_(packet) {}
+
+  /// Those that start on a surface.
+  RayMask starting_on(std::uint32_t surface) const {
+    return packet_.on_surface == 0 ? 0 : rays_with(packet_.start_surfaces, surface);
+  }
 
   Verdict<RayMask> judge(const Outline& outline, std::span<const OutlineAxis> axes, RayMask rays) const {
     std::array<Lanes, RayPacket::group_count> last;
@@ -88,14 +85,14 @@ class OutlinedPacket {
     if (outline.kind != Outline::Kind::unknown) {
       for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
         const std::size_t first = group * lane_count;
-        if ((rays >> first & group_mask) == 0) continue;
+        if ((rays >> first & RayPacket::group_mask) == 0) continue;
         const OutlineLine<Lanes>& lines = packet_.groups[group];
         const Lanes& limits = packet_.limits[group];
         const Verdict<LaneMask> of_lanes = judge_outline(outline, axes, lines, limits, last[group]);
         verdict.missed |= mask_of(of_lanes.missed) << first;
         verdict.met |= mask_of(of_lanes.met) << first;
       }
-      if ((rays & starts_on_surface_) != 0) {
+      if ((rays & packet_.on_surface) != 0) {
         const RayMask open = rays_with(packet_.start_surfaces, outline.surface);
         verdict.missed &= ~open;
         verdict.met &= ~open;
@@ -104,29 +101,25 @@ class OutlinedPacket {
           verdict.missed |= outwards & leaving(outline, axes[outline.detail], outwards);
       }
     }
-    if ((rays & left_some_) != 0) verdict.missed |= rays_with(packet_.left_objects, outline.object);
+    if ((rays & packet_.left_some) != 0) verdict.missed |= rays_with(packet_.left_objects, outline.object);
     verdict.missed &= rays;
     verdict.met &= rays & ~verdict.missed;
     return verdict;
   }
 
  private:
-  static constexpr RayMask group_mask = (1u << lane_count) - 1;
-
   /// Those that leave a torus for good, of rays that start on it.
   RayMask leaving(const Outline& torus, const OutlineAxis& axis, RayMask rays) const {
     RayMask result = 0;
     for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
       const std::size_t first = group * lane_count;
-      if ((rays >> first & group_mask) == 0) continue;
+      if ((rays >> first & RayPacket::group_mask) == 0) continue;
       result |= mask_of(leaves_torus(torus, axis, packet_.groups[group])) << first;
     }
     return result;
   }
 
   const RayPacket& packet_;
-  RayMask starts_on_surface_;
-  RayMask left_some_;
 };
 
 }  // namespace crt::core

@@ -30,22 +30,37 @@ void for_each_ray(RayMask mask, const Use& use) {
 /// Up to packet_size rays by component, as vector instructions take them.
 struct RayPacket {
   static constexpr std::size_t group_count = packet_size / lane_count;
+  static constexpr RayMask group_mask = (1u << lane_count) - 1;
 
-  std::size_t count = 0;
+  /// There is at least one ray. On what they start remains to be set.
+  explicit RayPacket(std::span<const WorldRay> rays);
+
   std::array<OutlineLine<Lanes>, group_count> groups;
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
   std::array<std::uint32_t, packet_size> start_surfaces;
-  RayMask outwards;  ///< of those that start on a surface
+  RayMask on_surface = 0;  ///< that start on one
+  RayMask outwards = 0;    ///< of those
   /// The object that a ray has left for good.
   std::array<std::uint32_t, packet_size> left_objects;
+  RayMask left_some = 0;  ///< that have left one
 
-  RayMask all() const { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
+  /// A group's rays, by lane.
+  static RayMask lanes(RayMask rays, std::size_t group) { return rays >> (group * lane_count) & group_mask; }
+
+  static RayMask all(std::size_t count) { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
   double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
   void set_limit(std::size_t ray, double limit) {
     limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
   }
 };
+
+/// Those whose value is that one.
+inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, std::uint32_t value) {
+  RayMask mask = 0;
+  for (std::size_t i = 0; i < packet_size; ++i) mask |= static_cast<RayMask>(values[i] == value) << i;
+  return mask;
+}
 
 /// Whether up to packet_size rays go so nearly the same way that a packet of them pays.
 bool go_together(std::span<const WorldRay> rays);

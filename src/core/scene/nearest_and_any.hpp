@@ -1,0 +1,85 @@
+// What the two queries keep that most rays ask: the nearest crossing, and whether there is any.
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <tuple>
+
+#include "core/geometry/plain_ray.hpp"
+#include "core/scene/object_query.hpp"
+
+namespace crt::core {
+
+/// How far along the ray from a hit other crossings may be and yet be at its place, or at the start of a ray
+/// that goes on from it, whose origin is rounded. Wide, as the next ray may meet at right angles what
+/// this one grazes: it only decides where to look. Of one ray, or of as many as a Real has lanes.
+template <class Real>
+Real company_width(const PlainRay<Real>& ray, const Real& t, const Real& error) {
+  constexpr double error_factor = 4;
+  constexpr double relative_width = 0x1p-40;
+  const Real farthest = fma(size_of(t), largest_component(ray.direction), largest_component(ray.origin));
+  return error_factor * error + relative_width * farthest;
+}
+inline double company_width(const WorldRay& ray, double t, double error) {
+  return company_width(PlainRay<double>{ray.origin, ray.direction}, t, error);
+}
+
+class Nearest final : public ObjectQuery<Nearest> {
+ public:
+  static constexpr bool takes_one = true;
+  static constexpr bool any_will_do = false;
+
+  Nearest(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work, RayHit& best)
+      : ObjectQuery(accelerator, ray, work), best_(best) {}
+
+  bool take(const RayHit& hit) {
+    take(hit.t, hit.t_low, hit.object, hit.t + company_width(ray(), hit.t, hit.error),
+         [&](RayHit& best) { best = hit; });
+    return false;
+  }
+
+  /// `reach` is up to where it may have company. write(hit) writes it where it stays: a copy of what has just
+  /// been written waits until that has reached the cache.
+  template <class Write>
+  void take(double t, double t_low, std::uint32_t object, double reach, const Write& write) {
+    if (!(t < ray().t_max)) return;
+    if (std::tie(t, t_low, object) < std::tie(best_.t, best_.t_low, best_.object)) {
+      const bool has_company = best_.t <= reach;
+      write(best_);
+      best_.has_company = has_company;
+      set_limit(std::min(limit(), reach));
+    } else {
+      best_.has_company = true;
+    }
+  }
+
+ private:
+  RayHit& best_;
+};
+
+class Any final : public ObjectQuery<Any> {
+ public:
+  using ObjectQuery::ObjectQuery;
+  static constexpr bool takes_one = true;
+  static constexpr bool any_will_do = true;
+  bool found = false;
+
+  bool take(const RayHit& hit) {
+    if (is_on_way(hit)) settle();
+    return false;
+  }
+  template <class Write>
+  void take(double /*t*/, double /*t_low*/, std::uint32_t /*object*/, double /*reach*/, const Write& write) {
+    RayHit hit;
+    write(hit);
+    take(hit);
+  }
+
+  void settle() {
+    found = true;
+    set_limit(-std::numeric_limits<double>::infinity());
+  }
+};
+
+}  // namespace crt::core

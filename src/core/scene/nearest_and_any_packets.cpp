@@ -1,0 +1,197 @@
+// The two queries that most rays ask, for a packet of rays: the nearest crossing, and whether there is any.
+// Each ray finds what it would find alone.
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <type_traits>
+
+#include "core/scene/first_crossing.hpp"
+#include "core/scene/nearest_and_any.hpp"
+#include "core/scene/outlined_rays.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Tests the rays of a packet against objects. `query_of(ray)` gives one ray's query, in the state that what
+/// has been found so far puts it in; but for the limit, which the packet has.
+template <class QueryOf>
+class PacketTests {
+ public:
+  using Kind = std::invoke_result_t<QueryOf, std::size_t>;
+
+  PacketTests(RayPacket& packet, RayMask going, RayWorkspace& work, const QueryOf& query_of)
+      : packet_(packet), outlined_(packet), going_(going), work_(work), query_of_(query_of) {}
+
+  /// The rays that still go.
+  RayMask going() const { return going_; }
+
+  /// Returns the rays whose limits it changed.
+  RayMask test(const Outline& outline, std::span<const OutlineAxis> axes, RayMask rays) {
+    const Verdict<RayMask> verdict = outlined_.judge(outline, axes, rays);
+    RayMask open = rays & ~verdict.missed;
+    changed_ = 0;
+    if constexpr (Kind::any_will_do) {
+      open &= ~verdict.met;
+      for_each_ray(verdict.met, [&](std::size_t ray) { ask(ray, [](Kind& query) { query.settle(); }); });
+    }
+    if (open != 0 && leaf_told(outline, axes) != nothing) {
+      const RayMask told = open & ~outlined_.starting_on(outline.surface);
+      open &= ~told;
+      for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+        open |= test_told(outline, axes, group, told);
+      }
+    }
+    for_each_ray(open, [&](std::size_t ray) { ask(ray, [&](Kind& query) { query.test(outline.object); }); });
+    return changed_;
+  }
+
+  /// A plane that is met bounds what else matters.
+  void limit_by(const Outline& plane, std::span<const OutlineAxis> axes) {
+    std::array<Lanes, RayPacket::group_count> last;
+    const RayMask met = outlined_.judge(plane, axes, going_, last).met;
+    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+      const RayMask lanes = RayPacket::lanes(met, group);
+      if (lanes == 0) continue;
+      // As a hit there would have it.
+      const OutlineLine<Lanes>& lines = packet_.groups[group];
+      const Lanes reach = last[group] + company_width(plain_ray(lines), last[group], Lanes{});
+      Lanes& limits = packet_.limits[group];
+      limits = both(lanes_with(lanes), reach < limits) ? reach : limits;
+      going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * lane_count));
+    }
+  }
+
+ private:
+  /// use(query) of one ray, and what it changes.
+  template <class Use>
+  void ask(std::size_t ray, const Use& use) {
+    const double before = packet_.limit(ray);
+    Kind query = query_of_(ray);
+    query.set_limit(before);
+    use(query);
+    if (query.limit() == before) return;
+    packet_.set_limit(ray, query.limit());
+    const RayMask bit = RayMask{1} << ray;
+    changed_ |= bit;
+    if (query.limit() <= query.ray().t_min) going_ &= ~bit;
+  }
+
+  /// Those rays of a group that do not start on an object whose outline alone tells its crossings. Returns
+  /// which of them it leaves open nevertheless.
+  RayMask test_told(const Outline& outline, std::span<const OutlineAxis> axes, std::size_t group,
+                    RayMask rays) {
+    const RayMask asked = RayPacket::lanes(rays, group);
+    if (asked == 0) return 0;
+    const OutlineLine<Lanes>& lines = packet_.groups[group];
+    const FirstCrossing<Lanes> first = first_crossing(outline, axes, lines);
+    const RayMask open = asked & mask_of(first.unknown);
+    work_.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
+    const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
+    if (found != 0) {
+      const std::uint32_t leaf = leaf_told(outline, axes);
+      const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
+      for_each_ray(found, [&](std::size_t lane) {
+        const auto i = static_cast<int>(lane);
+        const double t = first.t[i];
+        const auto write = [&](RayHit& hit) {
+          write_first(outline, leaf, t, first.error[i], first.entering[i] != 0, hit);
+        };
+        ask(group * lane_count + lane,
+            [&](Kind& query) { query.take(t, 0, outline.object, reach[i], write); });
+      });
+    }
+    return open << (group * lane_count);
+  }
+
+  RayPacket& packet_;
+  OutlinedPacket outlined_;
+  RayMask going_;
+  RayMask changed_ = 0;
+  RayWorkspace& work_;
+  const QueryOf& query_of_;
+};
+
+}  // namespace
+
+template <class QueryOf>
+RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
+                                       const QueryOf& query_of) const {
+  PacketTests tests(packet, going, work, query_of);
+  // Where exactly a plane is met is only asked if nothing is before it.
+  constexpr bool planes_last = !decltype(tests)::Kind::any_will_do;
+  for (const Outline& outline : unbounded_.list) {
+    if (tests.going() == 0) break;
+    if (planes_last && outline.kind == Outline::Kind::plane) {
+      tests.limit_by(outline, unbounded_.axes);
+    } else {
+      tests.test(outline, unbounded_.axes, tests.going());
+    }
+  }
+  if (tree_ && tests.going() != 0) {
+    if (std::optional<Shaft> shaft = Shaft::around(packet, bounded_box_)) {
+      shaft_tree_.traverse(*shaft, [&](std::uint32_t box) {
+        if (tests.test(bounded_.list[box], bounded_.axes, tests.going()) != 0) shaft->set_limits(packet);
+      });
+    } else {
+      tree_->traverse(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
+        return tests.test(bounded_.list[box], bounded_.axes, rays);
+      });
+    }
+  }
+  if constexpr (planes_last) {
+    for (const Outline& outline : unbounded_.list) {
+      if (outline.kind == Outline::Kind::plane) tests.test(outline, unbounded_.axes, tests.going());
+    }
+  }
+  return tests.going();
+}
+
+void Accelerator::note_starts(std::span<const WorldRay> rays, RayPacket& packet) const {
+  packet.start_surfaces.fill(nothing);
+  packet.left_objects.fill(nothing);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const StartPoint& start = rays[i].start;
+    if (start.leaf == nothing) continue;
+    const RayMask bit = RayMask{1} << i;
+    packet.start_surfaces[i] = start.surface;
+    packet.on_surface |= bit;
+    if (start.side == Side::outside) packet.outwards |= bit;
+    // Neighbours start on the same face more often than not.
+    const bool as_before = i > 0 && start.is_to_same_side(rays[i - 1].start);
+    const std::uint32_t left = as_before ? packet.left_objects[i - 1] : left_for_good(start);
+    packet.left_objects[i] = left;
+    if (left != nothing) packet.left_some |= bit;
+  }
+}
+
+void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
+  std::fill_n(hits.begin(), rays.size(), RayHit{});
+  RayMask open = RayPacket::all(rays.size());
+  if (!apart_.empty()) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      if (leaves_apart(rays[i], work, hits[i])) open &= ~(RayMask{1} << i);
+    }
+  }
+  if (open != 0) {
+    RayPacket packet(rays);
+    note_starts(rays, packet);
+    traverse_filtered(packet, open, work,
+                      [&](std::size_t ray) { return Nearest(*this, rays[ray], work, hits[ray]); });
+  }
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    if (hits[i].has_company) hits[i] = gather_company(rays[i], hits[i], work);
+  }
+  expect_surface_points(hits.first(rays.size()));
+}
+
+RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {
+  if (rays.empty()) return 0;
+  RayPacket packet(rays);
+  note_starts(rays, packet);
+  const RayMask all = RayPacket::all(rays.size());
+  return all &
+         ~traverse_filtered(packet, all, work, [&](std::size_t ray) { return Any(*this, rays[ray], work); });
+}
+
+}  // namespace crt::core
