@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
 #include <limits>
 #include <random>
 
@@ -100,6 +101,29 @@ TEST_CASE("a tree is the same on any number of threads") {
       const LineSpan alone = slabs.span(boxes[k]);
       REQUIRE(found[k].empty() == alone.empty());
       if (!alone.empty()) REQUIRE(found[k].enter == alone.enter);
+    }
+  }
+}
+
+TEST_CASE("whether a t is in a line's span in a box is told as the span itself tells it") {
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> real(-3, 3);
+  std::uniform_int_distribution<int> grid(-2, 2);
+  for (int i = 0; i < 20'000; ++i) {
+    const Vec3 origin(real(random), grid(random), real(random));
+    const Vec3 direction(real(random), grid(random), real(random));
+    Bounds box;
+    for (int axis = 0; axis < 3; ++axis) {
+      box.lower[axis] = grid(random);
+      box.upper[axis] = box.lower[axis] + 1;
+    }
+    const LineSpan span = RaySlabs(origin, direction).span(box);
+    for (const double end : {span.enter, span.leave, 0.5 * (span.enter + span.leave), real(random)}) {
+      for (const double t : {end, std::nextafter(end, -9.0), std::nextafter(end, 9.0)}) {
+        if (std::isnan(t)) continue;
+        const bool in_span = t >= span.enter && t <= span.leave;
+        CHECK(RaySlabs::is_in_span(origin, direction, box, t) == in_span);
+      }
     }
   }
 }

@@ -88,20 +88,21 @@ TEST_CASE("points lie in the unit cube, and other pixels and seeds have other on
   }
 }
 
-TEST_CASE("a walk tells the points one after the other, wherever it begins and ends") {
+TEST_CASE("points come one after the other, wherever they begin and end") {
   const PixelSequence sequence(1, 2, 3);
   for (const bool with_lens : {false, true}) {
     for (const std::uint32_t begin : {0u, 1u, 5u, 8u, 16u, 250u, 0xfffffff0u}) {
       for (const std::uint32_t count : {1u, 7u, 8u, 9u, 15u}) {
-        SequenceWalk walk(sequence, begin, begin + count, with_lens);
-        for (std::uint32_t i = begin; i < begin + count; ++i) {
-          const SequencePoint point = walk.next();
-          const SequencePoint expected = with_lens ? sequence.point(i) : sequence.pixel_point(i);
+        std::uint32_t next = begin;
+        for_each_point(sequence, begin, begin + count, with_lens, [&](const SequencePoint& point) {
+          const SequencePoint expected = with_lens ? sequence.point(next) : sequence.pixel_point(next);
           CHECK(point.pixel_u == expected.pixel_u);
           CHECK(point.pixel_v == expected.pixel_v);
           CHECK((!with_lens || point.lens_u == expected.lens_u));
           CHECK((!with_lens || point.lens_v == expected.lens_v));
-        }
+          ++next;
+        });
+        CHECK(next == begin + count);
       }
     }
   }

@@ -145,7 +145,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   // Leaves that are placed alike often follow one another: the ray is taken to their space once.
   if (leaf.placement != placement_) {
     placement_ = leaf.placement;
-    placement_->to_object(ray_.origin, ray_.direction, object_ray_);
+    object_ray_ = placement_->to_object(ray_.origin, ray_.direction);
   }
   object_ray_.start = start_on_leaf(leaf, program_.first_leaf + index, face_surfaces_, ray_.start);
   work_.leaf_crossings_.clear();

@@ -73,21 +73,17 @@ void split(const DoubleDoubleLanes& lanes, Vec3& high, Vec3& low) {
 
 }  // namespace
 
-void Placement::to_object(const Vec3& origin, const Vec3& direction, ObjectRay& ray) const {
-  ray = {};
-  ray.origin = origin;
-  ray.direction = direction;
-  if (kind_ == Kind::identity) return;
+void Placement::move_to_object(ObjectRay& ray) const {
   if (kind_ == Kind::affine) {
     const auto turned = [&](const Vec3& v) {
       return columns_[0] * v.x + columns_[1] * v.y + columns_[2] * v.z;
     };
-    split(turned(origin) + columns_[3], ray.origin, ray.origin_low);
-    split(turned(direction), ray.direction, ray.direction_low);
+    split(turned(ray.origin) + columns_[3], ray.origin, ray.origin_low);
+    split(turned(ray.direction), ray.direction, ray.direction_low);
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
-    const DoubleDouble moved = two_sum(origin[axis], -to_world_.translation[axis]);
+    const DoubleDouble moved = two_sum(ray.origin[axis], -to_world_.translation[axis]);
     ray.origin[axis] = moved.hi;
     ray.origin_low[axis] = moved.lo;
   }

@@ -26,11 +26,10 @@ class Placement {
 
   /// The ray origin + t * direction in object space, with the same t.
   ObjectRay to_object(const Vec3& origin, const Vec3& direction) const {
-    ObjectRay ray;
-    to_object(origin, direction, ray);
+    ObjectRay ray{.origin = origin, .direction = direction};
+    if (kind_ != Kind::identity) move_to_object(ray);
     return ray;
   }
-  void to_object(const Vec3& origin, const Vec3& direction, ObjectRay& ray) const;
 
   /// The same as the exact tier takes it; `ray` is what to_object() says, and where it starts.
   ExactRay to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const;
@@ -56,6 +55,8 @@ class Placement {
 
  private:
   double inverse_error() const;
+  /// Takes a ray of the world into object space.
+  void move_to_object(ObjectRay& ray) const;
 
   enum class Kind { identity, translation, affine };
 

@@ -3,9 +3,11 @@
 
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 
 #include "core/geometry/bounds.hpp"
+#include "core/math/lanes.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -47,6 +49,23 @@ class RaySlabs {
     }
     spans(lower, upper, enter, leave);
     return {enter[0], leave[0]};
+  }
+
+  /// Whether a t is in the span of a line in a box, for a line whose origin is what is meant.
+  static bool is_in_span(const Vec3& origin, const Vec3& direction, const Bounds& box, double t) {
+    const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 1}; };
+    const Lanes inverse = 1.0 / by_axis(direction);
+    if (!all(size_of(inverse) <= largest_inverse)) {
+      const LineSpan span = RaySlabs(origin, direction).span(box);
+      return t >= span.enter && t <= span.leave;
+    }
+    const Lanes first = (by_axis(box.lower) - by_axis(origin)) * inverse;
+    const Lanes second = (by_axis(box.upper) - by_axis(origin)) * inverse;
+    const Lanes low = first < second ? first : second;
+    const Lanes high = first < second ? second : first;
+    const LaneMask beside = (low - slack * size_of(low) > t) | (high + slack * size_of(high) < t);
+    constexpr std::uint32_t all_axes = 7;  // the fourth lane is none
+    return (mask_of(beside) & all_axes) == 0;
   }
 
   /// The spans of several boxes at once, given by axis. The same bits as of each alone.

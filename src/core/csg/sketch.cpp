@@ -30,33 +30,27 @@ std::uint32_t take_bit(std::uint32_t& bits) {
 
 }  // namespace
 
-CsgSketch::Spheres CsgSketch::Spheres::nowhere() {
-  const Lanes none = lanes_of(std::numeric_limits<double>::quiet_NaN());
-  return {.center = {none, none, none}, .radius = none};
-}
-
-bool CsgSketch::Spheres::set(std::size_t lane, const Leaf& leaf) {
+bool CsgSketch::Spheres::set_from(std::size_t first_lane, const Leaf& leaf) {
   const Surface surface = leaf.shape->surface(0);
   const std::optional<Vec3> place = leaf.placement->exactly_to_world(surface.position);
   if (surface.kind != SurfaceKind::sphere || !place || !has_fair_size(surface.sizes[0])) return false;
-  for (std::size_t axis = 0; axis < 3; ++axis) center[axis][lane] = (*place)[static_cast<int>(axis)];
-  radius[lane] = surface.sizes[0];
+  for (std::size_t lane = first_lane; lane < lane_count; ++lane) {
+    for (std::size_t axis = 0; axis < 3; ++axis) center[axis][lane] = (*place)[static_cast<int>(axis)];
+    radius[lane] = surface.sizes[0];
+  }
   return true;
 }
 
-CsgSketch::Boxes CsgSketch::Boxes::nowhere() {
-  const Lanes none = lanes_of(std::numeric_limits<double>::quiet_NaN());
-  return {.lower = {none, none, none}, .upper = {none, none, none}};
-}
-
-bool CsgSketch::Boxes::set(std::size_t lane, const Leaf& leaf) {
+bool CsgSketch::Boxes::set_from(std::size_t first_lane, const Leaf& leaf) {
   // Of all shapes only the box has six faces, two across each axis.
   if (leaf.face_count != 6) return false;
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
     const std::optional<Vec3> place = leaf.placement->exactly_to_world(leaf.shape->surface(face).position);
     if (!place) return false;
     const std::size_t axis = face / 2;
-    (is_upper(face) ? upper : lower)[axis][lane] = (*place)[static_cast<int>(axis)];
+    for (std::size_t lane = first_lane; lane < lane_count; ++lane) {
+      (is_upper(face) ? upper : lower)[axis][lane] = (*place)[static_cast<int>(axis)];
+    }
   }
   return true;
 }
@@ -84,15 +78,15 @@ bool CsgSketch::place_leaves(std::span<const Leaf> leaves) {
       boxes.push_back(i);
       continue;
     }
-    if (place % lane_count == 0) spheres_.push_back(Spheres::nowhere());
-    if (!spheres_.back().set(place % lane_count, leaves[i])) return false;
+    if (place % lane_count == 0) spheres_.emplace_back();
+    if (!spheres_.back().set_from(place % lane_count, leaves[i])) return false;
     put(i, leaves[i], place++);
   }
   place = spheres_.size() * lane_count;
   for (const std::uint32_t i : boxes) {
     if (place == most_places) return false;
-    if (place % lane_count == 0) boxes_.push_back(Boxes::nowhere());
-    if (!boxes_.back().set(place % lane_count, leaves[i])) return false;
+    if (place % lane_count == 0) boxes_.emplace_back();
+    if (!boxes_.back().set_from(place % lane_count, leaves[i])) return false;
     put(i, leaves[i], place++);
   }
   return true;
@@ -148,7 +142,7 @@ SketchedChange CsgSketch::first_change(const WorldRay& ray, double limit, std::s
 SketchedChange CsgSketch::change_at(double from, bool value, const Line& line, const Ends& ends) const {
   if (!(from > line.certain_from)) return {};
   const Places turned = turned_for(value);
-  for (Places places = used_; places != 0;) {
+  for (Places places = used_ & ~ends.outside(); places != 0;) {
     const std::uint32_t place = take_bit(places);
     const bool leaving = (turned & bit_of(place)) != 0;
     if ((leaving ? ends.leave_from(place) : ends.enter_from(place)) != from) continue;
@@ -194,22 +188,21 @@ bool CsgSketch::goes_into(std::size_t place, std::uint32_t face, const Line& lin
 double CsgSketch::possible_from(const Ends& ends, std::uint32_t node_index, double t, bool value) const {
   const Node& node = nodes_[node_index];
   const Places turned = turned_for(value);
+  const Places open = node.leaves & ~ends.outside();
   std::uint32_t children = node.nodes;
+  const auto leaf_from = [&](std::uint32_t place) {
+    return (turned & bit_of(place)) != 0 ? ends.outside_from(place, t) : ends.inside_from(place, t);
+  };
+  // What is turned and not come into has the value everywhere, what is not turned nowhere.
   if (node.all == value) {
-    // What is turned and not come into has the value everywhere.
-    for (Places places = node.leaves & ~(ends.outside() & turned); places != 0;) {
-      const std::uint32_t place = take_bit(places);
-      t = (turned & bit_of(place)) != 0 ? ends.outside_from(place, t) : ends.inside_from(place, t);
-    }
+    if ((node.leaves & ends.outside() & ~turned) != 0) return infinity;
+    for (Places places = open; places != 0;) t = leaf_from(take_bit(places));
     while (children != 0) t = possible_from(ends, take_bit(children), t, value);
     return t;
   }
+  if ((node.leaves & ends.outside() & turned) != 0) return t;
   double first = infinity;
-  for (Places places = node.leaves & (~ends.outside() | turned); places != 0;) {
-    const std::uint32_t place = take_bit(places);
-    const bool is_turned = (turned & bit_of(place)) != 0;
-    first = std::min(first, is_turned ? ends.outside_from(place, t) : ends.inside_from(place, t));
-  }
+  for (Places places = open; places != 0;) first = std::min(first, leaf_from(take_bit(places)));
   while (children != 0) first = std::min(first, possible_from(ends, take_bit(children), t, value));
   return first;
 }
@@ -234,14 +227,16 @@ bool CsgSketch::holds(Places values, std::uint32_t node_index) const {
 
 /// Whether all leaves but one are certain between two t, and the root hangs on that one.
 bool CsgSketch::hangs_on(std::size_t place, const Ends& ends, double from, double to) const {
+  const Places one = bit_of(place);
   Places inside = 0;
-  Places outside = 0;
+  Places outside = ends.outside();
   for (std::size_t group = 0; group < spheres_.size() + boxes_.size(); ++group) {
+    const Places open = used_ & ~(outside | one) & places_of(group);
+    if (open == 0) continue;
     inside |= ends.inside(group, from, to);
     outside |= ends.outside(group, from, to);
+    if (((inside | outside) & open) != open) return false;
   }
-  const Places one = bit_of(place);
-  if (((inside | outside | one) & used_) != used_) return false;
   const Places values = (inside & ~complemented_) | (outside & complemented_);
   return !holds(values & ~one, 0) && holds(values | one, 0);
 }

@@ -63,25 +63,27 @@ class CsgSketch {
  private:
   static constexpr std::size_t most_places = 32;
   /// A bit for each place. Places are numbered through all groups of spheres and then those of boxes; those
-  /// at the end of a group may be empty.
+  /// at the end of a group may be of no leaf.
   using Places = std::uint32_t;
   static constexpr std::uint32_t bit_of(std::size_t index) { return std::uint32_t{1} << index; }
+  static constexpr Places places_of(std::size_t group) {
+    return (bit_of(lane_count) - 1) << (group * lane_count);
+  }
 
   /// As many as there are lanes, in the world.
   struct Spheres {
     std::array<Lanes, 3> center;
     Lanes radius;
 
-    static Spheres nowhere();
-    /// False if the leaf is no sphere, or not where doubles tell exactly.
-    bool set(std::size_t lane, const Leaf& leaf);
+    /// Puts it into this lane and those after it, so that none holds nonsense. False if the leaf is no
+    /// sphere, or not where doubles tell exactly.
+    bool set_from(std::size_t first_lane, const Leaf& leaf);
   };
   struct Boxes {
     std::array<Lanes, 3> lower;
     std::array<Lanes, 3> upper;
 
-    static Boxes nowhere();
-    bool set(std::size_t lane, const Leaf& leaf);
+    bool set_from(std::size_t first_lane, const Leaf& leaf);
   };
   struct Node {
     bool all = false;         ///< true if all of its children are; else if any is

@@ -51,9 +51,8 @@ class CsgSketch::Line {
   double off_surface;   ///< how far rounding may have put the start from the surface that it is on
 };
 
-/// Where a line enters and leaves each leaf: at some t from `from` to `to`. Of a leaf that it misses these
-/// are at infinity, so that it is in no such interval; where nothing is known they are not numbers, and all
-/// comparing with them says no.
+/// Where a line enters and leaves each leaf that it is not surely outside of: at some t from `from` to `to`.
+/// Where nothing is known these are not numbers, and all comparing with them says no.
 class CsgSketch::Ends {
  public:
   explicit Ends(const Line& line) : line_(line) {}
@@ -75,53 +74,49 @@ class CsgSketch::Ends {
                                          way[2] - closest * line_.direction[2]};
     const Lanes room_error = room_error_of(dot(way, way), squared_radius, spheres.radius);
     const Lanes room = squared_radius - dot(across, across) + room_error;
+    const LaneMask missed = room < 0.0;
+    if (all(missed)) {
+      outside_ |= places_of(group);
+      return;
+    }
     const Lanes outer = sqrt(room * line_.inverse_squared_speed);
     const Lanes inner = outer - 2.0 * line_.inverse_squared_speed * room_error / outer;
     const Lanes error = slack * (size_of(closest) + spheres.radius * line_.inverse_speed);
-    const LaneMask missed = room < 0.0;
-    enter_from_[group] = missed ? lanes_of(infinity) : closest - outer - error;
+    enter_from_[group] = closest - outer - error;
     enter_to_[group] = closest - inner + error;
     leave_from_[group] = closest + inner - error;
-    leave_to_[group] = missed ? lanes_of(-infinity) : closest + outer + error;
-    finish(group);
+    leave_to_[group] = closest + outer + error;
+    finish(group, missed);
   }
 
   /// By slabs; three roundings go into each t. A line along a face's plane is told nothing.
   void set(const Boxes& boxes, std::size_t group) {
-    Lanes enter_from = lanes_of(-infinity);
-    Lanes enter_to = lanes_of(-infinity);
-    Lanes leave_from = lanes_of(infinity);
-    Lanes leave_to = lanes_of(infinity);
-    LaneMask known = enter_from < leave_from;
-    constexpr double less = 1 - slack;
-    constexpr double more = 1 + slack;
+    Lanes enter = lanes_of(-infinity);
+    Lanes leave = lanes_of(infinity);
+    LaneMask known = enter < leave;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Lanes first = (boxes.lower[axis] - line_.origin[axis]) * line_.inverse[axis];
       const Lanes second = (boxes.upper[axis] - line_.origin[axis]) * line_.inverse[axis];
-      const Lanes low = min(first, second);
-      const Lanes high = max(first, second);
       known &= (first <= second) | (first > second);
-      enter_from = max(enter_from, min(low * less, low * more));
-      enter_to = max(enter_to, max(low * less, low * more));
-      leave_from = min(leave_from, min(high * less, high * more));
-      leave_to = min(leave_to, max(high * less, high * more));
+      enter = max(enter, min(first, second));
+      leave = min(leave, max(first, second));
     }
-    const LaneMask missed = enter_from > leave_to;
-    enter_from_[group] = known ? (missed ? lanes_of(infinity) : enter_from) : lanes_of(unknown);
-    enter_to_[group] = known ? enter_to : lanes_of(unknown);
-    leave_from_[group] = known ? leave_from : lanes_of(unknown);
-    leave_to_[group] = known ? (missed ? lanes_of(-infinity) : leave_to) : lanes_of(unknown);
-    finish(group);
+    constexpr double less = 1 - slack;
+    constexpr double more = 1 + slack;
+    const Lanes enter_from = min(enter * less, enter * more);
+    const Lanes leave_to = max(leave * less, leave * more);
+    enter_from_[group] = known ? enter_from : lanes_of(unknown);
+    enter_to_[group] = known ? max(enter * less, enter * more) : lanes_of(unknown);
+    leave_from_[group] = known ? min(leave * less, leave * more) : lanes_of(unknown);
+    leave_to_[group] = known ? leave_to : lanes_of(unknown);
+    finish(group, known & (enter_from > leave_to));
   }
 
   /// A leaf that the ray starts on and leaves for good.
-  void set_left(std::size_t place) {
-    for (PerGroup* enter : {&enter_from_, &enter_to_}) set(*enter, place, infinity);
-    for (PerGroup* leave : {&leave_from_, &leave_to_}) set(*leave, place, -infinity);
-    outside_ |= bit_of(place);
-  }
+  void set_left(std::size_t place) { outside_ |= bit_of(place); }
   /// A leaf that the ray starts on and goes into; false if it is not plain that it is inside soon.
   bool set_entered(std::size_t place) {
+    if ((outside_ & bit_of(place)) != 0) return false;
     if (!(enter_to(place) <= line_.certain_from && leave_from(place) > line_.certain_from)) return false;
     for (PerGroup* enter : {&enter_from_, &enter_to_}) set(*enter, place, -infinity);
     return true;
@@ -136,7 +131,7 @@ class CsgSketch::Ends {
     return off[lane] < share_of_start * room_error_of(squared_way, squared_radius, spheres.radius)[lane];
   }
 
-  /// The leaves that the line surely is outside of as long as it matters.
+  /// The leaves that the line surely is outside of as long as it matters. Of others only there are ends.
   Places outside() const { return outside_; }
   double enter_from(std::size_t place) const { return at(enter_from_, place); }
   double enter_to(std::size_t place) const { return at(enter_to_, place); }
@@ -194,13 +189,13 @@ class CsgSketch::Ends {
   }
 
   /// What may be at the start may be before it as well.
-  void finish(std::size_t group) {
+  void finish(std::size_t group, const LaneMask& missed) {
     const auto widen = [&](Lanes& from) {
       from = from <= line_.certain_from ? min(from, lanes_of(line_.begin)) : from;
     };
     widen(enter_from_[group]);
     widen(leave_from_[group]);
-    outside_ |= outside(group, line_.begin, line_.limit);
+    outside_ |= bits(missed, group) | outside(group, line_.begin, line_.limit);
   }
 
   const Line& line_;

@@ -8,6 +8,7 @@
 #include <span>
 #include <utility>
 
+#include "core/math/lanes.hpp"
 #include "core/render/aov_tile.hpp"
 #include "crt/render.hpp"
 
@@ -17,6 +18,10 @@ namespace crt::core {
 inline float finite_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -largest, largest));
+}
+inline FloatLanes finite_floats(const Lanes& values) {
+  const Lanes largest = lanes_of(std::numeric_limits<float>::max());
+  return to_floats(min(largest, max(values, -largest)));
 }
 
 struct PlacedPixel {

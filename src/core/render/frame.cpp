@@ -61,6 +61,12 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
       settings_(settings),
       camera_(data.scene().camera, settings.width, settings.height),
       filter_(settings) {
+  const int side = settings.supersampling;
+  for (int row = 0; row < side; ++row) {
+    for (int column = 0; column < side; ++column) {
+      subpixels_.push_back({filter_((column + 0.5) / side), filter_((row + 0.5) / side)});
+    }
+  }
   lights_.reserve(data.scene().lights.size());
   for (const Light& light : data.scene().lights) {
     lights_.emplace_back(light, settings.falloff_model);

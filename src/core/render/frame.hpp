@@ -21,6 +21,8 @@ class Frame {
   const Features& features() const { return data_.features(); }
   const CameraRays& camera() const { return camera_; }
   const FilterPlaces& filter() const { return filter_; }
+  /// A pixel's grid, row by row: where in the first pixel of the picture its samples lie.
+  const std::vector<PicturePlace>& subpixels() const { return subpixels_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
 
   /// What all lights together give every point.
@@ -45,6 +47,7 @@ class Frame {
   const Settings& settings_;
   CameraRays camera_;
   FilterPlaces filter_;
+  std::vector<PicturePlace> subpixels_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
   bool one_viewpoint_ = false;

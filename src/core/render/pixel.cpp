@@ -15,17 +15,27 @@ namespace {
 /// What random numbers are drawn for.
 constexpr std::uint32_t lens_dimension = 0;
 
-void add(Tracer::Sample& sum, const Tracer::Sample& sample) {
-  sum.color += sample.color;
-  sum.alpha += sample.alpha;
+/// As PixelSamples and PixelMean have them.
+Lanes channels_of(const Tracer::Sample& sample) {
+  return Lanes{sample.color.x, sample.color.y, sample.color.z, sample.alpha};
+}
+
+void add(const PixelMean& sample, PixelMean& sum) {
+  sum.channels += sample.channels;
   sum.dropped += sample.dropped;
+}
+void add(const Tracer::Sample& sample, PixelMean& sum) {
+  add({channels_of(sample), sample.dropped}, sum);
 }
 
 /// Camera rays that are gathered until there are enough of them to be traced together.
 class GatheredRays {
  public:
-  GatheredRays(const Frame& frame, Tracer& tracer)
-      : camera_(frame.camera()), with_lens_(frame.features().lens), tracer_(tracer) {}
+  GatheredRays(const Frame& frame, Tracer& tracer, bool with_first_hits)
+      : camera_(frame.camera()),
+        with_lens_(frame.features().lens),
+        with_first_hits_(with_first_hits),
+        tracer_(tracer) {}
 
   std::size_t count() const { return count_; }
   bool is_full() const { return count_ == packet_size; }
@@ -33,122 +43,122 @@ class GatheredRays {
   /// One more, through a place of the picture and, if there is a lens, through a point of that.
   void add(const PicturePlace& place, const LensPoint& lens_point) {
     places_[count_] = place;
-    lens_points_[count_] = lens_point;
+    if (with_lens_) lens_points_[count_] = lens_point;
     ++count_;
   }
 
-  /// Traces and forgets them. What the i-th of them meets first is added to *first_hits_of(i), if that is
-  /// there; none of them is asked for if nobody is interested.
-  template <class FirstHitsOf>
-  std::span<const Tracer::Sample> trace(bool with_first_hits, const FirstHitsOf& first_hits_of) {
+  struct Traced {
+    std::span<const Tracer::Sample> samples;
+    std::span<const FirstHit> first_hits;  ///< none if nobody asks for them
+  };
+  /// Traces and forgets them.
+  Traced trace() {
     const std::size_t count = std::exchange(count_, 0);
     const std::span<CameraRay> rays = std::span(rays_).first(count);
     const std::size_t lens_points = with_lens_ ? count : 0;
     camera_.rays(std::span(places_).first(count), std::span(lens_points_).first(lens_points), rays);
-    if (with_first_hits) {
-      std::array<FirstHit, packet_size> first_hits;
-      tracer_.trace(rays, samples_, std::span(first_hits).first(count));
-      for (std::size_t i = 0; i < count; ++i) {
-        if (FirstHit* const sum = first_hits_of(i)) sum->add(first_hits[i]);
-      }
-    } else {
-      tracer_.trace(rays, samples_);
-    }
-    return std::span(samples_).first(count);
+    const std::span<FirstHit> first_hits = std::span(first_hits_).first(with_first_hits_ ? count : 0);
+    tracer_.trace(rays, samples_, first_hits);
+    return {std::span(samples_).first(count), first_hits};
   }
 
  private:
   const CameraRays& camera_;
   bool with_lens_;
+  bool with_first_hits_;
   Tracer& tracer_;
   std::size_t count_ = 0;
   std::array<PicturePlace, packet_size> places_;
   std::array<LensPoint, packet_size> lens_points_;
   std::array<CameraRay, packet_size> rays_;
   std::array<Tracer::Sample, packet_size> samples_;
+  std::array<FirstHit, packet_size> first_hits_;
 };
 
 /// The rays of a grid. A pixel's sum is that of its subpixels' sums over the lens, in their order.
-class SampleSums {
+class GridSums {
  public:
-  /// The sums of first hits belong to the pixels from `first_pixel` on; there may be none.
-  SampleSums(const Frame& frame, Tracer& tracer, int lens_points, const Tracer::Sample* first_pixel,
-             std::span<FirstHit> first_hit_sums)
-      : rays_(frame, tracer),
+  /// Of first hits there may be no sums.
+  GridSums(const Frame& frame, Tracer& tracer, int lens_points, std::span<PixelMean> sums,
+           std::span<FirstHit> first_hit_sums)
+      : rays_(frame, tracer, !first_hit_sums.empty()),
         lens_points_(lens_points),
-        first_pixel_(first_pixel),
+        sums_(sums),
         first_hit_sums_(first_hit_sums) {}
 
-  void take(const PicturePlace& place, const LensPoint& lens_point, Tracer::Sample& pixel) {
-    pixels_[rays_.count()] = &pixel;
+  void take(const PicturePlace& place, const LensPoint& lens_point, std::size_t pixel) {
+    pixels_[rays_.count()] = pixel;
     rays_.add(place, lens_point);
     if (rays_.is_full()) trace();
   }
 
   void trace() {
-    const std::span<const Tracer::Sample> samples = rays_.trace(
-        !first_hit_sums_.empty(), [&](std::size_t i) { return &first_hit_sums_[index_of(*pixels_[i])]; });
+    const auto [samples, first_hits] = rays_.trace();
     for (std::size_t i = 0; i < samples.size(); ++i) {
-      add(lens_sum_, samples[i]);
+      PixelMean& pixel = sums_[pixels_[i]];
+      if (lens_points_ == 1) {
+        add(samples[i], pixel);
+        continue;
+      }
+      add(samples[i], lens_sum_);
       if (++lens_point_ < lens_points_) continue;
-      add(*pixels_[i], lens_sum_);
-      lens_sum_ = {.alpha = 0};
+      add(lens_sum_, pixel);
+      lens_sum_ = PixelMean{};
       lens_point_ = 0;
     }
+    for (std::size_t i = 0; i < first_hits.size(); ++i) first_hit_sums_[pixels_[i]].add(first_hits[i]);
   }
 
  private:
-  std::size_t index_of(const Tracer::Sample& pixel) const {
-    return static_cast<std::size_t>(&pixel - first_pixel_);
-  }
-
   GatheredRays rays_;
   int lens_points_;
-  const Tracer::Sample* first_pixel_;
+  std::span<PixelMean> sums_;
   std::span<FirstHit> first_hit_sums_;
-  std::array<Tracer::Sample*, packet_size> pixels_{};
-  Tracer::Sample lens_sum_{.alpha = 0};
+  std::array<std::size_t, packet_size> pixels_{};
+  PixelMean lens_sum_{};
   int lens_point_ = 0;
 };
 
-/// The rays of passes, pixel by pixel and step by step. Each step of a pixel is handed on as a whole.
+/// The rays of passes: of one pixel after the other the samples of a range. Each step of a pixel is handed on
+/// as a whole.
 class StepSums {
  public:
-  StepSums(const Frame& frame, Tracer& tracer, bool with_first_hits)
-      : rays_(frame, tracer), with_first_hits_(with_first_hits) {}
+  StepSums(const Frame& frame, Tracer& tracer, std::span<const PixelPlace> pixels, const SampleRange& range,
+           bool with_first_hits)
+      : rays_(frame, tracer, with_first_hits), pixel_(pixels.data()), range_(range) {}
 
-  /// Of a pixel that has `count` samples before the step and gets `size` more in it.
-  void take(const PicturePlace& place, const LensPoint& lens_point, const PixelPlace& pixel,
-            std::int64_t count, std::int64_t size) {
-    steps_[rays_.count()] = {&pixel, count, size};
+  void take(const PicturePlace& place, const LensPoint& lens_point) {
     rays_.add(place, lens_point);
     if (rays_.is_full()) trace();
   }
 
   void trace() {
-    const std::span<const Tracer::Sample> samples =
-        rays_.trace(with_first_hits_, [&](std::size_t i) { return steps_[i].pixel->first_hits; });
+    const auto [samples, first_hits] = rays_.trace();
     for (std::size_t i = 0; i < samples.size(); ++i) {
       const Tracer::Sample& sample = samples[i];
-      sum_.add(Lanes{sample.color.x, sample.color.y, sample.color.z, sample.alpha}, sample.identity,
-               sample.dropped);
-      const StepOfPixel& step = steps_[i];
-      if (sum_.count < step.size) continue;
-      step.pixel->samples->add_step(step.count, sum_);
-      sum_.count = 0;
+      if (!first_hits.empty() && pixel_->first_hits != nullptr) pixel_->first_hits->add(first_hits[i]);
+      sum_.add(channels_of(sample), sample.identity, sample.dropped);
+      if (sum_.count == size_) end_step();
     }
   }
 
  private:
-  struct StepOfPixel {
-    const PixelPlace* pixel = nullptr;
-    std::int64_t count = 0;
-    std::int64_t size = 0;
-  };
+  void end_step() {
+    pixel_->samples->add_step(count_, sum_);
+    sum_.count = 0;
+    count_ += size_;
+    if (count_ == range_.end) {
+      ++pixel_;
+      count_ = range_.begin;
+    }
+    size_ = samples_of_next_step(count_);
+  }
 
   GatheredRays rays_;
-  bool with_first_hits_;
-  std::array<StepOfPixel, packet_size> steps_;
+  const PixelPlace* pixel_;  ///< whose samples come next
+  SampleRange range_;
+  std::int64_t count_ = range_.begin;                       ///< of its samples before this step
+  std::int64_t size_ = samples_of_next_step(range_.begin);  ///< of the step
   SampleSum sum_;
 };
 
@@ -169,55 +179,50 @@ constexpr auto tile_places = [] {
   return places;
 }();
 
-/// Takes the rays through one pixel.
-void take_pixel(const Frame& frame, int x, int y, int lens_points, SampleSums& sums, Tracer::Sample& pixel) {
-  const CameraRays& camera = frame.camera();
-  const int grid = frame.settings().supersampling;
+/// Takes the rays through one pixel and points of the lens.
+void take_pixel_with_lens(const Frame& frame, int x, int y, std::size_t pixel, GridSums& sums) {
   RandomUse use = {.x = static_cast<std::uint32_t>(x),
                    .y = static_cast<std::uint32_t>(y),
                    .sample = 0,
                    .dimension = lens_dimension};
-  for (int row = 0; row < grid; ++row) {
-    for (int column = 0; column < grid; ++column) {
-      const PicturePlace place = {x + frame.filter()((column + 0.5) / grid),
-                                  y + frame.filter()((row + 0.5) / grid)};
-      if (!frame.features().lens) {
-        sums.take(place, {}, pixel);
-        continue;
-      }
-      for (int i = 0; i < lens_points; ++i, ++use.sample) {
-        const auto [u, v] = random_pair(frame.settings().seed, use);
-        sums.take(place, camera.lens_point(u, v), pixel);
-      }
+  for (const PicturePlace& subpixel : frame.subpixels()) {
+    for (int i = 0; i < frame.settings().dof_samples; ++i, ++use.sample) {
+      const auto [u, v] = random_pair(frame.settings().seed, use);
+      sums.take({x + subpixel.x, y + subpixel.y}, frame.camera().lens_point(u, v), pixel);
     }
   }
 }
 
 }  // namespace
 
-void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<Tracer::Sample> pixels,
+void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<PixelMean> pixels,
                   std::span<FirstHit> first_hits, RenderStats& stats) {
   const bool lens = frame.features().lens;
   const int lens_points = lens ? frame.settings().dof_samples : 1;
-  SampleSums sums(frame, tracer, lens_points, pixels.data(), first_hits);
+  const std::span<const PicturePlace> subpixels = frame.subpixels();
+  std::fill(pixels.begin(), pixels.end(), PixelMean{});
+  GridSums sums(frame, tracer, lens_points, pixels, first_hits);
   for (const TilePlace& place : tile_places) {
     if (place.x >= region.width || place.y >= region.height) continue;
     const int x = region.x + place.x;
     const int y = region.y + place.y;
-    Tracer::Sample& pixel = pixels[index_in(region, x, y)];
-    pixel = {.alpha = 0};
-    take_pixel(frame, x, y, lens_points, sums, pixel);
+    const std::size_t pixel = index_in(region, x, y);
+    if (lens) {
+      take_pixel_with_lens(frame, x, y, pixel, sums);
+      continue;
+    }
+    for (const PicturePlace& subpixel : subpixels) sums.take({x + subpixel.x, y + subpixel.y}, {}, pixel);
   }
   sums.trace();
 
-  const int grid = frame.settings().supersampling;
-  const double samples_per_pixel = static_cast<double>(grid) * grid * lens_points;
-  for (Tracer::Sample& done : pixels.first(pixel_count(region))) {
-    done = {done.color / samples_per_pixel, done.alpha / samples_per_pixel, done.dropped / samples_per_pixel};
+  const std::uint64_t samples_per_pixel = subpixels.size() * static_cast<std::uint64_t>(lens_points);
+  if (samples_per_pixel > 1) {
+    const auto divisor = static_cast<double>(samples_per_pixel);
+    for (PixelMean& pixel : pixels) pixel = {pixel.channels / divisor, pixel.dropped / divisor};
+    for (FirstHit& hit : first_hits) hit.divide(static_cast<std::int64_t>(samples_per_pixel));
   }
-  for (FirstHit& hit : first_hits) hit.divide(std::int64_t{grid} * grid * lens_points);
-  stats.pixels += pixel_count(region);
-  if (lens) stats.lens_samples += pixel_count(region) * static_cast<std::uint64_t>(samples_per_pixel);
+  stats.pixels += pixels.size();
+  if (lens) stats.lens_samples += pixels.size() * samples_per_pixel;
 }
 
 void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range,
@@ -227,21 +232,15 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
   const bool lens = frame.features().lens;
   const bool with_first_hits = std::any_of(
       pixels.begin(), pixels.end(), [](const PixelPlace& pixel) { return pixel.first_hits != nullptr; });
-  StepSums sums(frame, tracer, with_first_hits);
+  StepSums sums(frame, tracer, pixels, range, with_first_hits);
   for (const PixelPlace& pixel : pixels) {
     const PixelSequence sequence(frame.settings().seed, pixel.x, pixel.y);
-    SequenceWalk walk(sequence, static_cast<std::uint32_t>(range.begin),
-                      static_cast<std::uint32_t>(range.end), lens);
-    std::int64_t size = 0;
-    for (std::int64_t count = range.begin; count < range.end; count += size) {
-      size = samples_of_next_step(count);
-      for (std::int64_t i = count; i < count + size; ++i) {
-        const SequencePoint point = walk.next();
-        const PicturePlace place = {pixel.x + filter(point.pixel_u), pixel.y + filter(point.pixel_v)};
-        const LensPoint on_lens = lens ? camera.lens_point(point.lens_u, point.lens_v) : LensPoint{};
-        sums.take(place, on_lens, pixel, count, size);
-      }
-    }
+    for_each_point(
+        sequence, static_cast<std::uint32_t>(range.begin), static_cast<std::uint32_t>(range.end), lens,
+        [&](const SequencePoint& point) {
+          const PicturePlace place = {pixel.x + filter(point.pixel_u), pixel.y + filter(point.pixel_v)};
+          sums.take(place, lens ? camera.lens_point(point.lens_u, point.lens_v) : LensPoint{});
+        });
   }
   sums.trace();
   if (lens) stats.lens_samples += pixels.size() * static_cast<std::uint64_t>(range.end - range.begin);

@@ -7,11 +7,17 @@
 
 namespace crt::core {
 
+/// A pixel: the mean over its samples.
+struct PixelMean {
+  Lanes channels;  ///< red, green, blue, alpha
+  double dropped;  ///< see Tracer::Sample
+};
+
 /// The pixels of a part of the picture, row by row, into `pixels`. Each is the mean over a grid of subpixels,
 /// sampled at their centres, and for each of them over points of the lens if there is one: a function of the
 /// scene and of its place alone. Neighbouring rays are traced together. The same means of what the samples
 /// meet first go into `first_hits`, if that has room for them.
-void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<Tracer::Sample> pixels,
+void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<PixelMean> pixels,
                   std::span<FirstHit> first_hits, RenderStats& stats);
 
 /// A pixel, and what is kept of its samples.

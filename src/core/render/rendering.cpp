@@ -6,6 +6,7 @@
 #include <array>
 #include <atomic>
 #include <chrono>
+#include <cstring>
 #include <exception>
 #include <new>
 #include <optional>
@@ -82,16 +83,18 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
 void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& work) {
   Tracer tracer(frame, work, progress_);
   constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
-  std::array<Tracer::Sample, most_pixels> samples;
+  std::array<PixelMean, most_pixels> storage;
+  const std::span<PixelMean> means = std::span(storage).first(pixel_count(tile));
   std::optional<AovTile> aovs;
   if (is_any(options_.aovs)) aovs.emplace(options_.aovs, tile);
-  trace_pixels(frame, tile, tracer, samples, aovs ? aovs->first_hits() : std::span<FirstHit>(), work.stats);
-  std::array<float, 4 * most_pixels> pixels;
+  trace_pixels(frame, tile, tracer, means, aovs ? aovs->first_hits() : std::span<FirstHit>(), work.stats);
+  std::array<float, pixel_channels * most_pixels> pixels;
   float* next = pixels.data();
-  for (const Tracer::Sample& sample : std::span(samples).first(pixel_count(tile))) {
-    for (int channel = 0; channel < 3; ++channel) *next++ = finite_float(sample.color[channel]);
-    *next++ = static_cast<float>(sample.alpha);
-    work.cutoff.add(sample.dropped);
+  for (const PixelMean& mean : means) {
+    const FloatLanes channels = finite_floats(mean.channels);
+    std::memcpy(next, &channels, sizeof channels);
+    next += pixel_channels;
+    if (mean.dropped != 0) work.cutoff.add(mean.dropped);
   }
   if (aovs) {
     aovs->set_samples(static_cast<std::uint32_t>(samples_of_grid(settings_, frame.features().lens)));

@@ -40,7 +40,7 @@ struct SampleSum {
     sum += values;
     low = min(low, values);
     high = max(high, values);
-    mixed = mixed || sample_identity != identity;
+    mixed |= sample_identity != identity;
     dropped += lost;
   }
 };

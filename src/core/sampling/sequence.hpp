@@ -160,12 +160,6 @@ class PixelSequence {
     SequencePoint operator[](std::size_t i) const {
       return {coordinates[0][i], coordinates[1][i], coordinates[2][i], coordinates[3][i]};
     }
-    void set(std::size_t i, const SequencePoint& point) {
-      coordinates[0][i] = point.pixel_u;
-      coordinates[1][i] = point.pixel_v;
-      coordinates[2][i] = point.lens_u;
-      coordinates[3][i] = point.lens_v;
-    }
   };
   /// The same for as many points as make a block, from a multiple of their number on; without the lens only
   /// their places on the pixel.
@@ -220,38 +214,23 @@ class PixelSequence {
   PhiloxCounter seeds_;
 };
 
-/// The points from one index to another, one after the other; where it can be they are found by blocks.
-class SequenceWalk {
- public:
-  SequenceWalk(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t end, bool with_lens)
-      : sequence_(sequence), next_(begin), end_(end), with_lens_(with_lens) {}
-
-  SequencePoint next() {
-    if (place_ == found_) find_more();
-    return points_[place_++];
-  }
-
- private:
-  void find_more() {
-    using sequence_detail::points_at_once;
-    const bool is_block = next_ % points_at_once == 0 && end_ - next_ >= points_at_once;
-    if (is_block) {
-      sequence_.block(next_, with_lens_, points_);
-    } else {
-      points_.set(0, with_lens_ ? sequence_.point(next_) : sequence_.pixel_point(next_));
+/// Calls use(point) for the points from one index to before another, one after the other; where it can be
+/// they are found by blocks.
+template <class Use>
+void for_each_point(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t end, bool with_lens,
+                    const Use& use) {
+  using sequence_detail::points_at_once;
+  PixelSequence::Block block;
+  for (std::uint32_t next = begin; next < end;) {
+    if (next % points_at_once != 0 || end - next < points_at_once) {
+      use(with_lens ? sequence.point(next) : sequence.pixel_point(next));
+      ++next;
+      continue;
     }
-    found_ = is_block ? points_at_once : 1;
-    place_ = 0;
-    next_ += found_;
+    sequence.block(next, with_lens, block);
+    for (std::size_t i = 0; i < points_at_once; ++i) use(block[i]);
+    next += points_at_once;
   }
-
-  const PixelSequence& sequence_;
-  std::uint32_t next_;  ///< that is not found yet
-  std::uint32_t end_;
-  bool with_lens_;
-  PixelSequence::Block points_;
-  std::uint32_t found_ = 0;
-  std::uint32_t place_ = 0;  ///< among these
-};
+}
 
 }  // namespace crt::core

@@ -108,8 +108,7 @@ MemoryUse Accelerator::memory() const {
 
 ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) const {
   const Leaf& leaf = compiled_.leaves[index];
-  ObjectRay result;
-  leaf.placement->to_object(ray.origin, ray.direction, result);
+  ObjectRay result = leaf.placement->to_object(ray.origin, ray.direction);
   result.start = start_on_leaf(leaf, index, compiled_.face_surfaces, ray.start);
   return result;
 }

@@ -166,14 +166,13 @@ bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const CsgProgram
   }
   const std::uint32_t index = program.first_leaf + change.leaf;
   const Leaf& leaf = scene.leaves[index];
-  const LineSpan span = RaySlabs(ray_->origin, ray_->direction).span(leaf.bounds);
   CrossingList& crossings = work_->crossings;
   crossings.clear();
   leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings, work_->csg.escalations);
   for (const Crossing& crossing : crossings) {
     if (crossing.entering != change.into_leaf) continue;
     // What rounding puts next to the leaf's box is told by the box.
-    if (!(crossing.t >= span.enter && crossing.t <= span.leave)) return false;
+    if (!RaySlabs::is_in_span(ray_->origin, ray_->direction, leaf.bounds, crossing.t)) return false;
     ++work_->csg.events;
     kind().take({.t = crossing.t,
                  .error = crossing.error,
