@@ -89,10 +89,9 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
   tree_ = std::make_unique<EmbreeTree>(boxes, total);
+  if (boxes.size() > BoxRow::most_boxes) return;
   for (Bounds& box : boxes) box = box.grown(margin_);
-  bounded_box_ = total.grown(margin_);
-  shaft_tree_ = ShaftTree(boxes);
-  if (boxes.size() <= BoxRow::most_boxes) box_row_ = BoxRow(boxes);
+  box_row_ = BoxRow(boxes);
 }
 
 Accelerator::~Accelerator() = default;
@@ -102,7 +101,7 @@ MemoryUse Accelerator::memory() const {
   for (const Outlines* outlines : {&bounded_, &unbounded_}) {
     use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes);
   }
-  use.tree += bytes_of(enclosed_) + bytes_of(apart_) + box_row_.bytes() + shaft_tree_.bytes() + (tree_ ? tree_->bytes() : 0);
+  use.tree += bytes_of(enclosed_) + bytes_of(apart_) + box_row_.bytes() + (tree_ ? tree_->bytes() : 0);
   return use;
 }
 

@@ -13,7 +13,6 @@
 #include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/scene/ray_packet.hpp"
-#include "core/scene/shaft_tree.hpp"
 #include "crt/stats.hpp"
 
 namespace crt::core {
@@ -105,8 +104,6 @@ class Accelerator {
   double margin_ = 0;
   std::vector<std::uint8_t> apart_;         ///< by object: see objects_apart(); empty if there are none
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
-  ShaftTree shaft_tree_;                    ///< takes its place for packets whose rays keep together
-  Bounds bounded_box_;                      ///< around its boxes
   BoxRow box_row_;                          ///< takes its place for single rays if there are few boxes
   bool objects_share_surfaces_ = false;
 };

@@ -129,15 +129,9 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
     }
   }
   if (tree_ && tests.going() != 0) {
-    if (std::optional<Shaft> shaft = Shaft::around(packet, bounded_box_)) {
-      shaft_tree_.traverse(*shaft, [&](std::uint32_t box) {
-        if (tests.test(bounded_.list[box], bounded_.axes, tests.going()) != 0) shaft->set_limits(packet);
-      });
-    } else {
-      tree_->traverse(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
-        return tests.test(bounded_.list[box], bounded_.axes, rays);
-      });
-    }
+    tree_->traverse(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
+      return tests.test(bounded_.list[box], bounded_.axes, rays);
+    });
   }
   if constexpr (planes_last) {
     for (const Outline& outline : unbounded_.list) {
