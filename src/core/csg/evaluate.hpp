@@ -71,18 +71,6 @@ struct WorldRay {
   double end_error = 0;
 };
 
-/// The lines of rays, by component.
-inline RayLanes ray_lanes(std::span<const WorldRay, lane_count> rays) {
-  const auto gathered = [&](auto member) {
-    const Vec3& a = rays[0].*member;
-    const Vec3& b = rays[1].*member;
-    const Vec3& c = rays[2].*member;
-    const Vec3& d = rays[3].*member;
-    return VectorLanes{{a.x, b.x, c.x, d.x}, {a.y, b.y, c.y, d.y}, {a.z, b.z, c.z, d.z}};
-  };
-  return {gathered(&WorldRay::origin), gathered(&WorldRay::direction)};
-}
-
 /// Memory that one thread reuses from ray to ray.
 class CsgWorkspace {
  public:

@@ -46,6 +46,14 @@ void set_material(const PreparedMaterial& material, const Rgb& color, double tra
   set(surfaces.shininess, material.description->shininess);
 }
 
+/// Likewise; the normals are the solids'.
+void set_points(const SurfacePointLanes& points, bool entering, RayMask lanes, SurfaceGroup& group) {
+  const LaneMask mask = lanes_with(lanes);
+  group.position = chosen(mask, points.position, group.position);
+  group.face_normal = chosen(mask, entering ? points.normal : -points.normal, group.face_normal);
+  group.phong.normal = chosen(mask, group.face_normal, group.phong.normal);
+}
+
 void look_up_one(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
                  const SurfaceLane& surface) {
   const PreparedMaterial& material = *surface.hit().material;
@@ -107,10 +115,7 @@ void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> ray
     }
     SurfacePointLanes points;
     data.hit_points(rays, hits, lines, t, alike, points);
-    const LaneMask lanes = lanes_with(alike);
-    group.position = chosen(lanes, points.position, group.position);
-    group.face_normal = chosen(lanes, hit.entering ? points.normal : -points.normal, group.face_normal);
-    group.phong.normal = chosen(lanes, group.face_normal, group.phong.normal);
+    set_points(points, hit.entering, alike, group);
     set_material(material, rgb(material.color), transparency, alike, group.phong);
   }
 }

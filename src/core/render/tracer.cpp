@@ -180,13 +180,14 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
     const SurfaceGroup& surfaces = surfaces_[first / lane_count];
     const PhongSurfaces& phong = surfaces.phong;
     LightSamples sample;
-    LaneMask lit = (phong.diffuse > 0.0) | (phong.specular > 0.0);
+    LaneMask lit = lanes_with(on_surface >> first & group_mask);
+    lit &= (phong.diffuse > 0.0) | (phong.specular > 0.0);
     lit &= source.sample(surfaces.position, surfaces.path_length, sample);
     lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
     const VectorLanes light = direct_light(phong, sample, source.color(), lit);
     lit &= ~is_black(light);
     const Lanes end_errors = lamp_errors(surfaces.position, sample);
-    for_each_ray(mask_of(lit) & on_surface >> first & group_mask, [&](std::size_t lane) {
+    for_each_ray(mask_of(lit), [&](std::size_t lane) {
       const std::size_t index = shadows_.count++;
       shadows_.rays_to[index] = first + lane;
       shadows_.lights[index] = light.lane(lane);

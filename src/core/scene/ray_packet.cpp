@@ -25,7 +25,7 @@ Lanes gathered(const RayGroup& group, const Of& of) {
   return Lanes{of(*group[0]), of(*group[1]), of(*group[2]), of(*group[3])};
 }
 
-Vec3Of<Lanes> gathered(const RayGroup& group, Vec3 WorldRay::*vector) {
+VectorLanes gathered(const RayGroup& group, Vec3 WorldRay::*vector) {
   const auto component = [&](int axis) {
     return gathered(group, [=](const WorldRay& ray) { return (ray.*vector)[axis]; });
   };
@@ -36,9 +36,12 @@ Lanes gathered(const RayGroup& group, double WorldRay::*number) {
   return gathered(group, [=](const WorldRay& ray) { return ray.*number; });
 }
 
+RayLanes lines_of(const RayGroup& group) {
+  return {gathered(group, &WorldRay::origin), gathered(group, &WorldRay::direction)};
+}
+
 void fill(const RayGroup& group, OutlineLine<Lanes>& lines, Lanes& limits) {
-  const PlainRay<Lanes> rays{.origin = gathered(group, &WorldRay::origin),
-                             .direction = gathered(group, &WorldRay::direction)};
+  const RayLanes rays = lines_of(group);
   lines.origin = {rays.origin.x, rays.origin.y, rays.origin.z};
   lines.direction = {rays.direction.x, rays.direction.y, rays.direction.z};
   lines.squared_speed = dot(lines.direction, lines.direction);
@@ -52,6 +55,10 @@ void fill(const RayGroup& group, OutlineLine<Lanes>& lines, Lanes& limits) {
 }
 
 }  // namespace
+
+RayLanes ray_lanes(std::span<const WorldRay, lane_count> rays) {
+  return lines_of({&rays[0], &rays[1], &rays[2], &rays[3]});
+}
 
 RayPacket::RayPacket(std::span<const WorldRay> rays) {
   std::size_t group = 0;
@@ -69,10 +76,10 @@ bool go_together(std::span<const WorldRay> rays) {
   if (rays.size() < fewest) return false;
   constexpr double widest = 0.9;  // the cosine of the angle with the first ray
   const Vec3& first = rays.front().direction;
-  const Vec3Of<Lanes> first_lanes = {lanes_of(first.x), lanes_of(first.y), lanes_of(first.z)};
+  const VectorLanes first_lanes = lanes_of(first);
   const double first_square = widest * widest * glm::dot(first, first);
   for (std::size_t i = 0; i < rays.size(); i += lane_count) {
-    const Vec3Of<Lanes> direction = gathered(group_from(rays, i), &WorldRay::direction);
+    const VectorLanes direction = gathered(group_from(rays, i), &WorldRay::direction);
     const Lanes along = dot(direction, first_lanes);
     if (!all((along > 0.0) & (along * along > first_square * dot(direction, direction)))) return false;
   }

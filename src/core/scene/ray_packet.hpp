@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <span>
 
+#include "core/geometry/plain_ray.hpp"
 #include "core/scene/outline.hpp"
 
 namespace crt::core {
@@ -26,6 +27,9 @@ template <class Use>
 void for_each_ray(RayMask mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
 }
+
+/// The lines of as many rays as there are lanes, by component.
+RayLanes ray_lanes(std::span<const WorldRay, lane_count> rays);
 
 /// Up to packet_size rays by component, as vector instructions take them.
 struct RayPacket {
