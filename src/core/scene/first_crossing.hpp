@@ -66,7 +66,8 @@ FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const Outlin
 template <class Real>
 FirstCrossing<Real> first_crossing_of_plane(const Outline& plane, const OutlineAxis& of_plane,
                                             const OutlineLine<Real>& line) {
-  const int axis = coordinate_axis(of_plane.normal);
+  // Of the normal one component alone is not 0.
+  const int axis = of_plane.normal.x != 0 ? 0 : of_plane.normal.y != 0 ? 1 : 2;
   const auto i = static_cast<std::size_t>(axis);
   const Real& speed = line.direction[i];
   const auto meeting = AxisMeeting<Real>::of(Real{} + plane.place[axis], line.origin[i], speed);
