@@ -72,7 +72,7 @@ struct NearLineOf {
 
  private:
   template <class Ray>
-  NearLineOf(const Ray& ray, double unit) : unit_(unit), inverse_unit_(Real{} + 1 / unit) {
+  NearLineOf(const Ray& ray, double unit) : unit_(unit), inverse_unit_(spread<Real>(1 / unit)) {
     direction_scale_ = 1.0 / power_of_two_below(largest_component(ray.direction));
     direction = direction_scale_ * ray.direction;
     squared_speed = dot(direction, direction);

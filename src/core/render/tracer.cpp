@@ -12,9 +12,6 @@ namespace crt::core {
 
 namespace {
 
-/// The rays of one group of lanes.
-constexpr RayMask group_mask = (RayMask{1} << lane_count) - 1;
-
 /// Rays between two looks at the progress.
 constexpr unsigned ticks_per_poll = 256;
 
@@ -140,7 +137,7 @@ bool Tracer::see(std::size_t ray) {
 void Tracer::look_up_each(RayMask on_surface) {
   for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
     SurfaceGroup& group = surfaces_[first / lane_count];
-    const RayMask seen = on_surface >> first & group_mask;
+    const RayMask seen = RayPacket::lanes(on_surface, first / lane_count);
     const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
     const auto hits = std::span(hits_).subspan(first).first<lane_count>();
     look_up(data_, rays, hits, seen, group, work_);
@@ -180,7 +177,7 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
     const SurfaceGroup& surfaces = surfaces_[first / lane_count];
     const PhongSurfaces& phong = surfaces.phong;
     LightSamples sample;
-    LaneMask lit = lanes_with(on_surface >> first & group_mask);
+    LaneMask lit = lanes_with(RayPacket::lanes(on_surface, first / lane_count));
     lit &= (phong.diffuse > 0.0) | (phong.specular > 0.0);
     lit &= source.sample(surfaces.position, surfaces.path_length, sample);
     lit &= dot(sample.directions, surfaces.face_normal) > 0.0;

@@ -27,7 +27,7 @@ inline double certain_end(const WorldRay& ray) {
 template <class Real>
 Real finite_end(const Real& end) {
   constexpr double largest = 0x1p900;
-  return end > largest ? Real{} + largest : end;
+  return end > largest ? spread<Real>(largest) : end;
 }
 
 }  // namespace crt::core

@@ -70,7 +70,7 @@ FirstCrossing<Real> first_crossing_of_plane(const Outline& plane, const OutlineA
   const int axis = of_plane.normal.x != 0 ? 0 : of_plane.normal.y != 0 ? 1 : 2;
   const auto i = static_cast<std::size_t>(axis);
   const Real& speed = line.direction[i];
-  const auto meeting = AxisMeeting<Real>::of(Real{} + plane.place[axis], line.origin[i], speed);
+  const auto meeting = AxisMeeting<Real>::of(spread<Real>(plane.place[axis]), line.origin[i], speed);
   const auto start = after_start(line, meeting.t, meeting.error);
   return {.found = both(meeting.found, start.surely),
           .unknown = both(meeting.found, start.unknown),

@@ -85,7 +85,7 @@ class OutlinedPacket {
     if (outline.kind != Outline::Kind::unknown) {
       for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
         const std::size_t first = group * lane_count;
-        if ((rays >> first & RayPacket::group_mask) == 0) continue;
+        if (RayPacket::lanes(rays, group) == 0) continue;
         const OutlineLine<Lanes>& lines = packet_.groups[group];
         const Lanes& limits = packet_.limits[group];
         const Verdict<LaneMask> of_lanes = judge_outline(outline, axes, lines, limits, last[group]);
@@ -113,7 +113,7 @@ class OutlinedPacket {
     RayMask result = 0;
     for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
       const std::size_t first = group * lane_count;
-      if ((rays >> first & RayPacket::group_mask) == 0) continue;
+      if (RayPacket::lanes(rays, group) == 0) continue;
       result |= mask_of(leaves_torus(torus, axis, packet_.groups[group])) << first;
     }
     return result;
