@@ -108,10 +108,12 @@ Real grazing_error(const NearLineOf<Real>& line, double reach, double radius) {
 
 /// What the other root of a x^2 + 2 b x + c is moved by when c, which is only the rounding of a start
 /// on the surface, is taken as 0.
-inline double start_error(double c, double a, double b) {
-  const double size = std::abs(c);
-  const double grazing = std::sqrt(size / std::abs(a));
-  return size < 2 * std::abs(b) * grazing ? size / (2 * std::abs(b)) : grazing;
+template <class Real>
+Real start_error(const Real& c, const Real& a, const Real& b) {
+  const Real size = size_of(c);
+  const Real grazing = square_root(size / size_of(a));
+  const Real slope = 2.0 * size_of(b);
+  return size < slope * grazing ? size / slope : grazing;
 }
 
 }  // namespace crt::core

@@ -9,10 +9,7 @@
 namespace crt::core {
 
 SphereShape::SphereShape(const Sphere& sphere)
-    : center_(sphere.center),
-      radius_(sphere.radius),
-      unit_(power_of_two_below(sphere.radius)),
-      scaled_radius_(sphere.radius / unit_) {}
+    : center_(sphere.center), radius_(sphere.radius), unit_(power_of_two_below(sphere.radius)) {}
 
 Bounds SphereShape::bounds() const {
   Bounds result;
@@ -29,28 +26,15 @@ bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-/// One root of a x^2 + 2 b x + c is 0 by identity, so c is 0 whatever rounding made of the origin, and
-/// the other root is -2 b / a.
 bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out) const {
-  const NearLine line = NearLine::at_origin(ray, center_, unit_);
-  const double r = scaled_radius_;
-  const double reach = 2 * r;
-  const double a = line.squared_speed;
-  const double b = glm::dot(line.point, line.direction);
-  const double x = -2 * b / a;
-  const double distance = glm::length(line.point);
-  const double off_surface = std::abs((distance + r) * (distance - r));
-  const double t = line.to_t(x);
-  const double error = standard_error(line, t, reach, std::abs(b) / r, grazing_error(line, reach, r)) +
-                       line.to_t_length(start_error(off_surface, a, b));
-
-  Stretch stretch(ray.start, line.to_t_length(unit_roundoff * r));
+  const auto end = SphereOtherEnd<double>::of(ray, center_, radius_, unit_);
+  Stretch stretch(ray.start, end.least_way);
   if (ray.start.side == Side::outside) {
-    stretch.enter({.t = t, .error = error, .root = 0});
+    stretch.enter({.t = end.t, .error = end.error, .root = 0});
     stretch.leave({.root = 1});
   } else {
     stretch.enter({.root = 0});
-    stretch.leave({.t = t, .error = error, .root = 1});
+    stretch.leave({.t = end.t, .error = end.error, .root = 1});
   }
   return stretch.finish(out);
 }

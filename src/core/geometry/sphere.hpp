@@ -56,6 +56,38 @@ SphereChord<Real> SphereChord<Real>::of(const Ray& ray, const Vec3& center, doub
   return chord;
 }
 
+/// Of lines that start on the surface, where they are on it once more.
+template <class Real>
+struct SphereOtherEnd {
+  Real t{};
+  Real error{};      ///< as in Crossing
+  Real least_way{};  ///< what rounding makes of a way that is none
+
+  template <class Ray>
+  static SphereOtherEnd of(const Ray& ray, const Vec3& center, double radius, double unit);
+};
+
+/// One root of a x^2 + 2 b x + c is 0 by identity, so c is 0 whatever rounding made of the origin, and
+/// the other root is -2 b / a.
+template <class Real>
+template <class Ray>
+SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center, double radius,
+                                              double unit) {
+  const auto line = NearLineOf<Real>::at_origin(ray, center, unit);
+  const double r = radius / unit;
+  const double reach = 2 * r;
+  const Real a = line.squared_speed;
+  const Real b = dot(line.point, line.direction);
+  const Real distance = square_root(dot(line.point, line.point));
+  const Real off_surface = size_of((distance + r) * (distance - r));
+  SphereOtherEnd end;
+  end.t = line.to_t(-2.0 * b / a);
+  end.error = standard_error(line, end.t, reach, size_of(b) / r, grazing_error(line, reach, r)) +
+              line.to_t_length(start_error(off_surface, a, b));
+  end.least_way = line.to_t_length(spread<Real>(unit_roundoff * r));
+  return end;
+}
+
 class SphereShape final : public Shape {
  public:
   explicit SphereShape(const Sphere& sphere);
@@ -75,8 +107,7 @@ class SphereShape final : public Shape {
 
   Vec3 center_;
   double radius_;
-  double unit_;           ///< a power of two near the radius
-  double scaled_radius_;  ///< in units, within [1, 2)
+  double unit_;  ///< a power of two near the radius
 };
 
 void validate(const Sphere& sphere);

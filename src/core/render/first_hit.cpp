@@ -25,9 +25,7 @@ void Tracer::look(std::span<const CameraRay> rays, std::span<FirstPlace> places)
     RayHit& hit = hits_[i];
     places[i] = {};
     if (!hit.found()) continue;
-    if (hit.has_company && frame_.features().transparency) {
-      hit = seen_of(ray, data_.intersect(ray, work_.rays));
-    }
+    if (hit.has_company && frame_.features().transparency) hit = seen_of(ray);
     HitPoint point;
     data_.hit_point(ray, hit, false, point);
     places[i] = {.distance = point.t, .entity_id = point.entity_id};

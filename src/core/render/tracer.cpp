@@ -101,13 +101,10 @@ void Tracer::follow() {
   const std::size_t count = round_->count;
   const std::span<const WorldRay> rays = std::span(round_->rays).first(count);
   tick(static_cast<unsigned>(count));
-  const bool together = go_together(rays);
-  if (together) data_.intersect(rays, hits_, work_.rays);
+  data_.intersect_each(rays, hits_, work_.rays);
 
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool ask_alone = !together || (hits_[i].has_company && has_transparency_);
-    if (ask_alone) hits_[i] = data_.intersect(rays[i], work_.rays);
     on_surface |= static_cast<RayMask>(see(i)) << i;
   }
   look_up_each(on_surface);
@@ -124,7 +121,7 @@ void Tracer::follow() {
 
 bool Tracer::see(std::size_t ray) {
   RayHit& hit = hits_[ray];
-  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays[ray], hit);
+  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays[ray]);
   if (!pass_medium(ray)) return false;
   if (!hit.found()) {
     see_background(ray);
@@ -228,8 +225,8 @@ Rgb Tracer::light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hid
   return light_share(data_, shadow_ray, round_->works[ray]->media, media, work_);
 }
 
-RayHit Tracer::seen_of(const WorldRay& ray, const RayHit& hit) {
-  RayHit seen = hit;
+RayHit Tracer::seen_of(const WorldRay& ray) {
+  RayHit seen = data_.intersect(ray, work_.rays);
   double least = std::numeric_limits<double>::infinity();
   for (const RayHit& crossing : work_.rays.here) {
     const double transparency = crossing_filter(data_, ray, crossing, work_.stats).transparency;

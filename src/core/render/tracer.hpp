@@ -94,9 +94,9 @@ class Tracer {
   /// fills in its direction, its start and its media.
   Departure depart(std::size_t ray, RayKind kind, const Rgb& weight, bool waits);
 
-  /// Of the surfaces at a hit's place the one that is seen: that which lets the least light through, of
-  /// several the one whose object was written first.
-  RayHit seen_of(const WorldRay& ray, const RayHit& hit);
+  /// Of the surfaces at the place of a ray's first hit the one that is seen: that which lets the least light
+  /// through, of several the one whose object was written first.
+  RayHit seen_of(const WorldRay& ray);
 
   /// What a ray that goes on through a hit's place finds.
   struct Passage {

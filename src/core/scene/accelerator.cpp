@@ -141,21 +141,8 @@ std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
 std::uint32_t Accelerator::entered_apart(const StartPoint& start) const {
   if (apart_.empty() || start.leaf == nothing) return nothing;
   const std::uint32_t object = enclosed_[start.leaf];
-  const bool enters = object != nothing && apart_[object] != 0 && left_for_good(start) == nothing;
-  return enters ? object : nothing;
-}
-
-bool Accelerator::is_in_room(std::uint32_t object, const WorldRay& ray, double to) const {
-  const Bounds room = compiled_.objects[object].bounds.grown(margin_);
-  const auto holds = [&](double t) {
-    bool within = true;
-    for (int axis = 0; axis < 3; ++axis) {
-      const double place = std::fma(t, ray.direction[axis], ray.origin[axis]);
-      within = within && place >= room.lower[axis] && place <= room.upper[axis];
-    }
-    return within;
-  };
-  return holds(ray.t_min) && holds(to);
+  const bool enters = object != nothing && apart_[object] != nothing && left_for_good(start) == nothing;
+  return enters ? apart_[object] : nothing;
 }
 
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {

@@ -36,6 +36,9 @@ class Accelerator {
   /// Which of the rays.
   RayMask any(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
+  /// The same of nearest() for rays that may go anywhere: together only where that pays.
+  void nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
+
   /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
   /// material `is_opaque` says so (if given).
   bool all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
@@ -68,7 +71,8 @@ class Accelerator {
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
   /// The object that a ray has left for good when it starts: it cannot meet the object again.
   std::uint32_t left_for_good(const StartPoint& start) const;
-  /// The solid that a ray starts on the surface of, into it, if it keeps apart from all else.
+  /// The solid that a ray starts on the surface of, into it, if it keeps apart from all else; by its place
+  /// among those that have an end.
   std::uint32_t entered_apart(const StartPoint& start) const;
 
  private:
@@ -85,11 +89,19 @@ class Accelerator {
                             const QueryOf& query_of) const;
   /// On what the rays of a packet start, and what they have left for good.
   void note_starts(std::span<const WorldRay> rays, RayPacket& packet) const;
-  /// Whether the piece of a ray up to a t is where nothing but one object is that keeps apart.
-  bool is_in_room(std::uint32_t object, const WorldRay& ray, double to) const;
+  /// Where nothing but an object is that keeps apart.
+  Bounds room_of(std::uint32_t object) const { return compiled_.objects[object].bounds.grown(margin_); }
+  /// Empties the hits, and follows those rays that leave_apart(); the others are still open.
+  RayMask begin_nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
+  /// nearest() for such rays, whose hits are empty.
+  void nearest_together(std::span<const WorldRay> rays, RayMask open, std::span<RayHit> hits,
+                        RayWorkspace& work) const;
+  RayHit nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const;
   /// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
   /// is elsewhere it cannot meet before. Else the hit is left empty.
   bool leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
+  /// Which rays of a group do so.
+  RayMask leave_apart(std::span<const WorldRay> group, std::span<RayHit> hits, RayWorkspace& work) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
@@ -102,7 +114,7 @@ class Accelerator {
   /// More than what rounding does to places in the scene: of two objects that are farther apart neither
   /// matters where the other is.
   double margin_ = 0;
-  std::vector<std::uint8_t> apart_;         ///< by object: see objects_apart(); empty if there are none
+  std::vector<std::uint32_t> apart_;        ///< by object: see objects_apart()
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
   BoxRow box_row_;                          ///< takes its place for single rays if there are few boxes
   bool objects_share_surfaces_ = false;

@@ -77,14 +77,15 @@ bool passes_by(const Outline& plane, const OutlineAxis& axis, const Bounds& box)
 
 }  // namespace
 
-std::vector<std::uint8_t> objects_apart(const CompiledScene& scene, std::span<const SharedMaterial> materials,
-                                        std::span<const std::uint32_t> bounded, const Outlines& unbounded,
-                                        double margin) {
+std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
+                                         std::span<const SharedMaterial> materials,
+                                         std::span<const std::uint32_t> bounded, const Outlines& unbounded,
+                                         double margin) {
   const bool is_light_let_in = std::any_of(materials.begin(), materials.end(),
                                            [](const auto& material) { return lets_light_in(*material); });
   if (!is_light_let_in || bounded.empty()) return {};
 
-  std::vector<std::uint8_t> apart(scene.objects.size(), 0);
+  std::vector<std::uint32_t> apart(scene.objects.size(), nothing);
   const BoxLevels boxes(scene, bounded);
   const auto keeps_apart = [&](std::uint32_t index) {
     const SceneObject& object = scene.objects[index];
@@ -104,8 +105,8 @@ std::vector<std::uint8_t> objects_apart(const CompiledScene& scene, std::span<co
     return !boxes.touches_other(room, index);
   };
   for_ranges(bounded.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
-    for (const std::uint32_t object : bounded.subspan(begin, end - begin)) {
-      apart[object] = keeps_apart(object) ? 1 : 0;
+    for (std::size_t place = begin; place < end; ++place) {
+      if (keeps_apart(bounded[place])) apart[bounded[place]] = static_cast<std::uint32_t>(place);
     }
   });
   return apart;

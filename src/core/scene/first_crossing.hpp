@@ -8,6 +8,7 @@
 #include "core/geometry/plain_ray.hpp"
 #include "core/geometry/plane_face.hpp"
 #include "core/geometry/sphere.hpp"
+#include "core/scene/company_width.hpp"
 #include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
 
@@ -86,6 +87,42 @@ FirstCrossing<Real> first_crossing(const Outline& outline, std::span<const Outli
   if (outline.kind == Outline::Kind::sphere) return first_crossing_of_sphere(outline, line);
   return first_crossing_of_plane(outline, axes[outline.detail], line);
 }
+
+/// Whether a line is within a box at t.
+template <class Real>
+auto is_within(const Bounds& box, const PlainRay<Real>& line, const Real& t) {
+  const Vec3Of<Real> place = line.at(t);
+  const auto is_between = [](double lower, const Real& x, double upper) {
+    return both(x >= lower, x <= upper);
+  };
+  return both(
+      both(is_between(box.lower.x, place.x, box.upper.x), is_between(box.lower.y, place.y, box.upper.y)),
+      is_between(box.lower.z, place.z, box.upper.z));
+}
+
+/// Whether the outline alone tells where rays leave that start into the object.
+inline bool tells_exit(const Outline& outline) {
+  return outline.kind == Outline::Kind::sphere && outline.detail != nothing;
+}
+
+/// Where rays that start into a sphere leave it which keeps apart from all else.
+template <class Real>
+struct ExitApart {
+  decltype(Real{} < Real{}) found{};  ///< surely that and nothing before it; else it takes a closer look
+  Real t{};
+  Real error{};
+
+  /// Nothing else is in `room`.
+  static ExitApart of(const Outline& sphere, const Bounds& room, const PlainRay<Real>& line,
+                      const Real& begin, const Real& end) {
+    const double unit = power_of_two_below(sphere.radius);
+    const auto other = SphereOtherEnd<Real>::of(line, sphere.place, sphere.radius, unit);
+    const Real reach = other.t + company_width(line, other.t, other.error);
+    const auto ahead = both(both(other.t > 0.0, other.t > begin), other.t < end);
+    const auto stays = both(is_within(room, line, begin), is_within(room, line, reach < end ? reach : end));
+    return {.found = both(ahead, stays), .t = other.t, .error = other.error};
+  }
+};
 
 /// As the general test has it.
 inline void write_first(const Outline& outline, std::uint32_t leaf, double t, double error, bool entering,

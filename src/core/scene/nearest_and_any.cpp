@@ -33,11 +33,22 @@ bool test_told(Kind& query, const OutlineLine<double>& line, const Outline& outl
 }  // namespace
 
 bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
-  const std::uint32_t solid = entered_apart(ray.start);
-  if (solid == nothing) return false;
+  const std::uint32_t place = entered_apart(ray.start);
+  if (place == nothing) return false;
+  const Outline& outline = bounded_.list[place];
+  const Bounds room = room_of(outline.object);
+  const PlainRay<double> line{ray.origin, ray.direction};
+  if (tells_exit(outline)) {
+    const auto exit = ExitApart<double>::of(outline, room, line, ray.t_min, ray.t_max);
+    if (exit.found) {
+      ++work.intersection_tests;
+      write_first(outline, outline.detail, exit.t, exit.error, false, hit);
+      return true;
+    }
+  }
   Nearest query(*this, ray, work, hit);
-  query.test(solid);
-  if (hit.found() && is_in_room(solid, ray, query.limit())) return true;
+  query.test(outline.object);
+  if (hit.found() && is_within(room, line, ray.t_min) && is_within(room, line, query.limit())) return true;
   hit = {};
   return false;
 }
@@ -86,8 +97,13 @@ void Accelerator::traverse_filtered(Kind& query) const {
 }
 
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
+  RayHit hit;
+  if (!apart_.empty() && leaves_apart(ray, work, hit)) return hit;
+  return nearest_elsewhere(ray, work);
+}
+
+RayHit Accelerator::nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const {
   RayHit best;
-  if (!apart_.empty() && leaves_apart(ray, work, best)) return best;
   Nearest query(*this, ray, work, best);
   traverse_filtered(query);
   if (best.has_company) best = gather_company(ray, best, work);

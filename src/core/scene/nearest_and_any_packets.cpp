@@ -159,22 +159,81 @@ void Accelerator::note_starts(std::span<const WorldRay> rays, RayPacket& packet)
   }
 }
 
-void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
+RayMask Accelerator::leave_apart(std::span<const WorldRay> group, std::span<RayHit> hits,
+                                 RayWorkspace& work) const {
+  std::array<std::uint32_t, lane_count> places;
+  RayMask to_come = 0;
+  for (std::size_t i = 0; i < group.size(); ++i) {
+    const bool as_before = i > 0 && group[i].start.is_to_same_side(group[i - 1].start);
+    places[i] = as_before ? places[i - 1] : entered_apart(group[i].start);
+    to_come |= static_cast<RayMask>(places[i] != nothing) << i;
+  }
+  if (to_come == 0) return 0;
+  const RayLanes lines = ray_lanes(group);
+  const Lanes begin = ray_lanes(group, &WorldRay::t_min);
+  const Lanes end = ray_lanes(group, &WorldRay::t_max);
+  RayMask done = 0;
+  while (to_come != 0) {
+    const std::uint32_t place = places[first_ray(to_come)];
+    RayMask alike = 0;
+    for_each_ray(to_come, [&](std::size_t i) { alike |= static_cast<RayMask>(places[i] == place) << i; });
+    to_come &= ~alike;
+    const Outline& outline = bounded_.list[place];
+    if (tells_exit(outline)) {
+      const auto exit = ExitApart<Lanes>::of(outline, room_of(outline.object), lines, begin, end);
+      const RayMask told = alike & mask_of(exit.found);
+      for_each_ray(told, [&](std::size_t i) {
+        const auto lane = static_cast<int>(i);
+        write_first(outline, outline.detail, exit.t[lane], exit.error[lane], false, hits[i]);
+      });
+      work.intersection_tests += static_cast<unsigned>(std::popcount(told));
+      done |= told;
+      alike &= ~told;
+    }
+    for_each_ray(alike, [&](std::size_t i) {
+      done |= static_cast<RayMask>(leaves_apart(group[i], work, hits[i])) << i;
+    });
+  }
+  return done;
+}
+
+RayMask Accelerator::begin_nearest(std::span<const WorldRay> rays, std::span<RayHit> hits,
+                                   RayWorkspace& work) const {
   std::fill_n(hits.begin(), rays.size(), RayHit{});
   RayMask open = RayPacket::all(rays.size());
-  if (!apart_.empty()) {
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      if (leaves_apart(rays[i], work, hits[i])) open &= ~(RayMask{1} << i);
-    }
+  if (apart_.empty()) return open;
+  for (std::size_t first = 0; first < rays.size(); first += lane_count) {
+    const std::size_t count = std::min<std::size_t>(lane_count, rays.size() - first);
+    const RayMask done = leave_apart(rays.subspan(first, count), hits.subspan(first, count), work);
+    open &= ~(done << first);
   }
-  if (open != 0) {
-    RayPacket packet(rays);
-    note_starts(rays, packet);
-    traverse_filtered(packet, open, work,
-                      [&](std::size_t ray) { return Nearest(*this, rays[ray], work, hits[ray]); });
-  }
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  return open;
+}
+
+void Accelerator::nearest_together(std::span<const WorldRay> rays, RayMask open, std::span<RayHit> hits,
+                                   RayWorkspace& work) const {
+  RayPacket packet(rays);
+  note_starts(rays, packet);
+  traverse_filtered(packet, open, work,
+                    [&](std::size_t ray) { return Nearest(*this, rays[ray], work, hits[ray]); });
+  for_each_ray(open, [&](std::size_t i) {
     if (hits[i].has_company) hits[i] = gather_company(rays[i], hits[i], work);
+  });
+}
+
+void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
+  const RayMask open = begin_nearest(rays, hits, work);
+  if (open != 0) nearest_together(rays, open, hits, work);
+  expect_surface_points(hits.first(rays.size()));
+}
+
+void Accelerator::nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits,
+                               RayWorkspace& work) const {
+  const RayMask open = begin_nearest(rays, hits, work);
+  if (go_together(rays, open)) {
+    nearest_together(rays, open, hits, work);
+  } else {
+    for_each_ray(open, [&](std::size_t i) { hits[i] = nearest_elsewhere(rays[i], work); });
   }
   expect_surface_points(hits.first(rays.size()));
 }

@@ -121,13 +121,11 @@ RayMask PreparedData::occluded(std::span<const WorldRay> rays, RayWorkspace& wor
 
 void PreparedData::intersect_each(std::span<const WorldRay> rays, std::span<RayHit> hits,
                                   RayWorkspace& work) const {
-  if (go_together(rays)) return intersect(rays, hits, work);
-  for (std::size_t i = 0; i < rays.size(); ++i) hits[i] = intersect(rays[i], work);
-  accelerator_->expect_surface_points(hits.first(rays.size()));
+  accelerator_->nearest_each(rays, hits, work);
 }
 
 RayMask PreparedData::occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
-  if (go_together(rays)) return occluded(rays, work);
+  if (go_together(rays, RayPacket::all(rays.size()))) return occluded(rays, work);
   RayMask found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(occluded(rays[i], work)) << i;
   return found;

@@ -56,8 +56,12 @@ void fill(const RayGroup& group, OutlineLine<Lanes>& lines, Lanes& limits) {
 
 }  // namespace
 
-RayLanes ray_lanes(std::span<const WorldRay, lane_count> rays) {
-  return lines_of({&rays[0], &rays[1], &rays[2], &rays[3]});
+RayLanes ray_lanes(std::span<const WorldRay> rays) {
+  return lines_of(group_from(rays, 0));
+}
+
+Lanes ray_lanes(std::span<const WorldRay> rays, double WorldRay::*number) {
+  return gathered(group_from(rays, 0), number);
 }
 
 RayPacket::RayPacket(std::span<const WorldRay> rays) {
@@ -71,17 +75,20 @@ RayPacket::RayPacket(std::span<const WorldRay> rays) {
   }
 }
 
-bool go_together(std::span<const WorldRay> rays) {
-  constexpr std::size_t fewest = 3;
-  if (rays.size() < fewest) return false;
+bool go_together(std::span<const WorldRay> rays, RayMask some) {
+  constexpr int fewest = 3;
+  if (std::popcount(some) < fewest) return false;
   constexpr double widest = 0.9;  // the cosine of the angle with the first ray
-  const Vec3& first = rays.front().direction;
+  const Vec3& first = rays[first_ray(some)].direction;
   const VectorLanes first_lanes = lanes_of(first);
   const double first_square = widest * widest * glm::dot(first, first);
   for (std::size_t i = 0; i < rays.size(); i += lane_count) {
+    const RayMask lanes = RayPacket::lanes(some, i / lane_count);
+    if (lanes == 0) continue;
     const VectorLanes direction = gathered(group_from(rays, i), &WorldRay::direction);
     const Lanes along = dot(direction, first_lanes);
-    if (!all((along > 0.0) & (along * along > first_square * dot(direction, direction)))) return false;
+    const LaneMask is_near = (along > 0.0) & (along * along > first_square * dot(direction, direction));
+    if ((lanes & ~mask_of(is_near)) != 0) return false;
   }
   return true;
 }

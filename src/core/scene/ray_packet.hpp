@@ -28,8 +28,10 @@ void for_each_ray(RayMask mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
 }
 
-/// The lines of as many rays as there are lanes, by component.
-RayLanes ray_lanes(std::span<const WorldRay, lane_count> rays);
+/// Of at least one ray, and at most as many as there are lanes, the lines and another number by component.
+/// Lanes beyond the last ray are like it.
+RayLanes ray_lanes(std::span<const WorldRay> rays);
+Lanes ray_lanes(std::span<const WorldRay> rays, double WorldRay::*number);
 
 /// Up to packet_size rays by component, as vector instructions take them.
 struct RayPacket {
@@ -66,7 +68,7 @@ inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, s
   return mask;
 }
 
-/// Whether up to packet_size rays go so nearly the same way that a packet of them pays.
-bool go_together(std::span<const WorldRay> rays);
+/// Whether some of up to packet_size rays go so nearly the same way that a packet of them pays.
+bool go_together(std::span<const WorldRay> rays, RayMask some);
 
 }  // namespace crt::core
