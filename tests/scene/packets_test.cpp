@@ -325,14 +325,16 @@ TEST_CASE("so it does at spheres and planes of any size, from inside, afar, all 
 }
 
 TEST_CASE("rays go together that go nearly the same way") {
-  std::vector<WorldRay> rays(4);
+  std::vector<WorldRay> rays(6);
   for (WorldRay& ray : rays) ray.direction = {0, 0, 1};
-  CHECK(go_together(rays));
+  const RayMask all = RayPacket::all(rays.size());
+  CHECK(go_together(rays, all));
   rays[1].direction = {0.1, 0, 3};
-  CHECK(go_together(rays));
-  rays[2].direction = {0, 0, -1};
-  CHECK_FALSE(go_together(rays));
-  rays[2].direction = {1, 0, 1};
-  CHECK_FALSE(go_together(rays));
-  CHECK_FALSE(go_together(std::span(rays).first(2)));
+  CHECK(go_together(rays, all));
+  rays[4].direction = {0, 0, -1};
+  CHECK_FALSE(go_together(rays, all));
+  rays[4].direction = {1, 0, 1};
+  CHECK_FALSE(go_together(rays, all));
+  CHECK(go_together(rays, all & ~0b10000u));
+  CHECK_FALSE(go_together(rays, 0b11u));
 }

@@ -40,7 +40,7 @@ TEST_CASE("straight on, ((n1 - n2) / (n1 + n2))^2 is reflected and the rest goes
   for (const double n1 : indices) {
     for (const double n2 : indices) {
       const double amplitude = (n1 - n2) / (n1 + n2);
-      const Refraction refraction = refract(-up, up, n1, n2);
+      const Refraction<double> refraction = refract(-up, up, n1, n2);
       CHECK(refraction.reflectance == doctest::Approx(amplitude * amplitude).epsilon(1e-14));
       CHECK(refraction.direction == -up);
     }
@@ -97,7 +97,7 @@ TEST_CASE("equal indices let everything through exactly straight, at any angle")
   for (const double n : indices) {
     for (int step = 0; step <= 90; ++step) {
       const Vec3 direction = incoming(step * std::numbers::pi / 180);
-      const Refraction refraction = refract(direction, up, n, n);
+      const Refraction<double> refraction = refract(direction, up, n, n);
       CHECK(refraction.reflectance == 0);
       CHECK(refraction.direction == direction);
       CHECK(fresnel_reflectance(std::cos(step * 0.01), n, n) == 0);
@@ -110,7 +110,7 @@ TEST_CASE("the refracted direction obeys Snell's law, stays in the plane and has
     for (const double n2 : indices) {
       for (int step = 0; step < 90; ++step) {
         const Vec3 direction = incoming(step * std::numbers::pi / 180);
-        const Refraction refraction = refract(direction, up, n1, n2);
+        const Refraction<double> refraction = refract(direction, up, n1, n2);
         if (refraction.reflectance == 1) continue;
         CHECK(glm::length(refraction.direction) == doctest::Approx(1).epsilon(1e-15));
         CHECK(refraction.direction.y < 0);
@@ -125,7 +125,7 @@ TEST_CASE("total internal reflection begins at the critical angle") {
   const double n1 = 1.5;
   const double critical = std::asin(1 / n1);
   CHECK(refract(incoming(critical - 1e-7), up, n1, 1.0).reflectance < 1);
-  const Refraction total = refract(incoming(critical + 1e-7), up, n1, 1.0);
+  const Refraction<double> total = refract(incoming(critical + 1e-7), up, n1, 1.0);
   CHECK(total.reflectance == 1);
   CHECK(total.direction == Vec3(0));
 }
@@ -135,9 +135,9 @@ TEST_CASE("light takes the same way back, and the same share of it is reflected"
     for (const double n2 : indices) {
       for (int step = 1; step < 90; ++step) {
         const Vec3 direction = incoming(step * std::numbers::pi / 180);
-        const Refraction there = refract(direction, up, n1, n2);
+        const Refraction<double> there = refract(direction, up, n1, n2);
         if (there.reflectance > 0.999) continue;  // the way back is then ill-conditioned
-        const Refraction back = refract(-there.direction, -up, n2, n1);
+        const Refraction<double> back = refract(-there.direction, -up, n2, n1);
         CHECK(back.reflectance == doctest::Approx(there.reflectance).epsilon(1e-9));
         CHECK(glm::length(back.direction + direction) < 1e-9);
       }

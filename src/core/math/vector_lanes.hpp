@@ -75,6 +75,9 @@ inline VectorLanes max(const VectorLanes& a, const VectorLanes& b) {
 }
 
 /// Of each lane that of `a` or that of `b`.
+inline Vec3 chosen(bool first, const Vec3& a, const Vec3& b) {
+  return first ? a : b;
+}
 inline VectorLanes chosen(const LaneMask& first, const VectorLanes& a, const VectorLanes& b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
 }

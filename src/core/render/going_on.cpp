@@ -1,4 +1,6 @@
 // The parts of the tracer about rays that go on from a surface: mirrored, or through it.
+#include <bit>
+
 #include "core/math/vector.hpp"
 #include "core/render/media_order.hpp"
 #include "core/render/surface_hit.hpp"
@@ -14,65 +16,113 @@ namespace {
 constexpr int most_rays_per_sample = 65536;
 
 /// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
-Vec3 kept_on_side(const Vec3& direction, const Vec3& side) {
-  return glm::dot(direction, side) < 0 ? mirrored(direction, side) : direction;
+VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) {
+  return chosen(dot(direction, side) < 0.0, mirrored(direction, side), direction);
+}
+
+LaneMask is_weaker(const VectorLanes& weight, double least) {
+  return (weight.x < least) & (weight.y < least) & (weight.z < least);
 }
 
 }  // namespace
 
-void Tracer::split(std::size_t ray) {
-  const SurfaceLane lit = surface(ray);
-  const SurfaceHit& hit = lit.hit();
-  double mirror_share = hit.material->description->reflectivity;
-  if (mirror_share <= 0 && hit.transparency <= 0) return;
-
-  const Vec3& direction = round_->rays[ray].direction;
-  const Rgb& weight = round_->paths[ray].weight;
-  const Vec3 normal = lit.normal();
-  const Vec3 face_normal = lit.face_normal();
-  const MediaLists::List before = round_->paths[ray].media;
-  MediaLists& media = round_->works[ray]->media;
-  const std::uint32_t mirror_media_mark = media.mark();
-  Passage open;
-  Refraction refraction;
-  Rgb through_weight(0);
-  if (hit.transparency > 0) {
-    pass(ray, open);
-    refraction =
-        refract(direction, normal, refractive_index(media, before), refractive_index(media, open.media));
-    mirror_share += open.transparency * refraction.reflectance;
-    through_weight = open.transparency * (1 - refraction.reflectance) * weight * open.color;
-  }
-  const Rgb mirror_weight = mirror_share * weight;
-  const bool mirrors = mirror_share > 0 && is_worth_it(ray, mirror_weight);
-  const bool goes_through = !is_black(through_weight) && is_worth_it(ray, through_weight);
-
-  // What goes through is followed first; media lists made for it are dropped before the other's turn.
-  if (mirrors) {
-    const Departure mirror = depart(ray, RayKind::reflection, mirror_weight, goes_through);
-    mirror.ray->direction = kept_on_side(mirrored(direction, normal), face_normal);
-    mirror.ray->start = hit.start;
-    mirror.path->media = before;
-    mirror.path->media_mark = mirror_media_mark;
-  }
-  if (goes_through) {
-    const Departure through = depart(ray, RayKind::refraction, through_weight, false);
-    through.ray->direction = kept_on_side(refraction.direction, -face_normal);
-    through.ray->start = hit.start_behind();
-    through.path->media = open.media;
-    through.path->media_mark = media.mark();
-    if (data_.is_solid(hits_[ray])) ++work_.stats.media_changes;
+void Tracer::finish(std::size_t group, RayMask on_surface) {
+  const SurfaceGroup& surfaces = surfaces_[group];
+  const std::size_t first = group * lane_count;
+  RayMask splitting = 0;
+  for_each_ray(on_surface, [&](std::size_t lane) {
+    const std::size_t ray = first + lane;
+    round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
+    splitting |= static_cast<RayMask>(!surfaces.hits[lane].material->ends_paths) << lane;
+  });
+  Split parts;
+  if (splitting != 0) split(group, splitting, parts);
+  for (std::size_t lane = 0; lane < lane_count && first + lane < round_->count; ++lane) {
+    send_on(group, lane, parts);
+    if (!round_->works[first + lane]->is_done()) go_on(first + lane);
   }
 }
 
-bool Tracer::is_worth_it(std::size_t ray, const Rgb& weight) {
-  const double least = frame_.settings().min_weight;
-  const bool is_too_weak = weight.x < least && weight.y < least && weight.z < least;
-  const bool is_too_deep = round_->paths[ray].bounces >= frame_.settings().recursion_depth;
-  if (!is_too_weak && !is_too_deep) return true;
-  ++(is_too_weak ? work_.stats.rays_below_min_weight : work_.stats.rays_beyond_depth);
-  round_->samples[ray]->dropped += largest_component(weight);
-  return false;
+void Tracer::split(std::size_t group, RayMask lanes, Split& split) {
+  const SurfaceGroup& surfaces = surfaces_[group];
+  const VectorLanes& normal = surfaces.phong.normal;
+  Lanes mirrored_share{};
+  RayMask transparent = 0;
+  VectorLanes weight;
+  for_each_ray(lanes, [&](std::size_t lane) {
+    const SurfaceHit& hit = surfaces.hits[lane];
+    mirrored_share[static_cast<int>(lane)] = hit.material->description->reflectivity;
+    transparent |= static_cast<RayMask>(hit.transparency > 0) << lane;
+    weight.set(lane, round_->paths[group * lane_count + lane].weight);
+    split.media_marks[lane] = round_->works[group * lane_count + lane]->media.mark();
+  });
+
+  if (transparent != 0) {
+    Behind behind;
+    look_behind(group, transparent, behind, split);
+    const auto refraction = refract(surfaces.phong.view, normal, behind.index_before, behind.index_behind);
+    mirrored_share += behind.transparency * refraction.reflectance;
+    split.refracted_weight = behind.transparency * (1.0 - refraction.reflectance) * weight * behind.color;
+    split.refracted_direction = kept_on_side(refraction.direction, -surfaces.face_normal);
+  }
+  split.mirrored_weight = mirrored_share * weight;
+  split.mirrored_direction = kept_on_side(mirrored(surfaces.phong.view, normal), surfaces.face_normal);
+  split.mirrored = worth_it(group, lanes & mask_of(mirrored_share > 0.0), split.mirrored_weight);
+  split.refracted =
+      worth_it(group, transparent & ~mask_of(is_black(split.refracted_weight)), split.refracted_weight);
+}
+
+void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split) {
+  for_each_ray(lanes, [&](std::size_t lane) {
+    const std::size_t ray = group * lane_count + lane;
+    const auto i = static_cast<int>(lane);
+    const MediaLists& media = round_->works[ray]->media;
+    Passage passage;
+    pass(ray, passage);
+    behind.transparency[i] = passage.transparency;
+    behind.color.set(lane, passage.color);
+    behind.index_before[i] = refractive_index(media, round_->paths[ray].media);
+    behind.index_behind[i] = refractive_index(media, passage.media);
+    split.media_behind[lane] = passage.media;
+  });
+}
+
+RayMask Tracer::worth_it(std::size_t group, RayMask lanes, const VectorLanes& weights) {
+  const RayMask weak = lanes & mask_of(is_weaker(weights, frame_.settings().min_weight));
+  RayMask deep = 0;
+  for_each_ray(lanes & ~weak, [&](std::size_t lane) {
+    const PathState& path = round_->paths[group * lane_count + lane];
+    deep |= static_cast<RayMask>(path.bounces >= frame_.settings().recursion_depth) << lane;
+  });
+  work_.stats.rays_below_min_weight += static_cast<unsigned>(std::popcount(weak));
+  work_.stats.rays_beyond_depth += static_cast<unsigned>(std::popcount(deep));
+  for_each_ray(weak | deep, [&](std::size_t lane) {
+    round_->samples[group * lane_count + lane]->dropped += largest_component(weights.lane(lane));
+  });
+  return lanes & ~(weak | deep);
+}
+
+void Tracer::send_on(std::size_t group, std::size_t lane, const Split& split) {
+  const std::size_t ray = group * lane_count + lane;
+  const RayMask bit = RayMask{1} << lane;
+  const bool goes_through = (split.refracted & bit) != 0;
+  // What goes through is followed first; media lists made for it are dropped before the other's turn.
+  if ((split.mirrored & bit) != 0) {
+    const Departure departure =
+        depart(ray, RayKind::reflection, split.mirrored_weight.lane(lane), goes_through);
+    departure.ray->direction = split.mirrored_direction.lane(lane);
+    departure.ray->start = surface(ray).hit().start;
+    departure.path->media = round_->paths[ray].media;
+    departure.path->media_mark = split.media_marks[lane];
+  }
+  if (goes_through) {
+    const Departure departure = depart(ray, RayKind::refraction, split.refracted_weight.lane(lane), false);
+    departure.ray->direction = split.refracted_direction.lane(lane);
+    departure.ray->start = surface(ray).hit().start_behind();
+    departure.path->media = split.media_behind[lane];
+    departure.path->media_mark = round_->works[ray]->media.mark();
+    if (data_.is_solid(hits_[ray])) ++work_.stats.media_changes;
+  }
 }
 
 Tracer::Departure Tracer::depart(std::size_t ray, RayKind kind, const Rgb& weight, bool waits) {

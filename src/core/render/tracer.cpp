@@ -29,10 +29,6 @@ Lanes lamp_errors(const VectorLanes& points, const LightSamples& light) {
   return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
 }
 
-LaneMask is_black(const VectorLanes& light) {
-  return (light.x == 0.0) & (light.y == 0.0) & (light.z == 0.0);
-}
-
 /// A surface as it is met: a primitive, the triangles of a mesh all alike.
 std::uint64_t met(const PreparedData& data, const RayHit& hit, RayKind kind) {
   constexpr std::uint64_t is_surface = std::uint64_t{1} << 32;
@@ -110,12 +106,8 @@ void Tracer::follow() {
   look_up_each(on_surface);
   add_light(on_surface);
   next_round_->count = 0;
-  for (std::size_t i = 0; i < count; ++i) {
-    if ((on_surface >> i & 1u) != 0) {
-      round_->samples[i]->color += round_->paths[i].weight * surface(i).light();
-      if (!surface(i).hit().material->ends_paths) split(i);
-    }
-    if (!round_->works[i]->is_done()) go_on(i);
+  for (std::size_t group = 0; group * lane_count < count; ++group) {
+    finish(group, RayPacket::lanes(on_surface, group));
   }
 }
 

@@ -81,10 +81,33 @@ class Tracer {
   /// What gets through along the way to a light, of which it is known whether anything is met there.
   Rgb light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hidden);
 
-  /// Sends the mirrored and the refracted ray on, if they are worth it.
-  void split(std::size_t ray);
-  /// Whether one of that weight is to go on from where a ray ends.
-  bool is_worth_it(std::size_t ray, const Rgb& weight);
+  /// The mirrored and the refracted rays that go on from where a group of rays ends.
+  struct Split {
+    RayMask mirrored = 0;
+    RayMask refracted = 0;
+    VectorLanes mirrored_direction;
+    VectorLanes mirrored_weight;
+    VectorLanes refracted_direction;
+    VectorLanes refracted_weight;
+    std::array<MediaLists::List, lane_count> media_behind;
+    std::array<std::uint32_t, lane_count> media_marks;  ///< before lists were made for what is behind
+  };
+  /// Adds the light of surfaces to the samples, and sends on what goes on from there or waits: into the next
+  /// round.
+  void finish(std::size_t group, RayMask on_surface);
+  /// Of surfaces that do not end paths.
+  void split(std::size_t group, RayMask lanes, Split& split);
+  /// What is behind them, and how much gets there.
+  struct Behind {
+    Lanes transparency{};  ///< where it is 0, the rest means nothing
+    VectorLanes color;
+    Lanes index_before = lanes_of(1);
+    Lanes index_behind = lanes_of(1);
+  };
+  void look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split);
+  /// Which rays of such weights are to go on from where a group of rays ends.
+  RayMask worth_it(std::size_t group, RayMask lanes, const VectorLanes& weights);
+  void send_on(std::size_t group, std::size_t lane, const Split& split);
   /// Where a ray is written that goes on.
   struct Departure {
     WorldRay* ray;

@@ -1,64 +1,82 @@
 #include "core/shading/fresnel.hpp"
 
-#include <algorithm>
 #include <cmath>
-
-#include "core/math/direction_and_length.hpp"
 
 namespace crt::core {
 
 namespace {
 
 /// The angle of incidence.
+template <class Real>
 struct Incidence {
-  double cosine = 1;
-  double squared_sine = 0;
+  Real cosine;
+  Real squared_sine;
 };
 
 /// The square of the cosine behind the boundary, below 0 under total internal reflection, by Snell's
 /// law: c2^2 = 1 - (n1/n2)^2 s1^2. For indices that are not far apart it is written so that nothing
 /// cancels at grazing incidence.
-double squared_cosine_behind(const Incidence& incidence, double n1, double n2) {
+template <class Real>
+Real squared_cosine_behind(const Incidence<Real>& incidence, const Real& n1, const Real& n2) {
   constexpr double far_apart = 1.5;
-  const double ratio = n1 / n2;
-  if (ratio > far_apart) return 1 - ratio * ratio * incidence.squared_sine;
-  const double scaled = ratio * incidence.cosine;
-  return (n2 - n1) * (n2 + n1) / (n2 * n2) + scaled * scaled;
+  const Real ratio = n1 / n2;
+  const Real scaled = ratio * incidence.cosine;
+  return ratio > far_apart ? 1.0 - ratio * ratio * incidence.squared_sine
+                           : (n2 - n1) * (n2 + n1) / (n2 * n2) + scaled * scaled;
 }
 
 /// Born and Wolf, Principles of Optics, 1.5.2, with both amplitudes rewritten so that indices close
 /// to each other do not cancel: with N = n1 c1 + n2 c2,
 ///   r_s = (n1^2 - n2^2) / N^2,   r_p = r_s (c1 c2 - s1 s2) / (c1 c2 + s1 s2).
-double reflectance(const Incidence& incidence, double c2, double n1, double n2) {
-  const double c1 = incidence.cosine;
-  const double sum = n1 * c1 + n2 * c2;
-  const double across = (n1 - n2) * (n1 + n2) / (sum * sum);
-  const double sines = n1 / n2 * incidence.squared_sine;
-  const double cosines = c1 * c2;
-  const double ratio = (cosines - sines) / (cosines + sines);
-  return std::min(1.0, 0.5 * across * across * (1 + ratio * ratio));
+template <class Real>
+Real reflectance(const Incidence<Real>& incidence, const Real& c2, const Real& n1, const Real& n2) {
+  const Real c1 = incidence.cosine;
+  const Real sum = n1 * c1 + n2 * c2;
+  const Real across = (n1 - n2) * (n1 + n2) / (sum * sum);
+  const Real sines = n1 / n2 * incidence.squared_sine;
+  const Real cosines = c1 * c2;
+  const Real ratio = (cosines - sines) / (cosines + sines);
+  const Real share = 0.5 * across * across * (1.0 + ratio * ratio);
+  return share < 1.0 ? share : spread<Real>(1);
+}
+
+Vec3 direction_of(const Vec3& v) {
+  return direction_and_length(v).direction;
+}
+VectorLanes direction_of(const VectorLanes& v) {
+  return directions_and_lengths(v).directions;
 }
 
 }  // namespace
 
 double fresnel_reflectance(double cosine, double n1, double n2) {
   if (n1 == n2) return 0;
-  const Incidence incidence{cosine, (1 - cosine) * (1 + cosine)};
+  const Incidence<double> incidence{cosine, (1 - cosine) * (1 + cosine)};
   const double squared = squared_cosine_behind(incidence, n1, n2);
   if (squared <= 0) return 1;
   return reflectance(incidence, std::sqrt(squared), n1, n2);
 }
 
-Refraction refract(const Vec3& direction, const Vec3& normal, double n1, double n2) {
-  if (n1 == n2) return {0, direction};
-  const double cosine = std::clamp(-glm::dot(direction, normal), 0.0, 1.0);
-  const Vec3 along_boundary = direction + cosine * normal;
-  const Incidence incidence{cosine, glm::dot(along_boundary, along_boundary)};
-  const double squared = squared_cosine_behind(incidence, n1, n2);
-  if (squared <= 0) return {1, Vec3(0)};
-  const double cosine_behind = std::sqrt(squared);
-  const Vec3 behind = n1 / n2 * along_boundary - cosine_behind * normal;
-  return {reflectance(incidence, cosine_behind, n1, n2), direction_and_length(behind).direction};
+template <class Real>
+Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& normal, const Real& n1,
+                         const Real& n2) {
+  const Real against = -dot(direction, normal);
+  const Real cosine = against > 1.0 ? spread<Real>(1) : against < 0.0 ? Real{} : against;
+  const Vec3Of<Real> along_boundary = direction + cosine * normal;
+  const Incidence<Real> incidence{cosine, dot(along_boundary, along_boundary)};
+  const Real squared = squared_cosine_behind(incidence, n1, n2);
+  const auto is_total = squared <= 0.0;
+  const Real cosine_behind = square_root(is_total ? Real{} : squared);
+  const Vec3Of<Real> behind = n1 / n2 * along_boundary - cosine_behind * normal;
+
+  const auto is_no_boundary = n1 == n2;
+  const Real share = is_total ? spread<Real>(1) : reflectance(incidence, cosine_behind, n1, n2);
+  const Vec3Of<Real> refracted = chosen(is_total, Vec3Of<Real>{}, direction_of(behind));
+  return {.reflectance = is_no_boundary ? Real{} : share,
+          .direction = chosen(is_no_boundary, direction, refracted)};
 }
+
+template Refraction<double> refract(const Vec3&, const Vec3&, const double&, const double&);
+template Refraction<Lanes> refract(const VectorLanes&, const VectorLanes&, const Lanes&, const Lanes&);
 
 }  // namespace crt::core

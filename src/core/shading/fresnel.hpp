@@ -5,28 +5,31 @@
 // <= 0). n1 is the refractive index on the side light comes from, n2 that beyond.
 #pragma once
 
-#include <glm/geometric.hpp>
-
-#include "crt/vec.hpp"
+#include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
+/// Of one ray, or of as many side by side as a Real has lanes.
+template <class Real>
 struct Refraction {
   /// The share of light that is reflected (Fresnel); 1 under total internal reflection.
-  double reflectance = 0;
+  Real reflectance{};
   /// Where the rest goes, unit length; 0 under total internal reflection.
-  Vec3 direction{0, 0, 0};
+  Vec3Of<Real> direction{};
 };
 
-/// Equal indices let everything through exactly straight.
-Refraction refract(const Vec3& direction, const Vec3& normal, double n1, double n2);
+/// Equal indices let everything through exactly straight. Real is double or Lanes.
+template <class Real>
+Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& normal, const Real& n1,
+                         const Real& n2);
 
 /// The reflected share alone, for the cosine (in [0, 1]) of the angle of incidence.
 double fresnel_reflectance(double cosine, double n1, double n2);
 
-/// The mirror image of `direction` at the plane across `normal`.
-inline Vec3 mirrored(const Vec3& direction, const Vec3& normal) {
-  return direction - 2 * glm::dot(direction, normal) * normal;
+/// The mirror image of `direction` at the plane across `normal`, of a Vec3 or of VectorLanes.
+template <class Vector>
+Vector mirrored(const Vector& direction, const Vector& normal) {
+  return direction - 2.0 * dot(direction, normal) * normal;
 }
 
 }  // namespace crt::core

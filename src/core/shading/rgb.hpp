@@ -1,6 +1,7 @@
 // Colours to compute with: three channels of linear light.
 #pragma once
 
+#include "core/math/vector_lanes.hpp"
 #include "crt/color.hpp"
 #include "crt/vec.hpp"
 
@@ -15,6 +16,9 @@ inline Rgb rgb(const Color& color) {
 
 inline bool is_black(const Rgb& light) {
   return light.x == 0 && light.y == 0 && light.z == 0;
+}
+inline LaneMask is_black(const VectorLanes& light) {
+  return (light.x == 0.0) & (light.y == 0.0) & (light.z == 0.0);
 }
 
 /// How bright a colour looks: the weights of Rec. ITU-R BT.709, item 3.2.
