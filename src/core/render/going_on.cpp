@@ -35,12 +35,44 @@ void Tracer::finish(std::size_t group, RayMask on_surface) {
     round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
     splitting |= static_cast<RayMask>(!surfaces.hits[lane].material->ends_paths) << lane;
   });
-  Split parts;
-  if (splitting != 0) split(group, splitting, parts);
+  const RayMask gone_on = splitting != 0 ? send_on(group, splitting) : 0;
   for (std::size_t lane = 0; lane < lane_count && first + lane < round_->count; ++lane) {
-    send_on(group, lane, parts);
-    if (!round_->works[first + lane]->is_done()) go_on(first + lane);
+    if ((gone_on >> lane & 1u) == 0 && !round_->works[first + lane]->pending.empty()) go_back(first + lane);
   }
+}
+
+RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
+  Split parts;
+  split(group, lanes, parts);
+  // What goes through is followed first; media lists made for it are dropped before the other's turn.
+  RayMask gone_on = 0;
+  for_each_ray(parts.mirrored | parts.refracted, [&](std::size_t lane) {
+    const std::size_t ray = group * lane_count + lane;
+    const SurfaceHit& hit = surface(ray).hit();
+    SampleWork& work = *round_->works[ray];
+    const bool goes_through = (parts.refracted >> lane & 1u) != 0;
+    const bool waits = work.rays == most_rays_per_sample;
+    if ((parts.mirrored >> lane & 1u) != 0) {
+      const Departure departure = depart(ray, RayKind::reflection, waits || goes_through);
+      departure.ray->direction = parts.mirrored_direction.lane(lane);
+      departure.ray->start = hit.start;
+      departure.path->weight = parts.mirrored_weight.lane(lane);
+      departure.path->media = round_->paths[ray].media;
+      departure.path->media_mark = parts.media_marks[lane];
+      if (!goes_through) work.media.release(parts.media_marks[lane]);
+    }
+    if (goes_through) {
+      const Departure departure = depart(ray, RayKind::refraction, waits);
+      departure.ray->direction = parts.refracted_direction.lane(lane);
+      departure.ray->start = hit.start_behind();
+      departure.path->weight = parts.refracted_weight.lane(lane);
+      departure.path->media = parts.media_behind[lane];
+      departure.path->media_mark = work.media.mark();
+      if (data_.is_solid(hits_[ray])) ++work_.stats.media_changes;
+    }
+    gone_on |= static_cast<RayMask>(!waits) << lane;
+  });
+  return gone_on;
 }
 
 void Tracer::split(std::size_t group, RayMask lanes, Split& split) {
@@ -102,46 +134,31 @@ RayMask Tracer::worth_it(std::size_t group, RayMask lanes, const VectorLanes& we
   return lanes & ~(weak | deep);
 }
 
-void Tracer::send_on(std::size_t group, std::size_t lane, const Split& split) {
-  const std::size_t ray = group * lane_count + lane;
-  const RayMask bit = RayMask{1} << lane;
-  const bool goes_through = (split.refracted & bit) != 0;
-  // What goes through is followed first; media lists made for it are dropped before the other's turn.
-  if ((split.mirrored & bit) != 0) {
-    const Departure departure =
-        depart(ray, RayKind::reflection, split.mirrored_weight.lane(lane), goes_through);
-    departure.ray->direction = split.mirrored_direction.lane(lane);
-    departure.ray->start = surface(ray).hit().start;
-    departure.path->media = round_->paths[ray].media;
-    departure.path->media_mark = split.media_marks[lane];
-  }
-  if (goes_through) {
-    const Departure departure = depart(ray, RayKind::refraction, split.refracted_weight.lane(lane), false);
-    departure.ray->direction = split.refracted_direction.lane(lane);
-    departure.ray->start = surface(ray).hit().start_behind();
-    departure.path->media = split.media_behind[lane];
-    departure.path->media_mark = round_->works[ray]->media.mark();
-    if (data_.is_solid(hits_[ray])) ++work_.stats.media_changes;
-  }
-}
-
-Tracer::Departure Tracer::depart(std::size_t ray, RayKind kind, const Rgb& weight, bool waits) {
-  SampleWork& work = *round_->works[ray];
-  const PathState& path = round_->paths[ray];
+Tracer::Departure Tracer::depart(std::size_t ray, RayKind kind, bool waits) {
   Departure departure{};
-  if (waits || work.rays == most_rays_per_sample) {
-    PathRay& pending = work.pending.emplace_back();
+  if (waits) {
+    PathRay& pending = round_->works[ray]->pending.emplace_back();
     departure = {&pending.ray, &pending.path};
   } else {
-    work.goes_on = true;
-    departure = {&next_round_->rays[next_round_->count], &next_round_->paths[next_round_->count]};
+    departure = join_next_round(ray, kind);
   }
+  const PathState& path = round_->paths[ray];
   departure.ray->origin = surface(ray).position();
   departure.path->kind = kind;
   departure.path->bounces = path.bounces + 1;
   departure.path->path_length = path.path_length + hits_[ray].t;
-  departure.path->weight = weight;
   return departure;
+}
+
+Tracer::Departure Tracer::join_next_round(std::size_t ray, RayKind kind) {
+  RenderStats& stats = work_.stats;
+  ++(kind == RayKind::reflection ? stats.reflection_rays : stats.refraction_rays);
+  Round& next = *next_round_;
+  const std::size_t place = next.count++;
+  next.works[place] = round_->works[ray];
+  next.samples[place] = round_->samples[ray];
+  ++next.works[place]->rays;
+  return {&next.rays[place], &next.paths[place]};
 }
 
 void Tracer::pass(std::size_t ray, Passage& passage) {
@@ -213,31 +230,23 @@ double Tracer::refractive_index(const MediaLists& lists, MediaLists::List media)
   return data_.materials()[lists.innermost(media).material].description->refractive_index;
 }
 
-void Tracer::go_on(std::size_t ray) {
+void Tracer::go_back(std::size_t ray) {
   SampleWork& work = *round_->works[ray];
-  Sample& sample = *round_->samples[ray];
   std::vector<PathRay>& pending = work.pending;
-  const std::size_t place = next_round_->count;
-  if (!work.goes_on) {
-    if (work.rays == most_rays_per_sample) {
-      ++work_.stats.samples_over_ray_bound;
-      for (const PathRay& dropped : pending) sample.dropped += largest_component(dropped.path.weight);
-      pending.clear();
-      return;
+  if (work.rays == most_rays_per_sample) {
+    ++work_.stats.samples_over_ray_bound;
+    for (const PathRay& dropped : pending) {
+      round_->samples[ray]->dropped += largest_component(dropped.path.weight);
     }
-    next_round_->rays[place] = pending.back().ray;
-    next_round_->paths[place] = pending.back().path;
-    pending.pop_back();
+    pending.clear();
+    return;
   }
-  work.goes_on = false;
-  ++work.rays;
-  const PathState& path = next_round_->paths[place];
-  RenderStats& stats = work_.stats;
-  ++(path.kind == RayKind::reflection ? stats.reflection_rays : stats.refraction_rays);
-  work.media.release(path.media_mark);
-  next_round_->works[place] = &work;
-  next_round_->samples[place] = &sample;
-  ++next_round_->count;
+  const PathRay& last = pending.back();
+  const Departure departure = join_next_round(ray, last.path.kind);
+  *departure.ray = last.ray;
+  *departure.path = last.path;
+  work.media.release(last.path.media_mark);
+  pending.pop_back();
 }
 
 }  // namespace crt::core

@@ -56,7 +56,6 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
     camera_media_ = nested(sample.media, frame.camera_media());
     camera_media_mark_ = sample.media.mark();
     sample.pending.clear();
-    sample.goes_on = false;
   }
 }
 

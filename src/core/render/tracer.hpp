@@ -57,8 +57,6 @@ class Tracer {
   void start_path(std::size_t ray, const CameraRay& camera_ray);
   /// Follows the rays of this round, and makes the next.
   void follow();
-  /// Takes a ray's sample into the next round, if it has a ray left.
-  void go_on(std::size_t ray);
   /// Whether there is a surface, whose light is still to come; else the ray is done.
   bool see(std::size_t ray);
   void see_background(std::size_t ray);
@@ -92,9 +90,11 @@ class Tracer {
     std::array<MediaLists::List, lane_count> media_behind;
     std::array<std::uint32_t, lane_count> media_marks;  ///< before lists were made for what is behind
   };
-  /// Adds the light of surfaces to the samples, and sends on what goes on from there or waits: into the next
-  /// round.
+  /// Adds the light of surfaces to the samples, and takes those samples of a group of rays into the next
+  /// round that have a ray left.
   void finish(std::size_t group, RayMask on_surface);
+  /// Sends mirrored and refracted rays on; returns which samples have such a one in the next round.
+  RayMask send_on(std::size_t group, RayMask lanes);
   /// Of surfaces that do not end paths.
   void split(std::size_t group, RayMask lanes, Split& split);
   /// What is behind them, and how much gets there.
@@ -107,15 +107,18 @@ class Tracer {
   void look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split);
   /// Which rays of such weights are to go on from where a group of rays ends.
   RayMask worth_it(std::size_t group, RayMask lanes, const VectorLanes& weights);
-  void send_on(std::size_t group, std::size_t lane, const Split& split);
   /// Where a ray is written that goes on.
   struct Departure {
     WorldRay* ray;
     PathState* path;
   };
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
-  /// fills in its direction, its start and its media.
-  Departure depart(std::size_t ray, RayKind kind, const Rgb& weight, bool waits);
+  /// fills in its direction, its start, its weight and its media.
+  Departure depart(std::size_t ray, RayKind kind, bool waits);
+  /// A place in the next round for the sample of a ray.
+  Departure join_next_round(std::size_t ray, RayKind kind);
+  /// Takes up what waits of a ray's sample.
+  void go_back(std::size_t ray);
 
   /// Of the surfaces at the place of a ray's first hit the one that is seen: that which lets the least light
   /// through, of several the one whose object was written first.

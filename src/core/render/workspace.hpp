@@ -35,11 +35,8 @@ struct PathRay {
 /// One of the samples that are traced side by side.
 struct SampleWork {
   MediaLists media;
-  bool goes_on = false;          ///< with a ray of the next round
   std::vector<PathRay> pending;  ///< a stack: what follows when that is done
   int rays = 0;                  ///< followed so far
-
-  bool is_done() const { return !goes_on && pending.empty(); }
 };
 
 /// The weight of rays that were not followed, of some pixels.
