@@ -113,7 +113,8 @@ void Tracer::follow() {
 bool Tracer::see(std::size_t ray) {
   RayHit& hit = hits_[ray];
   if (hit.has_company && has_transparency_) hit = seen_of(round_->rays[ray]);
-  if (!pass_medium(ray)) return false;
+  const bool absorbs = frame_.features().absorption && round_->paths[ray].media != MediaLists::empty;
+  if (absorbs && !pass_medium(ray)) return false;
   if (!hit.found()) {
     see_background(ray);
     return false;
@@ -140,7 +141,6 @@ void Tracer::look_up_each(RayMask on_surface) {
 
 bool Tracer::pass_medium(std::size_t ray) {
   PathState& path = round_->paths[ray];
-  if (path.media == MediaLists::empty || !frame_.features().absorption) return true;
   const Medium& medium = round_->works[ray]->media.innermost(path.media);
   path.weight *= transmittance(data_.materials()[medium.material], hits_[ray].t);
   return !is_black(path.weight);

@@ -60,7 +60,7 @@ class Tracer {
   /// Whether there is a surface, whose light is still to come; else the ray is done.
   bool see(std::size_t ray);
   void see_background(std::size_t ray);
-  /// Takes from the weight what the medium on the way to a hit absorbs; whether anything is left.
+  /// Takes from the weight what the medium around the way to a hit absorbs; whether anything is left.
   bool pass_medium(std::size_t ray);
 
   /// What the camera rays of the round that was just followed have met.

@@ -25,7 +25,8 @@ Lanes gathered(const RayGroup& group, const Of& of) {
   return Lanes{of(*group[0]), of(*group[1]), of(*group[2]), of(*group[3])};
 }
 
-VectorLanes gathered(const RayGroup& group, Vec3 WorldRay::*vector) {
+/// (A call would cost as much as it does.)
+[[gnu::always_inline]] inline VectorLanes gathered(const RayGroup& group, Vec3 WorldRay::*vector) {
   const auto component = [&](int axis) {
     return gathered(group, [=](const WorldRay& ray) { return (ray.*vector)[axis]; });
   };
