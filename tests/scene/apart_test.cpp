@@ -149,6 +149,51 @@ TEST_CASE("a ray inside of a solid that keeps apart finds what it would find oth
   }
 }
 
+TEST_CASE("so do rays side by side that go anywhere, inside of glass balls and outside") {
+  for (const double size : {1.0, 1e-30, 1e30}) {
+    for (const double place : {0.0, 1e3, 1e12}) {
+      const Vec3 moved = size * place * Vec3(1, -0.7, 0.3);
+      std::array<Scene, 2> scenes;
+      for (int i = 0; i < 9; ++i) {
+        const Sphere ball{.center = moved + size * Vec3(2.5 * i, 0, 0), .radius = size};
+        scenes[0].entities.push_back(Entity(ball).with_material(glass));
+        scenes[1].entities.emplace_back(ball);
+      }
+      CHECK(check_alike(scenes[0], scenes[1], size, moved, 300) > 150);
+
+      const PreparedData data(scenes[0]);
+      const PreparedData other(scenes[1]);
+      Numbers numbers(seed);
+      RayWorkspace work;
+      RayWorkspace other_work;
+      std::vector<WorldRay> rays(packet_size);
+      std::vector<RayHit> hits(packet_size);
+      int exits = 0;
+      for (int round = 0; round < 300; ++round) {
+        rays.resize(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+        for (WorldRay& ray : rays) {
+          const Vec3 target = moved + size * (numbers.point(1) + Vec3(numbers.within(0, 20), 0, 0));
+          const Vec3 eye = moved + size * (numbers.point(20) + Vec3(8, 0, 0));
+          ray = {.origin = eye, .direction = glm::normalize(target - eye)};
+          const RayHit hit = other.intersect(ray, other_work);
+          if (hit.found() && numbers.below(4) != 0) ray = onwards(other, ray, hit, numbers);
+          // Rays may start and end anywhere, and be of any length.
+          if (numbers.below(4) == 0) ray.t_max = size * numbers.within(0, 4);
+          if (numbers.below(8) == 0) ray.t_min = size * numbers.within(0, 2);
+          if (numbers.below(4) == 0) ray.direction *= std::pow(2, numbers.within(-3, 3));
+        }
+        data.intersect_each(rays, hits, work);
+        for (std::size_t i = 0; i < rays.size(); ++i) {
+          REQUIRE(same(hits[i], other.intersect(rays[i], other_work)));
+          REQUIRE(same(hits[i], data.intersect(rays[i], work)));
+          if (hits[i].found() && rays[i].start.leaf == hits[i].leaf) ++exits;
+        }
+      }
+      CHECK(exits > 100);
+    }
+  }
+}
+
 TEST_CASE("so it does where planes touch the solids") {
   for (const Entity& plane : planes) {
     auto [of_glass, opaque] = glass_and_opaque(0.5, 1, Vec3(0), Precision::standard);

@@ -164,3 +164,24 @@ TEST_CASE("a mirror turns the part along the normal round and nothing else") {
   const Vec3 normal = glm::normalize(Vec3(-2, 1, -1));
   CHECK(glm::length(mirrored(mirrored(direction, normal), normal) - direction) < 1e-15);
 }
+
+TEST_CASE("four rays side by side are refracted as each alone, to the last bit") {
+  std::vector<Vec3> directions = {-up, {1, 0, 0}, {1, 1e-9, 0}};
+  for (int step = 0; step < 90; ++step) directions.push_back(incoming(step * std::numbers::pi / 180));
+  for (const Vec3& direction : directions) {
+    for (const double n1 : indices) {
+      VectorLanes lanes;
+      Lanes n2{};
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        lanes.set(lane, lane % 2 == 0 ? direction : incoming(0.3));
+        n2[static_cast<int>(lane)] = indices[lane % std::size(indices)];
+      }
+      const auto together = refract(lanes, lanes_of(up), lanes_of(n1), n2);
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const auto alone = refract(lanes.lane(lane), up, n1, n2[static_cast<int>(lane)]);
+        REQUIRE(together.reflectance[static_cast<int>(lane)] == alone.reflectance);
+        REQUIRE(together.direction.lane(lane) == alone.direction);
+      }
+    }
+  }
+}
