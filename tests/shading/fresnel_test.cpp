@@ -169,12 +169,13 @@ TEST_CASE("four rays side by side are refracted as each alone, to the last bit")
   std::vector<Vec3> directions = {-up, {1, 0, 0}, {1, 1e-9, 0}};
   for (int step = 0; step < 90; ++step) directions.push_back(incoming(step * std::numbers::pi / 180));
   for (const Vec3& direction : directions) {
-    for (const double n1 : indices) {
+    for (std::size_t i = 0; i < indices.size(); ++i) {
+      const double n1 = indices[i];
       VectorLanes lanes;
       Lanes n2{};
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         lanes.set(lane, lane % 2 == 0 ? direction : incoming(0.3));
-        n2[static_cast<int>(lane)] = indices[lane % std::size(indices)];
+        n2[static_cast<int>(lane)] = indices[(i + lane) % indices.size()];
       }
       const auto together = refract(lanes, lanes_of(up), lanes_of(n1), n2);
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
