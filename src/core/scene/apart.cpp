@@ -109,7 +109,9 @@ std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
       if (keeps_apart(bounded[place])) apart[bounded[place]] = static_cast<std::uint32_t>(place);
     }
   });
-  return apart;
+  const bool is_none =
+      std::all_of(apart.begin(), apart.end(), [](std::uint32_t place) { return place == nothing; });
+  return is_none ? std::vector<std::uint32_t>() : apart;
 }
 
 }  // namespace crt::core
