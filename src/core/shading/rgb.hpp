@@ -1,6 +1,7 @@
 // Colours to compute with: three channels of linear light.
 #pragma once
 
+#include "core/math/vector_lanes.hpp"
 #include "crt/color.hpp"
 #include "crt/vec.hpp"
 
@@ -26,6 +27,25 @@ inline double luminance(const Color& color) {
 inline Color mix(const Color& a, const Color& b, double share) {
   return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b),
           a.a + share * (b.a - a.a)};
+}
+
+/// As many colours as there are lanes.
+struct ColorLanes {
+  VectorLanes color;
+  Lanes alpha{};
+
+  void set(std::size_t lane, const Color& one) {
+    color.set(lane, rgb(one));
+    alpha[static_cast<int>(lane)] = one.a;
+  }
+};
+
+inline ColorLanes lanes_of(const Color& color) {
+  return {lanes_of(rgb(color)), lanes_of(color.a)};
+}
+
+inline ColorLanes chosen(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {
+  return {chosen(first, a.color, b.color), first ? a.alpha : b.alpha};
 }
 
 }  // namespace crt::core
