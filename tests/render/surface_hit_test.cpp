@@ -77,8 +77,10 @@ void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   REQUIRE(found.hit().start.side == start.side);
   REQUIRE(found.hit().start.t_error == start.t_error);
   REQUIRE(found.color() == rgb(color));
-  REQUIRE(found.group.phong.diffuse[lane] == material.diffuse(transparency));
-  REQUIRE(found.group.reflectivity[lane] == material.description->reflectivity);
+  const double diffuse = found.group.phong.diffuse[lane];
+  const double reflectivity = found.group.reflectivity[lane];
+  REQUIRE(diffuse == material.diffuse(transparency));
+  REQUIRE(reflectivity == material.description->reflectivity);
   REQUIRE(found.position() == point.position);
   REQUIRE(found.face_normal() == to_viewer * point.normal);
 
