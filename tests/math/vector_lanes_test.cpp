@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <glm/common.hpp>
 #include <random>
 
 #include "core/math/vector.hpp"
@@ -55,6 +56,7 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const int k = static_cast<int>(lane);
       REQUIRE((lanes_a + lanes_b).lane(lane) == a[lane] + b[lane]);
+      REQUIRE(floor(lanes_a).lane(lane) == glm::floor(a[lane]));
       REQUIRE((lanes_a - lanes_b).lane(lane) == a[lane] - b[lane]);
       REQUIRE((lanes_a * lanes_b).lane(lane) == a[lane] * b[lane]);
       const double expected_dot = glm::dot(a[lane], b[lane]);

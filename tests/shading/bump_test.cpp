@@ -17,7 +17,7 @@ namespace {
 constexpr double pi = std::numbers::pi;
 
 LuminanceGradient gradient_on(const crt::Primitive& primitive, const crt::Pattern& pattern,
-                              const PatternPoint& point, std::uint32_t face = 0) {
+                              const SurfacePoint& point, std::uint32_t face = 0) {
   TexturePool textures(1);
   CrossingList scratch;
   return luminance_gradient(PreparedPattern(pattern, textures), point, *make_shape(primitive), face, scratch);
@@ -38,7 +38,7 @@ TEST_CASE("luminance weighs the channels as the eye does and is 1 for white") {
 TEST_CASE("the gradient of a pattern in space is the derivative of its luminance") {
   // The gradient pattern is 0.5 + 0.5 cos(2 pi y / scale).
   const double scale = 3;
-  const PatternPoint point{.position = {0.3, 0.4, -7}};
+  const SurfacePoint point{.position = {0.3, 0.4, -7}};
   const LuminanceGradient found =
       gradient_on(crt::Plane{}, crt::Gradient{.direction = {0, 1, 0}, .scale = scale}, point);
   const double expected = -pi / scale * std::sin(2 * pi * 0.4 / scale);
@@ -110,7 +110,7 @@ TEST_CASE("an image map's slope is that of its texels over the surface") {
     for (int x = 0; x < 8; ++x) image->set(x, y, crt::grey(x / 8.0));
   }
   const crt::Triangle triangle{.a = {0, 0, 0}, .b = {2, 0, 0}, .c = {0, 4, 0}};
-  const PatternPoint point{.position = {0.7, 1.2, 0}, .normal = {0, 0, 1}, .u = 0.35, .v = 0.3};
+  const SurfacePoint point{.position = {0.7, 1.2, 0}, .normal = {0, 0, 1}, .u = 0.35, .v = 0.3};
   const LuminanceGradient found = gradient_on(triangle, crt::ImageMap{.image = image}, point);
   check_near(found.gradient, {0.5, 0, 0}, 1e-3);
 }

@@ -14,7 +14,7 @@ PreparedMaterial prepared(const crt::Material& material) {
 }  // namespace
 
 TEST_CASE("the diffuse strength is by default what is neither mirrored nor let through") {
-  CHECK(prepared({}).diffuse(0) == 1);
+  CHECK(prepared({}).diffuse(0.0) == 1);
   CHECK(prepared({.reflectivity = 0.25}).diffuse(0.5) == 0.25);
   CHECK(prepared({.reflectivity = 0.75}).diffuse(0.5) == 0);
   CHECK(prepared({.reflectivity = 0.75, .diffuse = 2.0}).diffuse(0.5) == 2);
@@ -22,8 +22,8 @@ TEST_CASE("the diffuse strength is by default what is neither mirrored nor let t
 
 TEST_CASE("a gap in the colour lets all light through") {
   const PreparedMaterial half = prepared({.transparency = 0.5});
-  CHECK(half.transparency(1) == 0.5);
-  CHECK(half.transparency(0) == 1);
+  CHECK(half.transparency(1.0) == 0.5);
+  CHECK(half.transparency(0.0) == 1);
   CHECK(half.transparency(0.5) == 0.75);
 }
 

@@ -2,9 +2,13 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <numbers>
+#include <random>
 #include <vector>
 
 using namespace crt::core;
@@ -28,6 +32,52 @@ Color color_at(const crt::Pattern& pattern, const Vec3& position, const Vec3& no
 double level_at(const crt::Pattern& pattern, const Vec3& position) {
   return color_at(pattern, position).r;
 }
+
+/// Of every kind, with two colours that differ in alpha.
+std::vector<crt::Pattern> all_patterns(double scale) {
+  const Color a = {0.9, 0.5, 0.25, 0.75};
+  const Color b = {0.1, 0.3, 0.75, 1};
+  const auto image = std::make_shared<crt::Image>(3, 3);
+  for (int i = 0; i < 9; ++i) image->set(i % 3, i / 3, mix(a, b, i / 8.0));
+  const Vec3 offset(0.3, -0.2, 0.7);
+  return {crt::Checker{.color_a = a, .color_b = b, .scale = scale, .offset = offset},
+          crt::Stripes{.color_a = a, .color_b = b, .direction = {1, 2, -1}, .scale = scale, .offset = offset},
+          crt::Gradient{.color_a = a, .color_b = b, .scale = scale},
+          crt::Noise{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
+          crt::Marble{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
+          crt::Wood{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
+          crt::ImageMap{.image = image, .repeat_u = 1 / scale, .repeat_v = -3}};
+}
+
+/// Of all sizes and signs, some of them whole, some no numbers.
+class Coordinates {
+ public:
+  double next() {
+    constexpr double inf = std::numeric_limits<double>::infinity();
+    constexpr double special[] = {0.0,        -0.0,       1.0,      -1.0,
+                                  0x1p52,     0x1p53 + 2, -0x1p53,  0x1p53 - 1,
+                                  1 - 0x1p53, 1.7e308,    -1.7e308, 5e-324,
+                                  -5e-324,    inf,        -inf,     std::numeric_limits<double>::quiet_NaN()};
+    const double fraction = std::uniform_real_distribution<double>(-1, 1)(engine_);
+    switch (engine_() % 4) {
+      case 0:
+        return special[engine_() % std::size(special)];
+      case 1:
+        return std::round(1000 * fraction);
+      case 2:
+        return 20 * fraction;
+      default:
+        return std::ldexp(fraction, static_cast<int>(engine_() % 2000) - 1000);
+    }
+  }
+  SurfacePoint point() {
+    const Vec3 normals[] = {{0, 1, 0}, {0, -1, 0}, {0.6, 0, -0.8}};
+    return {.position = {next(), next(), next()}, .normal = normals[engine_() % 3], .u = next(), .v = next()};
+  }
+
+ private:
+  std::mt19937_64 engine_{1};
+};
 
 }  // namespace
 
@@ -53,6 +103,52 @@ TEST_CASE("a surface that lies on the border of cubes wears those inside, howeve
   }
   CHECK(color_at(checker, {1e6 + 0.5, 1e6, 0.5}, {0, 1, 0}) ==
         color_at(checker, {1e6 + 0.5, 1e6 - 0.5, 0.5}));
+}
+
+TEST_CASE("a checkerboard's colour is that of its plain formula, also where coordinates are no numbers") {
+  const auto is_odd = [](double cell) { return std::fmod(cell, 2) != 0; };
+  Coordinates coordinates;
+  for (const double scale : {1.0, 0.37, 1e-100, 1e100}) {
+    const crt::Checker checker{.scale = scale, .offset = {0.013, 0.3, -7}};
+    const PreparedPattern pattern = prepared(checker);
+    for (int i = 0; i < 50000; ++i) {
+      const SurfacePoint point = coordinates.point();
+      const double largest =
+          std::max({std::abs(point.position.x), std::abs(point.position.y), std::abs(point.position.z)});
+      const Vec3 under = point.position - point.normal * std::max(scale * 0x1p-20, largest * 0x1p-48);
+      const Vec3 cell = glm::floor((under - checker.offset) / scale);
+      const bool odd = is_odd(cell.x) != (is_odd(cell.y) != is_odd(cell.z));
+      REQUIRE(pattern.color(point) == (odd ? checker.color_b : checker.color_a));
+    }
+  }
+}
+
+TEST_CASE("points side by side have the colours that each has by itself") {
+  Coordinates coordinates;
+  for (const double scale : {1.0, 0.37, 1e-100}) {
+    for (const crt::Pattern& description : all_patterns(scale)) {
+      const PreparedPattern pattern = prepared(description);
+      for (std::uint32_t i = 0; i < 5000; ++i) {
+        const std::uint32_t lanes = i % 16;
+        SurfacePointLanes points;
+        for (std::size_t lane = 0; lane < lane_count; ++lane) set_lane(points, lane, coordinates.point());
+        const ColorLanes colors = pattern.colors(points, lanes);
+        for (std::size_t lane = 0; lane < lane_count; ++lane) {
+          if ((lanes >> lane & 1u) == 0) continue;
+          const Color alone = pattern.color(lane_of(points, lane));
+          REQUIRE(colors.color.lane(lane) == rgb(alone));
+          const double alpha = colors.alpha[static_cast<int>(lane)];
+          REQUIRE(alpha == alone.a);
+        }
+      }
+    }
+  }
+}
+
+TEST_CASE("only image maps look at u and v") {
+  for (const crt::Pattern& pattern : all_patterns(1)) {
+    CHECK(prepared(pattern).uses_uv() == std::holds_alternative<crt::ImageMap>(pattern));
+  }
 }
 
 TEST_CASE("an offset moves a pattern") {

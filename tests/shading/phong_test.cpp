@@ -93,5 +93,5 @@ TEST_CASE("light from behind gives nothing") {
 
 TEST_CASE("ambient light is what a surface does not mirror") {
   CHECK(ambient_light({1, 0.5, 0}, 0.25) == Rgb(0.75, 0.375, 0));
-  CHECK(ambient_light({1, 1, 1}, 0) == Rgb(1));
+  CHECK(ambient_light({1, 1, 1}, 0.0) == Rgb(1));
 }

@@ -108,21 +108,6 @@ void PlaneFace::emit(const Meeting& meeting, CrossingList& out) {
   out.push_back({.t = meeting.t, .error = meeting.error, .face = 0, .root = 0, .entering = meeting.rate < 0});
 }
 
-Vec3 PlaneFace::onto_plane(const Vec3& relative) const {
-  if (axis_ < 0) return relative - accurate_dot(unit_normal_, relative).value() * unit_normal_;
-  return {axis_ == 0 ? 0 : relative.x, axis_ == 1 ? 0 : relative.y, axis_ == 2 ? 0 : relative.z};
-}
-
-VectorLanes PlaneFace::onto_plane(const VectorLanes& relative) const {
-  if (axis_ < 0) {
-    const VectorLanes normal = lanes_of(unit_normal_);
-    const DoubleDoubleLanes height = accurate_dot(normal, relative);
-    return relative - (height.hi + height.lo) * normal;
-  }
-  return {axis_ == 0 ? Lanes{} : relative.x, axis_ == 1 ? Lanes{} : relative.y,
-          axis_ == 2 ? Lanes{} : relative.z};
-}
-
 Surface PlaneFace::surface() const {
   Surface surface{.kind = SurfaceKind::plane, .position = position_, .direction = normal_};
   if (axis_ >= 0) {

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <limits>
+#include <type_traits>
 
 #include "core/geometry/object_ray.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/stretch.hpp"
-#include "core/math/lanes.hpp"
+#include "core/math/vector.hpp"
+#include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
@@ -78,9 +80,19 @@ class PlaneFace {
   /// For mere surfaces: whether the ray starts on face 0 itself, whatever rounding says near its rim.
   static bool starts_here(const ObjectRay& ray) { return ray.start.face == 0 && ray.start.on_face; }
 
-  /// The point at t, relative to the position and moved onto the plane.
-  Vec3 onto_plane(const Vec3& relative) const;
-  VectorLanes onto_plane(const VectorLanes& relative) const;
+  /// The point at t, relative to the position and moved onto the plane: a Vec3, or as many as there are
+  /// lanes.
+  template <class Vector>
+  Vector onto_plane(const Vector& relative) const {
+    using Real = std::decay_t<decltype(relative.x)>;
+    if (axis_ < 0) {
+      const Vector normal = spread<Real>(unit_normal_);
+      const auto height = accurate_dot(normal, relative);
+      return relative - (height.hi + height.lo) * normal;
+    }
+    return {axis_ == 0 ? Real{} : relative.x, axis_ == 1 ? Real{} : relative.y,
+            axis_ == 2 ? Real{} : relative.z};
+  }
 
   /// position + relative, exactly on the plane where the plane is across a coordinate axis.
   Vec3 absolute(const Vec3& relative) const { return position_ + relative; }

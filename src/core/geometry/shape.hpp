@@ -40,19 +40,29 @@ struct Crossing {
 /// Crossings along one ray. Reused from ray to ray so that no ray allocates.
 using CrossingList = std::vector<Crossing>;
 
-/// What is known of a point on a face.
-struct SurfacePoint {
-  Vec3 position;  ///< in object space, on the surface to rounding
-  Vec3 normal;    ///< unit length, in object space, out of the solid
-  double u = 0;
-  double v = 0;
+/// What is known of a point on a face, or of as many as a Real has lanes.
+template <class Real>
+struct SurfacePointOf {
+  Vec3Of<Real> position{};  ///< in object space, on the surface to rounding
+  Vec3Of<Real> normal{};    ///< unit length, in object space, out of the solid
+  Real u{};
+  Real v{};
 };
+using SurfacePoint = SurfacePointOf<double>;
+using SurfacePointLanes = SurfacePointOf<Lanes>;
 
-/// Of as many points as there are lanes, without u and v.
-struct SurfacePointLanes {
-  VectorLanes position;
-  VectorLanes normal;
-};
+inline SurfacePoint lane_of(const SurfacePointLanes& points, std::size_t lane) {
+  const int i = static_cast<int>(lane);
+  return {points.position.lane(lane), points.normal.lane(lane), points.u[i], points.v[i]};
+}
+
+inline void set_lane(SurfacePointLanes& points, std::size_t lane, const SurfacePoint& point) {
+  const int i = static_cast<int>(lane);
+  points.position.set(lane, point.position);
+  points.normal.set(lane, point.normal);
+  points.u[i] = point.u;
+  points.v[i] = point.v;
+}
 
 /// A line through something long, and how far from the line that reaches at its ends; in between it reaches
 /// as far as a straight line from one to the other.
@@ -101,8 +111,8 @@ class Shape {
   virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
                                      bool with_uv = true) const = 0;
 
-  /// The same where as many rays as there are lanes cross one face, to the last bit; false if that is not
-  /// told here.
+  /// The same but for u and v where as many rays as there are lanes cross one face, to the last bit; false if
+  /// that is not told here.
   virtual bool surface_points(const RayLanes& /*rays*/, const Lanes& /*t*/, std::uint32_t /*face*/,
                               SurfacePointLanes& /*points*/) const {
     return false;

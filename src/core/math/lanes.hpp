@@ -117,9 +117,20 @@ inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
 #endif
 }
 
+inline Lanes floor(const Lanes& a) {
+#ifdef __AVX__
+  return _mm256_floor_pd(a);
+#else
+  Lanes result;
+  for (int i = 0; i < lane_count; ++i) result[i] = std::floor(a[i]);
+  return result;
+#endif
+}
+
 // Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles gives a
 // bool, and comparing lanes a mask of lanes.
 
+using std::floor;
 using std::fma;
 
 inline bool all(bool a) {

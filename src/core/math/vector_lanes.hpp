@@ -39,6 +39,12 @@ inline VectorLanes lanes_of(const Vec3& v) {
   return {lanes_of(v.x), lanes_of(v.y), lanes_of(v.z)};
 }
 
+/// The same vector in a Vec3, or in each lane.
+template <class Real>
+Vec3Of<Real> spread(const Vec3& v) {
+  return {spread<Real>(v.x), spread<Real>(v.y), spread<Real>(v.z)};
+}
+
 inline VectorLanes operator-(const VectorLanes& v) {
   return {-v.x, -v.y, -v.z};
 }
@@ -72,6 +78,10 @@ inline VectorLanes min(const VectorLanes& a, const VectorLanes& b) {
 }
 inline VectorLanes max(const VectorLanes& a, const VectorLanes& b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
+}
+
+inline VectorLanes floor(const VectorLanes& v) {
+  return {floor(v.x), floor(v.y), floor(v.z)};
 }
 
 /// Of each lane that of `a` or that of `b`.

@@ -28,6 +28,7 @@ struct SurfaceGroup {
   VectorLanes position;
   VectorLanes face_normal;  ///< of the geometry, turned to the viewer
   PhongSurfaces phong;      ///< its normal is that tilted by bumps
+  Lanes reflectivity{};     ///< of the materials
   Lanes path_length{};      ///< from the camera
   VectorLanes light;        ///< that they send back, as far as it has been added up
 };

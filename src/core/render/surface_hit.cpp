@@ -1,5 +1,6 @@
 #include "core/render/surface_hit.hpp"
 
+#include <bit>
 #include <cmath>
 
 #include "core/shading/bump.hpp"
@@ -8,26 +9,23 @@ namespace crt::core {
 
 namespace {
 
-PatternPoint pattern_point(const HitPoint& point) {
-  return {.position = point.object_position, .normal = point.object_normal, .u = point.u, .v = point.v};
+/// In the lanes that have their bit in `alike`; the points are in object space.
+ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointLanes& points, RayMask alike,
+                           RenderStats& stats) {
+  if (!material.pattern) return lanes_of(material.color);
+  stats.pattern_lookups += static_cast<unsigned>(std::popcount(alike));
+  return material.pattern->colors(points, alike);
 }
 
-Color material_color(const PreparedMaterial& material, const HitPoint& point, RenderStats& stats) {
-  if (!material.pattern) return material.color;
-  ++stats.pattern_lookups;
-  return material.pattern->color(pattern_point(point));
-}
-
-/// The outward normal in the world, tilted by the material's bumps.
-Vec3 bumped_normal(const PreparedData& data, const PreparedMaterial& material, const HitPoint& point,
-                   Workspace& work) {
-  const Leaf& leaf = data.leaf(point);
+/// The outward normal in the world of a point in object space, tilted by the material's bumps.
+Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial& material,
+                   const SurfacePoint& point, Workspace& work) {
   const LuminanceGradient luminance =
-      luminance_gradient(*material.bump, pattern_point(point), *leaf.shape, point.face, work.scratch);
+      luminance_gradient(*material.bump, point, *leaf.shape, face, work.scratch);
   work.stats.pattern_lookups += static_cast<std::uint64_t>(luminance.lookups);
   const Vec3 height_gradient =
       material.description->bump_height * leaf.placement->covector_to_world(luminance.gradient);
-  return tilted_normal(point.normal, height_gradient);
+  return tilted_normal(leaf.placement->normal_to_world(point.normal), height_gradient);
 }
 
 /// exp(-absorption * length), also where the length is infinite.
@@ -35,58 +33,64 @@ double left_of(double absorption, double length) {
   return absorption > 0 ? std::exp(-absorption * length) : 1;
 }
 
-/// In some of the lanes.
-void set_material(const PreparedMaterial& material, const Rgb& color, double transparency, RayMask lanes,
-                  PhongSurfaces& surfaces) {
-  const LaneMask mask = lanes_with(lanes);
-  const auto set = [&](Lanes& values, double value) { values = mask ? lanes_of(value) : values; };
-  surfaces.color = chosen(mask, lanes_of(color), surfaces.color);
-  set(surfaces.diffuse, material.diffuse(transparency));
-  set(surfaces.specular, material.description->specular);
-  set(surfaces.shininess, material.description->shininess);
+/// Rays of a group that hit the same face of the same leaf, from the same side.
+struct AlikeHits {
+  const RayHit& first;
+  const PreparedMaterial& material;
+  RayMask rays;
+  LaneMask lanes;  ///< the same
+
+  void set(Lanes& values, const Lanes& value) const { values = lanes ? value : values; }
+  void set(VectorLanes& values, const VectorLanes& value) const { values = chosen(lanes, value, values); }
+};
+
+/// All but the error of where rays start.
+void set_hits(const AlikeHits& alike, const Lanes& transparency, const StartPoint& start,
+              SurfaceGroup& group) {
+  for_each_ray(alike.rays, [&](std::size_t lane) {
+    group.hits[lane] = {&alike.material, transparency[static_cast<int>(lane)], start};
+  });
 }
 
-/// Likewise; the normals are the solids'.
-void set_points(const SurfacePointLanes& points, bool entering, RayMask lanes, SurfaceGroup& group) {
-  const LaneMask mask = lanes_with(lanes);
-  group.position = chosen(mask, points.position, group.position);
-  group.face_normal = chosen(mask, entering ? points.normal : -points.normal, group.face_normal);
-  group.phong.normal = chosen(mask, group.face_normal, group.phong.normal);
+void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes& transparency,
+                  SurfaceGroup& group) {
+  const Material& description = *alike.material.description;
+  alike.set(group.phong.color, color);
+  alike.set(group.phong.diffuse, alike.material.diffuse(transparency));
+  alike.set(group.phong.specular, lanes_of(description.specular));
+  alike.set(group.phong.shininess, lanes_of(description.shininess));
+  alike.set(group.reflectivity, lanes_of(description.reflectivity));
 }
 
-void look_up_one(const PreparedData& data, const WorldRay& ray, const RayHit& hit, Workspace& work,
-                 const SurfaceLane& surface) {
-  const PreparedMaterial& material = *surface.hit().material;
-  HitPoint point;
-  data.hit_point(ray, hit, material.pattern || material.bump, point);
-  const Color color = material_color(material, point, work.stats);
-  const double transparency = material.opaque ? 0 : material.transparency(color.a);
-  surface.hit().transparency = transparency;
+/// The rays have those directions, the points are in object space.
+void set_bumped_normals(const PreparedData& data, const AlikeHits& alike, const SurfacePointLanes& points,
+                        SurfaceGroup& group, Workspace& work) {
+  const double to_viewer = alike.first.entering ? 1 : -1;
+  for_each_ray(alike.rays, [&](std::size_t lane) {
+    const Vec3 normal = to_viewer * bumped_normal(data.leaf(alike.first), alike.first.face, alike.material,
+                                                  lane_of(points, lane), work);
+    group.phong.normal.set(lane, visible_normal(normal, group.phong.view.lane(lane)));
+  });
+}
 
-  SurfaceGroup& group = surface.group;
-  set_material(material, rgb(color), transparency, RayMask{1} << surface.lane, group.phong);
-  const double to_viewer = point.entering ? 1 : -1;
-  const Vec3 face_normal = to_viewer * point.normal;
-  group.position.set(surface.lane, point.position);
-  group.face_normal.set(surface.lane, face_normal);
-  if (material.bump) {
-    const Vec3 bumped = to_viewer * bumped_normal(data, material, point, work);
-    group.phong.normal.set(surface.lane, visible_normal(bumped, ray.direction));
-  } else {
-    group.phong.normal.set(surface.lane, face_normal);
+/// What hits of a group are on, by lane: of AlikeHits both are the same.
+struct HitFaces {
+  LaneMask faces;
+  LaneMask entering;
+
+  explicit HitFaces(std::span<const RayHit, lane_count> hits)
+      : faces{of(hits[0]), of(hits[1]), of(hits[2]), of(hits[3])},
+        entering{hits[0].entering, hits[1].entering, hits[2].entering, hits[3].entering} {}
+
+  LaneMask like(const RayHit& hit) const {
+    return (faces == of(hit)) & (entering == static_cast<std::int64_t>(hit.entering));
   }
-}
 
-/// Those of a group of rays that hit the same face of the same leaf, from the same side.
-RayMask rays_like(const RayHit& first, std::span<const RayHit, lane_count> hits) {
-  RayMask alike = 0;
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    const RayHit& hit = hits[lane];
-    const bool is_alike = hit.leaf == first.leaf && hit.face == first.face && hit.entering == first.entering;
-    alike |= static_cast<RayMask>(is_alike) << lane;
+ private:
+  static std::int64_t of(const RayHit& hit) {
+    return static_cast<std::int64_t>(std::uint64_t{hit.face} << 32 | hit.leaf);
   }
-  return alike;
-}
+};
 
 }  // namespace
 
@@ -94,29 +98,32 @@ void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> ray
              std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work) {
   const RayLanes lines = ray_lanes(rays);
   const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
-  const Lanes start_errors = start_rounding * largest_component(lines.at(t));
   group.phong.view = lines.direction;
+  const HitFaces faces(hits);
+  SurfacePointLanes& points = work.points;
   for (RayMask to_come = seen; to_come != 0;) {
-    const RayHit& hit = hits[first_ray(to_come)];
-    const RayMask alike = rays_like(hit, hits) & to_come;
-    to_come &= ~alike;
-    const PreparedMaterial& material = data.materials()[data.hit_material(hit)];
-    const double transparency = material.opaque ? 0 : material.transparency(material.color.a);
-    const StartPoint start = data.start_face(hit, hit.entering ? Side::outside : Side::inside);
-    for_each_ray(alike, [&](std::size_t lane) {
-      group.hits[lane] = {&material, transparency, start};
-      group.hits[lane].start.t_error = start_errors[static_cast<int>(lane)];
-    });
-    if (!material.uniform()) {
-      for_each_ray(alike, [&](std::size_t lane) {
-        look_up_one(data, rays[lane], hits[lane], work, {group, lane});
-      });
-      continue;
-    }
-    SurfacePointLanes points;
-    data.hit_points(rays, hits, lines, t, alike, points);
-    set_points(points, hit.entering, alike, group);
-    set_material(material, rgb(material.color), transparency, alike, group.phong);
+    const RayHit& first = hits[first_ray(to_come)];
+    const PreparedMaterial& material = data.materials()[data.hit_material(first)];
+    const LaneMask lanes = faces.like(first) & lanes_with(to_come);
+    const AlikeHits alike = {first, material, mask_of(lanes), lanes};
+    to_come &= ~alike.rays;
+
+    data.object_points(rays, hits, lines, t, alike.rays, material.uses_uv, points);
+    const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
+    const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
+    set_material(alike, colors.color, transparency, group);
+    set_hits(alike, transparency, data.start_face(first, first.entering ? Side::outside : Side::inside),
+             group);
+
+    if (material.bump) set_bumped_normals(data, alike, points, group, work);
+    data.take_to_world(first, alike.rays, points);
+    alike.set(group.position, points.position);
+    alike.set(group.face_normal, first.entering ? points.normal : -points.normal);
+    if (!material.bump) alike.set(group.phong.normal, group.face_normal);
+  }
+  const Lanes start_errors = start_rounding * largest_component(lines.at(t));
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    group.hits[lane].start.t_error = start_errors[static_cast<int>(lane)];
   }
 }
 
@@ -125,9 +132,9 @@ CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, co
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
   Color color = material.color;
   if (material.pattern) {
-    HitPoint point;
-    data.hit_point(ray, crossing, true, point);
-    color = material_color(material, point, stats);
+    ++stats.pattern_lookups;
+    const bool with_uv = material.pattern->uses_uv();
+    color = material.pattern->color(data.object_point(ray, crossing, with_uv));
   }
   return {.transparency = material.transparency(color.a), .color = rgb(color)};
 }

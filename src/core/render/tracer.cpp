@@ -130,12 +130,10 @@ void Tracer::look_up_each(RayMask on_surface) {
     const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
     const auto hits = std::span(hits_).subspan(first).first<lane_count>();
     look_up(data_, rays, hits, seen, group, work_);
-    for_each_ray(seen, [&](std::size_t lane) {
-      const PathState& path = round_->paths[first + lane];
-      const double reflectivity = group.hits[lane].material->description->reflectivity;
-      group.light.set(lane, ambient_light(frame_.ambient(), reflectivity));
-      group.path_length[static_cast<int>(lane)] = path.path_length + hits[lane].t;
-    });
+    group.light = ambient_light(frame_.ambient(), group.reflectivity);
+    const PathState* const paths = &round_->paths[first];
+    group.path_length = Lanes{paths[0].path_length + hits[0].t, paths[1].path_length + hits[1].t,
+                              paths[2].path_length + hits[2].t, paths[3].path_length + hits[3].t};
   }
 }
 

@@ -87,6 +87,7 @@ struct Workspace {
   std::vector<RayHit> entered;
   std::vector<Medium> surrounding;
   CrossingList scratch;
+  SurfacePointLanes points;  ///< that are being looked up
 };
 
 /// The workspaces of a render: as many as there ever are tasks running at once.

@@ -15,7 +15,7 @@ Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& 
   }
   for (const PreparedMaterial& material : materials) {
     // Only diffuse and specular light can be kept off by something.
-    const bool answers_lights = material.description->specular > 0 || material.diffuse(0) > 0;
+    const bool answers_lights = material.description->specular > 0 || material.diffuse(0.0) > 0;
     features.shadows = features.shadows || (features.lights && answers_lights);
     features.reflection = features.reflection || material.description->reflectivity > 0;
     features.transparency = features.transparency || !material.opaque;

@@ -157,12 +157,11 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
 
 void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const {
   const Leaf& leaf = leaves_[hit.leaf];
-  const SurfacePoint surface = accelerator_->surface_point(ray, hit, with_uv);
+  const SurfacePoint surface = object_point(ray, hit, with_uv);
   point.t = hit.t;
   point.position = leaf.placement->point_to_world(surface.position);
   point.object_position = surface.position;
-  // A cutter's surface bounds what is left of the solid from the other side.
-  point.object_normal = leaf.complemented ? -surface.normal : surface.normal;
+  point.object_normal = surface.normal;
   point.normal = leaf.placement->normal_to_world(point.object_normal);
   point.u = surface.u;
   point.v = surface.v;
@@ -175,20 +174,18 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
   point.solid = is_solid(hit);
 }
 
-void PreparedData::hit_points(std::span<const WorldRay, lane_count> rays,
-                              std::span<const RayHit, lane_count> hits, const RayLanes& lines, const Lanes& t,
-                              RayMask alike, SurfacePointLanes& points) const {
-  const RayHit& first = hits[first_ray(alike)];
-  const Leaf& leaf = leaves_[first.leaf];
-  const Placement& placement = *leaf.placement;
-  if (placement.is_identity() && leaf.shape->surface_points(lines, t, first.face, points)) {
-    if (leaf.complemented) points.normal = -points.normal;
-    return;
-  }
+SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+  SurfacePoint point = accelerator_->surface_point(ray, hit, with_uv);
+  // A cutter's surface bounds what is left of the solid from the other side.
+  if (leaves_[hit.leaf].complemented) point.normal = -point.normal;
+  return point;
+}
+
+void PreparedData::object_points_each(std::span<const WorldRay, lane_count> rays,
+                                      std::span<const RayHit, lane_count> hits, RayMask alike, bool with_uv,
+                                      SurfacePointLanes& points) const {
   for_each_ray(alike, [&](std::size_t lane) {
-    const SurfacePoint point = accelerator_->surface_point(rays[lane], hits[lane], false);
-    points.position.set(lane, placement.point_to_world(point.position));
-    points.normal.set(lane, placement.normal_to_world(leaf.complemented ? -point.normal : point.normal));
+    set_lane(points, lane, object_point(rays[lane], hits[lane], with_uv));
   });
 }
 

@@ -137,10 +137,33 @@ class PreparedData {
     return point;
   }
 
-  /// Places and outward normals alone, in the world: where those of a group of rays that have their bit in
-  /// `alike` hit one face of one leaf, each at its t. `lines` are those of all the group.
-  void hit_points(std::span<const WorldRay, lane_count> rays, std::span<const RayHit, lane_count> hits,
-                  const RayLanes& lines, const Lanes& t, RayMask alike, SurfacePointLanes& points) const;
+  /// Of these the place, in the primitive's own space; the normal points out of the object.
+  SurfacePoint object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
+
+  /// The same where those of a group of rays that have their bit in `alike` hit one face of one leaf, each at
+  /// its t. `lines` are those of all the group.
+  void object_points(std::span<const WorldRay, lane_count> rays, std::span<const RayHit, lane_count> hits,
+                     const RayLanes& lines, const Lanes& t, RayMask alike, bool with_uv,
+                     SurfacePointLanes& points) const {
+    const RayHit& first = hits[first_ray(alike)];
+    const Leaf& leaf = leaves_[first.leaf];
+    const bool is_by_lanes = !with_uv && leaf.placement->is_identity();
+    if (is_by_lanes && leaf.shape->surface_points(lines, t, first.face, points)) {
+      if (leaf.complemented) points.normal = -points.normal;
+    } else {
+      object_points_each(rays, hits, alike, with_uv, points);
+    }
+  }
+
+  /// Takes those of a hit like `hit` to the world.
+  void take_to_world(const RayHit& hit, RayMask alike, SurfacePointLanes& points) const {
+    const Placement& placement = *leaves_[hit.leaf].placement;
+    if (placement.is_identity()) return;
+    for_each_ray(alike, [&](std::size_t lane) {
+      points.position.set(lane, placement.point_to_world(points.position.lane(lane)));
+      points.normal.set(lane, placement.normal_to_world(points.normal.lane(lane)));
+    });
+  }
 
   /// The material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const { return leaves_[hit.leaf].material; }
@@ -167,7 +190,7 @@ class PreparedData {
   const CompiledScene& compiled() const;
 
   /// The primitive in its place that a hit is of: bumps ask for it.
-  const Leaf& leaf(const HitPoint& point) const { return leaves_[point.leaf]; }
+  const Leaf& leaf(const RayHit& hit) const { return leaves_[hit.leaf]; }
 
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
   const PreparedBackground& background() const { return *background_; }
@@ -181,6 +204,10 @@ class PreparedData {
 
  private:
   struct Geometry;
+
+  void object_points_each(std::span<const WorldRay, lane_count> rays,
+                          std::span<const RayHit, lane_count> hits, RayMask alike, bool with_uv,
+                          SurfacePointLanes& points) const;
 
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;

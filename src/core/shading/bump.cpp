@@ -29,15 +29,15 @@ double smallest_feature(const Noisy& pattern) {
   return std::scalbn(pattern.scale, 1 - pattern.octaves);
 }
 
-double luminance_at(const PreparedPattern& pattern, const PatternPoint& point) {
+double luminance_at(const PreparedPattern& pattern, const SurfacePoint& point) {
   return luminance(pattern.color(point));
 }
 
-Vec3 gradient_in_space(const PreparedPattern& pattern, const PatternPoint& point, double step) {
+Vec3 gradient_in_space(const PreparedPattern& pattern, const SurfacePoint& point, double step) {
   Vec3 result(0);
   for (int axis = 0; axis < 3; ++axis) {
-    PatternPoint before = point;
-    PatternPoint after = point;
+    SurfacePoint before = point;
+    SurfacePoint after = point;
     before.position[axis] -= step;
     after.position[axis] += step;
     const double width = after.position[axis] - before.position[axis];
@@ -48,7 +48,7 @@ Vec3 gradient_in_space(const PreparedPattern& pattern, const PatternPoint& point
 }
 
 /// The change of luminance per unit of one of (u, v), over one texel.
-double slope(const PreparedPattern& pattern, PatternPoint point, double PatternPoint::*coordinate,
+double slope(const PreparedPattern& pattern, SurfacePoint point, double SurfacePoint::*coordinate,
              double texels_per_unit) {
   if (!(std::abs(texels_per_unit) > 0)) return 0;
   const double half_texel = 0.5 / std::abs(texels_per_unit);
@@ -61,14 +61,14 @@ double slope(const PreparedPattern& pattern, PatternPoint point, double PatternP
 
 }  // namespace
 
-LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const PatternPoint& point,
+LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const SurfacePoint& point,
                                      const Shape& shape, std::uint32_t face, CrossingList& scratch) {
   if (const auto* map = std::get_if<ImageMap>(&pattern.description())) {
     const UvGradient uv = uv_gradient(shape, face, point.position, point.normal, scratch);
     const double slope_u =
-        slope(pattern, point, &PatternPoint::u, map->repeat_u * pattern.texture()->width());
+        slope(pattern, point, &SurfacePoint::u, map->repeat_u * pattern.texture()->width());
     const double slope_v =
-        slope(pattern, point, &PatternPoint::v, map->repeat_v * pattern.texture()->height());
+        slope(pattern, point, &SurfacePoint::v, map->repeat_v * pattern.texture()->height());
     return {slope_u * uv.u + slope_v * uv.v, 4};
   }
   const double feature = std::visit(

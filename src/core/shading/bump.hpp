@@ -15,7 +15,7 @@ struct LuminanceGradient {
 };
 
 /// How fast a pattern's luminance changes at a point, by central differences.
-LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const PatternPoint& point,
+LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const SurfacePoint& point,
                                      const Shape& shape, std::uint32_t face, CrossingList& scratch);
 
 /// The normal of a surface raised along `normal` by a height of the given gradient, both in one space.

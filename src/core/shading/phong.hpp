@@ -18,8 +18,9 @@ struct PhongSurfaces {
 };
 
 /// What the point gets of all lights' ambient shares, lit or not.
-inline Rgb ambient_light(const Rgb& ambient, double reflectivity) {
-  return (1 - reflectivity) * ambient;
+template <class Real>
+Vec3Of<Real> ambient_light(const Rgb& ambient, const Real& reflectivity) {
+  return (1.0 - reflectivity) * spread<Real>(ambient);
 }
 
 /// The diffuse and the specular light of one light that nothing hides; black if it is behind the

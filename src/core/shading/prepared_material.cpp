@@ -1,7 +1,5 @@
 #include "core/shading/prepared_material.hpp"
 
-#include <algorithm>
-
 namespace crt::core {
 
 PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& textures)
@@ -18,11 +16,7 @@ PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& 
   ends_paths = opaque && description->reflectivity <= 0;
   const Color& absorption = description->absorption;
   absorbing = !opaque && (absorption.r > 0 || absorption.g > 0 || absorption.b > 0);
-}
-
-double PreparedMaterial::diffuse(double transparency) const {
-  return description->diffuse ? *description->diffuse
-                              : std::max(0.0, 1 - description->reflectivity - transparency);
+  uses_uv = (pattern && pattern->uses_uv()) || (bump && bump->uses_uv());
 }
 
 }  // namespace crt::core

@@ -22,18 +22,24 @@ struct PreparedMaterial {
   /// No ray goes on from it.
   bool ends_paths = true;
   bool absorbing = false;
-
-  /// Looks the same everywhere.
-  bool uniform() const { return !pattern && !bump; }
+  /// Its pattern or its bumps look at u and v.
+  bool uses_uv = false;
 
   /// The share of light let through where the colour's alpha is `alpha`: a gap in the colour lets
   /// all of it through.
-  double transparency(double alpha) const {
-    return alpha == 1 ? description->transparency : 1 - (1 - description->transparency) * alpha;
+  template <class Real>
+  Real transparency(const Real& alpha) const {
+    const Real full = spread<Real>(description->transparency);
+    return alpha == 1.0 ? full : 1.0 - (1.0 - full) * alpha;
   }
 
   /// The strength of the diffuse light there.
-  double diffuse(double transparency) const;
+  template <class Real>
+  Real diffuse(const Real& transparency) const {
+    if (description->diffuse) return spread<Real>(*description->diffuse);
+    const Real rest = (1.0 - description->reflectivity) - transparency;
+    return rest > 0.0 ? rest : Real{};
+  }
 };
 
 }  // namespace crt::core

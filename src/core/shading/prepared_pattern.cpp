@@ -1,6 +1,5 @@
 #include "core/shading/prepared_pattern.hpp"
 
-#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
@@ -15,13 +14,16 @@ namespace crt::core {
 namespace {
 
 /// Where in its period a coordinate is, in [0, 1); 0 where doubles no longer tell.
-double period_share(double coordinate) {
-  const double share = coordinate - std::floor(coordinate);
-  return share < 1 ? share : 0;  // also for NaN, of coordinates beyond all bounds
+template <class Real>
+Real period_share(const Real& coordinate) {
+  const Real share = coordinate - floor(coordinate);
+  return share < 1.0 ? share : Real{};  // also for NaN, of coordinates beyond all bounds
 }
 
-bool is_odd(double whole_number) {
-  return std::fmod(whole_number, 2) != 0;
+/// Exact for every whole number. What is no number counts as odd, as its remainder is not 0.
+template <class Real>
+auto is_odd(const Real& whole_number) {
+  return whole_number - 2.0 * floor(0.5 * whole_number) != 0.0;
 }
 
 /// From 0 to 1 and back, smoothly, once a period.
@@ -31,58 +33,93 @@ double wave(double coordinate) {
 
 /// A little under the surface: of patterns with edges, a surface that lies exactly on an edge wears
 /// what is inside of it and not a mixture that rounding makes.
-Vec3 under_surface(const PatternPoint& point, double scale) {
+template <class Real>
+Vec3Of<Real> under_surface(const SurfacePointOf<Real>& point, double scale) {
   constexpr double of_scale = 0x1p-20;
   constexpr double of_coordinates = 0x1p-48;
-  const double largest =
-      std::max({std::abs(point.position.x), std::abs(point.position.y), std::abs(point.position.z)});
-  return point.position - point.normal * std::max(scale * of_scale, largest * of_coordinates);
+  const Real least = spread<Real>(scale * of_scale);
+  const Real depth = of_coordinates * largest_component(point.position);
+  return point.position - (least < depth ? depth : least) * point.normal;
 }
 
-template <class Solid>
-Vec3 in_periods(const Solid& pattern, const Vec3& position) {
-  return (position - pattern.offset) / pattern.scale;
+template <class Real = double, class Solid>
+Vec3Of<Real> in_periods(const Solid& pattern, const Vec3Of<Real>& position) {
+  return (position - spread<Real>(pattern.offset)) / spread<Real>(pattern.scale);
 }
 
-Color color_of(const Checker& checker, const PatternPoint& point) {
-  const Vec3 cell = glm::floor(in_periods(checker, under_surface(point, checker.scale)));
-  const bool odd = is_odd(cell.x) != (is_odd(cell.y) != is_odd(cell.z));
-  return odd ? checker.color_b : checker.color_a;
+// Of patterns of two colours with an edge between them: whether the second is seen.
+
+template <class Real>
+auto is_second(const Checker& checker, const SurfacePointOf<Real>& point) {
+  const auto cell = floor(in_periods<Real>(checker, under_surface(point, checker.scale)));
+  return is_odd(cell.x) != (is_odd(cell.y) != is_odd(cell.z));
 }
 
-Color color_of(const Stripes& stripes, const PatternPoint& point) {
-  const Vec3 place = in_periods(stripes, under_surface(point, stripes.scale));
-  return period_share(glm::dot(place, stripes.direction)) < 0.5 ? stripes.color_a : stripes.color_b;
+template <class Real>
+auto is_second(const Stripes& stripes, const SurfacePointOf<Real>& point) {
+  const auto place = in_periods<Real>(stripes, under_surface(point, stripes.scale));
+  return period_share(dot(place, spread<Real>(stripes.direction))) >= 0.5;
 }
 
-Color color_of(const Gradient& gradient, const PatternPoint& point) {
+template <class Kind>
+constexpr bool has_edges = requires(const Kind& kind, const SurfacePoint& point) {
+  is_second(kind, point);
+};
+
+Color color_of(const Gradient& gradient, const SurfacePoint& point) {
   const Vec3 place = in_periods(gradient, point.position);
   return mix(gradient.color_a, gradient.color_b, wave(glm::dot(place, gradient.direction)));
 }
 
-Color color_of(const Noise& noise, const PatternPoint& point) {
+Color color_of(const Noise& noise, const SurfacePoint& point) {
   const double level = fractal_noise(in_periods(noise, point.position), noise.octaves);
   return mix(noise.color_a, noise.color_b, 0.5 + 0.5 * level);
 }
 
-Color color_of(const Marble& marble, const PatternPoint& point) {
+Color color_of(const Marble& marble, const SurfacePoint& point) {
   const Vec3 place = in_periods(marble, point.position);
   const double shift = marble.turbulence * fractal_noise(place, marble.octaves);
   return mix(marble.color_a, marble.color_b, wave(glm::dot(place, marble.direction) + shift));
 }
 
-Color color_of(const Wood& wood, const PatternPoint& point) {
+Color color_of(const Wood& wood, const SurfacePoint& point) {
   const Vec3 place = in_periods(wood, point.position);
   const Vec3 from_line = place - glm::dot(place, wood.direction) * wood.direction;
   const double shift = wood.turbulence * fractal_noise(place, wood.octaves);
   return mix(wood.color_a, wood.color_b, wave(direction_and_length(from_line).length + shift));
 }
 
-Color color_of(const ImageMap& map, const Texture& texture, const PatternPoint& point) {
+Color color_of(const ImageMap& map, const Texture& texture, const SurfacePoint& point) {
   // v runs up the surface, rows run down the picture.
   const double x = period_share(point.u * map.repeat_u) * texture.width();
   const double y = (1 - period_share(point.v * map.repeat_v)) * texture.height();
   return texture.bilinear(x, y, TextureWrap::repeat, TextureWrap::repeat);
+}
+
+/// Of any pattern; only an image map has a texture.
+template <class Kind>
+Color color_at(const Kind& kind, const Texture* texture, const SurfacePoint& point) {
+  if constexpr (has_edges<Kind>) {
+    return is_second(kind, point) ? kind.color_b : kind.color_a;
+  } else if constexpr (std::is_same_v<Kind, ImageMap>) {
+    return color_of(kind, *texture, point);
+  } else {
+    return color_of(kind, point);
+  }
+}
+
+template <class Kind>
+ColorLanes colors_at(const Kind& kind, const Texture* texture, const SurfacePointLanes& points,
+                     std::uint32_t lanes) {
+  if constexpr (has_edges<Kind>) {
+    return chosen(is_second(kind, points), lanes_of(kind.color_b), lanes_of(kind.color_a));
+  } else {
+    ColorLanes result;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if ((lanes >> lane & 1u) != 0) result.set(lane, color_at(kind, texture, lane_of(points, lane)));
+    }
+    return result;
+  }
 }
 
 template <class Solid>
@@ -107,16 +144,13 @@ PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures) 
       pattern_);
 }
 
-Color PreparedPattern::color(const PatternPoint& point) const {
-  return std::visit(
-      [&](const auto& kind) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ImageMap>) {
-          return color_of(kind, *texture_, point);
-        } else {
-          return color_of(kind, point);
-        }
-      },
-      pattern_);
+Color PreparedPattern::color(const SurfacePoint& point) const {
+  return std::visit([&](const auto& kind) { return color_at(kind, texture_.get(), point); }, pattern_);
+}
+
+ColorLanes PreparedPattern::colors(const SurfacePointLanes& points, std::uint32_t lanes) const {
+  return std::visit([&](const auto& kind) { return colors_at(kind, texture_.get(), points, lanes); },
+                    pattern_);
 }
 
 }  // namespace crt::core

@@ -3,25 +3,25 @@
 
 #include <memory>
 
+#include "core/geometry/shape.hpp"
+#include "core/shading/rgb.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/pattern.hpp"
 
 namespace crt::core {
 
-/// A point of a surface as a pattern sees it.
-struct PatternPoint {
-  Vec3 position{0, 0, 0};  ///< in the primitive's own space
-  Vec3 normal{0, 1, 0};    ///< unit length, in that space, out of the solid
-  double u = 0;
-  double v = 0;
-};
-
-/// A pattern with its picture, if it has one, in linear light.
+/// A pattern with its picture, if it has one, in linear light. The normals of points point out of the solid
+/// that is seen, also where a cutter made its surface.
 class PreparedPattern {
  public:
   PreparedPattern(const Pattern& pattern, TexturePool& textures);
 
-  Color color(const PatternPoint& point) const;
+  Color color(const SurfacePoint& point) const;
+  /// The same, to the last bit, in the lanes that have their bit in `lanes`.
+  ColorLanes colors(const SurfacePointLanes& points, std::uint32_t lanes) const;
+
+  /// Whether it looks at u and v.
+  bool uses_uv() const { return texture_ != nullptr; }
 
   /// Whether alpha is 1 everywhere.
   bool opaque() const { return opaque_; }

@@ -32,4 +32,23 @@ inline Color mix(const Color& a, const Color& b, double share) {
           a.a + share * (b.a - a.a)};
 }
 
+/// As many colours as there are lanes.
+struct ColorLanes {
+  VectorLanes color;
+  Lanes alpha{};
+
+  void set(std::size_t lane, const Color& one) {
+    color.set(lane, rgb(one));
+    alpha[static_cast<int>(lane)] = one.a;
+  }
+};
+
+inline ColorLanes lanes_of(const Color& color) {
+  return {lanes_of(rgb(color)), lanes_of(color.a)};
+}
+
+inline ColorLanes chosen(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {
+  return {chosen(first, a.color, b.color), first ? a.alpha : b.alpha};
+}
+
 }  // namespace crt::core

@@ -1,0 +1,126 @@
+// Hits that are looked up side by side are what each is by itself.
+#include "core/render/surface_hit.hpp"
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <glm/geometric.hpp>
+#include <vector>
+
+#include "core/shading/bump.hpp"
+#include "scene/numbers.hpp"
+
+using namespace crt;
+using namespace crt::core;
+using crt::test::Numbers;
+
+namespace {
+
+std::vector<Material> materials() {
+  const Color gap = {0.9, 0.5, 0.25, 0.75};
+  const auto image = std::make_shared<Image>(4, 4);
+  for (int i = 0; i < 16; ++i) image->set(i % 4, i / 4, {i / 16.0, 1 - i / 16.0, 0.5, i % 3 == 0 ? 0.5 : 1});
+  const Pattern checker = Checker{.color_b = gap, .scale = 0.37, .offset = {0.1, 0.2, 0.3}};
+  const Pattern picture = ImageMap{.image = image, .repeat_u = 3, .repeat_v = 2};
+  return {{.color = gap, .transparency = 0.25},
+          {.color = Color{1, 0.5, 0.25}, .reflectivity = 0.3, .diffuse = 0.8},
+          {.color = checker, .reflectivity = 0.25, .transparency = 0.5},
+          {.color = Pattern(Stripes{.direction = {1, 2, 3}, .scale = 0.3})},
+          {.color = Pattern(Marble{.scale = 0.5})},
+          {.color = picture, .transparency = 0.1},
+          {.color = checker, .bump = Pattern(Noise{.scale = 0.5}), .bump_height = 0.3},
+          {.color = grey(1), .bump = picture, .bump_height = 0.05}};
+}
+
+/// Solids of all these materials, as they are, moved, turned, and cut from one another.
+Scene solids(Numbers& numbers) {
+  Scene scene;
+  for (const Material& material : materials()) {
+    const auto add = [&](const Entity& entity) { scene.entities.push_back(entity); };
+    const auto worn = [&](const Primitive& primitive) { return Entity(primitive).with_material(material); };
+    const auto sphere = [&] {
+      return worn(Sphere{.center = numbers.point(4), .radius = numbers.size(0.3, 1.5)});
+    };
+    const auto box = [&] {
+      const Vec3 corner = numbers.point(4);
+      return worn(Box{.corner_a = corner, .corner_b = corner + Vec3(0.5, 1, 1.5)});
+    };
+    add(sphere());
+    add(box());
+    add(sphere().transformed(translate(numbers.point(2))));
+    add(box().transformed(rotate(numbers.point(180))));
+    const Vec3 center = numbers.point(4);
+    add(worn(Sphere{.center = center, .radius = 1}) -
+        worn(Sphere{.center = center + 0.5 * numbers.direction(), .radius = 0.8}));
+    add(worn(Torus{.center = numbers.point(4), .radius = 1, .thickness = 0.3}));
+  }
+  scene.entities.push_back(Plane{.position = {0, -3, 0}, .material = materials()[2]});
+  return scene;
+}
+
+void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hit, const SurfaceLane& found,
+                 Workspace& work) {
+  const HitPoint point = data.hit_point(ray, hit);
+  const PreparedMaterial& material = data.materials()[point.material];
+  const SurfacePoint in_object = {point.object_position, point.object_normal, point.u, point.v};
+  const Color color = material.pattern ? material.pattern->color(in_object) : material.color;
+  const double transparency = material.transparency(color.a);
+  const double to_viewer = hit.entering ? 1 : -1;
+  const int lane = static_cast<int>(found.lane);
+
+  REQUIRE(found.hit().material == &material);
+  REQUIRE(found.hit().transparency == transparency);
+  const StartPoint start = data.start_point(ray, hit, hit.entering ? Side::outside : Side::inside);
+  REQUIRE(found.hit().start.face == start.face);
+  REQUIRE(found.hit().start.leaf == start.leaf);
+  REQUIRE(found.hit().start.surface == start.surface);
+  REQUIRE(found.hit().start.side == start.side);
+  REQUIRE(found.hit().start.t_error == start.t_error);
+  REQUIRE(found.color() == rgb(color));
+  const double diffuse = found.group.phong.diffuse[lane];
+  const double reflectivity = found.group.reflectivity[lane];
+  REQUIRE(diffuse == material.diffuse(transparency));
+  REQUIRE(reflectivity == material.description->reflectivity);
+  REQUIRE(found.position() == point.position);
+  REQUIRE(found.face_normal() == to_viewer * point.normal);
+
+  Vec3 normal = to_viewer * point.normal;
+  if (material.bump) {
+    const Leaf& leaf = data.leaf(hit);
+    const LuminanceGradient luminance =
+        luminance_gradient(*material.bump, in_object, *leaf.shape, hit.face, work.scratch);
+    const Vec3 slope =
+        material.description->bump_height * leaf.placement->covector_to_world(luminance.gradient);
+    normal = visible_normal(to_viewer * tilted_normal(point.normal, slope), ray.direction);
+  }
+  REQUIRE(found.normal() == normal);
+}
+
+}  // namespace
+
+TEST_CASE("hits looked up side by side are what each is by itself, to the last bit") {
+  Numbers numbers(7);
+  for (int round = 0; round < 20; ++round) {
+    const PreparedData data(solids(numbers));
+    Workspace work;
+    SurfaceGroup group;
+    for (int i = 0; i < 500; ++i) {
+      // Close to one another, so that some of them hit the same thing.
+      std::array<WorldRay, lane_count> rays;
+      std::array<RayHit, lane_count> hits;
+      const Vec3 origin = numbers.point(8);
+      const Vec3 target = numbers.point(4);
+      RayMask seen = 0;
+      for (std::size_t lane = 0; lane < lane_count; ++lane) {
+        const Vec3 aim = target + numbers.point(0.3);
+        rays[lane] = {.origin = origin, .direction = glm::normalize(aim - origin)};
+        hits[lane] = data.intersect(rays[lane], work.rays);
+        seen |= static_cast<RayMask>(hits[lane].found()) << lane;
+      }
+      look_up(data, rays, hits, seen, group, work);
+      for_each_ray(seen, [&](std::size_t lane) {
+        check_alone(data, rays[lane], hits[lane], {group, lane}, work);
+      });
+    }
+  }
+}
