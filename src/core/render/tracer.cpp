@@ -165,6 +165,7 @@ void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
     LightSamples sample;
     LaneMask lit = lanes_with(RayPacket::lanes(on_surface, first / lane_count));
     lit &= (phong.diffuse > 0.0) | (phong.specular > 0.0);
+    if (!any(lit)) continue;
     lit &= source.sample(surfaces.position, surfaces.path_length, sample);
     lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
     const VectorLanes light = direct_light(phong, sample, source.color(), lit);
