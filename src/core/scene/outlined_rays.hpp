@@ -71,13 +71,7 @@ class OutlinedRay {
 
   /// Of one that leaf_told() knows of.
   FirstCrossing<double> first_crossing(const Outline& outline, const Outlines& outlines) const {
-    if (outline.kind == Outline::Kind::box) {
-      const OutlineBox& box = outlines.box(outline);
-      const BoxStarts starts = starts_on(box);
-      if (starts.some != 0 && starts.left != 0) return {};
-      if (starts.some != 0 && starts.open != 0) return {.unknown = true};
-      return first_crossing_of_box(box, starts.meetings(box, line_, 0), line_);
-    }
+    if (outline.kind == Outline::Kind::box) return first_crossing_of_box(outlines.box(outline));
     if (outline.surface == start_surface_) return {.unknown = true};
     return core::first_crossing(outline, outlines, line_);
   }
@@ -94,19 +88,9 @@ class OutlinedRay {
   RayMask starting_outwards() const { return RayMask{start_side_ == Side::outside}; }
   RayMask at_front() const { return RayMask{line_.begin >= 0}; }
 
-  BoxStarts starts_on(const OutlineBox& box) const {
-    if (start_surface_ == nothing) return {};
-    return BoxStarts::of(box, *this);
-  }
-
-  Judgement judged_box(const OutlineBox& box, double limit) const {
-    const BoxStarts starts = starts_on(box);
-    if (starts.some != 0) {
-      if (starts.left != 0) return Judgement::missed;
-      if (starts.open != 0) return Judgement::open;
-    }
-    return judgement(judge_box(starts.meetings(box, line_, 0), line_, limit));
-  }
+  BoxStarts starts_on(const OutlineBox& box) const;
+  Judgement judged_box(const OutlineBox& box, double limit) const;
+  FirstCrossing<double> first_crossing_of_box(const OutlineBox& box) const;
 
   OutlineLine<double> line_;
   std::uint32_t start_surface_;
