@@ -9,10 +9,11 @@
 
 #include "core/scene/prepared_data.hpp"
 #include "scene/numbers.hpp"
+#include "scene/same_answers.hpp"
 
 using namespace crt;
 using namespace crt::core;
-using crt::test::Numbers;
+using namespace crt::test;
 
 namespace {
 
@@ -159,12 +160,6 @@ std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Nu
   return rays;
 }
 
-bool same(const RayHit& a, const RayHit& b) {
-  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.object == b.object && a.leaf == b.leaf &&
-         a.face == b.face && a.surface == b.surface && a.root == b.root && a.entering == b.entering &&
-         a.has_company == b.has_company;
-}
-
 void check_packets(Precision precision, int packets) {
   Numbers numbers(seed);
   for (int round = 0; round < 4; ++round) {
@@ -266,25 +261,6 @@ WorldRay ray_near(const Sphere& sphere, Numbers& numbers) {
   if (numbers.below(4) == 0) ray.t_min = numbers.within(-1, 2) * sphere.radius * away;
   if (numbers.below(4) == 0) ray.t_max = ray.t_min + numbers.within(0, 2) * sphere.radius * away;
   return ray;
-}
-
-void check_first_crossings(const PreparedData& data, const std::vector<WorldRay>& rays, RayWorkspace& work,
-                           int& met) {
-  std::array<RayHit, packet_size> hits;
-  std::vector<RayHit> line;
-  data.intersect(rays, hits, work);
-  const RayMask hidden = data.occluded(rays, work);
-  for (std::size_t k = 0; k < rays.size(); ++k) {
-    const RayHit alone = data.intersect(rays[k], work);
-    REQUIRE(same(alone, hits[k]));
-    // The crossings are found by the shapes themselves.
-    data.crossings(rays[k], false, line, work);
-    REQUIRE(alone.found() == !line.empty());
-    REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
-    if (!alone.found() || alone.has_company) continue;
-    REQUIRE(same(alone, line.front()));
-    ++met;
-  }
 }
 
 }  // namespace

@@ -81,6 +81,19 @@ inline LaneMask lanes_with(std::uint32_t mask) {
   return (bits & static_cast<std::int64_t>(mask)) != 0;
 }
 
+/// Which of eight numbers in a row are that one, as bits.
+inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
+#ifdef __AVX2__
+  const __m256i row = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
+  const __m256i equal = _mm256_cmpeq_epi32(row, _mm256_set1_epi32(static_cast<int>(one)));
+  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
+#else
+  std::uint32_t mask = 0;
+  for (std::uint32_t i = 0; i < 8; ++i) mask |= numbers[i] == one ? 1u << i : 0u;
+  return mask;
+#endif
+}
+
 inline Lanes min(const Lanes& a, const Lanes& b) {
 #ifdef __AVX__
   return _mm256_min_pd(a, b);
@@ -191,6 +204,16 @@ Real spread(double value) {
     return value;
   } else {
     return lanes_of(value);
+  }
+}
+
+/// A mask for a Real, of bits as mask_of() has them; of one number the first.
+template <class Real>
+auto lanes_of_mask(std::uint32_t bits) {
+  if constexpr (std::is_same_v<Real, double>) {
+    return (bits & 1u) != 0;
+  } else {
+    return lanes_with(bits);
   }
 }
 

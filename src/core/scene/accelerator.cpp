@@ -99,7 +99,7 @@ Accelerator::~Accelerator() = default;
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
   for (const Outlines* outlines : {&bounded_, &unbounded_}) {
-    use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes);
+    use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes) + bytes_of(outlines->boxes);
   }
   use.tree += bytes_of(enclosed_) + bytes_of(apart_) + box_row_.bytes() + (tree_ ? tree_->bytes() : 0);
   return use;

@@ -57,6 +57,13 @@ FloatLanes round_up_length(const Lanes& length) {
   return reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
 }
 
+/// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts rays by the
+/// sign that it has: one that goes downwards by next to nothing would cost others their boxes.
+FloatLanes direction_floats(const Lanes& component) {
+  constexpr double least = 0x1p-59;  // Embree's is 1e-18
+  return to_floats(size_of(component) > least ? component : Lanes{});
+}
+
 /// Into a column of numbers by ray, from one on.
 template <class Numbers, class Column>
 void put(const Numbers& lanes, Column& column, std::size_t first) {
@@ -293,7 +300,7 @@ LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines) const {
   LaneMask steep{};
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    const Lanes inverse = 1.0 / lines.direction[i];
+    const Lanes& inverse = lines.inverse[i];
     const Lanes first = (total_.lower[axis] - lines.origin[i]) * inverse;
     const Lanes second = (total_.upper[axis] - lines.origin[i]) * inverse;
     const Lanes low = min(first, second);
@@ -357,9 +364,9 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
     put(to_floats(place[0]), to_trace.org_x, first);
     put(to_floats(place[1]), to_trace.org_y, first);
     put(to_floats(place[2]), to_trace.org_z, first);
-    put(to_floats(lines.direction[0]), to_trace.dir_x, first);
-    put(to_floats(lines.direction[1]), to_trace.dir_y, first);
-    put(to_floats(lines.direction[2]), to_trace.dir_z, first);
+    put(direction_floats(lines.direction[0]), to_trace.dir_x, first);
+    put(direction_floats(lines.direction[1]), to_trace.dir_y, first);
+    put(direction_floats(lines.direction[2]), to_trace.dir_z, first);
     put(round_up_length((end - start) * scale_), to_trace.tfar, first);
   }
   if (!some) return;

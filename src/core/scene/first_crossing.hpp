@@ -1,9 +1,9 @@
-// Where rays first cross the objects whose outline alone tells it: spheres, and planes across a coordinate
-// axis, in the standard tier and without a transform. The same as their shapes say, to the last bit.
+// Where rays first cross the objects whose outline alone tells it: spheres, boxes, and planes across a
+// coordinate axis, in the standard tier and without a transform. The same as their shapes say, to the last
+// bit.
 #pragma once
 
 #include <array>
-#include <span>
 
 #include "core/geometry/plain_ray.hpp"
 #include "core/geometry/plane_face.hpp"
@@ -24,6 +24,7 @@ struct FirstCrossing {
   Mask entering{};
   Real t{};
   Real error{};
+  Real face{};  ///< its number
 };
 
 /// Whether a crossing is after the start of a ray that does not start on its surface.
@@ -80,12 +81,62 @@ FirstCrossing<Real> first_crossing_of_plane(const Outline& plane, const OutlineA
           .error = meeting.error};
 }
 
-/// Of one that leaf_told() knows of, and rays that do not start on its surface.
 template <class Real>
-FirstCrossing<Real> first_crossing(const Outline& outline, std::span<const OutlineAxis> axes,
+FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetings<Real>& meetings,
+                                          const OutlineLine<Real>& line) {
+  using Mask = decltype(Real{} < Real{});
+  const Real enter = meetings.last_enter();
+  const Real leave = meetings.first_leave();
+  const Real enter_error = meetings.error_of(enter);
+  const Real leave_error = meetings.error_of(leave);
+  const Mask passes = both(meetings.known, enter + enter_error < leave - leave_error);
+  const Mask misses = both(
+      meetings.known, either(enter - enter_error > leave + leave_error, leave + leave_error < line.begin));
+  const Mask enters = both(passes, enter - enter_error > line.certain_from);
+  const Mask is_inside = both(passes, enter + enter_error <= line.begin);
+  const Mask leaves = both(is_inside, leave - leave_error > line.certain_from);
+  const Mask found = either(enters, leaves);
+  FirstCrossing<Real> first{.found = found, .unknown = neither(found, misses), .entering = enters};
+  if (!any(found)) return first;
+
+  // The greatest of three, of which the second must plainly be less: next to an edge it is the exact test
+  // that says which face is met.
+  const std::array<Real, 3> t = {enters ? meetings.enter[0] : -meetings.leave[0],
+                                 enters ? meetings.enter[1] : -meetings.leave[1],
+                                 enters ? meetings.enter[2] : -meetings.leave[2]};
+  const auto larger = BoxMeetings<Real>::larger;
+  const auto smaller = BoxMeetings<Real>::smaller;
+  const Real greatest = enters ? enter : -leave;
+  const Real second = larger(smaller(t[0], t[1]), smaller(larger(t[0], t[1]), t[2]));
+  const Mask alone = greatest - second > meetings.error_of(greatest) + meetings.error_of(second);
+
+  const Mask across_x = t[0] == greatest;
+  const Mask across_y = t[1] == greatest;
+  const auto chosen = [&](const Real& x, const Real& y, const Real& z) {
+    return across_x ? x : across_y ? y : z;
+  };
+  const auto of_axis = [&](const Vec3& v) {
+    return chosen(spread<Real>(v.x), spread<Real>(v.y), spread<Real>(v.z));
+  };
+  const Real speed = chosen(line.direction[0], line.direction[1], line.direction[2]);
+  const Mask downwards = speed < 0.0;
+  const Mask is_upper = either(both(enters, downwards), neither(enters, downwards));
+  const Real position = is_upper ? of_axis(box.upper) : of_axis(box.lower);
+  const auto meeting =
+      AxisMeeting<Real>::of(position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
+  first.unknown = neither(misses, both(found, both(alone, meeting.found)));
+  first.t = meeting.t;
+  first.error = meeting.error;
+  first.face = of_axis({0, 2, 4}) + (is_upper ? spread<Real>(1) : Real{});
+  return first;
+}
+
+/// Of a sphere or plane that Outlines::leaf_told() knows of, and rays that do not start on its surface.
+template <class Real>
+FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outlines,
                                    const OutlineLine<Real>& line) {
   if (outline.kind == Outline::Kind::sphere) return first_crossing_of_sphere(outline, line);
-  return first_crossing_of_plane(outline, axes[outline.detail], line);
+  return first_crossing_of_plane(outline, outlines.axis(outline), line);
 }
 
 /// Whether a line is within a box at t.
@@ -125,17 +176,19 @@ struct ExitApart {
 };
 
 /// As the general test has it.
-inline void write_first(const Outline& outline, std::uint32_t leaf, double t, double error, bool entering,
+inline void write_first(const Outline& outline, const Outlines& outlines, const FirstCrossing<double>& first,
                         RayHit& hit) {
-  const bool is_second = outline.kind == Outline::Kind::sphere && !entering;
-  hit = {.t = t,
-         .error = error,
+  const bool is_second = outline.kind == Outline::Kind::sphere && !first.entering;
+  const auto face = static_cast<std::uint32_t>(first.face);
+  const bool is_box = outline.kind == Outline::Kind::box;
+  hit = {.t = first.t,
+         .error = first.error,
          .object = outline.object,
-         .leaf = leaf,
-         .face = 0,
-         .surface = outline.surface,
+         .leaf = outlines.leaf_told(outline),
+         .face = face,
+         .surface = is_box ? outlines.box(outline).surfaces[face] : outline.surface,
          .root = static_cast<std::uint8_t>(is_second),
-         .entering = entering};
+         .entering = first.entering};
 }
 
 }  // namespace crt::core

@@ -16,17 +16,15 @@ namespace {
 
 /// Whether the outline alone could tell what the exact test of an object would.
 template <class Kind>
-bool test_told(Kind& query, const OutlineLine<double>& line, const Outline& outline,
-               std::span<const OutlineAxis> axes) {
-  const std::uint32_t leaf = leaf_told(outline, axes);
-  if (leaf == nothing || query.ray().start.surface == outline.surface) return false;
-  const FirstCrossing<double> first = first_crossing(outline, axes, line);
+bool test_told(Kind& query, const OutlinedRay& outlined, const Outline& outline, const Outlines& outlines) {
+  if (outlines.leaf_told(outline) == nothing) return false;
+  const FirstCrossing<double> first = outlined.first_crossing(outline, outlines);
   if (first.unknown) return false;
   ++query.work().intersection_tests;
   if (!first.found || !(first.t <= query.limit())) return true;
-  const double reach = first.t + company_width(plain_ray(line), first.t, first.error);
+  const double reach = first.t + company_width(plain_ray(outlined.line()), first.t, first.error);
   query.take(first.t, 0, outline.object, reach,
-             [&](RayHit& hit) { write_first(outline, leaf, first.t, first.error, first.entering, hit); });
+             [&](RayHit& hit) { write_first(outline, outlines, first, hit); });
   return true;
 }
 
@@ -58,8 +56,8 @@ void Accelerator::traverse_filtered(Kind& query) const {
   const WorldRay& ray = query.ray();
   const OutlinedRay outlined(*this, ray);
   const auto is_done = [&] { return query.limit() <= ray.t_min; };
-  const auto test = [&](const Outline& outline, std::span<const OutlineAxis> axes) {
-    const Judgement judgement = outlined.judge(outline, axes, query.limit());
+  const auto test = [&](const Outline& outline, const Outlines& outlines) {
+    const Judgement judgement = outlined.judge(outline, outlines, query.limit(), Kind::any_will_do);
     if (judgement == Judgement::missed) return;
     if constexpr (Kind::any_will_do) {
       if (judgement == Judgement::met) {
@@ -67,7 +65,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
         return;
       }
     }
-    if (!test_told(query, outlined.line(), outline, axes)) query.test(outline.object);
+    if (!test_told(query, outlined, outline, outlines)) query.test(outline.object);
   };
 
   // A plane that is met bounds what else matters; where exactly is only asked if nothing is before it.
@@ -76,23 +74,23 @@ void Accelerator::traverse_filtered(Kind& query) const {
     if (is_done()) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
       double last = 0;
-      const Judgement judgement = outlined.judge(outline, unbounded_.axes, query.limit(), last);
+      const Judgement judgement = outlined.judge(outline, unbounded_, query.limit(), false, last);
       if (judgement != Judgement::met) continue;
       // As a hit there would have it.
       query.set_limit(std::min(query.limit(), last + company_width(ray, last, 0)));
     } else {
-      test(outline, unbounded_.axes);
+      test(outline, unbounded_);
     }
   }
   if (!is_done()) {
     visit_boxes(ray, query.limit(), [&](std::uint32_t box) {
-      test(bounded_.list[box], bounded_.axes);
+      test(bounded_.list[box], bounded_);
       return query.limit();
     });
   }
   if (!planes_last) return;
   for (const Outline& outline : unbounded_.list) {
-    if (outline.kind == Outline::Kind::plane) test(outline, unbounded_.axes);
+    if (outline.kind == Outline::Kind::plane) test(outline, unbounded_);
   }
 }
 

@@ -27,19 +27,22 @@ class PacketTests {
   RayMask going() const { return going_; }
 
   /// Returns the rays whose limits it changed.
-  RayMask test(const Outline& outline, std::span<const OutlineAxis> axes, RayMask rays) {
-    const Verdict<RayMask> verdict = outlined_.judge(outline, axes, rays);
-    RayMask open = rays & ~verdict.missed;
+  RayMask test(const Outline& outline, const Outlines& outlines, RayMask rays) {
     changed_ = 0;
+    rays &= ~outlined_.left(outline);
+    if (rays == 0) return 0;
+    const BoxStarts starts = outlined_.box_starts(outline, outlines, rays);
+    const Verdict<RayMask> verdict = outlined_.judge(outline, outlines, rays, starts, Kind::any_will_do);
+    RayMask open = rays & ~verdict.missed;
     if constexpr (Kind::any_will_do) {
       open &= ~verdict.met;
       for_each_ray(verdict.met, [&](std::size_t ray) { ask(ray, [](Kind& query) { query.settle(); }); });
     }
-    if (open != 0 && leaf_told(outline, axes) != nothing) {
-      const RayMask told = open & ~outlined_.starting_on(outline.surface);
+    if (open != 0 && outlines.leaf_told(outline) != nothing) {
+      const RayMask told = open & outlined_.told(outline, starts);
       open &= ~told;
       for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-        open |= test_told(outline, axes, group, told);
+        open |= test_told(outline, outlines, group, told, starts);
       }
     }
     for_each_ray(open, [&](std::size_t ray) { ask(ray, [&](Kind& query) { query.test(outline.object); }); });
@@ -47,9 +50,9 @@ class PacketTests {
   }
 
   /// A plane that is met bounds what else matters.
-  void limit_by(const Outline& plane, std::span<const OutlineAxis> axes) {
+  void limit_by(const Outline& plane, const Outlines& outlines) {
     std::array<Lanes, RayPacket::group_count> last;
-    const RayMask met = outlined_.judge(plane, axes, going_, last).met;
+    const RayMask met = outlined_.judge(plane, outlines, going_ & ~outlined_.left(plane), last).met;
     for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
       const RayMask lanes = RayPacket::lanes(met, group);
       if (lanes == 0) continue;
@@ -77,28 +80,29 @@ class PacketTests {
     if (query.limit() <= query.ray().t_min) going_ &= ~bit;
   }
 
-  /// Those rays of a group that do not start on an object whose outline alone tells its crossings. Returns
-  /// which of them it leaves open nevertheless.
-  RayMask test_told(const Outline& outline, std::span<const OutlineAxis> axes, std::size_t group,
-                    RayMask rays) {
+  /// Those rays of a group whose crossings with an object the outline alone tells. Returns which of them it
+  /// leaves open nevertheless.
+  RayMask test_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask rays,
+                    const BoxStarts& starts) {
     const RayMask asked = RayPacket::lanes(rays, group);
     if (asked == 0) return 0;
     const OutlineLine<Lanes>& lines = packet_.groups[group];
-    const FirstCrossing<Lanes> first = first_crossing(outline, axes, lines);
+    const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, starts);
     const RayMask open = asked & mask_of(first.unknown);
     work_.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
     const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
     if (found != 0) {
-      const std::uint32_t leaf = leaf_told(outline, axes);
       const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
       for_each_ray(found, [&](std::size_t lane) {
         const auto i = static_cast<int>(lane);
-        const double t = first.t[i];
-        const auto write = [&](RayHit& hit) {
-          write_first(outline, leaf, t, first.error[i], first.entering[i] != 0, hit);
-        };
+        const FirstCrossing<double> of_ray{.found = true,
+                                           .entering = first.entering[i] != 0,
+                                           .t = first.t[i],
+                                           .error = first.error[i],
+                                           .face = first.face[i]};
+        const auto write = [&](RayHit& hit) { write_first(outline, outlines, of_ray, hit); };
         ask(group * lane_count + lane,
-            [&](Kind& query) { query.take(t, 0, outline.object, reach[i], write); });
+            [&](Kind& query) { query.take(of_ray.t, 0, outline.object, reach[i], write); });
       });
     }
     return open << (group * lane_count);
@@ -123,19 +127,19 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
   for (const Outline& outline : unbounded_.list) {
     if (tests.going() == 0) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
-      tests.limit_by(outline, unbounded_.axes);
+      tests.limit_by(outline, unbounded_);
     } else {
-      tests.test(outline, unbounded_.axes, tests.going());
+      tests.test(outline, unbounded_, tests.going());
     }
   }
   if (tree_ && tests.going() != 0) {
     tree_->traverse(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
-      return tests.test(bounded_.list[box], bounded_.axes, rays);
+      return tests.test(bounded_.list[box], bounded_, rays);
     });
   }
   if constexpr (planes_last) {
     for (const Outline& outline : unbounded_.list) {
-      if (outline.kind == Outline::Kind::plane) tests.test(outline, unbounded_.axes, tests.going());
+      if (outline.kind == Outline::Kind::plane) tests.test(outline, unbounded_, tests.going());
     }
   }
   return tests.going();
@@ -143,12 +147,14 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
 
 void Accelerator::note_starts(std::span<const WorldRay> rays, RayPacket& packet) const {
   packet.start_surfaces.fill(nothing);
+  packet.start_leaves.fill(nothing);
   packet.left_objects.fill(nothing);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const StartPoint& start = rays[i].start;
     if (start.leaf == nothing) continue;
     const RayMask bit = RayMask{1} << i;
     packet.start_surfaces[i] = start.surface;
+    packet.start_leaves[i] = start.leaf;
     packet.on_surface |= bit;
     if (start.side == Side::outside) packet.outwards |= bit;
     // Neighbours start on the same face more often than not.

@@ -100,11 +100,29 @@ Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
   return smallest;
 }
 
+/// Without a transform a box is what its bounds are.
+OutlineBox outline_box(const CompiledScene& scene, std::uint32_t index) {
+  const Leaf& leaf = scene.leaves[index];
+  const Bounds bounds = leaf.shape->bounds();
+  OutlineBox box{.lower = bounds.lower, .upper = bounds.upper, .leaf = index, .is_told = !leaf.exact};
+  for (std::size_t face = 0; face < OutlineBox::face_count; ++face) {
+    const FaceSurface& surface = scene.face_surfaces[leaf.first_face + face];
+    box.surfaces[face] = surface.surface;
+    box.flipped[face] = surface.flipped;
+  }
+  return box;
+}
+
 Outline outline_of(const CompiledScene& scene, const SceneObject& object, OutlineAxis& axis) {
   Outline outline;
   if (object.is_csg()) return outline_of_csg(scene, object);
   const Leaf& leaf = scene.leaves[object.first_leaf];
   if (!leaf.shape->is_solid()) return outline;
+  // Of all shapes only the box has six faces.
+  if (leaf.face_count == OutlineBox::face_count && leaf.placement->is_identity()) {
+    outline.kind = Outline::Kind::box;
+    return outline;
+  }
   outline.surface = scene.face_surfaces[leaf.first_face].surface;
   if (place_rod(*leaf.shape, *leaf.placement, outline, axis)) {
     outline.kind = Outline::Kind::rod;
@@ -150,11 +168,17 @@ Outlines::Outlines(const CompiledScene& scene, std::span<const std::uint32_t> ob
     }
   });
   for (std::size_t i = 0; i < list.size(); ++i) {
-    if (!list[i].has_axis()) continue;
-    list[i].detail = static_cast<std::uint32_t>(axes.size());
-    axes.push_back(axis_of[i]);
+    Outline& outline = list[i];
+    if (outline.has_axis()) {
+      outline.detail = static_cast<std::uint32_t>(axes.size());
+      axes.push_back(axis_of[i]);
+    } else if (outline.kind == Outline::Kind::box) {
+      outline.detail = static_cast<std::uint32_t>(boxes.size());
+      boxes.push_back(outline_box(scene, scene.objects[outline.object].first_leaf));
+    }
   }
   axes.shrink_to_fit();
+  boxes.shrink_to_fit();
 }
 
 }  // namespace crt::core

@@ -8,21 +8,23 @@
 
 #include "core/csg/evaluate.hpp"
 #include "core/math/lanes.hpp"
+#include "core/scene/outline_box.hpp"
+#include "core/scene/outline_line.hpp"
 
 namespace crt::core {
 
 /// An object as the cheap tests see it. Few objects have an outline: those that scenes have many of and
 /// whose exact test costs much more. Small, as rays come by many of them.
 struct Outline {
-  enum class Kind : std::uint8_t { unknown, sphere, plane, torus, rod };
+  enum class Kind : std::uint8_t { unknown, sphere, plane, torus, rod, box };
 
   Kind kind = Kind::unknown;
   /// The object is somewhere within: only what misses it is sure.
   bool encloses = false;
   std::uint32_t object = nothing;
-  std::uint32_t surface = nothing;  ///< its whole surface, or that of what encloses it
+  std::uint32_t surface = nothing;  ///< its whole surface, or that of what encloses it; a box has six
   /// Of a sphere its leaf, if the outline alone tells its crossings (in the standard tier, without a
-  /// transform); of others the number of their OutlineAxis.
+  /// transform); of others the number of their OutlineAxis or OutlineBox.
   std::uint32_t detail = nothing;
   Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
   double radius = 0;    ///< the torus's is that of its ring
@@ -37,48 +39,36 @@ struct OutlineAxis {
   std::uint32_t leaf = nothing;  ///< of a plane across a coordinate axis, as Outline::detail of a sphere
 };
 
-/// The leaf of an object whose outline alone tells its crossings; else nothing.
-inline std::uint32_t leaf_told(const Outline& outline, std::span<const OutlineAxis> axes) {
-  if (outline.kind == Outline::Kind::sphere) return outline.detail;
-  return outline.kind == Outline::Kind::plane ? axes[outline.detail].leaf : nothing;
-}
-
 struct CompiledScene;
 
 struct Outlines {
   std::vector<Outline> list;
   std::vector<OutlineAxis> axes;
+  std::vector<OutlineBox> boxes;
 
   /// Those of some objects, in their order; of unknown kind where there is none.
   Outlines() = default;
   Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects);
-};
 
-/// One line, or as many side by side as a Real has lanes.
-template <class Real>
-struct OutlineLine {
-  std::array<Real, 3> origin;
-  std::array<Real, 3> direction;  ///< of length about 1
-  Real squared_speed;
-  Real inverse_squared_speed;
-  Real inverse_speed;
-  Real begin;         ///< crossings before it do not count
-  Real start_error;   ///< as StartPoint::t_error
-  Real certain_from;  ///< crossings behind it and before certain_to count
-  Real certain_to;    ///< finite
-};
+  const OutlineAxis& axis(const Outline& outline) const { return axes[outline.detail]; }
+  const OutlineBox& box(const Outline& outline) const { return boxes[outline.detail]; }
 
-template <class Mask>
-struct Verdict {
-  Mask missed;  ///< no crossing counts
-  Mask met;     ///< one surely does
+  /// The leaf of an object whose outline alone tells its crossings; else nothing.
+  std::uint32_t leaf_told(const Outline& outline) const {
+    switch (outline.kind) {
+      case Outline::Kind::sphere:
+        return outline.detail;
+      case Outline::Kind::plane:
+        return axis(outline).leaf;
+      case Outline::Kind::box:
+        return box(outline).is_told ? box(outline).leaf : nothing;
+      default:
+        return nothing;
+    }
+  }
 };
 
 namespace outline_detail {
-
-/// Relative, 128 roundings: what the sums below can be off by, and what the exact test may decide
-/// otherwise, with room to spare.
-inline constexpr double slack = 0x1p-46;
 
 template <class Real>
 Real along(const Vec3& axis, const std::array<Real, 3>& v) {
@@ -311,19 +301,19 @@ auto judge_rod(const Outline& rod, const OutlineAxis& of_rod, const OutlineLine<
                        .met = {}};
 }
 
-/// Whatever it is, if it is known; `last` as of planes.
+/// Whatever it is, if it is known and no box; `last` as of planes.
 template <class Real>
-auto judge_outline(const Outline& outline, std::span<const OutlineAxis> axes, const OutlineLine<Real>& line,
+auto judge_outline(const Outline& outline, const Outlines& outlines, const OutlineLine<Real>& line,
                    const Real& limit, Real& last) {
   switch (outline.kind) {
     case Outline::Kind::sphere:
       return judge_sphere(outline, line, limit);
     case Outline::Kind::torus:
-      return judge_torus(outline, axes[outline.detail], line, limit);
+      return judge_torus(outline, outlines.axis(outline), line, limit);
     case Outline::Kind::rod:
-      return judge_rod(outline, axes[outline.detail], line);
+      return judge_rod(outline, outlines.axis(outline), line);
     default:
-      return judge_plane(outline, axes[outline.detail], line, limit, last);
+      return judge_plane(outline, outlines.axis(outline), line, limit, last);
   }
 }
 

@@ -48,6 +48,7 @@ void fill(const RayGroup& group, OutlineLine<Lanes>& lines, Lanes& limits) {
   lines.squared_speed = dot(lines.direction, lines.direction);
   lines.inverse_squared_speed = 1.0 / lines.squared_speed;
   lines.inverse_speed = sqrt(lines.inverse_squared_speed);
+  for (std::size_t axis = 0; axis < 3; ++axis) lines.inverse[axis] = 1.0 / lines.direction[axis];
   lines.begin = gathered(group, &WorldRay::t_min);
   lines.start_error = gathered(group, [](const WorldRay& ray) { return ray.start.t_error; });
   lines.certain_from = farthest_start(lines.begin, lines.start_error);

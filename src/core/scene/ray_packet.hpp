@@ -45,6 +45,7 @@ struct RayPacket {
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
   std::array<std::uint32_t, packet_size> start_surfaces;
+  std::array<std::uint32_t, packet_size> start_leaves;
   RayMask on_surface = 0;  ///< that start on one
   RayMask outwards = 0;    ///< of those
   /// The object that a ray has left for good.
@@ -64,7 +65,9 @@ struct RayPacket {
 /// Those whose value is that one.
 inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, std::uint32_t value) {
   RayMask mask = 0;
-  for (std::size_t i = 0; i < packet_size; ++i) mask |= static_cast<RayMask>(values[i] == value) << i;
+  for (std::size_t first = 0; first < packet_size; first += 8) {
+    mask |= which_of_eight(&values[first], value) << first;
+  }
   return mask;
 }
 

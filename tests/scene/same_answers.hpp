@@ -1,0 +1,40 @@
+// Rays find the same alone, in a packet, and without what spares them exact tests.
+#pragma once
+
+#include <doctest/doctest.h>
+
+#include <array>
+#include <vector>
+
+#include "core/scene/prepared_data.hpp"
+
+namespace crt::test {
+
+using namespace crt::core;
+
+inline bool same(const RayHit& a, const RayHit& b) {
+  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.object == b.object && a.leaf == b.leaf &&
+         a.face == b.face && a.surface == b.surface && a.root == b.root && a.entering == b.entering &&
+         a.has_company == b.has_company;
+}
+
+inline void check_first_crossings(const PreparedData& data, const std::vector<WorldRay>& rays,
+                                  RayWorkspace& work, int& met) {
+  std::array<RayHit, packet_size> hits;
+  std::vector<RayHit> line;
+  data.intersect(rays, hits, work);
+  const RayMask hidden = data.occluded(rays, work);
+  for (std::size_t k = 0; k < rays.size(); ++k) {
+    const RayHit alone = data.intersect(rays[k], work);
+    REQUIRE(same(alone, hits[k]));
+    // The crossings are found by the shapes themselves.
+    data.crossings(rays[k], false, line, work);
+    REQUIRE(alone.found() == !line.empty());
+    REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
+    if (!alone.found() || alone.has_company) continue;
+    REQUIRE(same(alone, line.front()));
+    ++met;
+  }
+}
+
+}  // namespace crt::test
