@@ -27,6 +27,16 @@ struct FirstCrossing {
   Real face{};  ///< its number
 };
 
+inline FirstCrossing<double> lane_of(const FirstCrossing<Lanes>& first, std::size_t lane) {
+  const auto i = static_cast<int>(lane);
+  return {.found = first.found[i] != 0,
+          .unknown = first.unknown[i] != 0,
+          .entering = first.entering[i] != 0,
+          .t = first.t[i],
+          .error = first.error[i],
+          .face = first.face[i]};
+}
+
 /// Whether a crossing is after the start of a ray that does not start on its surface.
 template <class Mask>
 struct AfterStart {
@@ -156,24 +166,18 @@ inline bool tells_exit(const Outline& outline) {
   return outline.kind == Outline::Kind::sphere && outline.detail != nothing;
 }
 
-/// Where rays that start into a sphere leave it which keeps apart from all else.
+/// Where rays that start into a sphere leave it which keeps apart from all else; nothing else is in `room`.
+/// Where that is not found it takes a closer look.
 template <class Real>
-struct ExitApart {
-  decltype(Real{} < Real{}) found{};  ///< surely that and nothing before it; else it takes a closer look
-  Real t{};
-  Real error{};
-
-  /// Nothing else is in `room`.
-  static ExitApart of(const Outline& sphere, const Bounds& room, const PlainRay<Real>& line,
-                      const Real& begin, const Real& end) {
-    const double unit = power_of_two_below(sphere.radius);
-    const auto other = SphereOtherEnd<Real>::of(line, sphere.place, sphere.radius, unit);
-    const Real reach = other.t + company_width(line, other.t, other.error);
-    const auto ahead = both(both(other.t > 0.0, other.t > begin), other.t < end);
-    const auto stays = both(is_within(room, line, begin), is_within(room, line, reach < end ? reach : end));
-    return {.found = both(ahead, stays), .t = other.t, .error = other.error};
-  }
-};
+FirstCrossing<Real> exit_apart(const Outline& sphere, const Bounds& room, const PlainRay<Real>& line,
+                               const Real& begin, const Real& end) {
+  const double unit = power_of_two_below(sphere.radius);
+  const auto other = SphereOtherEnd<Real>::of(line, sphere.place, sphere.radius, unit);
+  const Real reach = other.t + company_width(line, other.t, other.error);
+  const auto ahead = both(both(other.t > 0.0, other.t > begin), other.t < end);
+  const auto stays = both(is_within(room, line, begin), is_within(room, line, reach < end ? reach : end));
+  return {.found = both(ahead, stays), .t = other.t, .error = other.error};
+}
 
 /// As the general test has it.
 inline void write_first(const Outline& outline, const Outlines& outlines, const FirstCrossing<double>& first,

@@ -37,10 +37,10 @@ bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& 
   const Bounds room = room_of(outline.object);
   const PlainRay<double> line{ray.origin, ray.direction};
   if (tells_exit(outline)) {
-    const auto exit = ExitApart<double>::of(outline, room, line, ray.t_min, ray.t_max);
+    const auto exit = exit_apart(outline, room, line, ray.t_min, ray.t_max);
     if (exit.found) {
       ++work.intersection_tests;
-      write_first(outline, outline.detail, exit.t, exit.error, false, hit);
+      write_first(outline, bounded_, exit, hit);
       return true;
     }
   }

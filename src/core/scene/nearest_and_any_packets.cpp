@@ -94,15 +94,11 @@ class PacketTests {
     if (found != 0) {
       const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
       for_each_ray(found, [&](std::size_t lane) {
-        const auto i = static_cast<int>(lane);
-        const FirstCrossing<double> of_ray{.found = true,
-                                           .entering = first.entering[i] != 0,
-                                           .t = first.t[i],
-                                           .error = first.error[i],
-                                           .face = first.face[i]};
+        const FirstCrossing<double> of_ray = lane_of(first, lane);
         const auto write = [&](RayHit& hit) { write_first(outline, outlines, of_ray, hit); };
-        ask(group * lane_count + lane,
-            [&](Kind& query) { query.take(of_ray.t, 0, outline.object, reach[i], write); });
+        ask(group * lane_count + lane, [&](Kind& query) {
+          query.take(of_ray.t, 0, outline.object, reach[static_cast<int>(lane)], write);
+        });
       });
     }
     return open << (group * lane_count);
@@ -186,12 +182,9 @@ RayMask Accelerator::leave_apart(std::span<const WorldRay> group, std::span<RayH
     to_come &= ~alike;
     const Outline& outline = bounded_.list[place];
     if (tells_exit(outline)) {
-      const auto exit = ExitApart<Lanes>::of(outline, room_of(outline.object), lines, begin, end);
+      const auto exit = exit_apart(outline, room_of(outline.object), lines, begin, end);
       const RayMask told = alike & mask_of(exit.found);
-      for_each_ray(told, [&](std::size_t i) {
-        const auto lane = static_cast<int>(i);
-        write_first(outline, outline.detail, exit.t[lane], exit.error[lane], false, hits[i]);
-      });
+      for_each_ray(told, [&](std::size_t i) { write_first(outline, bounded_, lane_of(exit, i), hits[i]); });
       work.intersection_tests += static_cast<unsigned>(std::popcount(told));
       done |= told;
       alike &= ~told;
