@@ -114,11 +114,8 @@ void go_on(const PreparedData& data, const Corners& box, Numbers& numbers, RayWo
     const bool outwards = glm::dot(ray.direction, point.normal) > 0;
     if (outwards != (side == Side::outside) && numbers.below(8) != 0) ray.direction = -ray.direction;
     const double size = largest_component(box.upper - box.lower);
-    // Not out again at once.
-    constexpr double shortest = 1e-9;
-    if (data.intersect(ray, work).t < shortest * size) ray.start = {};
     if (numbers.below(16) == 0) ray.t_min = numbers.within(0, 1) * size;
-    if (numbers.below(16) == 0) ray.origin += shortest * size * numbers.point(1);
+    if (numbers.below(16) == 0) ray.origin += 1e-9 * size * numbers.point(1);
   }
 }
 

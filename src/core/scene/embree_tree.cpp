@@ -32,6 +32,10 @@ constexpr float float_infinity = std::numeric_limits<float>::infinity();
 /// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
 constexpr double box_margin = 0x1p-22;
 
+/// And by more than rays' starts may be off what they are on, relative to their coordinates: beside a scene
+/// that is far from the origin that is no small part of it.
+constexpr double place_margin = 2 * start_rounding;
+
 /// In the same units: Embree takes no ray that starts farther away. None that does so where it should enter
 /// the box around all meets anything, but rounding may put it there.
 constexpr double farthest_place = 0x1p60;
@@ -49,12 +53,20 @@ float round_down(double value) {
   return -round_up(-value);
 }
 
-/// round_up() of each, if it is not negative.
+/// Embree passes by what is met just where a ray ends, so no way is shorter.
+constexpr float shortest_way = std::numeric_limits<float>::min();
+
+float round_up_length(double length) {
+  return std::max(round_up(length), shortest_way);
+}
+
+/// The same of each, if it is not negative.
 FloatLanes round_up_length(const Lanes& length) {
   const FloatLanes nearest = to_floats(length);
   // -1 where it is true.
   const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
-  return reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
+  const auto rounded_up = reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
+  return max(rounded_up, FloatLanes{} + shortest_way);
 }
 
 /// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts rays by the
@@ -113,7 +125,7 @@ struct Traversal {
   std::exception_ptr failure;
 
   /// Embree's end of the ray for the caller's.
-  float far_end(double t) const { return std::max(round_up((t - t_start) * scale), 0.0f); }
+  float far_end(double t) const { return round_up_length((t - t_start) * scale); }
 };
 
 /// A packet's likewise.
@@ -128,7 +140,7 @@ struct PacketTraversal {
   float far_end(std::size_t ray) const {
     const double start = t_start[ray / lane_count][static_cast<int>(ray % lane_count)];
     const double limit = packet->limit(ray);
-    return limit < start ? -float_infinity : std::max(round_up((limit - start) * scale), 0.0f);
+    return limit < start ? -float_infinity : round_up_length((limit - start) * scale);
   }
 };
 
@@ -212,7 +224,9 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
     extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
   }
   if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
-  total_ = total.grown(2 * box_margin / scale_);
+  const double farthest = std::max(largest_component(total.lower), largest_component(total.upper));
+  const double margin = box_margin + place_margin * farthest * scale_;
+  total_ = total.grown(2 * margin / scale_);
 
   auto handles = std::make_unique<Handles>();
 #ifdef CRT_TASKS_THREADS
@@ -226,10 +240,10 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   handles->boxes.reserve(boxes.size());
   for (const Bounds& box : boxes) {
     const auto lower = [&](int axis) {
-      return round_down((box.lower[axis] - center_[axis]) * scale_ - box_margin);
+      return round_down((box.lower[axis] - center_[axis]) * scale_ - margin);
     };
     const auto upper = [&](int axis) {
-      return round_up((box.upper[axis] - center_[axis]) * scale_ + box_margin);
+      return round_up((box.upper[axis] - center_[axis]) * scale_ + margin);
     };
     handles->boxes.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
   }
