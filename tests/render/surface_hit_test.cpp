@@ -82,7 +82,7 @@ void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   REQUIRE(diffuse == material.diffuse(transparency));
   REQUIRE(reflectivity == material.description->reflectivity);
   REQUIRE(found.position() == point.position);
-  REQUIRE(found.face_normal() == to_viewer * point.normal);
+  REQUIRE(found.group.face_normal.lane(found.lane) == to_viewer * point.normal);
 
   Vec3 normal = to_viewer * point.normal;
   if (material.bump) {

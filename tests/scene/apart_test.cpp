@@ -10,10 +10,11 @@
 #include "core/scene/accelerator.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "scene/numbers.hpp"
+#include "scene/same_answers.hpp"
 
 using namespace crt;
 using namespace crt::core;
-using crt::test::Numbers;
+using namespace crt::test;
 
 namespace {
 
@@ -56,11 +57,6 @@ std::vector<Entity> row_of_solids(double gap, int count) {
 
 Entity placed(const Entity& entity, double size, const Vec3& place) {
   return entity.transformed(scale(Vec3(size))).transformed(translate(place));
-}
-
-bool same(const RayHit& a, const RayHit& b) {
-  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.object == b.object && a.leaf == b.leaf &&
-         a.face == b.face && a.root == b.root && a.entering == b.entering && a.has_company == b.has_company;
 }
 
 /// A ray that goes on from a hit: into the solid or out of it, some along its surface.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "core/math/vector.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
@@ -48,6 +49,9 @@ struct Bounds {
       upper[axis] = std::max(upper[axis], center[axis] + extent);
     }
   }
+
+  /// The largest size of a coordinate in it.
+  double farthest() const { return std::max(largest_component(lower), largest_component(upper)); }
 
   /// With a margin on all sides.
   Bounds grown(double margin) const { return {lower - Vec3(margin), upper + Vec3(margin)}; }

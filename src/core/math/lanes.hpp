@@ -145,6 +145,8 @@ inline Lanes floor(const Lanes& a) {
 
 using std::floor;
 using std::fma;
+using std::max;
+using std::min;
 
 inline bool all(bool a) {
   return a;

@@ -41,7 +41,6 @@ struct SurfaceLane {
   SurfaceHit& hit() const { return group.hits[lane]; }
   Vec3 position() const { return group.position.lane(lane); }
   Vec3 normal() const { return group.phong.normal.lane(lane); }
-  Vec3 face_normal() const { return group.face_normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
   Rgb light() const { return group.light.lane(lane); }
 };

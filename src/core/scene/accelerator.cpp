@@ -40,8 +40,7 @@ double margin_of(const Bounds& total) {
   constexpr double of_extent = 0x1p-20;
   constexpr double of_place = 0x1p-40;
   const Vec3 extents = total.upper / 2.0 - total.lower / 2.0;
-  const double farthest = std::max(largest_component(total.lower), largest_component(total.upper));
-  return of_extent * largest_component(extents) + of_place * farthest;
+  return of_extent * largest_component(extents) + of_place * total.farthest();
 }
 
 std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {

@@ -97,11 +97,12 @@ class Accelerator {
   void nearest_together(std::span<const WorldRay> rays, RayMask open, std::span<RayHit> hits,
                         RayWorkspace& work) const;
   RayHit nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const;
-  /// Takes a ray that starts into a solid which keeps apart to where it leaves that, if it is one: what there
-  /// is elsewhere it cannot meet before. Else the hit is left empty.
-  bool leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
-  /// Which rays of a group do so.
+  /// Takes those rays of a group, of as many as there are lanes at most, that start into solids which keep
+  /// apart to where they leave these: what there is elsewhere they cannot meet before. Returns which; the
+  /// hits of the others are left empty.
   RayMask leave_apart(std::span<const WorldRay> group, std::span<RayHit> hits, RayWorkspace& work) const;
+  /// The same of one ray and the solid that it starts into, by the exact test.
+  bool leaves_apart(const Outline& solid, const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.
   RayHit gather_company(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 

@@ -224,8 +224,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
     extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
   }
   if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
-  const double farthest = std::max(largest_component(total.lower), largest_component(total.upper));
-  const double margin = box_margin + place_margin * farthest * scale_;
+  const double margin = box_margin + place_margin * total.farthest() * scale_;
   total_ = total.grown(2 * margin / scale_);
 
   auto handles = std::make_unique<Handles>();

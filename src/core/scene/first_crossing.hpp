@@ -114,10 +114,8 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
   const std::array<Real, 3> t = {enters ? meetings.enter[0] : -meetings.leave[0],
                                  enters ? meetings.enter[1] : -meetings.leave[1],
                                  enters ? meetings.enter[2] : -meetings.leave[2]};
-  const auto larger = BoxMeetings<Real>::larger;
-  const auto smaller = BoxMeetings<Real>::smaller;
   const Real greatest = enters ? enter : -leave;
-  const Real second = larger(smaller(t[0], t[1]), smaller(larger(t[0], t[1]), t[2]));
+  const Real second = max(min(t[0], t[1]), min(max(t[0], t[1]), t[2]));
   const Mask alone = greatest - second > meetings.error_of(greatest) + meetings.error_of(second);
 
   const Mask across_x = t[0] == greatest;
@@ -175,7 +173,7 @@ FirstCrossing<Real> exit_apart(const Outline& sphere, const Bounds& room, const 
   const auto other = SphereOtherEnd<Real>::of(line, sphere.place, sphere.radius, unit);
   const Real reach = other.t + company_width(line, other.t, other.error);
   const auto ahead = both(both(other.t > 0.0, other.t > begin), other.t < end);
-  const auto stays = both(is_within(room, line, begin), is_within(room, line, reach < end ? reach : end));
+  const auto stays = both(is_within(room, line, begin), is_within(room, line, min(reach, end)));
   return {.found = both(ahead, stays), .t = other.t, .error = other.error};
 }
 

@@ -30,27 +30,6 @@ bool test_told(Kind& query, const OutlinedRay& outlined, const Outline& outline,
 
 }  // namespace
 
-bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
-  const std::uint32_t place = entered_apart(ray.start);
-  if (place == nothing) return false;
-  const Outline& outline = bounded_.list[place];
-  const Bounds room = room_of(outline.object);
-  const PlainRay<double> line{ray.origin, ray.direction};
-  if (tells_exit(outline)) {
-    const auto exit = exit_apart(outline, room, line, ray.t_min, ray.t_max);
-    if (exit.found) {
-      ++work.intersection_tests;
-      write_first(outline, bounded_, exit, hit);
-      return true;
-    }
-  }
-  Nearest query(*this, ray, work, hit);
-  query.test(outline.object);
-  if (hit.found() && is_within(room, line, ray.t_min) && is_within(room, line, query.limit())) return true;
-  hit = {};
-  return false;
-}
-
 template <class Kind>
 void Accelerator::traverse_filtered(Kind& query) const {
   const WorldRay& ray = query.ray();
@@ -96,7 +75,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
 
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit hit;
-  if (!apart_.empty() && leaves_apart(ray, work, hit)) return hit;
+  if (!apart_.empty() && leave_apart({&ray, 1}, {&hit, 1}, work) != 0) return hit;
   return nearest_elsewhere(ray, work);
 }
 

@@ -161,6 +161,17 @@ void Accelerator::note_starts(std::span<const WorldRay> rays, RayPacket& packet)
   }
 }
 
+bool Accelerator::leaves_apart(const Outline& solid, const WorldRay& ray, RayWorkspace& work,
+                               RayHit& hit) const {
+  Nearest query(*this, ray, work, hit);
+  query.test(solid.object);
+  const Bounds room = room_of(solid.object);
+  const PlainRay<double> line{ray.origin, ray.direction};
+  if (hit.found() && is_within(room, line, ray.t_min) && is_within(room, line, query.limit())) return true;
+  hit = {};
+  return false;
+}
+
 RayMask Accelerator::leave_apart(std::span<const WorldRay> group, std::span<RayHit> hits,
                                  RayWorkspace& work) const {
   std::array<std::uint32_t, lane_count> places;
@@ -190,7 +201,7 @@ RayMask Accelerator::leave_apart(std::span<const WorldRay> group, std::span<RayH
       alike &= ~told;
     }
     for_each_ray(alike, [&](std::size_t i) {
-      done |= static_cast<RayMask>(leaves_apart(group[i], work, hits[i])) << i;
+      done |= static_cast<RayMask>(leaves_apart(outline, group[i], work, hits[i])) << i;
     });
   }
   return done;

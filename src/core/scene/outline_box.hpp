@@ -38,11 +38,8 @@ struct BoxMeetings {
   /// in before that by next to nothing, which is plainly not after the start.
   void start_on(std::size_t face, const Mask& lines, const OutlineLine<Real>& line);
 
-  Real last_enter() const { return larger(larger(enter[0], enter[1]), enter[2]); }
-  Real first_leave() const { return smaller(smaller(leave[0], leave[1]), leave[2]); }
-
-  static Real larger(const Real& a, const Real& b) { return a > b ? a : b; }
-  static Real smaller(const Real& a, const Real& b) { return a < b ? a : b; }
+  Real last_enter() const { return max(max(enter[0], enter[1]), enter[2]); }
+  Real first_leave() const { return min(min(leave[0], leave[1]), leave[2]); }
 
   /// Of one of these: more than its own roundings and those of the exact test together, down to where way or
   /// t have no normal number any more.
@@ -67,7 +64,7 @@ BoxMeetings<Real> BoxMeetings<Real>::of(const OutlineBox& box, const OutlineLine
     result.leave[axis] = upwards ? upper : lower;
   }
   const auto& inverse = line.inverse;
-  result.known = larger(larger(size_of(inverse[0]), size_of(inverse[1])), size_of(inverse[2])) < steepest;
+  result.known = max(max(size_of(inverse[0]), size_of(inverse[1])), size_of(inverse[2])) < steepest;
   return result;
 }
 
