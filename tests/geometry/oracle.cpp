@@ -254,7 +254,8 @@ void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
       t[static_cast<int>(lane)] = crossing.t * factor;
     }
     core::SurfacePointLanes points;
-    if (!shape.surface_points(rays, t, crossing.face, points)) return;
+    shape.surface_points(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face,
+                         points);
     const core::SurfacePoint point = shape.surface_point(ray, crossing);
     REQUIRE(points.position.lane(2) == point.position);
     REQUIRE(points.normal.lane(2) == point.normal);

@@ -65,7 +65,7 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
       REQUIRE((accurate.hi[k] == expected_accurate.hi || std::isnan(expected_accurate.hi)));
       REQUIRE((accurate.lo[k] == expected_accurate.lo || std::isnan(expected_accurate.lo)));
       REQUIRE(largest[k] == largest_component(a[lane]));
-      REQUIRE(unit_vectors(lanes_a).lane(lane) == unit_vector(a[lane]));
+      REQUIRE(unit_vector(lanes_a).lane(lane) == unit_vector(a[lane]));
       const DirectionAndLength expected = direction_and_length(a[lane]);
       REQUIRE(split.directions.lane(lane) == expected.direction);
       REQUIRE(split.lengths[k] == expected.length);

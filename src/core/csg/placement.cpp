@@ -89,6 +89,30 @@ void Placement::move_to_object(ObjectRay& ray) const {
   }
 }
 
+ObjectRayLanes Placement::to_object(const RayLanes& rays) const {
+  ObjectRayLanes result{rays.origin, {}, rays.direction, {}};
+  if (kind_ == Kind::identity) return result;
+  for (int axis = 0; axis < 3; ++axis) {
+    DoubleDoubleLanes origin;
+    if (kind_ == Kind::affine) {
+      const auto index = static_cast<std::size_t>(axis);
+      const PreciseVec3& row = to_object_.rows[index];
+      const auto turned = [&](const VectorLanes& v) {
+        return lanes_of(row[0]) * v.x + lanes_of(row[1]) * v.y + lanes_of(row[2]) * v.z;
+      };
+      origin = turned(rays.origin) + lanes_of(to_object_.translation[index]);
+      const DoubleDoubleLanes direction = turned(rays.direction);
+      result.direction[axis] = direction.hi;
+      result.direction_low[axis] = direction.lo;
+    } else {
+      origin = two_sum(result.origin[axis], lanes_of(-to_world_.translation[axis]));
+    }
+    result.origin[axis] = origin.hi;
+    result.origin_low[axis] = origin.lo;
+  }
+  return result;
+}
+
 ExactRay Placement::to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const {
   ExactRay exact{.near = ray, .world_origin = origin, .world_direction = direction};
   if (kind_ == Kind::identity) return exact;
@@ -106,18 +130,23 @@ Vec3 Placement::point_to_object(const Vec3& world) const {
   return ray.origin + ray.origin_low;
 }
 
-Vec3 Placement::point_to_world(const Vec3& object) const {
+template <class Vector>
+Vector Placement::point_to_world(const Vector& object) const {
+  using Real = RealOf<Vector>;
+  const Vec3& moved = to_world_.translation;
   if (kind_ == Kind::identity) return object;
-  if (kind_ == Kind::translation) return object + to_world_.translation;
-  Vec3 result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const Vec3& m = row(to_world_, axis);
-    result[axis] = (two_product(m.x, object.x) + two_product(m.y, object.y) + two_product(m.z, object.z) +
-                    DoubleDouble(to_world_.translation[axis]))
-                       .value();
-  }
-  return result;
+  if (kind_ == Kind::translation) return object + spread<Real>(moved);
+  const auto component = [&](const Vec3& m, double translation) {
+    using Precise = decltype(two_product(object.x, object.x));
+    return (two_product(spread<Real>(m.x), object.x) + two_product(spread<Real>(m.y), object.y) +
+            two_product(spread<Real>(m.z), object.z) + Precise{spread<Real>(translation)})
+        .value();
+  };
+  return {component(to_world_.row_x, moved.x), component(to_world_.row_y, moved.y),
+          component(to_world_.row_z, moved.z)};
 }
+template Vec3 Placement::point_to_world(const Vec3&) const;
+template VectorLanes Placement::point_to_world(const VectorLanes&) const;
 
 std::optional<Vec3> Placement::exactly_to_world(const Vec3& object) const {
   if (kind_ == Kind::affine) return std::nullopt;
@@ -130,20 +159,24 @@ std::optional<Vec3> Placement::exactly_to_world(const Vec3& object) const {
   return world;
 }
 
-Vec3 Placement::covector_to_world(const Vec3& object) const {
+template <class Vector>
+Vector Placement::covector_to_world(const Vector& object) const {
   if (kind_ != Kind::affine) return object;
-  Vec3 result;
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto index = static_cast<std::size_t>(axis);
-    result[axis] = to_object_.rows[0][index].hi * object.x + to_object_.rows[1][index].hi * object.y +
-                   to_object_.rows[2][index].hi * object.z;
-  }
-  return result;
+  const auto component = [&](std::size_t index) {
+    return to_object_.rows[0][index].hi * object.x + to_object_.rows[1][index].hi * object.y +
+           to_object_.rows[2][index].hi * object.z;
+  };
+  return {component(0), component(1), component(2)};
 }
+template Vec3 Placement::covector_to_world(const Vec3&) const;
+template VectorLanes Placement::covector_to_world(const VectorLanes&) const;
 
-Vec3 Placement::normal_to_world(const Vec3& object) const {
+template <class Vector>
+Vector Placement::normal_to_world(const Vector& object) const {
   return kind_ == Kind::affine ? unit_vector(covector_to_world(object)) : object;
 }
+template Vec3 Placement::normal_to_world(const Vec3&) const;
+template VectorLanes Placement::normal_to_world(const VectorLanes&) const;
 
 Bounds Placement::bounds_to_world(const Bounds& object) const {
   if (kind_ == Kind::identity || object.empty()) return object;

@@ -31,20 +31,28 @@ class Placement {
     return ray;
   }
 
+  /// The same of several side by side, to the last bit.
+  ObjectRayLanes to_object(const RayLanes& rays) const;
+
   /// The same as the exact tier takes it; `ray` is what to_object() says, and where it starts.
   ExactRay to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const;
 
+  // A Vector is a Vec3, or VectorLanes.
+
   Vec3 point_to_object(const Vec3& world) const;
-  Vec3 point_to_world(const Vec3& object) const;
+  template <class Vector>
+  Vector point_to_world(const Vector& object) const;
   /// The same where doubles can tell it and no more than a move is done, to the last bit.
   std::optional<Vec3> exactly_to_world(const Vec3& object) const;
 
   /// A covector (such as the gradient of a function of the object point) as the world sees it; its
   /// length matters.
-  Vec3 covector_to_world(const Vec3& object) const;
+  template <class Vector>
+  Vector covector_to_world(const Vector& object) const;
 
   /// A unit normal from a unit normal.
-  Vec3 normal_to_world(const Vec3& object) const;
+  template <class Vector>
+  Vector normal_to_world(const Vector& object) const;
 
   /// A box around the image of a box, rounded outwards.
   Bounds bounds_to_world(const Bounds& object) const;

@@ -84,31 +84,30 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
   return faces;
 }
 
-SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  const PlaneFace& face = faces_[crossing.face];
-  const int across = face.axis();
-  const Vec3 size = upper_ - lower_;
-  const Vec3 offset = glm::clamp(ray.from_center(lower_, crossing.t), Vec3(0), size);
-  SurfacePoint result;
-  result.position = glm::min(lower_ + offset, upper_);
-  result.position[across] = face.position()[across];
-  result.normal = face.unit_normal();
-  if (!with_uv) return result;
-  const Vec3 share = offset / size;
-  result.u = across == 0 ? share.z : share.x;
-  result.v = across == 1 ? share.z : share.y;
+template <class Real>
+SurfacePointOf<Real> BoxShape::point_near(const Vec3Of<Real>& offset, const PlaneFace& face) const {
+  const Vec3Of<Real> within = clamp(offset, spread<Real>(Vec3(0)), spread<Real>(upper_ - lower_));
+  SurfacePointOf<Real> result{.position = min(spread<Real>(upper_), spread<Real>(lower_) + within),
+                              .normal = spread<Real>(face.unit_normal())};
+  result.position[face.axis()] = spread<Real>(face.position()[face.axis()]);
   return result;
 }
 
-bool BoxShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face_index,
+SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
+  const PlaneFace& face = faces_[crossing.face];
+  const Vec3 offset = ray.from_center(lower_, crossing.t);
+  SurfacePoint result = point_near<double>(offset, face);
+  if (!with_uv) return result;
+  const Vec3 size = upper_ - lower_;
+  const Vec3 share = glm::clamp(offset, Vec3(0), size) / size;
+  result.u = face.axis() == 0 ? share.z : share.x;
+  result.v = face.axis() == 1 ? share.z : share.y;
+  return result;
+}
+
+void BoxShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t face,
                               SurfacePointLanes& points) const {
-  const PlaneFace& face = faces_[face_index];
-  const VectorLanes size = lanes_of(upper_ - lower_);
-  const VectorLanes offset = min(size, max(rays.from_center(lower_, t), {}));
-  points.position = min(lanes_of(upper_), lanes_of(lower_) + offset);
-  points.position[face.axis()] = lanes_of(face.position()[face.axis()]);
-  points.normal = lanes_of(face.unit_normal());
-  return true;
+  set_place(points, point_near<Lanes>(offsets, faces_[face]));
 }
 
 void validate(const Box& box) {

@@ -24,13 +24,17 @@ class BoxShape final : public Shape {
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
-  bool surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face_index,
+  Vec3 anchor(std::uint32_t) const override { return lower_; }
+  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
                       SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
+  /// What is on a face at `offset` from the lower corner, or next to it.
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const PlaneFace& face) const;
   static constexpr unsigned all_faces = 0x3f;
   /// The faces, a bit each, through which a ray in free space can enter or leave the box, for all that plain
   /// doubles tell; none if it surely misses.

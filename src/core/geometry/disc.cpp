@@ -34,11 +34,16 @@ bool DiscShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 
 SurfacePoint DiscShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
-  SurfacePoint result{.position = face_.absolute(relative), .normal = face_.unit_normal()};
+  SurfacePoint result = face_.surface_point(relative);
   if (!with_uv) return result;
   result.u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter));
   result.v = std::min(1.0, glm::length(relative / radius_));
   return result;
+}
+
+void DiscShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
+                               SurfacePointLanes& points) const {
+  set_place(points, face_.surface_point(face_.onto_plane(offsets)));
 }
 
 void validate(const Disc& disc) {

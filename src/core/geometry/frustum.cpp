@@ -230,33 +230,54 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
                                ray.start, stretch);
 }
 
+template <class Real>
+FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset) {
+  using Vector = Vec3Of<Real>;
+  const Vector axis = spread<Real>(frustum.axis_);
+  const Vector p = spread<Real>(1 / frustum.unit_) * offset;
+  const Real z = dot(p, axis);
+  // Across the axis, twice: the second time removes what the first one's rounding left along it.
+  Vector across = p - z * axis;
+  across = across - dot(across, axis) * axis;
+  const auto at_apex = largest_component(across) == 0.0;
+  radial = chosen(at_apex, spread<Real>(frustum.frame_.zero), unit_vector(across));
+  // Onto the ruling in this direction, straight.
+  const double sine = frustum.sine_;
+  const double cosine = frustum.cosine_;
+  const Real slant = (dot(across, radial) - frustum.narrow_radius_) * sine + z * cosine;
+  share = clamp(slant * cosine / frustum.height_, Real{}, spread<Real>(1));
+  const Real radius = frustum.narrow_radius_ + (frustum.wide_radius_ - frustum.narrow_radius_) * share;
+  point.position = spread<Real>(frustum.narrow_) +
+                   spread<Real>(frustum.unit_) * (share * frustum.height_ * axis + radius * radial);
+  point.normal = unit_vector(spread<Real>(cosine) * radial - spread<Real>(sine) * axis);
+  if (sine > 0) point.normal = chosen(at_apex, -axis, point.normal);
+}
+
 SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   if (crossing.face != side_face) return cap_point(ray, crossing, with_uv);
-  const Vec3 offset = ray.from_center(narrow_, crossing.t) * (1 / unit_);
-  const double z = glm::dot(offset, axis_);
-  // Across the axis, twice: the second time removes what the first one's rounding left along it.
-  Vec3 across = offset - z * axis_;
-  across -= glm::dot(across, axis_) * axis_;
-  const bool at_apex = largest_component(across) == 0;
-  const Vec3 radial = at_apex ? frame_.zero : unit_vector(across);
-  // Onto the ruling in this direction, straight.
-  const double slant = (glm::dot(across, radial) - narrow_radius_) * sine_ + z * cosine_;
-  const double share = std::clamp(slant * cosine_ / height_, 0.0, 1.0);
-  const double radius = narrow_radius_ + (wide_radius_ - narrow_radius_) * share;
-  SurfacePoint result;
-  result.position = narrow_ + unit_ * (share * height_ * axis_ + radius * radial);
-  result.normal = at_apex && sine_ > 0 ? -axis_ : unit_vector(cosine_ * radial - sine_ * axis_);
+  const SidePoint<double> side(*this, ray.from_center(narrow_, crossing.t));
+  SurfacePoint result = side.point;
   if (!with_uv) return result;
-  result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
-  result.v = narrow_ == from_ ? share : 1 - share;
+  result.u = turn(glm::dot(side.radial, frame_.zero), glm::dot(side.radial, frame_.quarter));
+  result.v = narrow_ == from_ ? side.share : 1 - side.share;
   return result;
+}
+
+void FrustumShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t face,
+                                  SurfacePointLanes& points) const {
+  if (face == side_face) {
+    set_place(points, SidePoint<Lanes>(*this, offsets).point);
+  } else {
+    const PlaneFace& cap = *caps_[face - 1];
+    set_place(points, cap.surface_point(cap.onto_plane(offsets)));
+  }
 }
 
 SurfacePoint FrustumShape::cap_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
   const std::size_t end = crossing.face - 1;
   const PlaneFace& cap = *caps_[end];
   const Vec3 relative = cap.onto_plane(ray.from_center(cap.position(), crossing.t));
-  SurfacePoint result{.position = cap.absolute(relative), .normal = cap.unit_normal()};
+  SurfacePoint result = cap.surface_point(relative);
   if (!with_uv) return result;
   result.u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter));
   result.v = std::min(1.0, glm::length(relative / radii_[end]));

@@ -37,6 +37,11 @@ class FrustumShape : public Shape {
   std::optional<Spine> spine() const final { return Spine{from_, to_, radii_[0], radii_[1]}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const final;
+  Vec3 anchor(std::uint32_t face) const final {
+    return face == side_face ? narrow_ : caps_[face - 1]->position();
+  }
+  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
+                      SurfacePointLanes& points) const final;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
   std::size_t bytes() const override { return sizeof *this; }
@@ -65,6 +70,15 @@ class FrustumShape : public Shape {
   void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
+  /// What is on the side at `offset` from the middle of the narrow end, or next to it.
+  template <class Real>
+  struct SidePoint {
+    Vec3Of<Real> radial;  ///< from the axis, of length 1
+    Real share;           ///< of the height
+    SurfacePointOf<Real> point;
+
+    SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset);
+  };
   SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const;
 
   Vec3 from_;

@@ -41,10 +41,15 @@ SurfacePoint HalfPlaneShape::surface_point(const ObjectRay& ray, const Crossing&
                                            bool /*with_uv*/) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
   const Vec3 along_edge = glm::cross(face_.unit_normal(), inward_);
-  return {.position = face_.absolute(relative),
-          .normal = face_.unit_normal(),
-          .u = std::max(0.0, glm::dot(relative, inward_)),
-          .v = glm::dot(relative, along_edge)};
+  SurfacePoint result = face_.surface_point(relative);
+  result.u = std::max(0.0, glm::dot(relative, inward_));
+  result.v = glm::dot(relative, along_edge);
+  return result;
+}
+
+void HalfPlaneShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
+                                    SurfacePointLanes& points) const {
+  set_place(points, face_.surface_point(face_.onto_plane(offsets)));
 }
 
 void validate(const HalfPlane& half_plane) {

@@ -19,6 +19,9 @@ class HalfPlaneShape final : public Shape {
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
+  Vec3 anchor(std::uint32_t) const override { return face_.position(); }
+  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
+                      SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
   std::size_t bytes() const override { return sizeof *this; }

@@ -23,6 +23,22 @@ struct RayStart {
   bool on_face = true;
 };
 
+/// See ObjectRay::from_center().
+template <class Real, class Ray>
+Vec3Of<Real> point_from_center(const Ray& ray, const Vec3& center, const Real& t, const Real& t_low) {
+  const auto component = [&](const Real& from, const Real& from_low, const Real& along, const Real& along_low,
+                             double place) {
+    const auto offset = two_sum(from, spread<Real>(-place));
+    return fma(t, along, offset.hi) + (offset.lo + from_low + t * along_low + t_low * along);
+  };
+  const auto& o = ray.origin;
+  const auto& o_low = ray.origin_low;
+  const auto& d = ray.direction;
+  const auto& d_low = ray.direction_low;
+  return {component(o.x, o_low.x, d.x, d_low.x, center.x), component(o.y, o_low.y, d.y, d_low.y, center.y),
+          component(o.z, o_low.z, d.z, d_low.z, center.z)};
+}
+
 /// A ray in the object space of one primitive. Origin and direction are unevaluated sums of two
 /// doubles (the second far smaller), so that entering the space loses nothing; without a transform
 /// the low parts are 0.
@@ -40,13 +56,20 @@ struct ObjectRay {
   /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
   /// is about one rounding of the result, not of the way there, if the point is near the center.
   Vec3 from_center(const Vec3& center, double t, double t_low = 0) const {
-    Vec3 result;
-    for (int axis = 0; axis < 3; ++axis) {
-      const DoubleDouble offset = two_sum(origin[axis], -center[axis]);
-      result[axis] = std::fma(t, direction[axis], offset.hi) +
-                     (offset.lo + origin_low[axis] + t * direction_low[axis] + t_low * direction[axis]);
-    }
-    return result;
+    return point_from_center<double>(*this, center, t, t_low);
+  }
+};
+
+/// As many of them as there are lanes, without where they start.
+struct ObjectRayLanes {
+  VectorLanes origin;
+  VectorLanes origin_low;
+  VectorLanes direction;
+  VectorLanes direction_low;
+
+  /// The same, to the last bit.
+  VectorLanes from_center(const Vec3& center, const Lanes& t, const Lanes& t_low = Lanes{}) const {
+    return point_from_center<Lanes>(*this, center, t, t_low);
   }
 };
 

@@ -34,18 +34,15 @@ bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 SurfacePoint PlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
                                        bool /*with_uv*/) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
-  return {.position = face_.absolute(relative),
-          .normal = face_.unit_normal(),
-          .u = glm::dot(relative, axes_.u),
-          .v = glm::dot(relative, axes_.v)};
+  SurfacePoint result = face_.surface_point(relative);
+  result.u = glm::dot(relative, axes_.u);
+  result.v = glm::dot(relative, axes_.v);
+  return result;
 }
 
-bool PlaneShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t /*face*/,
+void PlaneShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
                                 SurfacePointLanes& points) const {
-  const Vec3& place = face_.position();
-  points.normal = lanes_of(face_.unit_normal());
-  points.position = lanes_of(place) + face_.onto_plane(rays.from_center(place, t));
-  return true;
+  set_place(points, face_.surface_point(face_.onto_plane(offsets)));
 }
 
 void validate(const Plane& plane) {

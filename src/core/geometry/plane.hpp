@@ -19,7 +19,8 @@ class PlaneShape final : public Shape {
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
-  bool surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face,
+  Vec3 anchor(std::uint32_t) const override { return face_.position(); }
+  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
                       SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }

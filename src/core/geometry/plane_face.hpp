@@ -84,7 +84,7 @@ class PlaneFace {
   /// lanes.
   template <class Vector>
   Vector onto_plane(const Vector& relative) const {
-    using Real = std::decay_t<decltype(relative.x)>;
+    using Real = RealOf<Vector>;
     if (axis_ < 0) {
       const Vector normal = spread<Real>(unit_normal_);
       const auto height = accurate_dot(normal, relative);
@@ -94,8 +94,14 @@ class PlaneFace {
             axis_ == 2 ? Real{} : relative.z};
   }
 
-  /// position + relative, exactly on the plane where the plane is across a coordinate axis.
-  Vec3 absolute(const Vec3& relative) const { return position_ + relative; }
+  /// What is at such a point, without u and v. Where the plane is across a coordinate axis it is exactly on
+  /// it.
+  template <class Vector>
+  auto surface_point(const Vector& relative) const {
+    using Real = RealOf<Vector>;
+    return SurfacePointOf<Real>{.position = spread<Real>(position_) + relative,
+                                .normal = spread<Real>(unit_normal_)};
+  }
 
   const Vec3& position() const { return position_; }
   const Vec3& unit_normal() const { return unit_normal_; }

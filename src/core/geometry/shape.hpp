@@ -56,6 +56,12 @@ inline SurfacePoint lane_of(const SurfacePointLanes& points, std::size_t lane) {
   return {points.position.lane(lane), points.normal.lane(lane), points.u[i], points.v[i]};
 }
 
+/// All but u and v.
+inline void set_place(SurfacePointLanes& points, const SurfacePointLanes& place) {
+  points.position = place.position;
+  points.normal = place.normal;
+}
+
 inline void set_lane(SurfacePointLanes& points, std::size_t lane, const SurfacePoint& point) {
   const int i = static_cast<int>(lane);
   points.position.set(lane, point.position);
@@ -111,12 +117,11 @@ class Shape {
   virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
                                      bool with_uv = true) const = 0;
 
-  /// The same but for u and v where as many rays as there are lanes cross one face, to the last bit; false if
-  /// that is not told here.
-  virtual bool surface_points(const RayLanes& /*rays*/, const Lanes& /*t*/, std::uint32_t /*face*/,
-                              SurfacePointLanes& /*points*/) const {
-    return false;
-  }
+  /// The same but for u and v where as many rays as there are lanes cross one face, to the last bit.
+  /// `offsets` are where they do so, relative to the face's anchor: ObjectRayLanes::from_center(anchor, t).
+  virtual Vec3 anchor(std::uint32_t face) const = 0;
+  virtual void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
+                              SurfacePointLanes& points) const = 0;
 
   /// How many faces there are, and the surface that a face is a piece of (for finding faces that
   /// coincide).

@@ -39,25 +39,26 @@ bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out
   return stretch.finish(out);
 }
 
+template <class Real>
+SurfacePointOf<Real> SphereShape::point_near(const Vec3Of<Real>& offset,
+                                             const Vec3Of<Real>& direction) const {
+  const auto is_apart = largest_component(offset) > 0.0;
+  const Vec3Of<Real> normal = unit_vector(chosen(is_apart, offset, -direction));
+  return {.position = spread<Real>(center_) + spread<Real>(radius_) * normal, .normal = normal};
+}
+
 SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  SurfacePoint result;
-  const Vec3 offset = ray.from_center(center_, crossing.t);
-  const Vec3 n = unit_vector(largest_component(offset) > 0 ? offset : -ray.direction);
-  result.normal = n;
-  result.position = center_ + radius_ * n;
+  SurfacePoint result = point_near<double>(ray.from_center(center_, crossing.t), ray.direction);
   if (!with_uv) return result;
+  const Vec3& n = result.normal;
   result.u = turn(n.z, n.x);
   result.v = std::atan2(n.y, std::sqrt(n.x * n.x + n.z * n.z)) / std::numbers::pi + 0.5;
   return result;
 }
 
-bool SphereShape::surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t /*face*/,
+void SphereShape::surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t,
                                  SurfacePointLanes& points) const {
-  const VectorLanes offset = rays.from_center(center_, t);
-  const LaneMask is_apart = largest_component(offset) > 0.0;
-  points.normal = unit_vectors(chosen(is_apart, offset, -rays.direction));
-  points.position = lanes_of(center_) + lanes_of(radius_) * points.normal;
-  return true;
+  set_place(points, point_near<Lanes>(offsets, directions));
 }
 
 Surface SphereShape::surface(std::uint32_t) const {

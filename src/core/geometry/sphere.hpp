@@ -96,13 +96,17 @@ class SphereShape final : public Shape {
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
-  bool surface_points(const RayLanes& rays, const Lanes& t, std::uint32_t face,
+  Vec3 anchor(std::uint32_t) const override { return center_; }
+  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
                       SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
+  /// The place where a line of that direction meets the surface at `offset` from the center, or next to it.
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction) const;
   bool crossings_from_surface(const ObjectRay& ray, CrossingList& out) const;
 
   Vec3 center_;

@@ -81,22 +81,39 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  const Vec3 offset = ray.from_center(center_, crossing.t) * (1 / unit_);
-  const double height = glm::dot(offset, frame_.along);
+template <class Real>
+TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Real>& offset) {
+  const Vec3Of<Real> along = spread<Real>(torus.frame_.along);
+  const Vec3Of<Real> p = spread<Real>(1 / torus.unit_) * offset;
+  height = dot(p, along);
   // Twice: the second time removes what the first one's rounding left along the axis.
-  Vec3 across = offset - height * frame_.along;
-  across -= glm::dot(across, frame_.along) * frame_.along;
-  const Vec3 radial = largest_component(across) > 0 ? unit_vector(across) : frame_.zero;
-  const double outward = glm::dot(across, radial) - ring_;
-  const Vec3 from_ring = outward * radial + height * frame_.along;
-  SurfacePoint result;
-  result.normal = largest_component(from_ring) > 0 ? unit_vector(from_ring) : radial;
-  result.position = center_ + unit_ * (ring_ * radial + tube_ * result.normal);
+  Vec3Of<Real> across = p - height * along;
+  across = across - dot(across, along) * along;
+  radial = chosen(largest_component(across) > 0.0, unit_vector(across), spread<Real>(torus.frame_.zero));
+  outward = dot(across, radial) - torus.ring_;
+}
+
+template <class Real>
+SurfacePointOf<Real> TorusShape::point_near(const TubePlace<Real>& place) const {
+  const Vec3Of<Real>& radial = place.radial;
+  const Vec3Of<Real> from_ring = place.outward * radial + place.height * spread<Real>(frame_.along);
+  const Vec3Of<Real> normal = chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
+  const Vec3Of<Real> offset = spread<Real>(ring_) * radial + spread<Real>(tube_) * normal;
+  return {.position = spread<Real>(center_) + spread<Real>(unit_) * offset, .normal = normal};
+}
+
+SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
+  const TubePlace<double> place(*this, ray.from_center(center_, crossing.t));
+  SurfacePoint result = point_near(place);
   if (!with_uv) return result;
-  result.u = turn(glm::dot(radial, frame_.zero), glm::dot(radial, frame_.quarter));
-  result.v = turn(outward, height);
+  result.u = turn(glm::dot(place.radial, frame_.zero), glm::dot(place.radial, frame_.quarter));
+  result.v = turn(place.outward, place.height);
   return result;
+}
+
+void TorusShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
+                                SurfacePointLanes& points) const {
+  set_place(points, point_near(TubePlace<Lanes>(*this, offsets)));
 }
 
 Surface TorusShape::surface(std::uint32_t) const {

@@ -32,11 +32,25 @@ class TorusShape final : public Shape {
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
+  Vec3 anchor(std::uint32_t) const override { return center_; }
+  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
+                      SurfacePointLanes& points) const override;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
+  /// Seen from the point of the ring that is nearest to a place.
+  template <class Real>
+  struct TubePlace {
+    Vec3Of<Real> radial;  ///< from the axis to that point, of length 1
+    Real outward;         ///< the place, along `radial`
+    Real height;          ///< and along the axis
+
+    TubePlace(const TorusShape& torus, const Vec3Of<Real>& offset);
+  };
+  template <class Real>
+  SurfacePointOf<Real> point_near(const TubePlace<Real>& place) const;
   Vec3 center_;
   AxisFrame frame_;
   double radius_;

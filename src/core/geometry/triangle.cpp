@@ -134,12 +134,23 @@ bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
+template <class Real>
+SurfacePointOf<Real> TriangleShape::point_at(const Vec3Of<Real>& relative) const {
+  SurfacePointOf<Real> result = face_.surface_point(relative);
+  const Bounds box = bounds();
+  result.position = clamp(result.position, spread<Real>(box.lower), spread<Real>(box.upper));
+  return result;
+}
+
+void TriangleShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
+                                   SurfacePointLanes& points) const {
+  set_place(points, point_at<Lanes>(face_.onto_plane(offsets)));
+}
+
 SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
                                           bool with_uv) const {
   const Vec3 relative = face_.onto_plane(ray.from_center(corners_[0], crossing.t));
-  const Bounds box = bounds();
-  SurfacePoint result{.position = glm::clamp(face_.absolute(relative), box.lower, box.upper),
-                      .normal = face_.unit_normal()};
+  SurfacePoint result = point_at<double>(relative);
   if (!with_uv) return result;
   const Vec3 ab = corners_[1] - corners_[0];
   const Vec3 ac = corners_[2] - corners_[0];

@@ -110,6 +110,11 @@ inline Lanes max(const Lanes& a, const Lanes& b) {
 #endif
 }
 
+/// v between the two.
+inline Lanes clamp(const Lanes& v, const Lanes& low, const Lanes& high) {
+  return min(high, max(v, low));
+}
+
 inline Lanes sqrt(const Lanes& a) {
 #ifdef __AVX__
   return _mm256_sqrt_pd(a);
@@ -143,6 +148,7 @@ inline Lanes floor(const Lanes& a) {
 // Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles gives a
 // bool, and comparing lanes a mask of lanes.
 
+using std::clamp;
 using std::floor;
 using std::fma;
 using std::max;
@@ -240,7 +246,14 @@ Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
 struct DoubleDoubleLanes {
   Lanes hi{};
   Lanes lo{};
+
+  Lanes value() const { return hi + lo; }
 };
+
+/// The same number in each lane.
+inline DoubleDoubleLanes lanes_of(const DoubleDouble& value) {
+  return {lanes_of(value.hi), lanes_of(value.lo)};
+}
 
 inline DoubleDoubleLanes quick_two_sum(const Lanes& a, const Lanes& b) {
   const Lanes sum = a + b;
@@ -266,10 +279,12 @@ inline DoubleDoubleLanes operator+(const DoubleDoubleLanes& a, const DoubleDoubl
   return quick_two_sum(first.hi, low.lo + first.lo);
 }
 
+inline DoubleDoubleLanes operator*(const DoubleDoubleLanes& a, const Lanes& b) {
+  const Lanes product = a.hi * b;
+  return quick_two_sum(product, fma(a.hi, b, -product) + a.lo * b);
+}
 inline DoubleDoubleLanes operator*(const DoubleDoubleLanes& a, double b) {
-  const Lanes factor = lanes_of(b);
-  const Lanes product = a.hi * factor;
-  return quick_two_sum(product, fma(a.hi, factor, -product) + a.lo * factor);
+  return a * lanes_of(b);
 }
 
 }  // namespace crt::core

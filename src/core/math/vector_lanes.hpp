@@ -3,6 +3,7 @@
 #pragma once
 
 #include <type_traits>
+#include <utility>
 
 #include "core/math/direction_and_length.hpp"
 #include "core/math/lanes.hpp"
@@ -33,6 +34,10 @@ struct VectorLanes {
 /// A Vec3, or for lanes as many of them.
 template <class Real>
 using Vec3Of = std::conditional_t<std::is_same_v<Real, double>, Vec3, VectorLanes>;
+
+/// Of a Vec3Of<Real> the Real.
+template <class Vector>
+using RealOf = std::decay_t<decltype(std::declval<Vector>().x)>;
 
 /// The same vector in each lane.
 inline VectorLanes lanes_of(const Vec3& v) {
@@ -80,6 +85,10 @@ inline VectorLanes max(const VectorLanes& a, const VectorLanes& b) {
   return {max(a.x, b.x), max(a.y, b.y), max(a.z, b.z)};
 }
 
+inline VectorLanes clamp(const VectorLanes& v, const VectorLanes& low, const VectorLanes& high) {
+  return min(high, max(v, low));
+}
+
 inline VectorLanes floor(const VectorLanes& v) {
   return {floor(v.x), floor(v.y), floor(v.z)};
 }
@@ -102,7 +111,7 @@ inline DoubleDoubleLanes accurate_dot(const VectorLanes& a, const VectorLanes& b
   return two_sum(xyz.hi, xyz.lo + xy.lo + (x.lo + y.lo + z.lo));
 }
 
-inline VectorLanes unit_vectors(const VectorLanes& v) {
+inline VectorLanes unit_vector(const VectorLanes& v) {
   const VectorLanes scaled = 1.0 / power_of_two_below(largest_component(v)) * v;
   const DoubleDoubleLanes square = accurate_dot(scaled, scaled);
   return scaled / sqrt(square.hi + square.lo);

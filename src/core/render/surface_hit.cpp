@@ -116,7 +116,7 @@ void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> ray
              group);
 
     if (material.bump) set_bumped_normals(data, alike, points, group, work);
-    data.take_to_world(first, alike.rays, points);
+    data.take_to_world(first, points);
     alike.set(group.position, points.position);
     alike.set(group.face_normal, first.entering ? points.normal : -points.normal);
     if (!material.bump) alike.set(group.phong.normal, group.face_normal);

@@ -181,12 +181,11 @@ SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, 
   return point;
 }
 
-void PreparedData::object_points_each(std::span<const WorldRay, lane_count> rays,
-                                      std::span<const RayHit, lane_count> hits, RayMask alike, bool with_uv,
-                                      SurfacePointLanes& points) const {
-  for_each_ray(alike, [&](std::size_t lane) {
-    set_lane(points, lane, object_point(rays[lane], hits[lane], with_uv));
-  });
+void PreparedData::object_points_with_uv(std::span<const WorldRay, lane_count> rays,
+                                         std::span<const RayHit, lane_count> hits, RayMask alike,
+                                         SurfacePointLanes& points) const {
+  for_each_ray(alike,
+               [&](std::size_t lane) { set_lane(points, lane, object_point(rays[lane], hits[lane], true)); });
 }
 
 bool PreparedData::is_solid(const RayHit& hit) const {

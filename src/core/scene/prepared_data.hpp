@@ -147,22 +147,23 @@ class PreparedData {
                      SurfacePointLanes& points) const {
     const RayHit& first = hits[first_ray(alike)];
     const Leaf& leaf = leaves_[first.leaf];
-    const bool is_by_lanes = !with_uv && leaf.placement->is_identity();
-    if (is_by_lanes && leaf.shape->surface_points(lines, t, first.face, points)) {
-      if (leaf.complemented) points.normal = -points.normal;
+    if (with_uv) return object_points_with_uv(rays, hits, alike, points);
+    const Vec3 anchor = leaf.shape->anchor(first.face);
+    if (leaf.placement->is_identity()) {
+      leaf.shape->surface_points(lines.from_center(anchor, t), lines.direction, first.face, points);
     } else {
-      object_points_each(rays, hits, alike, with_uv, points);
+      const ObjectRayLanes moved = leaf.placement->to_object(lines);
+      leaf.shape->surface_points(moved.from_center(anchor, t), moved.direction, first.face, points);
     }
+    if (leaf.complemented) points.normal = -points.normal;
   }
 
   /// Takes those of a hit like `hit` to the world.
-  void take_to_world(const RayHit& hit, RayMask alike, SurfacePointLanes& points) const {
+  void take_to_world(const RayHit& hit, SurfacePointLanes& points) const {
     const Placement& placement = *leaves_[hit.leaf].placement;
     if (placement.is_identity()) return;
-    for_each_ray(alike, [&](std::size_t lane) {
-      points.position.set(lane, placement.point_to_world(points.position.lane(lane)));
-      points.normal.set(lane, placement.normal_to_world(points.normal.lane(lane)));
-    });
+    points.position = placement.point_to_world(points.position);
+    points.normal = placement.normal_to_world(points.normal);
   }
 
   /// The material of a hit, without the rest.
@@ -205,9 +206,9 @@ class PreparedData {
  private:
   struct Geometry;
 
-  void object_points_each(std::span<const WorldRay, lane_count> rays,
-                          std::span<const RayHit, lane_count> hits, RayMask alike, bool with_uv,
-                          SurfacePointLanes& points) const;
+  void object_points_with_uv(std::span<const WorldRay, lane_count> rays,
+                             std::span<const RayHit, lane_count> hits, RayMask alike,
+                             SurfacePointLanes& points) const;
 
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;
