@@ -4,6 +4,7 @@
 #include <doctest/doctest.h>
 
 #include <cmath>
+#include <limits>
 
 #include "core/sampling/schedule.hpp"
 #include "core/sampling/sequence.hpp"
@@ -12,20 +13,37 @@ using namespace crt::core;
 
 namespace {
 
+struct OneSample {
+  Lanes values;
+  std::uint64_t identity = 1;
+  double dropped = 0;
+};
+
+/// Gives a pixel that has `count` samples its next step of them.
+template <class SampleAt>
+void add_step(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at) {
+  StepSum step;
+  SeenSamples seen(sample_at(count).identity);
+  for (std::int64_t i = count; i < count + samples_of_next_step(count); ++i) {
+    const OneSample sample = sample_at(i);
+    step.add(sample.values, sample.dropped);
+    seen.add(sample.values, sample.identity);
+  }
+  pixel.add_step(count, step);
+  pixel.add_seen(seen, count == 0);
+}
+
 /// Gives a pixel its first `end` samples of a grey function.
 template <class Function>
 PixelSamples sampled(const PixelSequence& sequence, std::int64_t end, const Function& function) {
   PixelSamples pixel;
   std::int64_t count = 0;
   while (count < end) {
-    SampleSum pass;
-    const std::int64_t size = samples_of_next_step(count);
-    for (std::int64_t i = count; i < count + size; ++i) {
+    add_step(pixel, count, [&](std::int64_t i) {
       const double value = function(sequence.point(static_cast<std::uint32_t>(i)));
-      pass.add(Lanes{value, value, value, 1}, value > 0.5 ? 1 : 2, 0.25);
-    }
-    pixel.add_step(count, pass);
-    count += size;
+      return OneSample{Lanes{value, value, value, 1}, value > 0.5 ? 1u : 2u, 0.25};
+    });
+    count += samples_of_next_step(count);
   }
   return pixel;
 }
@@ -38,10 +56,8 @@ TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
   PixelSamples pixel;
   std::int64_t count = 0;
   for (int pass = 0; pass < 40; ++pass) {
-    SampleSum sum;
-    for (std::int64_t i = samples_of_next_step(count); i > 0; --i) sum.add(Lanes{0.1, 0.2, 1.0 / 3, 1}, 5, 0);
-    pixel.add_step(count, sum);
-    count += sum.count;
+    add_step(pixel, count, [](std::int64_t) { return OneSample{Lanes{0.1, 0.2, 1.0 / 3, 1}}; });
+    count += samples_of_next_step(count);
     const auto mean = pixel.mean(count);
     CHECK(static_cast<float>(mean[0]) == 0.1f);
     CHECK(static_cast<float>(mean[1]) == 0.2f);
@@ -82,20 +98,16 @@ TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its
 }
 
 TEST_CASE("things that look alike keep a width where they meet") {
-  SampleSum one;
-  SampleSum other;
-  for (int i = 0; i < 1; ++i) {
-    one.add(Lanes{0.5, 0.5, 0.5, 1}, 1, 0);
-    other.add(Lanes{0.5, 0.5, 0.5, 1}, 2, 0);
-  }
+  const auto one = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 1}; };
+  const auto other = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 2}; };
   PixelSamples pixel;
-  for (std::int64_t i = 0; i < 8; ++i) pixel.add_step(i, one);
+  for (std::int64_t i = 0; i < 8; ++i) add_step(pixel, i, one);
   CHECK(pixel.half_width(8, linear) == 0);
   PixelSamples mixed = pixel;
-  mixed.add_step(8, other);
+  add_step(mixed, 8, other);
   CHECK(mixed.half_width(9, linear) > 0.01);
   PixelSamples neighbour;
-  for (std::int64_t i = 0; i < 8; ++i) neighbour.add_step(i, other);
+  for (std::int64_t i = 0; i < 8; ++i) add_step(neighbour, i, other);
   pixel.take_note(neighbour);
   CHECK(pixel.half_width(8, linear) > 0.01);
 }
@@ -110,13 +122,16 @@ TEST_CASE("what a display clips has no width, and dark colours at a high gamma h
 }
 
 TEST_CASE("values beyond all bounds do no harm") {
-  SampleSum sum;
-  sum.add(Lanes{1e300, -1e300, 0, 1}, 1, 0);
-  PixelSamples pixel;
-  for (std::int64_t i = 0; i < 8; ++i) pixel.add_step(i, sum);
-  CHECK(std::isfinite(pixel.mean(8)[0]));
-  CHECK(pixel.half_width(8, linear) >= 0);
-  CHECK(pixel.half_width(8, linear) <= 1);
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  for (const double last : {0.0, none}) {
+    PixelSamples pixel;
+    for (std::int64_t i = 0; i < 8; ++i) {
+      add_step(pixel, i, [&](std::int64_t) { return OneSample{Lanes{1e300, -1e300, last, 1}}; });
+    }
+    CHECK(std::isfinite(pixel.mean(8)[0]));
+    CHECK(pixel.half_width(8, linear) >= 0);
+    CHECK(pixel.half_width(8, linear) <= 1);
+  }
 }
 
 TEST_CASE("at the stopping point the truth lies within the half-width in 95 of 100 pixels with an edge") {
@@ -144,5 +159,29 @@ TEST_CASE("at the stopping point the truth lies within the half-width in 95 of 1
       if (std::abs(pixel.mean(count)[0] - truth) <= pixel.half_width(count, linear) + 0.0002) ++within;
     }
     CHECK(within >= 0.95 * pixels);
+  }
+}
+
+TEST_CASE("what steps show may be told together") {
+  const double none = std::numeric_limits<double>::quiet_NaN();
+  const auto sample_at = [&](std::int64_t i) {
+    const double value = i % 5 == 3 ? none : std::sin(static_cast<double>(7 * i));
+    return OneSample{Lanes{value, -value, 0.1 * value, 1}, static_cast<std::uint64_t>(i > 11)};
+  };
+  for (const std::int64_t end : {8, 16, 32, 64}) {
+    PixelSamples apart;
+    PixelSamples together;
+    SeenSamples seen(sample_at(0).identity);
+    for (std::int64_t count = 0; count < end; count += samples_of_next_step(count)) {
+      add_step(apart, count, sample_at);
+      StepSum step;
+      for (std::int64_t i = count; i < count + samples_of_next_step(count); ++i) {
+        step.add(sample_at(i).values, 0);
+        seen.add(sample_at(i).values, sample_at(i).identity);
+      }
+      together.add_step(count, step);
+    }
+    together.add_seen(seen, true);
+    CHECK(apart.stored() == together.stored());
   }
 }

@@ -88,21 +88,19 @@ TEST_CASE("points lie in the unit cube, and other pixels and seeds have other on
   }
 }
 
-TEST_CASE("points come one after the other, wherever they begin and end") {
+TEST_CASE("a block of points has those that are found one by one") {
   const PixelSequence sequence(1, 2, 3);
+  PixelSequence::Block block;
   for (const bool with_lens : {false, true}) {
-    for (const std::uint32_t begin : {0u, 1u, 5u, 8u, 16u, 250u, 0xfffffff0u}) {
-      for (const std::uint32_t count : {1u, 7u, 8u, 9u, 15u}) {
-        std::uint32_t next = begin;
-        for_each_point(sequence, begin, begin + count, with_lens, [&](const SequencePoint& point) {
-          const SequencePoint expected = with_lens ? sequence.point(next) : sequence.pixel_point(next);
-          CHECK(point.pixel_u == expected.pixel_u);
-          CHECK(point.pixel_v == expected.pixel_v);
-          CHECK((!with_lens || point.lens_u == expected.lens_u));
-          CHECK((!with_lens || point.lens_v == expected.lens_v));
-          ++next;
-        });
-        CHECK(next == begin + count);
+    for (const std::uint32_t begin : {0u, 8u, 16u, 248u, 0xfffffff0u}) {
+      sequence.block(begin, with_lens, block);
+      for (std::uint32_t i = 0; i < sequence_detail::points_at_once; ++i) {
+        const SequencePoint expected =
+            with_lens ? sequence.point(begin + i) : sequence.pixel_point(begin + i);
+        CHECK(block[i].pixel_u == expected.pixel_u);
+        CHECK(block[i].pixel_v == expected.pixel_v);
+        CHECK((!with_lens || block[i].lens_u == expected.lens_u));
+        CHECK((!with_lens || block[i].lens_v == expected.lens_v));
       }
     }
   }

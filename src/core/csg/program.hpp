@@ -40,6 +40,7 @@ struct Leaf {
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
   std::uint32_t face_count = 0;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
+  bool of_solid = true;       ///< whether its object is a solid, not a mere surface
 };
 
 struct CsgNode {

@@ -65,7 +65,10 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
     samples[i] = {};
     round_->samples[i] = &samples[i];
     round_->works[i] = &work_.samples[i];
-    start_path(i, rays[i]);
+    round_->works[i]->rays = 1;
+    Frame::eye_ray(rays[i], round_->rays[i]);
+    round_->paths[i] = {};
+    if (has_transparency_) start_media(i);
   }
   work_.stats.camera_rays += rays.size();
   round_->count = rays.size();
@@ -76,13 +79,9 @@ void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
   }
 }
 
-void Tracer::start_path(std::size_t ray, const CameraRay& camera_ray) {
+void Tracer::start_media(std::size_t ray) {
   SampleWork& work = *round_->works[ray];
   PathState& path = round_->paths[ray];
-  work.rays = 1;
-  Frame::eye_ray(camera_ray, round_->rays[ray]);
-  path = {};
-  if (!has_transparency_) return;
   work.media.release(camera_media_mark_);
   path.media = camera_media_;
   if (!frame_.one_viewpoint()) {

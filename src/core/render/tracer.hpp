@@ -54,7 +54,8 @@ class Tracer {
     std::array<Sample*, packet_size> samples;
   };
 
-  void start_path(std::size_t ray, const CameraRay& camera_ray);
+  /// What a camera's ray starts in.
+  void start_media(std::size_t ray);
   /// Follows the rays of this round, and makes the next.
   void follow();
   /// Whether there is a surface, whose light is still to come; else the ray is done.

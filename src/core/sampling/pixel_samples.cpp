@@ -19,12 +19,6 @@ constexpr double overlooked_samples = 2;
 /// What is taken for the contrast, on a display, of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
 
-/// As floats, of which none is infinite.
-Channels rounded(const Lanes& values) {
-  const Lanes largest = lanes_of(std::numeric_limits<float>::max());
-  return to_floats(min(max(values, -largest), largest));
-}
-
 }  // namespace
 
 double DisplayScale::shown(double value) const {
@@ -40,36 +34,13 @@ double DisplayScale::half_width(double value, double half_width, bool is_alpha) 
   return std::max(shown(high) - shown(middle), shown(middle) - shown(low));
 }
 
-int PixelSamples::block_exponent(std::int64_t count) {
-  constexpr int most_of_single_samples = std::countr_zero(block_count);
-  const auto exponent = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count - 1)));
-  return std::max(exponent - most_of_single_samples, 0);
-}
-
-void PixelSamples::merge_blocks() {
-  for (std::size_t i = 0; i < block_count / 2; ++i) blocks_[i] = blocks_[2 * i] + blocks_[2 * i + 1];
-  std::fill(blocks_.begin() + block_count / 2, blocks_.end(), Channels{});
-}
-
-void PixelSamples::add_step(std::int64_t count, const SampleSum& step) {
-  // No step reaches beyond a power of two.
-  const auto before = static_cast<std::uint64_t>(count);
-  if (before >= block_count && std::has_single_bit(before)) merge_blocks();
-  const int exponent = block_exponent(count + step.count);
-  Channels& block = blocks_[static_cast<std::size_t>(count >> exponent)];
-  block = rounded(to_doubles(block) + step.sum);
-  const Channels low = rounded(step.low);
-  const Channels high = rounded(step.high);
-  const auto identity = static_cast<std::uint32_t>(step.identity ^ step.identity >> 32);
-  if (count == 0) {
-    low_ = low;
-    high_ = high;
-    identity_ = identity;
-  }
-  low_ = min(low_, low);
-  high_ = max(high_, high);
-  mixed_ = mixed_ || step.mixed || identity != identity_;
-  dropped_ = static_cast<float>(double{dropped_} + step.dropped);
+void PixelSamples::add_seen(const SeenSamples& seen, bool are_first) {
+  const Channels low = rounded_channels(seen.low_);
+  const Channels high = rounded_channels(seen.high_);
+  low_ = are_first ? low : min(low_, low);
+  high_ = are_first ? high : max(high_, high);
+  if (are_first) identity_ = seen.identity_;
+  mixed_ = mixed_ || seen.differing_ != 0 || seen.identity_ != identity_;
 }
 
 Lanes PixelSamples::mean(std::int64_t count) const {

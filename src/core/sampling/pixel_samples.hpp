@@ -9,9 +9,12 @@
 // measured.
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <bit>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "core/math/lanes.hpp"
 
@@ -21,28 +24,48 @@ namespace crt::core {
 inline constexpr int pixel_channels = lane_count;
 using Channels = FloatLanes;
 
-/// Some samples together.
-struct SampleSum {
+/// As floats, of which none is infinite.
+inline Channels rounded_channels(const Lanes& values) {
+  const Lanes largest = lanes_of(std::numeric_limits<float>::max());
+  return to_floats(min(max(values, -largest), largest));
+}
+
+/// The samples of one step (see schedule.hpp).
+struct StepSum {
   Lanes sum{};
-  Lanes low{};   ///< of each channel the least
-  Lanes high{};  ///< and the greatest
   double dropped = 0;
-  std::uint64_t identity = 0;  ///< of the first
-  bool mixed = false;          ///< not all have the same
   std::int64_t count = 0;
 
-  void add(const Lanes& values, std::uint64_t sample_identity, double lost) {
-    if (count == 0) {
-      *this = {values, values, values, lost, sample_identity, false, 1};
-      return;
-    }
-    ++count;
+  void add(const Lanes& values, double lost) {
     sum += values;
-    low = min(low, values);
-    high = max(high, values);
-    mixed |= sample_identity != identity;
     dropped += lost;
+    ++count;
   }
+};
+
+/// What some samples show, be they of several steps.
+class SeenSamples {
+ public:
+  SeenSamples() = default;
+  explicit SeenSamples(std::uint64_t first_identity) : identity_(folded(first_identity)) {}
+
+  void add(const Lanes& values, std::uint64_t identity) {
+    low_ = min(values, low_);  // what is no number is left out
+    high_ = max(high_, values);
+    differing_ |= folded(identity) ^ identity_;
+  }
+
+ private:
+  friend class PixelSamples;
+  static std::uint32_t folded(std::uint64_t identity) {
+    return static_cast<std::uint32_t>(identity ^ identity >> 32);
+  }
+
+  /// Of each channel the least and the greatest.
+  Lanes low_ = lanes_of(std::numeric_limits<double>::infinity());
+  Lanes high_ = -low_;
+  std::uint32_t identity_ = 0;   ///< of the first
+  std::uint32_t differing_ = 0;  ///< bits in which others differ from it
 };
 
 /// What a viewer sees of a channel.
@@ -61,8 +84,10 @@ class DisplayScale {
 
 class PixelSamples {
  public:
-  /// Adds the samples of one step (see schedule.hpp) to the `count` that are here.
-  void add_step(std::int64_t count, const SampleSum& step);
+  /// Adds the samples of one step to the `count` that are here.
+  void add_step(std::int64_t count, const StepSum& step);
+  /// Adds what the samples of some steps show, the very first ones or further ones.
+  void add_seen(const SeenSamples& seen, bool are_first);
 
   /// The mean of `count` samples.
   Lanes mean(std::int64_t count) const;
@@ -120,5 +145,26 @@ class PixelSamples {
   bool has_notes_ = false;
   bool expects_small_things_ = false;
 };
+
+inline int PixelSamples::block_exponent(std::int64_t count) {
+  constexpr int most_of_single_samples = std::countr_zero(block_count);
+  const auto exponent = static_cast<int>(std::bit_width(static_cast<std::uint64_t>(count - 1)));
+  return std::max(exponent - most_of_single_samples, 0);
+}
+
+inline void PixelSamples::merge_blocks() {
+  for (std::size_t i = 0; i < block_count / 2; ++i) blocks_[i] = blocks_[2 * i] + blocks_[2 * i + 1];
+  std::fill(blocks_.begin() + block_count / 2, blocks_.end(), Channels{});
+}
+
+inline void PixelSamples::add_step(std::int64_t count, const StepSum& step) {
+  // No step reaches beyond a power of two.
+  const auto before = static_cast<std::uint64_t>(count);
+  if (before >= block_count && std::has_single_bit(before)) merge_blocks();
+  const int exponent = block_exponent(count + step.count);
+  Channels& block = blocks_[static_cast<std::size_t>(count >> exponent)];
+  block = rounded_channels(to_doubles(block) + step.sum);
+  dropped_ = static_cast<float>(double{dropped_} + step.dropped);
+}
 
 }  // namespace crt::core

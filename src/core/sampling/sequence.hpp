@@ -214,23 +214,4 @@ class PixelSequence {
   PhiloxCounter seeds_;
 };
 
-/// Calls use(point) for the points from one index to before another, one after the other; where it can be
-/// they are found by blocks.
-template <class Use>
-void for_each_point(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t end, bool with_lens,
-                    const Use& use) {
-  using sequence_detail::points_at_once;
-  PixelSequence::Block block;
-  for (std::uint32_t next = begin; next < end;) {
-    if (next % points_at_once != 0 || end - next < points_at_once) {
-      use(with_lens ? sequence.point(next) : sequence.pixel_point(next));
-      ++next;
-      continue;
-    }
-    sequence.block(next, with_lens, block);
-    for (std::size_t i = 0; i < points_at_once; ++i) use(block[i]);
-    next += points_at_once;
-  }
-}
-
 }  // namespace crt::core

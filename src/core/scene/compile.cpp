@@ -200,6 +200,8 @@ void Compiler::finish_objects() {
   for (SceneObject& object : flat_.objects) {
     object.bounds =
         object.is_csg() ? result_.programs[object.program].bounds : result_.leaves[object.first_leaf].bounds;
+    // A surface that is no solid is an object by itself.
+    if (!object.solid) result_.leaves[object.first_leaf].of_solid = false;
     if (!object.bounds.empty()) result_.objects.push_back(object);
   }
 }

@@ -188,10 +188,6 @@ void PreparedData::object_points_with_uv(std::span<const WorldRay, lane_count> r
                [&](std::size_t lane) { set_lane(points, lane, object_point(rays[lane], hits[lane], true)); });
 }
 
-bool PreparedData::is_solid(const RayHit& hit) const {
-  return accelerator_->object(hit.object).solid;
-}
-
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
   StartPoint start = start_face(hit, side);
   double farthest = 0;

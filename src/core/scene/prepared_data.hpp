@@ -173,7 +173,7 @@ class PreparedData {
   std::uint32_t entity_id(const RayHit& hit) const { return leaves_[hit.leaf].entity_id; }
 
   /// Whether a hit is on the boundary of a volume, not on a mere surface.
-  bool is_solid(const RayHit& hit) const;
+  bool is_solid(const RayHit& hit) const { return leaves_[hit.leaf].of_solid; }
 
   /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
   /// have unit length.
