@@ -82,12 +82,23 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
 
 void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& work) {
   Tracer tracer(frame, work, progress_);
+  if (!is_any(options_.aovs)) {
+    trace_tile(frame, tile, tracer, {}, work);
+    return;
+  }
+  AovTile aovs(options_.aovs, tile);
+  trace_tile(frame, tile, tracer, aovs.first_hits(), work);
+  aovs.set_samples(static_cast<std::uint32_t>(samples_of_grid(settings_, frame.features().lens)));
+  aovs.look(frame.camera(), tracer);
+  canvas_.put_aovs(aovs);
+}
+
+void Rendering::trace_tile(const Frame& frame, const Region& tile, Tracer& tracer,
+                           std::span<FirstHit> first_hits, Workspace& work) {
   constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
   std::array<PixelMean, most_pixels> storage;
   const std::span<PixelMean> means = std::span(storage).first(pixel_count(tile));
-  std::optional<AovTile> aovs;
-  if (is_any(options_.aovs)) aovs.emplace(options_.aovs, tile);
-  trace_pixels(frame, tile, tracer, means, aovs ? aovs->first_hits() : std::span<FirstHit>(), work.stats);
+  trace_pixels(frame, tile, tracer, means, first_hits, work.stats);
   std::array<float, pixel_channels * most_pixels> pixels;
   float* next = pixels.data();
   for (const PixelMean& mean : means) {
@@ -95,11 +106,6 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
     std::memcpy(next, &channels, sizeof channels);
     next += pixel_channels;
     if (mean.dropped != 0) work.cutoff.add(mean.dropped);
-  }
-  if (aovs) {
-    aovs->set_samples(static_cast<std::uint32_t>(samples_of_grid(settings_, frame.features().lens)));
-    aovs->look(frame.camera(), tracer);
-    canvas_.put_aovs(*aovs);
   }
   canvas_.put(tile, std::span(pixels.data(), next));
 }

@@ -47,6 +47,9 @@ class Rendering {
   void run(std::size_t count, WorkspacePool& pool,
            const std::function<void(std::size_t, Workspace&, Progress&)>& task);
   void render_tile(const Frame& frame, const Region& tile, Workspace& work);
+  /// Its colours; what its pixels meet first goes into `first_hits`, if that has room for them.
+  void trace_tile(const Frame& frame, const Region& tile, Tracer& tracer, std::span<FirstHit> first_hits,
+                  Workspace& work);
   void tell(const RenderStats& stats) const;
   void log(LogLevel level, const std::string& line) const;
 

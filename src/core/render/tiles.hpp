@@ -22,7 +22,7 @@ class Tiles {
  public:
   /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
   /// to the end.
-  static constexpr int side = 8;
+  static constexpr int side = 16;
 
   explicit Tiles(const Region& region)
       : region_(region),
