@@ -29,15 +29,17 @@ LaneMask is_weaker(const VectorLanes& weight, double least) {
 void Tracer::finish(std::size_t group, RayMask on_surface) {
   const SurfaceGroup& surfaces = surfaces_[group];
   const std::size_t first = group * lane_count;
-  for_each_ray(on_surface & ~mask_of(is_black(surfaces.light)), [&](std::size_t lane) {
-    const std::size_t ray = first + lane;
-    round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
-  });
+  const RayMask black = mask_of(is_black(surfaces.light));
   RayMask splitting = 0;
   for_each_ray(on_surface, [&](std::size_t lane) {
+    const std::size_t ray = first + lane;
+    if ((black >> lane & 1u) == 0) {
+      round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
+    }
     splitting |= static_cast<RayMask>(!surfaces.hits[lane].material->ends_paths) << lane;
   });
   const RayMask gone_on = splitting != 0 ? send_on(group, splitting) : 0;
+  if (waiting_ == 0) return;
   const RayMask in_group = RayPacket::lanes(RayPacket::all(round_->count), group);
   for_each_ray(in_group & ~gone_on, [&](std::size_t lane) {
     if (!round_->works[first + lane]->pending.empty()) go_back(first + lane);
@@ -152,6 +154,7 @@ Tracer::Departure Tracer::depart(std::size_t ray, RayKind kind, bool waits) {
   if (waits) {
     PathRay& pending = round_->works[ray]->pending.push();
     departure = {&pending.ray, &pending.path};
+    ++waiting_;
   } else {
     departure = join_next_round(ray, kind);
   }
@@ -242,6 +245,7 @@ void Tracer::go_back(std::size_t ray) {
     for (const PathRay& dropped : work.pending.all()) {
       round_->samples[ray]->dropped += largest_component(dropped.path.weight);
     }
+    waiting_ -= work.pending.all().size();
     work.pending.clear();
     return;
   }
@@ -251,6 +255,7 @@ void Tracer::go_back(std::size_t ray) {
   *departure.path = last.path;
   work.media.release(last.path.media_mark);
   work.pending.pop();
+  --waiting_;
 }
 
 }  // namespace crt::core

@@ -154,6 +154,7 @@ class Tracer {
   std::uint32_t camera_media_mark_ = 0;
   bool has_transparency_;
   unsigned ticks_ = 0;
+  std::size_t waiting_ = 0;  ///< rays on the samples' stacks
   bool identifies_ = false;
   std::array<Round, 2> rounds_;
   Round* round_ = rounds_.data();           ///< this one
