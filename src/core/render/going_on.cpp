@@ -29,16 +29,21 @@ LaneMask is_weaker(const VectorLanes& weight, double least) {
 void Tracer::finish(std::size_t group, RayMask on_surface) {
   const SurfaceGroup& surfaces = surfaces_[group];
   const std::size_t first = group * lane_count;
+  const RayMask black = mask_of(is_black(surfaces.light));
   RayMask splitting = 0;
   for_each_ray(on_surface, [&](std::size_t lane) {
     const std::size_t ray = first + lane;
-    round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
+    if ((black >> lane & 1u) == 0) {
+      round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
+    }
     splitting |= static_cast<RayMask>(!surfaces.hits[lane].material->ends_paths) << lane;
   });
   const RayMask gone_on = splitting != 0 ? send_on(group, splitting) : 0;
-  for (std::size_t lane = 0; lane < lane_count && first + lane < round_->count; ++lane) {
-    if ((gone_on >> lane & 1u) == 0 && !round_->works[first + lane]->pending.empty()) go_back(first + lane);
-  }
+  if (waiting_ == 0) return;
+  const RayMask in_group = RayPacket::lanes(RayPacket::all(round_->count), group);
+  for_each_ray(in_group & ~gone_on, [&](std::size_t lane) {
+    if (!round_->works[first + lane]->pending.empty()) go_back(first + lane);
+  });
 }
 
 RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
@@ -68,10 +73,10 @@ RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
       departure.path->weight = parts.refracted_weight.lane(lane);
       departure.path->media = parts.media_behind[lane];
       departure.path->media_mark = work.media.mark();
-      if (data_.is_solid(hits_[ray])) ++work_.stats.media_changes;
     }
     gone_on |= static_cast<RayMask>(!waits) << lane;
   });
+  work_.stats.media_changes += static_cast<unsigned>(std::popcount(parts.refracted & parts.into_volumes));
   return gone_on;
 }
 
@@ -80,12 +85,15 @@ void Tracer::split(std::size_t group, RayMask lanes, Split& split) {
   const VectorLanes& normal = surfaces.phong.normal;
   Lanes mirrored_share{};
   RayMask transparent = 0;
+  RayMask deep = 0;
   VectorLanes weight;
   for_each_ray(lanes, [&](std::size_t lane) {
     const SurfaceHit& hit = surfaces.hits[lane];
     mirrored_share[static_cast<int>(lane)] = hit.material->description->reflectivity;
     transparent |= static_cast<RayMask>(hit.transparency > 0) << lane;
-    weight.set(lane, round_->paths[group * lane_count + lane].weight);
+    const PathState& path = round_->paths[group * lane_count + lane];
+    deep |= static_cast<RayMask>(path.bounces >= frame_.settings().recursion_depth) << lane;
+    weight.set(lane, path.weight);
     split.media_marks[lane] = round_->works[group * lane_count + lane]->media.mark();
   });
 
@@ -99,54 +107,62 @@ void Tracer::split(std::size_t group, RayMask lanes, Split& split) {
   }
   split.mirrored_weight = mirrored_share * weight;
   split.mirrored_direction = kept_on_side(mirrored(surfaces.phong.view, normal), surfaces.face_normal);
-  split.mirrored = worth_it(group, lanes & mask_of(mirrored_share > 0.0), split.mirrored_weight);
-  split.refracted =
-      worth_it(group, transparent & ~mask_of(is_black(split.refracted_weight)), split.refracted_weight);
+  split.mirrored = worth_it(group, lanes & mask_of(mirrored_share > 0.0), deep, split.mirrored_weight);
+  transparent &= ~mask_of(is_black(split.refracted_weight));
+  split.refracted = worth_it(group, transparent, deep, split.refracted_weight);
 }
 
 void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split) {
+  const SurfaceGroup& surfaces = surfaces_[group];
+  behind.color = surfaces.phong.color;
   for_each_ray(lanes, [&](std::size_t lane) {
     const std::size_t ray = group * lane_count + lane;
     const auto i = static_cast<int>(lane);
+    const bool solid = data_.is_solid(hits_[ray]);
+    Passage passage{.transparency = surfaces.hits[lane].transparency, .media = round_->paths[ray].media};
     const MediaLists& media = round_->works[ray]->media;
-    Passage passage;
-    pass(ray, passage);
+    if (hits_[ray].has_company) {
+      passage.color = surface(ray).color();
+      pass_company(ray, passage);
+      behind.color.set(lane, passage.color);
+    } else if (solid) {
+      passage.media = media_behind(ray);
+    }
     behind.transparency[i] = passage.transparency;
-    behind.color.set(lane, passage.color);
     behind.index_before[i] = refractive_index(media, round_->paths[ray].media);
     behind.index_behind[i] = refractive_index(media, passage.media);
     split.media_behind[lane] = passage.media;
+    split.into_volumes |= static_cast<RayMask>(solid) << lane;
   });
 }
 
-RayMask Tracer::worth_it(std::size_t group, RayMask lanes, const VectorLanes& weights) {
+RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights) {
   const RayMask weak = lanes & mask_of(is_weaker(weights, frame_.settings().min_weight));
-  RayMask deep = 0;
-  for_each_ray(lanes & ~weak, [&](std::size_t lane) {
-    const PathState& path = round_->paths[group * lane_count + lane];
-    deep |= static_cast<RayMask>(path.bounces >= frame_.settings().recursion_depth) << lane;
-  });
+  deep &= lanes & ~weak;
+  const RayMask dropped = weak | deep;
+  if (dropped == 0) return lanes;
   work_.stats.rays_below_min_weight += static_cast<unsigned>(std::popcount(weak));
   work_.stats.rays_beyond_depth += static_cast<unsigned>(std::popcount(deep));
-  for_each_ray(weak | deep, [&](std::size_t lane) {
+  for_each_ray(dropped, [&](std::size_t lane) {
     round_->samples[group * lane_count + lane]->dropped += largest_component(weights.lane(lane));
   });
-  return lanes & ~(weak | deep);
+  return lanes & ~dropped;
 }
 
 Tracer::Departure Tracer::depart(std::size_t ray, RayKind kind, bool waits) {
   Departure departure{};
   if (waits) {
-    PathRay& pending = round_->works[ray]->pending.emplace_back();
+    PathRay& pending = round_->works[ray]->pending.push();
     departure = {&pending.ray, &pending.path};
+    ++waiting_;
   } else {
     departure = join_next_round(ray, kind);
   }
-  const PathState& path = round_->paths[ray];
-  departure.ray->origin = surface(ray).position();
+  const SurfaceLane from = surface(ray);
+  departure.ray->origin = from.position();
   departure.path->kind = kind;
-  departure.path->bounces = path.bounces + 1;
-  departure.path->path_length = path.path_length + hits_[ray].t;
+  departure.path->bounces = round_->paths[ray].bounces + 1;
+  departure.path->path_length = from.group.path_length[static_cast<int>(from.lane)];
   return departure;
 }
 
@@ -161,34 +177,26 @@ Tracer::Departure Tracer::join_next_round(std::size_t ray, RayKind kind) {
   return {&next.rays[place], &next.paths[place]};
 }
 
-void Tracer::pass(std::size_t ray, Passage& passage) {
+WorldRay Tracer::ray_behind(std::size_t ray) {
   const SurfaceLane lit = surface(ray);
+  return {
+      .origin = lit.position(), .direction = round_->rays[ray].direction, .start = lit.hit().start_behind()};
+}
+
+MediaLists::List Tracer::media_behind(std::size_t ray) {
   const RayHit& hit = hits_[ray];
   const MediaLists::List before = round_->paths[ray].media;
   MediaLists& media = round_->works[ray]->media;
-  passage.transparency = lit.hit().transparency;
-  passage.color = lit.color();
-  passage.media = before;
-  const auto ray_behind = [&] {
-    return WorldRay{.origin = lit.position(),
-                    .direction = round_->rays[ray].direction,
-                    .start = lit.hit().start_behind()};
-  };
-  if (hit.has_company) {
-    pass_company(ray_behind(), ray, passage);
-  } else if (data_.is_solid(hit)) {
-    const auto exit_of = [&](std::uint32_t object) {
-      return data_.stay(ray_behind(), object, work_.rays).exit;
-    };
-    const Medium medium{hit.object, data_.hit_material(hit)};
-    passage.media =
-        hit.entering ? entered_in_order(media, before, medium, exit_of) : media.left(before, medium.object);
-  }
+  if (!hit.entering) return media.left(before, hit.object);
+  return entered_in_order(media, before, {hit.object, data_.hit_material(hit)}, [&](std::uint32_t object) {
+    return data_.stay(ray_behind(ray), object, work_.rays).exit;
+  });
 }
 
 // A ray that starts at the hit finds some crossings next to it behind itself, whatever rounding makes of
 // their order: which of them it has passed is told by what it starts inside of.
-void Tracer::pass_company(const WorldRay& behind, std::size_t ray, Passage& passage) {
+void Tracer::pass_company(std::size_t ray, Passage& passage) {
+  const WorldRay behind = ray_behind(ray);
   const RayHit& hit = hits_[ray];
   const WorldRay& before = round_->rays[ray];
   MediaLists& media = round_->works[ray]->media;
@@ -232,21 +240,22 @@ double Tracer::refractive_index(const MediaLists& lists, MediaLists::List media)
 
 void Tracer::go_back(std::size_t ray) {
   SampleWork& work = *round_->works[ray];
-  std::vector<PathRay>& pending = work.pending;
   if (work.rays == most_rays_per_sample) {
     ++work_.stats.samples_over_ray_bound;
-    for (const PathRay& dropped : pending) {
+    for (const PathRay& dropped : work.pending.all()) {
       round_->samples[ray]->dropped += largest_component(dropped.path.weight);
     }
-    pending.clear();
+    waiting_ -= work.pending.all().size();
+    work.pending.clear();
     return;
   }
-  const PathRay& last = pending.back();
+  const PathRay& last = work.pending.top();
   const Departure departure = join_next_round(ray, last.path.kind);
   *departure.ray = last.ray;
   *departure.path = last.path;
   work.media.release(last.path.media_mark);
-  pending.pop_back();
+  work.pending.pop();
+  --waiting_;
 }
 
 }  // namespace crt::core

@@ -24,6 +24,7 @@ class MediaLists {
   /// `is_inside_of(object)` is false. A solid is never in a list twice.
   template <class IsInsideOf>
   List entered(List list, const Medium& medium, const IsInsideOf& is_inside_of) {
+    if (list == empty) return with(list, medium);
     List outer = left(list, medium.object);
     inner_.clear();
     for (; outer != empty && !is_inside_of(nodes_[outer].medium.object); outer = nodes_[outer].around) {
@@ -37,6 +38,7 @@ class MediaLists {
 
   /// `list` without a solid; the same list if it is not in there.
   List left(List list, std::uint32_t object) {
+    if (list != empty && innermost(list).object == object) return around(list);  // as most often
     List found = list;
     inner_.clear();
     while (found != empty && nodes_[found].medium.object != object) {

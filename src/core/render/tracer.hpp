@@ -88,6 +88,7 @@ class Tracer {
     VectorLanes mirrored_weight;
     VectorLanes refracted_direction;
     VectorLanes refracted_weight;
+    RayMask into_volumes = 0;  ///< rays that would go through solids' surfaces
     std::array<MediaLists::List, lane_count> media_behind;
     std::array<std::uint32_t, lane_count> media_marks;  ///< before lists were made for what is behind
   };
@@ -106,8 +107,8 @@ class Tracer {
     Lanes index_behind = lanes_of(1);
   };
   void look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split);
-  /// Which rays of such weights are to go on from where a group of rays ends.
-  RayMask worth_it(std::size_t group, RayMask lanes, const VectorLanes& weights);
+  /// Which rays of such weights are to go on from where a group of rays ends, of which some are too deep.
+  RayMask worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights);
   /// Where a ray is written that goes on.
   struct Departure {
     WorldRay* ray;
@@ -131,9 +132,11 @@ class Tracer {
     Rgb color{1, 1, 1};
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
-  void pass(std::size_t ray, Passage& passage);
-  /// Adds what other objects at the place do.
-  void pass_company(const WorldRay& behind, std::size_t ray, Passage& passage);
+  /// At a place of several objects.
+  void pass_company(std::size_t ray, Passage& passage);
+  /// The media behind the surface of a solid that is alone at its place.
+  MediaLists::List media_behind(std::size_t ray);
+  WorldRay ray_behind(std::size_t ray);
   double refractive_index(const MediaLists& lists, MediaLists::List media) const;
 
   /// Counts rays; lets the progress speak now and then.
@@ -152,6 +155,7 @@ class Tracer {
   std::uint32_t camera_media_mark_ = 0;
   bool has_transparency_;
   unsigned ticks_ = 0;
+  std::size_t waiting_ = 0;  ///< rays on the samples' stacks
   bool identifies_ = false;
   std::array<Round, 2> rounds_;
   Round* round_ = rounds_.data();           ///< this one

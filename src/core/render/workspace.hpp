@@ -6,6 +6,7 @@
 #include <cmath>
 #include <memory>
 #include <mutex>
+#include <span>
 #include <vector>
 
 #include "core/render/media.hpp"
@@ -32,11 +33,30 @@ struct PathRay {
   PathState path;
 };
 
+/// A stack of rays that wait.
+class PathStack {
+ public:
+  bool empty() const { return count_ == 0; }
+  void clear() { count_ = 0; }
+  /// A place on top, where there may have been another ray.
+  PathRay& push() {
+    if (count_ == places_.size()) places_.emplace_back();
+    return places_[count_++];
+  }
+  const PathRay& top() const { return places_[count_ - 1]; }
+  void pop() { --count_; }
+  std::span<const PathRay> all() const { return std::span(places_).first(count_); }
+
+ private:
+  std::vector<PathRay> places_;  ///< made once
+  std::size_t count_ = 0;
+};
+
 /// One of the samples that are traced side by side.
 struct SampleWork {
   MediaLists media;
-  std::vector<PathRay> pending;  ///< a stack: what follows when that is done
-  int rays = 0;                  ///< followed so far
+  PathStack pending;  ///< what follows when that is done
+  int rays = 0;       ///< followed so far
 };
 
 /// The weight of rays that were not followed, of some pixels.

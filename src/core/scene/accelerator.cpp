@@ -122,6 +122,8 @@ SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, 
 }
 
 void Accelerator::expect_surface_points(std::span<const RayHit> hits) const {
+  constexpr std::size_t in_cache = 64;
+  if (compiled_.leaves.size() <= in_cache) return;
   for (const RayHit& hit : hits) {
     if (hit.found()) __builtin_prefetch(&compiled_.leaves[hit.leaf].complemented);
   }
@@ -174,9 +176,14 @@ class All final : public ObjectQuery<All> {
       : ObjectQuery(accelerator, world_ray, workspace),
         accelerator_(accelerator),
         is_opaque_(opaque),
+        left_object_(opaque == nullptr ? nothing : accelerator.left_for_good(world_ray.start)),
         out_(hits) {}
   static constexpr bool takes_one = false;
   bool stopped = false;
+
+  void test(std::uint32_t object) {
+    if (object != left_object_) ObjectQuery::test(object);
+  }
 
   bool take(const RayHit& hit) {
     if (!is_on_way(hit)) return false;
@@ -192,6 +199,7 @@ class All final : public ObjectQuery<All> {
  private:
   const Accelerator& accelerator_;
   const std::vector<bool>* is_opaque_;
+  std::uint32_t left_object_;
   std::vector<RayHit>& out_;
 };
 

@@ -36,8 +36,9 @@ class Accelerator {
   /// Which of the rays.
   RayMask any(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
-  /// The same of nearest() for rays that may go anywhere: together only where that pays.
+  /// The same for rays that may go anywhere: together only where that pays.
   void nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
+  RayMask any_each(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
   /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
   /// material `is_opaque` says so (if given).
@@ -81,6 +82,12 @@ class Accelerator {
   /// The boxes of those that have an end, as EmbreeTree::traverse() has it.
   template <class Visit>
   void visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const;
+  template <bool FromNear, class Visit>
+  void visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const;
+  /// Whether there are so few boxes that all of them are looked at.
+  bool has_box_row() const { return bounded_.list.size() <= BoxRow::most_boxes; }
+  /// Whether some rays are to be followed as a packet.
+  bool pay_together(std::span<const WorldRay> rays, RayMask some) const;
   template <class Kind>
   void traverse_filtered(Kind& query) const;
   /// Returns the rays that still go, of those which do.
@@ -117,18 +124,26 @@ class Accelerator {
   double margin_ = 0;
   std::vector<std::uint32_t> apart_;        ///< by object: see objects_apart()
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
-  BoxRow box_row_;                          ///< takes its place for single rays if there are few boxes
+  BoxRow box_row_;                          ///< takes its place if there are few boxes
   bool objects_share_surfaces_ = false;
 };
 
 template <class Visit>
 void Accelerator::visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const {
   if (!tree_) return;
-  if (bounded_.list.size() <= BoxRow::most_boxes && BoxRow::takes(ray)) {
+  if (has_box_row() && BoxRow::takes(ray)) {
     box_row_.traverse(ray, limit, visit);
   } else {
     tree_->traverse(ray.origin, ray.direction, ray.t_min, limit, visit);
   }
+}
+
+template <bool FromNear, class Visit>
+void Accelerator::visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const {
+  if (!tree_) return;
+  const RayMask in_row = has_box_row() ? BoxRow::takes(packet, rays) : 0;
+  if (in_row != 0) box_row_.traverse<FromNear>(packet, in_row, visit);
+  if (rays != in_row) tree_->traverse(packet, rays & ~in_row, visit);
 }
 
 }  // namespace crt::core

@@ -118,8 +118,9 @@ template <class QueryOf>
 RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
                                        const QueryOf& query_of) const {
   PacketTests tests(packet, going, work, query_of);
+  constexpr bool any_will_do = decltype(tests)::Kind::any_will_do;
   // Where exactly a plane is met is only asked if nothing is before it.
-  constexpr bool planes_last = !decltype(tests)::Kind::any_will_do;
+  constexpr bool planes_last = !any_will_do;
   for (const Outline& outline : unbounded_.list) {
     if (tests.going() == 0) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
@@ -128,8 +129,8 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
       tests.test(outline, unbounded_, tests.going());
     }
   }
-  if (tree_ && tests.going() != 0) {
-    tree_->traverse(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
+  if (tests.going() != 0) {
+    visit_boxes<!any_will_do>(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
       return tests.test(bounded_.list[box], bounded_, rays);
     });
   }
@@ -237,10 +238,15 @@ void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits
   expect_surface_points(hits.first(rays.size()));
 }
 
+bool Accelerator::pay_together(std::span<const WorldRay> rays, RayMask some) const {
+  // A row of boxes is looked at for any rays as for those that go the same way.
+  return has_box_row() ? std::popcount(some) >= fewest_together : go_together(rays, some);
+}
+
 void Accelerator::nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits,
                                RayWorkspace& work) const {
   const RayMask open = begin_nearest(rays, hits, work);
-  if (go_together(rays, open)) {
+  if (pay_together(rays, open)) {
     nearest_together(rays, open, hits, work);
   } else {
     for_each_ray(open, [&](std::size_t i) { hits[i] = nearest_elsewhere(rays[i], work); });
@@ -255,6 +261,13 @@ RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) con
   const RayMask all = RayPacket::all(rays.size());
   return all &
          ~traverse_filtered(packet, all, work, [&](std::size_t ray) { return Any(*this, rays[ray], work); });
+}
+
+RayMask Accelerator::any_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
+  if (pay_together(rays, RayPacket::all(rays.size()))) return any(rays, work);
+  RayMask found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(any(rays[i], work)) << i;
+  return found;
 }
 
 }  // namespace crt::core

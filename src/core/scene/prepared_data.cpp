@@ -125,10 +125,7 @@ void PreparedData::intersect_each(std::span<const WorldRay> rays, std::span<RayH
 }
 
 RayMask PreparedData::occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
-  if (go_together(rays, RayPacket::all(rays.size()))) return occluded(rays, work);
-  RayMask found = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(occluded(rays[i], work)) << i;
-  return found;
+  return accelerator_->any_each(rays, work);
 }
 
 bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,

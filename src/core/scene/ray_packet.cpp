@@ -78,8 +78,7 @@ RayPacket::RayPacket(std::span<const WorldRay> rays) {
 }
 
 bool go_together(std::span<const WorldRay> rays, RayMask some) {
-  constexpr int fewest = 3;
-  if (std::popcount(some) < fewest) return false;
+  if (std::popcount(some) < fewest_together) return false;
   constexpr double widest = 0.9;  // the cosine of the angle with the first ray
   const Vec3& first = rays[first_ray(some)].direction;
   const VectorLanes first_lanes = lanes_of(first);

@@ -71,6 +71,9 @@ inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, s
   return mask;
 }
 
+/// A packet of fewer rays does not pay.
+inline constexpr int fewest_together = 3;
+
 /// Whether some of up to packet_size rays go so nearly the same way that a packet of them pays.
 bool go_together(std::span<const WorldRay> rays, RayMask some);
 
