@@ -1,6 +1,6 @@
 // Where rays first cross the objects whose outline alone tells it: spheres, boxes, and planes across a
-// coordinate axis, in the standard tier and without a transform. The same as their shapes say, to the last
-// bit.
+// coordinate axis, in the standard tier and without a transform; and tori, transformed or not. The same as
+// their shapes say, to the last bit.
 #pragma once
 
 #include <array>
@@ -139,11 +139,20 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
   return first;
 }
 
-/// Of a sphere or plane that Outlines::leaf_told() knows of, and rays that do not start on its surface.
+/// Of asked lines.
+template <class Real>
+FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+                                            const typename FirstCrossing<Real>::Mask& asked);
+
+/// Of a sphere, plane or torus that Outlines::leaf_told() knows of, and rays that do not start on its
+/// surface; of others than those asked for nothing needs to be known.
 template <class Real>
 FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outlines,
-                                   const OutlineLine<Real>& line) {
+                                   const OutlineLine<Real>& line,
+                                   const typename FirstCrossing<Real>::Mask& asked) {
   if (outline.kind == Outline::Kind::sphere) return first_crossing_of_sphere(outline, line);
+  if (outline.kind == Outline::Kind::torus)
+    return first_crossing_of_torus(outlines.axis(outline), line, asked);
   return first_crossing_of_plane(outline, outlines.axis(outline), line);
 }
 

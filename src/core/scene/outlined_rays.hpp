@@ -73,7 +73,7 @@ class OutlinedRay {
   FirstCrossing<double> first_crossing(const Outline& outline, const Outlines& outlines) const {
     if (outline.kind == Outline::Kind::box) return first_crossing_of_box(outlines.box(outline));
     if (outline.surface == start_surface_) return {.unknown = true};
-    return core::first_crossing(outline, outlines, line_);
+    return core::first_crossing(outline, outlines, line_, true);
   }
 
  private:
@@ -150,10 +150,13 @@ class OutlinedPacket {
     return ~starting_on(outline.surface);
   }
 
+  /// Of rays that it is asked for, by lane.
   FirstCrossing<Lanes> first_crossing(const Outline& outline, const Outlines& outlines, std::size_t group,
-                                      const BoxStarts& starts) const {
+                                      RayMask asked, const BoxStarts& starts) const {
     const OutlineLine<Lanes>& lines = packet_.groups[group];
-    if (outline.kind != Outline::Kind::box) return core::first_crossing(outline, outlines, lines);
+    if (outline.kind != Outline::Kind::box) {
+      return core::first_crossing(outline, outlines, lines, lanes_with(asked));
+    }
     const OutlineBox& box = outlines.box(outline);
     return first_crossing_of_box(box, starts.meetings(box, lines, group), lines);
   }
