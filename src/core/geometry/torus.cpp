@@ -31,6 +31,11 @@ Vector TorusShape::in_frame(const Vector& v) const {
 }
 
 template <class Real>
+TorusLineOf<Real> TorusShape::in_frame(const NearLineOf<Real>& line, bool on_surface) const {
+  return {in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface};
+}
+
+template <class Real>
 TorusShape::Meeting<Real> TorusShape::meeting(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
                                               const Real& x, const Real& length) const {
   const double size = ring_ + tube_;
@@ -64,11 +69,19 @@ template <class Real, class Ray>
 TorusEntry<Real> TorusShape::first_entry(const Ray& ray,
                                          const typename TorusEntry<Real>::Mask& wanted) const {
   const auto line = NearLineOf<Real>::at_closest(ray, center_, unit_);
-  const TorusLineOf<Real> torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, false);
-  return first_entry<Real>(line, torus, wanted);
+  return first_entry<Real>(line, in_frame<Real>(line, false), wanted);
 }
 template TorusEntry<double> TorusShape::first_entry(const ObjectRay&, const bool&) const;
 template TorusEntry<Lanes> TorusShape::first_entry(const ObjectRayLanes&, const LaneMask&) const;
+
+template <class Real, class Ray>
+typename TorusEntry<Real>::Mask TorusShape::comes_back(const Ray& ray,
+                                                       const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto line = NearLineOf<Real>::at_origin(ray, center_, unit_);
+  return in_frame<Real>(line, true).comes_back(wanted);
+}
+template bool TorusShape::comes_back<double>(const ObjectRay&, const bool&) const;
+template LaneMask TorusShape::comes_back<Lanes>(const ObjectRayLanes&, const LaneMask&) const;
 
 bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const bool on_surface = ray.start.face == 0;

@@ -48,6 +48,10 @@ class TorusShape final : public Shape {
   /// wanted rays, which are each an ObjectRay or as many side by side.
   template <class Real, class Ray>
   TorusEntry<Real> first_entry(const Ray& ray, const typename TorusEntry<Real>::Mask& wanted) const;
+  /// Which of wanted rays, which start on the surface and outwards, may cross it again at t > 0.
+  template <class Real, class Ray>
+  typename TorusEntry<Real>::Mask comes_back(const Ray& ray,
+                                             const typename TorusEntry<Real>::Mask& wanted) const;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
   void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
@@ -61,6 +65,8 @@ class TorusShape final : public Shape {
   template <class Real>
   TorusEntry<Real> first_entry(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
                                const typename TorusEntry<Real>::Mask& wanted) const;
+  template <class Real>
+  TorusLineOf<Real> in_frame(const NearLineOf<Real>& line, bool on_surface) const;
   /// A vector in the torus's frame: z is along the axis.
   template <class Vector>
   Vector in_frame(const Vector& v) const;

@@ -284,6 +284,22 @@ auto TorusLineOf<Real>::first_entry(const Mask& wanted) const -> Entry {
            Level::chosen(first.found, first.level, second.level)}};
 }
 
+/// The last stretch ends behind the last point that is found to be inside; if that is not ahead of the start,
+/// at the start or before it.
+template <class Real>
+auto TorusLineOf<Real>::comes_back(const Mask& wanted) const -> Mask {
+  Range whole;
+  const Mask comes_near = range(wanted, whole);
+  if (!any(comes_near)) return comes_near;
+  const Range concave = concave_part(whole);
+  const Search last = find_dip(whole.high, concave.high, comes_near);
+  const Mask ahead = both(last.found, last.x > 0.0);
+  const Mask rest = without(comes_near, last.found);
+  if (!any(rest)) return ahead;
+  const Search first = find_dip(whole.low, concave.low, rest);
+  return either(ahead, both(first.found, first.x > 0.0));
+}
+
 template class TorusLineOf<double>;
 template class TorusLineOf<Lanes>;
 

@@ -53,6 +53,10 @@ class TorusLineOf {
   /// Where wanted lines first enter the torus, if they do not start on the surface: as stretches() has it.
   Entry first_entry(const Mask& wanted) const;
 
+  /// Which of wanted lines, which start on the surface and outwards, are inside somewhere at x > 0. Of others
+  /// it is certain that dips() has nothing there.
+  Mask comes_back(const Mask& wanted) const;
+
   Real half_slope(const Real& x) const { return level(x).half_slope; }           ///< G' / 2
   Real half_curvature(const Real& x) const { return half_curvature(level(x)); }  ///< G'' / 2
 

@@ -144,6 +144,11 @@ template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked);
 
+/// Of asked lines that start on the torus and outwards: those that do not meet it again are told.
+template <class Real>
+FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+                                              const typename FirstCrossing<Real>::Mask& asked);
+
 /// Of a sphere, plane or torus that Outlines::leaf_told() knows of, and rays that do not start on its
 /// surface; of others than those asked for nothing needs to be known.
 template <class Real>
