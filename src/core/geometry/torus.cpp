@@ -36,8 +36,10 @@ TorusLineOf<Real> TorusShape::in_frame(const NearLineOf<Real>& line, bool on_sur
 }
 
 template <class Real>
-TorusShape::Meeting<Real> TorusShape::meeting(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
-                                              const Real& x, const Real& length) const {
+[[gnu::always_inline]] inline TorusShape::Meeting<Real> TorusShape::meeting(const NearLineOf<Real>& line,
+                                                                            const TorusLineOf<Real>& torus,
+                                                                            const Real& x,
+                                                                            const Real& length) const {
   const double size = ring_ + tube_;
   const Vec3Of<Real> place = line.at(x);
   const Real reach = size + square_root(dot(place, place));

@@ -34,10 +34,15 @@ double TorusLine::inflection_error(const Range& concave) const {
 }
 
 /// In the concave part: a point outside, if there is one.
-TorusLine::Search TorusLine::find_rise(double low, double high) const {
-  if (level(low).value > value_error(low)) return {.x = low, .found = true, .certain = true};
-  if (level(high).value > value_error(high)) return {.x = high, .found = true, .certain = true};
-  if (!(low < high)) return {.certain = level(low).value < -value_error(low)};
+TorusLine::Search TorusLine::find_rise(const Range& concave, const Search& first,
+                                       const Search& second) const {
+  const auto& [low, high] = concave;
+  // Mostly that is where the dips were found.
+  const double at_low = (first.x == low ? first.level : level(low)).value;
+  const double at_high = (second.x == high ? second.level : level(high)).value;
+  if (at_low > value_error(low)) return {.x = low, .found = true, .certain = true};
+  if (at_high > value_error(high)) return {.x = high, .found = true, .certain = true};
+  if (!(low < high)) return {.certain = at_low < -value_error(low)};
   return find_sign(low, high, -1, true);
 }
 
@@ -64,7 +69,7 @@ TorusLine::Stretches TorusLine::stretches() {
                                       .leave = {last_inside.x, outside_after, last_inside.level}};
   };
   if (first.found && second.found) {
-    const Search rise = find_rise(concave.low, concave.high);
+    const Search rise = find_rise(concave, first, second);
     result.certain = result.certain && rise.certain;
     if (rise.found) {
       add(whole.low, first, first, rise.x);

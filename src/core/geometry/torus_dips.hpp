@@ -46,7 +46,7 @@ class TorusLine final : public TorusLineOf<double> {
   double level_at_start() const;  ///< what G is at x = 0, by rounding, if the point is on the surface
 
  private:
-  Search find_rise(double low, double high) const;
+  Search find_rise(const Range& concave, const Search& first, const Search& second) const;
   double place(const Bracket& bracket, double begin) const;
   double inflection_error(const Range& concave) const;
 };

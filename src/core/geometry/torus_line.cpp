@@ -24,7 +24,7 @@ Lanes cube_root(const Lanes& x, const LaneMask& wanted) {
 }  // namespace
 
 template <class Real>
-auto TorusLineOf<Real>::level(const Real& x) const -> Level {
+[[gnu::always_inline]] inline auto TorusLineOf<Real>::level(const Real& x) const -> Level {
   const Vec3Of<Real> p = point_ + x * direction_;
   const Real rho = square_root(p.x * p.x + p.y * p.y);
   const Real outward = rho - ring_;
@@ -132,13 +132,16 @@ auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mas
   result.x = inner;
   result.level = here;
   result.found = both(has_part, here.value < -error);
+  result.certain = either(result.certain, result.found);
+  Mask open = without(has_part, result.found);
+  if (!any(open)) return result;
   // If G rises from here on, it rises all the way out. Next to the axis the slope is not known.
   constexpr double next_to_axis = 0x1p-20;
   const Real rise = outer < inner ? -here.half_slope : here.half_slope;
   const Mask rises = both(rise >= 0.0, here.rho > next_to_axis);
   const Mask is_outside = both(rises, here.value >= margin(error, size_of(inner - outer)));
-  result.certain = either(result.certain, result.found, is_outside);
-  const Mask open = without(without(has_part, result.found), is_outside);
+  result.certain = either(result.certain, both(open, is_outside));
+  open = without(open, is_outside);
   if (!any(open)) return result;
   const Search within = find_sign(min(outer, inner), max(outer, inner), 1, open);
   return {.x = open ? within.x : result.x,
@@ -147,7 +150,6 @@ auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mas
           .level = Level::chosen(open, within.level, result.level)};
 }
 
-/// In the concave part: a point outside, if there is one.
 /// In a part where sign * G is convex, and not negative at its ends: a point where it is negative, if there
 /// is one. Newton's iteration for the minimum, kept between bounds; it stops when the tangents show that all
 /// is positive.
@@ -170,6 +172,9 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     const Mask is_found = both(going, height < -error);
     result.level = Level::chosen(is_found, here, result.level);
     result.found = either(result.found, is_found);
+    result.certain = either(result.certain, is_found);
+    going = without(going, is_found);
+    if (!any(going)) break;
 
     const Real slope = 2.0 * sign * here.half_slope;
     const Mask upwards = slope > 0.0;
@@ -177,8 +182,8 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     const Real farthest = upwards ? x - low : high - x;
     const Real open = margin(error, high - low);
     const Mask is_none = is_level ? height > open : height - size_of(slope) * farthest > open;
-    result.certain = either(result.certain, is_found, both(going, is_none));
-    going = without(going, either(is_found, is_none, is_level));
+    result.certain = either(result.certain, both(going, is_none));
+    going = without(going, either(is_none, is_level));
     if (!any(going)) break;
 
     low = upwards ? low : x;
@@ -257,14 +262,18 @@ Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
     const Real low = min(negative, positive);
     const Real high = max(negative, positive);
     const Mask is_last = is_last_step(x, here, change);
+    const Mask is_found = both(going, either(is_there, is_last));
+    const Real from = x;
+    x = is_found ? (is_there ? from : clamp(next, low, high)) : from;
+    going = without(going, is_found);
+    if (!any(going)) break;
+
     const Mask halves = both(both(low < next, next < high), size_of(change) <= step_before / 2.0);
     const Real onwards = halves ? next : low + (high - low) / 2.0;
-    const Mask is_closed = either(onwards == x, onwards == low, onwards == high);
-    const Real reached = is_there ? x : is_last ? clamp(next, low, high) : onwards;
     step_before = step;
-    step = size_of(onwards - x);
-    x = going ? reached : x;
-    going = without(going, either(is_there, is_last, is_closed));
+    step = size_of(onwards - from);
+    x = going ? onwards : x;
+    going = without(going, either(onwards == from, onwards == low, onwards == high));
   }
   return x;
 }
