@@ -139,7 +139,7 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
   return first;
 }
 
-/// Of asked lines.
+/// Of asked lines that do not start on the torus.
 template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked);
@@ -149,15 +149,11 @@ template <class Real>
 FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked);
 
-/// Of a sphere, plane or torus that Outlines::leaf_told() knows of, and rays that do not start on its
-/// surface; of others than those asked for nothing needs to be known.
+/// Of a sphere or plane that Outlines::leaf_told() knows of, and rays that do not start on its surface.
 template <class Real>
 FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outlines,
-                                   const OutlineLine<Real>& line,
-                                   const typename FirstCrossing<Real>::Mask& asked) {
+                                   const OutlineLine<Real>& line) {
   if (outline.kind == Outline::Kind::sphere) return first_crossing_of_sphere(outline, line);
-  if (outline.kind == Outline::Kind::torus)
-    return first_crossing_of_torus(outlines.axis(outline), line, asked);
   return first_crossing_of_plane(outline, outlines.axis(outline), line);
 }
 

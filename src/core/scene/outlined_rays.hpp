@@ -72,9 +72,9 @@ class OutlinedRay {
   /// Of one that leaf_told() knows of.
   FirstCrossing<double> first_crossing(const Outline& outline, const Outlines& outlines) const {
     if (outline.kind == Outline::Kind::box) return first_crossing_of_box(outlines.box(outline));
-    if (outline.surface != start_surface_) return core::first_crossing(outline, outlines, line_, true);
-    if (outline.kind != Outline::Kind::torus || start_side_ != Side::outside) return {.unknown = true};
-    return first_crossing_from_torus(outlines.axis(outline), line_, true);
+    if (outline.kind == Outline::Kind::torus) return first_crossing_at_torus(outline, outlines);
+    if (outline.surface == start_surface_) return {.unknown = true};
+    return core::first_crossing(outline, outlines, line_);
   }
 
  private:
@@ -92,6 +92,7 @@ class OutlinedRay {
   BoxStarts starts_on(const OutlineBox& box) const;
   Judgement judged_box(const OutlineBox& box, double limit) const;
   FirstCrossing<double> first_crossing_of_box(const OutlineBox& box) const;
+  FirstCrossing<double> first_crossing_at_torus(const Outline& torus, const Outlines& outlines) const;
 
   OutlineLine<double> line_;
   std::uint32_t start_surface_;
@@ -156,14 +157,8 @@ class OutlinedPacket {
   FirstCrossing<Lanes> first_crossing(const Outline& outline, const Outlines& outlines, std::size_t group,
                                       RayMask asked, const BoxStarts& starts) const {
     const OutlineLine<Lanes>& lines = packet_.groups[group];
-    if (outline.kind != Outline::Kind::box) {
-      const bool is_torus = outline.kind == Outline::Kind::torus;
-      const RayMask starting = is_torus && packet_.on_surface != 0
-                                   ? asked & RayPacket::lanes(starting_on(outline.surface), group)
-                                   : 0;
-      if (starting == 0) return core::first_crossing(outline, outlines, lines, lanes_with(asked));
-      return first_crossing_at_torus(outline, outlines, lines, asked, starting);
-    }
+    if (outline.kind == Outline::Kind::torus) return first_crossing_at_torus(outline, outlines, group, asked);
+    if (outline.kind != Outline::Kind::box) return core::first_crossing(outline, outlines, lines);
     const OutlineBox& box = outlines.box(outline);
     return first_crossing_of_box(box, starts.meetings(box, lines, group), lines);
   }
@@ -177,17 +172,8 @@ class OutlinedPacket {
     return in_groups(~RayMask{0}, [&](std::size_t group) { return packet_.groups[group].begin >= 0.0; });
   }
 
-  /// Of rays some of which start on that torus.
-  static FirstCrossing<Lanes> first_crossing_at_torus(const Outline& torus, const Outlines& outlines,
-                                                      const OutlineLine<Lanes>& lines, RayMask asked,
-                                                      RayMask starting) {
-    const LaneMask on_it = lanes_with(starting);
-    const RayMask elsewhere = asked & ~starting;
-    FirstCrossing<Lanes> first;
-    if (elsewhere != 0) first = core::first_crossing(torus, outlines, lines, lanes_with(elsewhere));
-    first.unknown |= first_crossing_from_torus(outlines.axis(torus), lines, on_it).unknown;
-    return first;
-  }
+  FirstCrossing<Lanes> first_crossing_at_torus(const Outline& torus, const Outlines& outlines,
+                                               std::size_t group, RayMask asked) const;
 
   /// Those of some rays for which a test of a group says yes.
   template <class Test>
