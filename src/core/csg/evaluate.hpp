@@ -145,6 +145,14 @@ inline double farthest_start(const WorldRay& ray) {
   return farthest_start(ray.t_min, ray.start.t_error);
 }
 
+/// ObjectRay::first_above of a ray whose farthest_start() that is: a crossing above that is not at the start.
+template <class Real>
+Real asked_above(const Real& farthest_start) {
+  // It is also more than its error above, to the last bit or so.
+  constexpr double more_than_rounding = 0x1p-50;
+  return farthest_start + more_than_rounding * size_of(farthest_start);
+}
+
 /// Whether a crossing near the start is of a surface through it.
 bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing);

@@ -73,13 +73,14 @@ void split(const DoubleDoubleLanes& lanes, Vec3& high, Vec3& low) {
 
 }  // namespace
 
+DoubleDoubleLanes Placement::turned_by_rows(const Vec3& v) const {
+  return columns_[0] * v.x + columns_[1] * v.y + columns_[2] * v.z;
+}
+
 void Placement::move_to_object(ObjectRay& ray) const {
   if (kind_ == Kind::affine) {
-    const auto turned = [&](const Vec3& v) {
-      return columns_[0] * v.x + columns_[1] * v.y + columns_[2] * v.z;
-    };
-    split(turned(ray.origin) + columns_[3], ray.origin, ray.origin_low);
-    split(turned(ray.direction), ray.direction, ray.direction_low);
+    split(turned_by_rows(ray.origin) + columns_[3], ray.origin, ray.origin_low);
+    split(turned_by_rows(ray.direction), ray.direction, ray.direction_low);
     return;
   }
   for (int axis = 0; axis < 3; ++axis) {
@@ -89,27 +90,56 @@ void Placement::move_to_object(ObjectRay& ray) const {
   }
 }
 
+namespace {
+
+/// The three components of a vector in double-double, each of component(axis).
+template <class Component>
+void set(VectorLanes& high, VectorLanes& low, const Component& component) {
+  const auto set_axis = [&](Lanes& hi, Lanes& lo, int axis) {
+    const DoubleDoubleLanes number = component(axis);
+    hi = number.hi;
+    lo = number.lo;
+  };
+  set_axis(high.x, low.x, 0);
+  set_axis(high.y, low.y, 1);
+  set_axis(high.z, low.z, 2);
+}
+
+/// Rays of a camera without a lens have one origin.
+bool is_one_point(const VectorLanes& v) {
+  return all(both(both(v.x == lanes_of(v.x[0]), v.y == lanes_of(v.y[0])), v.z == lanes_of(v.z[0])));
+}
+
+}  // namespace
+
 ObjectRayLanes Placement::to_object(const RayLanes& rays) const {
-  ObjectRayLanes result{rays.origin, {}, rays.direction, {}};
-  if (kind_ == Kind::identity) return result;
-  for (int axis = 0; axis < 3; ++axis) {
-    DoubleDoubleLanes origin;
-    if (kind_ == Kind::affine) {
-      const auto index = static_cast<std::size_t>(axis);
-      const PreciseVec3& row = to_object_.rows[index];
-      const auto turned = [&](const VectorLanes& v) {
-        return lanes_of(row[0]) * v.x + lanes_of(row[1]) * v.y + lanes_of(row[2]) * v.z;
-      };
-      origin = turned(rays.origin) + lanes_of(to_object_.translation[index]);
-      const DoubleDoubleLanes direction = turned(rays.direction);
-      result.direction[axis] = direction.hi;
-      result.direction_low[axis] = direction.lo;
-    } else {
-      origin = two_sum(result.origin[axis], lanes_of(-to_world_.translation[axis]));
-    }
-    result.origin[axis] = origin.hi;
-    result.origin_low[axis] = origin.lo;
+  const VectorLanes& o = rays.origin;
+  if (kind_ == Kind::identity) return {o, {}, rays.direction, {}};
+  ObjectRayLanes result;
+  if (kind_ == Kind::translation) {
+    const Vec3& moved = to_world_.translation;
+    result.direction = rays.direction;
+    set(result.origin, result.origin_low, [&](int axis) {
+      const Lanes& from = axis == 0 ? o.x : axis == 1 ? o.y : o.z;
+      return two_sum(from, lanes_of(-moved[axis]));
+    });
+    return result;
   }
+  const auto turned = [&](const VectorLanes& v, int axis) {
+    const PreciseVec3& row = to_object_.rows[static_cast<std::size_t>(axis)];
+    return lanes_of(row[0]) * v.x + lanes_of(row[1]) * v.y + lanes_of(row[2]) * v.z;
+  };
+  set(result.direction, result.direction_low, [&](int axis) { return turned(rays.direction, axis); });
+  if (is_one_point(o)) {
+    const DoubleDoubleLanes one = turned_by_rows(o.lane(0)) + columns_[3];
+    set(result.origin, result.origin_low, [&](int axis) {
+      return DoubleDoubleLanes{lanes_of(one.hi[axis]), lanes_of(one.lo[axis])};
+    });
+    return result;
+  }
+  set(result.origin, result.origin_low, [&](int axis) {
+    return turned(o, axis) + lanes_of(to_object_.translation[static_cast<std::size_t>(axis)]);
+  });
   return result;
 }
 

@@ -63,6 +63,8 @@ class Placement {
 
  private:
   double inverse_error() const;
+  /// A vector turned into object space, a lane a component.
+  DoubleDoubleLanes turned_by_rows(const Vec3& v) const;
   /// Takes a ray of the world into object space.
   void move_to_object(ObjectRay& ray) const;
 

@@ -12,7 +12,7 @@
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/torus.hpp"
-#include "core/geometry/torus_line.hpp"
+#include "core/geometry/torus_dips.hpp"
 #include "core/math/dyadic_polynomial.hpp"
 #include "core/math/precise_transform.hpp"
 

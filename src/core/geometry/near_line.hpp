@@ -86,22 +86,29 @@ struct NearLineOf {
 };
 using NearLine = NearLineOf<double>;
 
+/// How far a crossing may be off the surface in the standard tier, in the units of the line: `reach` is that
+/// of standard_error().
+template <class Reach>
+Reach standard_error_across(const Reach& reach) {
+  constexpr double roundings = 8;
+  return roundings * unit_roundoff * reach;
+}
+
 /// The standard tier's bound on the error of t at a crossing (docs/numerics.md), in units of t:
 /// half an ulp of t and 8u (R + |x|) / |n . d|. All but t in the units of the line: `reach` is R + |x|,
 /// `approach` is |n . d|, and `longest` what the error of x can be at most where the ray grazes.
-template <class Real>
-Real standard_error(const NearLineOf<Real>& line, const Real& t, double reach, const Real& approach,
+template <class Real, class Reach>
+Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& reach, const Real& approach,
                     const Real& longest) {
-  constexpr double roundings = 8;
-  const double across = roundings * unit_roundoff * reach;
+  const Reach across = standard_error_across(reach);
   const Real along = across < longest * approach ? across / approach : longest;
   return rounding_of(t) + line.to_t_length(along);
 }
 
 /// How far apart two roots next to a grazing ray can be moved by the rounding that standard_error
 /// allows, on a surface of the given radius of curvature.
-template <class Real>
-Real grazing_error(const NearLineOf<Real>& line, double reach, double radius) {
+template <class Real, class Reach>
+Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, double radius) {
   constexpr double roundings = 8;
   return square_root(2 * roundings * unit_roundoff * reach * radius / line.squared_speed);
 }

@@ -4,10 +4,10 @@
 
 #include "core/geometry/checks.hpp"
 #include "core/geometry/disc.hpp"
-#include "core/geometry/near_line.hpp"
-#include "core/geometry/torus_line.hpp"
+#include "core/geometry/torus_dips.hpp"
 
 namespace crt::core {
+
 TorusShape::TorusShape(const Torus& torus)
     : center_(torus.center),
       frame_(frame_about(torus.axis)),
@@ -23,27 +23,91 @@ Bounds TorusShape::bounds() const {
   return result;
 }
 
+template <class Vector>
+Vector TorusShape::in_frame(const Vector& v) const {
+  using Real = RealOf<Vector>;
+  return {dot(v, spread<Real>(frame_.zero)), dot(v, spread<Real>(frame_.quarter)),
+          dot(v, spread<Real>(frame_.along))};
+}
+
+template <class Real>
+TorusLineOf<Real> TorusShape::in_frame(const NearLineOf<Real>& line, bool on_surface) const {
+  return {in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline TorusShape::Meeting<Real> TorusShape::meeting(const NearLineOf<Real>& line,
+                                                                            const TorusLineOf<Real>& torus,
+                                                                            const Real& x,
+                                                                            const Real& length) const {
+  const double size = ring_ + tube_;
+  const Vec3Of<Real> place = line.at(x);
+  const Real reach = size + square_root(dot(place, place));
+  // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
+  return {.reach = reach,
+          .approach = size_of(torus.half_slope(x)) / tube_,
+          .longest = length + grazing_error(line, reach, size)};
+}
+
+template <class Real>
+TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
+                                         const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto entry = torus.first_entry(wanted);
+  TorusEntry<Real> result{.found = entry.found};
+  if (!any(entry.found)) return result;
+  const Real x = torus.root(entry.bracket, entry.found);
+  result.t = line.to_t(x);
+  // From there on the line is inside for at least as long as up to that point, and where that is not next to
+  // nothing it does not matter how much longer.
+  const Real inside = entry.bracket.negative;
+  const Meeting<Real> at = meeting<Real>(line, torus, x, inside - x);
+  const auto is_steep = standard_error_across(at.reach) < at.longest * at.approach;
+  result.known = both(entry.found, both(is_steep, result.t < line.to_t(inside)));
+  result.error = standard_error(line, result.t, at.reach, at.approach, at.longest);
+  return result;
+}
+
+template <class Real, class Ray>
+TorusEntry<Real> TorusShape::first_entry(const Ray& ray,
+                                         const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto line = NearLineOf<Real>::at_closest(ray, center_, unit_);
+  return first_entry<Real>(line, in_frame<Real>(line, false), wanted);
+}
+template TorusEntry<double> TorusShape::first_entry(const ObjectRay&, const bool&) const;
+template TorusEntry<Lanes> TorusShape::first_entry(const ObjectRayLanes&, const LaneMask&) const;
+
+template <class Real, class Ray>
+typename TorusEntry<Real>::Mask TorusShape::comes_back(const Ray& ray,
+                                                       const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto line = NearLineOf<Real>::at_origin(ray, center_, unit_);
+  return in_frame<Real>(line, true).comes_back(wanted);
+}
+template bool TorusShape::comes_back<double>(const ObjectRay&, const bool&) const;
+template LaneMask TorusShape::comes_back<Lanes>(const ObjectRayLanes&, const LaneMask&) const;
+
 bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const bool on_surface = ray.start.face == 0;
   const NearLine line =
       on_surface ? NearLine::at_origin(ray, center_, unit_) : NearLine::at_closest(ray, center_, unit_);
-  const auto in_frame = [&](const Vec3& v) {
-    return Vec3(glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along));
-  };
   TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
-  const double size = ring_ + tube_;
+  if (!on_surface && ray.first_above < std::numeric_limits<double>::infinity()) {
+    const auto first = first_entry<double>(line, torus, true);
+    if (!first.found) return false;
+    if (first.known && first.t > ray.first_above) {
+      out.push_back({.t = first.t, .error = first.error, .entering = true});
+      return false;
+    }
+  }
   std::uint8_t root = 0;
   const auto crossing = [&](double x, bool entering, double length) {
     const double t = line.to_t(x);
     if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
     // The speed is at least 1, and no dip longer than the torus is wide.
     if (t < ray.begin) {
-      return Crossing{.t = t, .error = line.to_t_length(2 * size), .root = root++, .entering = entering};
+      const double width = 2 * (ring_ + tube_);
+      return Crossing{.t = t, .error = line.to_t_length(width), .root = root++, .entering = entering};
     }
-    const double reach = size + glm::length(line.at(x));
-    // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
-    const double approach = std::abs(torus.half_slope(x)) / tube_;
-    const double longest = length + grazing_error(line, reach, size);
+    const auto& [reach, approach, longest] = meeting<double>(line, torus, x, length);
     // A start that rounding has moved off the surface takes the whole level of G along.
     const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
     const double along = off_surface < longest * approach ? off_surface / approach : longest;
@@ -67,7 +131,7 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const TorusLine::Stretches stretches = torus.stretches();
   for (std::size_t i = 0; i < stretches.count; ++i) {
     const auto& [enter, leave] = stretches.stretch[i];
-    const double first = torus.root(enter);
+    const double first = torus.root(enter, true);
     const double t = line.to_t(first);
     // The stretch goes on to where it is known to be inside: its end needs not be known if it is not asked
     // for.
@@ -75,7 +139,7 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
       out.push_back(crossing(first, true, leave.positive - first));
       return false;
     }
-    add({first, torus.root(leave)});
+    add({first, torus.root(leave, true)});
     if (!out.empty() && out.back().t > ray.first_above) return false;
   }
   return false;

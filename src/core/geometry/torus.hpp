@@ -19,9 +19,22 @@
 #pragma once
 
 #include "core/geometry/angles.hpp"
+#include "core/geometry/near_line.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/geometry/torus_line.hpp"
 
 namespace crt::core {
+
+/// Where a line, or as many as a Real has lanes, first enters a torus.
+template <class Real>
+struct TorusEntry {
+  using Mask = decltype(Real{} < Real{});
+
+  Mask found{};  ///< it is in the torus somewhere
+  Mask known{};  ///< where it enters first is told here; else t and error mean nothing
+  Real t{};
+  Real error{};  ///< as in Crossing
+};
 
 class TorusShape final : public Shape {
  public:
@@ -31,6 +44,14 @@ class TorusShape final : public Shape {
   bool is_convex() const override { return false; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  /// The first crossing of rays that do not start on the surface, where it is told without the others; of
+  /// wanted rays, which are each an ObjectRay or as many side by side.
+  template <class Real, class Ray>
+  TorusEntry<Real> first_entry(const Ray& ray, const typename TorusEntry<Real>::Mask& wanted) const;
+  /// Which of wanted rays, which start on the surface and outwards, may cross it again at t > 0.
+  template <class Real, class Ray>
+  typename TorusEntry<Real>::Mask comes_back(const Ray& ray,
+                                             const typename TorusEntry<Real>::Mask& wanted) const;
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
   void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
@@ -40,6 +61,28 @@ class TorusShape final : public Shape {
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
+  /// The same of a ray seen from the torus.
+  template <class Real>
+  TorusEntry<Real> first_entry(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
+                               const typename TorusEntry<Real>::Mask& wanted) const;
+  template <class Real>
+  TorusLineOf<Real> in_frame(const NearLineOf<Real>& line, bool on_surface) const;
+  /// A vector in the torus's frame: z is along the axis.
+  template <class Vector>
+  Vector in_frame(const Vector& v) const;
+
+  /// What the error of a crossing depends on, as standard_error() takes it.
+  template <class Real>
+  struct Meeting {
+    Real reach;
+    Real approach;
+    Real longest;
+  };
+  /// At x, next to a stretch inside the torus of that length.
+  template <class Real>
+  Meeting<Real> meeting(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus, const Real& x,
+                        const Real& length) const;
+
   /// Seen from the point of the ring that is nearest to a place.
   template <class Real>
   struct TubePlace {
@@ -51,6 +94,7 @@ class TorusShape final : public Shape {
   };
   template <class Real>
   SurfacePointOf<Real> point_near(const TubePlace<Real>& place) const;
+
   Vec3 center_;
   AxisFrame frame_;
   double radius_;

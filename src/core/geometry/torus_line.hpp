@@ -1,109 +1,102 @@
 // A line seen from a torus: G along it, and the stretches where G < 0. See torus.hpp for what G is.
 #pragma once
 
-#include <array>
-#include <limits>
-#include <optional>
-
-#include "core/geometry/object_ray.hpp"
-#include "crt/vec.hpp"
+#include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
-class TorusLine {
+/// One line, or as many side by side as a Real has lanes, each with what it has alone to the last bit.
+template <class Real>
+class TorusLineOf {
  public:
+  using Mask = decltype(Real{} < Real{});
+
   /// `point` and `direction` in the torus's frame: z is along its axis, the center is 0. With
   /// `on_surface` the point is on the torus by definition, and x = 0 a root.
-  TorusLine(const Vec3& point, const Vec3& direction, double ring, double tube, bool on_surface);
+  TorusLineOf(const Vec3Of<Real>& point, const Vec3Of<Real>& direction, double ring, double tube,
+              bool on_surface)
+      : point_(point),
+        direction_(direction),
+        ring_(ring),
+        tube_(tube),
+        squared_speed_(dot(direction, direction)),
+        passing_(size_of(difference_of_products(point.x, direction.y, point.y, direction.x))),
+        turning_(ring * passing_ * passing_),
+        on_surface_(on_surface) {}
 
-  /// From now on tells in Dips::certain whether rounding could have changed how many dips there are. `off`
-  /// is what each component of a point near the torus may be off by, rounding included.
-  void take_care(double off) { off_ = off; }
+  /// G at a point of the line; less what it is at x = 0, if the point there is on the surface.
+  struct Level {
+    Real rho;
+    Real value;
+    Real half_slope;
+
+    /// Of each line that of `a` or that of `b`.
+    static Level chosen(const Mask& first, const Level& a, const Level& b) {
+      return {first ? a.rho : b.rho, first ? a.value : b.value, first ? a.half_slope : b.half_slope};
+    }
+  };
+  Level level(const Real& x) const;
 
   /// The one root between two points of different sign.
   struct Bracket {
-    double negative;
-    double positive;
+    Real negative{};
+    Real positive{};
+    Level inside{};  ///< at `negative`
   };
-  /// A stretch of the line inside the torus, by brackets around its ends.
-  struct Stretches {
-    struct Ends {
-      Bracket enter;
-      Bracket leave;
-    };
-    std::array<Ends, 2> stretch;
-    std::size_t count = 0;
-    bool certain = true;
-  };
-  /// In ascending order.
-  Stretches stretches();
-  double root(const Bracket& bracket) const;
+  /// Of wanted lines.
+  Real root(const Bracket& bracket, const Mask& wanted) const;
 
-  struct Dip {
-    double enter;
-    double leave;
+  struct Entry {
+    Mask found{};  ///< else it is nowhere inside
+    Bracket bracket;
   };
-  struct Dips {
-    std::array<Dip, 2> dip;
-    std::size_t count = 0;
-    bool certain = true;
-  };
-  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the surface. Those
-  /// before `begin` are only told roughly.
-  Dips dips(double begin = -std::numeric_limits<double>::infinity());
+  /// Where wanted lines first enter the torus, if they do not start on the surface: as stretches() has it.
+  Entry first_entry(const Mask& wanted) const;
 
-  double level_at_start() const;  ///< what G is at x = 0, by rounding, if the point is on the surface
-  double half_slope(double x) const { return level(x).half_slope; }           ///< G' / 2
-  double half_curvature(double x) const { return half_curvature(level(x)); }  ///< G'' / 2
+  /// Which of wanted lines, which start on the surface and outwards, are inside somewhere at x > 0. Of others
+  /// it is certain that dips() has nothing there.
+  Mask comes_back(const Mask& wanted) const;
 
- private:
-  /// G at a point of the line; less what it is at x = 0, if the point there is on the surface.
-  struct Level {
-    double rho;
-    double value;
-    double half_slope;
-  };
-  Level level(double x) const;
-  double value_from_start(double x, const Vec3& p, double rho) const;
-  double half_curvature(const Level& here) const;
+  Real half_slope(const Real& x) const { return level(x).half_slope; }           ///< G' / 2
+  Real half_curvature(const Real& x) const { return half_curvature(level(x)); }  ///< G'' / 2
 
+ protected:
   struct Range {
-    double low;
-    double high;
+    Real low{};
+    Real high{};
   };
-  std::optional<Range> range() const;
+  /// Where wanted lines can be inside; returns for which there is such a part.
+  Mask range(const Mask& wanted, Range& result) const;
   Range concave_part(const Range& range) const;
   /// A point where a sign was found, and whether rounding cannot have hidden one.
   struct Search {
-    std::optional<double> x = {};
-    bool certain = true;
+    Real x{};
+    Mask found{};
+    Mask certain{};
+    Level level{};  ///< at x
   };
-  Search find_dip(double outer, double inner) const;
-  Search find_rise(double low, double high) const;
-  Search find_sign(double low, double high, double sign) const;
-  double first_guess(const Bracket& bracket) const;
-  bool is_last_step(double x, const Level& from, double step) const;
-  double place(const Bracket& bracket, double begin) const;
-  double value_error(double x) const;
-  double slope_error() const;
-  double margin(double value_error, double length) const;
-  double inflection_error(const Range& concave) const;
+  Search find_dip(const Real& outer, const Real& inner, const Mask& wanted) const;
+  Search find_sign(const Real& low, const Real& high, double sign, const Mask& wanted) const;
+  Real value_error(const Real& x) const;
 
-  Vec3 point_;
-  Vec3 direction_;
+  Vec3Of<Real> point_;
+  Vec3Of<Real> direction_;
   double ring_;
   double tube_;
-  double squared_speed_;
-  double passing_;  ///< sqrt(D): the line's angular momentum about the axis
-  double turning_;  ///< R D
+  Real squared_speed_;
+  Real passing_;  ///< sqrt(D): the line's angular momentum about the axis
+  Real turning_;  ///< R D
   bool on_surface_;
   double off_ = 0;
   double inflection_error_ = 0;
-};
 
-/// Makes the dips of a ray that starts on the torus agree with the side it leaves to, where the direction is
-/// at odds with it or grazes so closely that rounding decides. `bulging` tells that the surface turns away
-/// from the line, `shortest` what is left of a dip that rounding would have end at once.
-void obey_side(Side side, bool bulging, double shortest, TorusLine::Dips& dips);
+ private:
+  Real value_from_start(const Real& x, const Vec3Of<Real>& p, const Real& rho) const;
+  Real half_curvature(const Level& here) const;
+  Real first_guess(const Bracket& bracket) const;
+  Mask is_last_step(const Real& x, const Level& from, const Real& step) const;
+  Real slope_error() const;
+  Real margin(const Real& value_error, const Real& length) const;
+};
 
 }  // namespace crt::core

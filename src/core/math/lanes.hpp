@@ -177,6 +177,13 @@ template <class Mask, class... More>
 Mask either(const Mask& a, const Mask& b, const More&... more) {
   return either(either(a, b), more...);
 }
+/// The first and not the second.
+inline bool without(bool a, bool b) {
+  return a && !b;
+}
+inline LaneMask without(const LaneMask& a, const LaneMask& b) {
+  return a & ~b;
+}
 inline bool neither(bool a, bool b) {
   return !a && !b;
 }
@@ -234,6 +241,11 @@ inline Lanes power_of_two_below(const Lanes& x) {
   constexpr std::int64_t smallest = 0x0010000000000000;
   const LaneMask bits = reinterpret_cast<LaneMask>(x) & exponent_bits;
   return reinterpret_cast<Lanes>(bits > smallest ? bits : LaneMask{} + smallest);
+}
+inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+  const Lanes product = c * d;
+  const Lanes rest = fma(-c, d, product);
+  return fma(a, b, -product) + rest;
 }
 
 /// Of vectors by component, of doubles or of lanes.

@@ -1,6 +1,6 @@
 // Where rays first cross the objects whose outline alone tells it: spheres, boxes, and planes across a
-// coordinate axis, in the standard tier and without a transform. The same as their shapes say, to the last
-// bit.
+// coordinate axis, in the standard tier and without a transform; and tori, transformed or not. The same as
+// their shapes say, to the last bit.
 #pragma once
 
 #include <array>
@@ -138,6 +138,16 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
   first.face = of_axis({0, 2, 4}) + (is_upper ? spread<Real>(1) : Real{});
   return first;
 }
+
+/// Of asked lines that do not start on the torus.
+template <class Real>
+FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+                                            const typename FirstCrossing<Real>::Mask& asked);
+
+/// Of asked lines that start on the torus and outwards: those that do not meet it again are told.
+template <class Real>
+FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+                                              const typename FirstCrossing<Real>::Mask& asked);
 
 /// Of a sphere or plane that Outlines::leaf_told() knows of, and rays that do not start on its surface.
 template <class Real>

@@ -87,7 +87,7 @@ class PacketTests {
     const RayMask asked = RayPacket::lanes(rays, group);
     if (asked == 0) return 0;
     const OutlineLine<Lanes>& lines = packet_.groups[group];
-    const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, starts);
+    const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, asked, starts);
     const RayMask open = asked & mask_of(first.unknown);
     work_.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
     const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));

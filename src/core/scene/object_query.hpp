@@ -78,11 +78,8 @@ void ObjectQuery<Kind>::test_leaf(std::uint32_t object_index, const SceneObject&
   ObjectRay object_ray = accelerator_->object_ray(object.first_leaf, *ray_);
   CrossingList& crossings = work_->crossings;
   crossings.clear();
-  // A crossing above that is not at the start: it is also more than its error above, to the last bit or so.
-  constexpr double more_than_rounding = 0x1p-50;
-  const double start = farthest_start(*ray_);
   object_ray.begin = ray_->t_min;
-  if (Kind::takes_one) object_ray.first_above = start + more_than_rounding * std::abs(start);
+  if (Kind::takes_one) object_ray.first_above = asked_above(farthest_start(*ray_));
   const bool inside = leaf_crossings(leaf, *ray_, object_ray, crossings, work_->leaf_escalations);
   follow({object_index, object.first_leaf, leaf, object_ray, object.solid}, inside);
 }

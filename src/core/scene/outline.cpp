@@ -148,6 +148,10 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
       if (place_torus(surface, *leaf.placement, outline, axis) && has_fair_size(axis.thickness) &&
           has_fair_size(outline.radius)) {
         outline.kind = Outline::Kind::torus;
+        if (!leaf.exact) {
+          axis.leaf = object.first_leaf;
+          axis.torus = &leaf;
+        }
       }
       break;
     default:

@@ -36,7 +36,9 @@ struct Outline {
 struct OutlineAxis {
   Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus or the rod
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
-  std::uint32_t leaf = nothing;  ///< of a plane across a coordinate axis, as Outline::detail of a sphere
+  /// Of a plane across a coordinate axis, and of a torus: as Outline::detail of a sphere.
+  std::uint32_t leaf = nothing;
+  const Leaf* torus = nullptr;  ///< that leaf of a torus; the scene owns it
 };
 
 struct CompiledScene;
@@ -59,6 +61,7 @@ struct Outlines {
       case Outline::Kind::sphere:
         return outline.detail;
       case Outline::Kind::plane:
+      case Outline::Kind::torus:
         return axis(outline).leaf;
       case Outline::Kind::box:
         return box(outline).is_told ? box(outline).leaf : nothing;

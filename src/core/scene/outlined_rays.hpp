@@ -72,6 +72,7 @@ class OutlinedRay {
   /// Of one that leaf_told() knows of.
   FirstCrossing<double> first_crossing(const Outline& outline, const Outlines& outlines) const {
     if (outline.kind == Outline::Kind::box) return first_crossing_of_box(outlines.box(outline));
+    if (outline.kind == Outline::Kind::torus) return first_crossing_at_torus(outline, outlines);
     if (outline.surface == start_surface_) return {.unknown = true};
     return core::first_crossing(outline, outlines, line_);
   }
@@ -91,6 +92,7 @@ class OutlinedRay {
   BoxStarts starts_on(const OutlineBox& box) const;
   Judgement judged_box(const OutlineBox& box, double limit) const;
   FirstCrossing<double> first_crossing_of_box(const OutlineBox& box) const;
+  FirstCrossing<double> first_crossing_at_torus(const Outline& torus, const Outlines& outlines) const;
 
   OutlineLine<double> line_;
   std::uint32_t start_surface_;
@@ -147,12 +149,15 @@ class OutlinedPacket {
   RayMask told(const Outline& outline, const BoxStarts& starts) const {
     if (packet_.on_surface == 0) return ~RayMask{0};
     if (outline.kind == Outline::Kind::box) return starts.some == 0 ? ~RayMask{0} : ~starts.open;
-    return ~starting_on(outline.surface);
+    const RayMask starting = starting_on(outline.surface);
+    return outline.kind == Outline::Kind::torus ? ~starting | packet_.outwards : ~starting;
   }
 
+  /// Of rays that it is asked for, by lane.
   FirstCrossing<Lanes> first_crossing(const Outline& outline, const Outlines& outlines, std::size_t group,
-                                      const BoxStarts& starts) const {
+                                      RayMask asked, const BoxStarts& starts) const {
     const OutlineLine<Lanes>& lines = packet_.groups[group];
+    if (outline.kind == Outline::Kind::torus) return first_crossing_at_torus(outline, outlines, group, asked);
     if (outline.kind != Outline::Kind::box) return core::first_crossing(outline, outlines, lines);
     const OutlineBox& box = outlines.box(outline);
     return first_crossing_of_box(box, starts.meetings(box, lines, group), lines);
@@ -166,6 +171,9 @@ class OutlinedPacket {
   RayMask at_front() const {
     return in_groups(~RayMask{0}, [&](std::size_t group) { return packet_.groups[group].begin >= 0.0; });
   }
+
+  FirstCrossing<Lanes> first_crossing_at_torus(const Outline& torus, const Outlines& outlines,
+                                               std::size_t group, RayMask asked) const;
 
   /// Those of some rays for which a test of a group says yes.
   template <class Test>
