@@ -76,7 +76,7 @@ class TorusLineOf {
     Level level{};  ///< at x
   };
   Search find_dip(const Real& outer, const Real& inner, const Mask& wanted) const;
-  Search find_sign(const Real& low, const Real& high, double sign, const Mask& wanted) const;
+  Search find_sign(const Real& from, const Real& to, double sign, const Mask& wanted) const;
   Real value_error(const Real& x) const;
 
   Vec3Of<Real> point_;
