@@ -93,3 +93,17 @@ TEST_CASE("the numbers of one pixel do not correlate with those of the next") {
   // The product of two independent uniform numbers about 0 has standard deviation 1/12.
   CHECK(std::abs(sum_of_products / count) < 5 / (12 * std::sqrt(double{count})));
 }
+
+TEST_CASE("pairs of four samples are those of each") {
+  for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{0x299f31d0a4093822}}) {
+    for (const std::uint32_t sample : {0u, 8u, 0x7ffffffcu, 0xfffffffcu}) {
+      const RandomUse use = {.x = 0x243f6a88, .y = 0x85a308d3, .sample = sample, .dimension = 3};
+      const auto pairs = random_pairs(seed, use);
+      for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+        RandomUse one = use;
+        one.sample += i;
+        CHECK(pairs[i] == random_pair(seed, one));
+      }
+    }
+  }
+}

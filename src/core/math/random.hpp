@@ -6,30 +6,56 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
+
+#ifdef __AVX2__
+#include <immintrin.h>
+#endif
 
 namespace crt::core {
 
 using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
 
-/// The 128 random bits at a place of the sequence that the key names.
-constexpr PhiloxCounter philox4x32_10(PhiloxCounter counter, PhiloxKey key) {
-  constexpr std::uint64_t multiplier_0 = 0xd2511f53u;
-  constexpr std::uint64_t multiplier_1 = 0xcd9e8d57u;
+/// The product of a number's lower 32 bits.
+constexpr std::uint64_t low_product(std::uint64_t number, std::uint32_t factor) {
+  return (number & 0xffffffffu) * factor;
+}
+/// The same of four numbers side by side.
+using WordLanes = std::uint64_t __attribute__((vector_size(32)));
+inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
+#ifdef __AVX2__
+  return reinterpret_cast<WordLanes>(
+      _mm256_mul_epu32(reinterpret_cast<__m256i>(numbers), _mm256_set1_epi64x(factor)));
+#else
+  return (numbers & 0xffffffffu) * factor;
+#endif
+}
+
+/// Philox on one place of the sequence, or on four side by side. Of each Word the lower 32 bits count.
+template <class Word>
+constexpr std::array<Word, 4> philox_rounds(std::array<Word, 4> counter, PhiloxKey key) {
+  constexpr std::uint32_t multiplier_0 = 0xd2511f53u;
+  constexpr std::uint32_t multiplier_1 = 0xcd9e8d57u;
   constexpr std::uint32_t key_step_0 = 0x9e3779b9u;  // of the golden ratio
   constexpr std::uint32_t key_step_1 = 0xbb67ae85u;  // of the square root of 3
   constexpr int rounds = 10;
   for (int round = 0; round < rounds; ++round) {
-    const std::uint64_t product_0 = multiplier_0 * counter[0];
-    const std::uint64_t product_1 = multiplier_1 * counter[2];
-    counter = {static_cast<std::uint32_t>(product_1 >> 32) ^ counter[1] ^ key[0],
-               static_cast<std::uint32_t>(product_1),
-               static_cast<std::uint32_t>(product_0 >> 32) ^ counter[3] ^ key[1],
-               static_cast<std::uint32_t>(product_0)};
+    const Word product_0 = low_product(counter[0], multiplier_0);
+    const Word product_1 = low_product(counter[2], multiplier_1);
+    counter = {(product_1 >> 32) ^ counter[1] ^ key[0], product_1, (product_0 >> 32) ^ counter[3] ^ key[1],
+               product_0};
     key = {key[0] + key_step_0, key[1] + key_step_1};
   }
   return counter;
+}
+
+/// The 128 random bits at a place of the sequence that the key names.
+constexpr PhiloxCounter philox4x32_10(const PhiloxCounter& counter, PhiloxKey key) {
+  const auto words = philox_rounds<std::uint64_t>({counter[0], counter[1], counter[2], counter[3]}, key);
+  const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
+  return {low(words[0]), low(words[1]), low(words[2]), low(words[3])};
 }
 
 /// Maps 64 random bits to [0, 1): the upper 53 of them, all the double can hold at this spacing.
@@ -45,12 +71,30 @@ struct RandomUse {
   std::uint32_t dimension = 0;  ///< which decision of that sample
 };
 
+constexpr PhiloxKey key_of(std::uint64_t seed) {
+  return {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
+}
+
 /// Two independent numbers, uniform in [0, 1): what a point in a square or on a lens takes.
 constexpr std::array<double, 2> random_pair(std::uint64_t seed, const RandomUse& use) {
-  const PhiloxKey key = {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)};
-  const PhiloxCounter bits = philox4x32_10({use.x, use.y, use.sample, use.dimension}, key);
+  const PhiloxCounter bits = philox4x32_10({use.x, use.y, use.sample, use.dimension}, key_of(seed));
   return {to_unit_interval(std::uint64_t{bits[1]} << 32 | bits[0]),
           to_unit_interval(std::uint64_t{bits[3]} << 32 | bits[2])};
+}
+
+/// The pairs of a sample and of the three that follow it.
+inline std::array<std::array<double, 2>, 4> random_pairs(std::uint64_t seed, const RandomUse& first) {
+  const auto all = [](std::uint64_t word) { return WordLanes{word, word, word, word}; };
+  const WordLanes samples = all(first.sample) + WordLanes{0, 1, 2, 3};
+  const auto bits =
+      philox_rounds<WordLanes>({all(first.x), all(first.y), samples, all(first.dimension)}, key_of(seed));
+  const WordLanes u = bits[1] << 32 | (bits[0] & 0xffffffffu);
+  const WordLanes v = bits[3] << 32 | (bits[2] & 0xffffffffu);
+  std::array<std::array<double, 2>, 4> pairs;
+  for (int i = 0; i < 4; ++i) {
+    pairs[static_cast<std::size_t>(i)] = {to_unit_interval(u[i]), to_unit_interval(v[i])};
+  }
+  return pairs;
 }
 
 /// One number, uniform in [0, 1): the first of random_pair.

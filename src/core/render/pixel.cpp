@@ -110,12 +110,16 @@ class GridRays {
   }
 
  private:
-  LensPoint lens_point(int x, int y) const {
-    const RandomUse use = {.x = static_cast<std::uint32_t>(x),
-                           .y = static_cast<std::uint32_t>(y),
-                           .sample = ray_,
-                           .dimension = lens_dimension};
-    const auto [u, v] = random_pair(frame_.settings().seed, use);
+  /// Of the next ray.
+  LensPoint lens_point(int x, int y) {
+    const std::size_t place = ray_ % numbers_.size();
+    if (place == 0) {
+      numbers_ = random_pairs(frame_.settings().seed, {.x = static_cast<std::uint32_t>(x),
+                                                       .y = static_cast<std::uint32_t>(y),
+                                                       .sample = ray_,
+                                                       .dimension = lens_dimension});
+    }
+    const auto& [u, v] = numbers_[place];
     return frame_.camera().lens_point(u, v);
   }
 
@@ -126,6 +130,8 @@ class GridRays {
   // Which comes next:
   std::size_t place_ = 0;
   std::uint32_t ray_ = 0;  ///< of its pixel
+  /// For points of the lens, of this ray and the others of four.
+  std::array<std::array<double, 2>, 4> numbers_;
 };
 
 /// A pixel's sum is that of its subpixels' sums over the lens, in their order.
