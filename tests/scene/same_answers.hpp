@@ -4,9 +4,12 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/math/vector.hpp"
 #include "core/scene/prepared_data.hpp"
+#include "scene/numbers.hpp"
 
 namespace crt::test {
 
@@ -38,6 +41,27 @@ inline void check_first_crossings(const PreparedData& data, const std::vector<Wo
     if (rough_errors && first.error < alone.error) first.error = alone.error;
     REQUIRE(same(alone, first));
     ++met;
+  }
+}
+
+/// Lets most of the rays that hit something start there, whereto and how set_way(point, ray) says; mostly to
+/// the side that the start says, but not always.
+template <class SetWay>
+void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work, std::vector<WorldRay>& rays,
+           const SetWay& set_way) {
+  for (WorldRay& ray : rays) {
+    const RayHit hit = data.intersect(ray, work);
+    if (!hit.found() || numbers.below(8) == 0) continue;
+    const HitPoint point = data.hit_point(ray, hit);
+    const Side side = numbers.below(2) == 0 ? Side::outside : Side::inside;
+    ray = {.origin = point.position,
+           .direction = numbers.direction(),
+           .start = data.start_point(ray, hit, side)};
+    set_way(point, ray);
+    if (!(largest_component(ray.direction) > 0)) ray.direction = {0, 0, 1};
+    ray.direction /= largest_component(ray.direction);
+    const bool outwards = glm::dot(ray.direction, point.normal) > 0;
+    if (outwards != (side == Side::outside) && numbers.below(8) != 0) ray.direction = -ray.direction;
   }
 }
 

@@ -94,29 +94,18 @@ WorldRay ray_near(const Corners& box, Numbers& numbers) {
   return ray;
 }
 
-/// From where some of the rays hit something, to anywhere: or along the surface, or to the rim of a box.
-void go_on(const PreparedData& data, const Corners& box, Numbers& numbers, RayWorkspace& work,
-           std::vector<WorldRay>& rays) {
-  for (WorldRay& ray : rays) {
-    const RayHit hit = data.intersect(ray, work);
-    if (!hit.found() || numbers.below(8) == 0) continue;
-    const HitPoint point = data.hit_point(ray, hit);
-    const Side side = numbers.below(2) == 0 ? Side::outside : Side::inside;
-    const StartPoint start = data.start_point(ray, hit, side);
+/// From where rays hit something, to anywhere: or along the surface, or to the rim of a box.
+void go_on_around(const PreparedData& data, const Corners& box, Numbers& numbers, RayWorkspace& work,
+                  std::vector<WorldRay>& rays) {
+  const double size = largest_component(box.upper - box.lower);
+  go_on(data, numbers, work, rays, [&](const HitPoint& point, WorldRay& ray) {
     const Vec3 to = ray_near(box, numbers).origin;
     const Vec3 along = numbers.direction() - point.normal;
-    ray = {.origin = point.position, .direction = numbers.direction(), .start = start};
-    if (numbers.below(3) == 0 && to != ray.origin) ray.direction = to - ray.origin;
+    if (numbers.below(3) == 0) ray.direction = to - ray.origin;
     if (numbers.below(6) == 0) ray.direction = along - glm::dot(along, point.normal) * point.normal;
-    if (!(largest_component(ray.direction) > 0)) ray.direction = {0, 0, 1};
-    ray.direction /= largest_component(ray.direction);
-    // Mostly to the side that the start says, but not always.
-    const bool outwards = glm::dot(ray.direction, point.normal) > 0;
-    if (outwards != (side == Side::outside) && numbers.below(8) != 0) ray.direction = -ray.direction;
-    const double size = largest_component(box.upper - box.lower);
     if (numbers.below(16) == 0) ray.t_min = numbers.within(0, 1) * size;
     if (numbers.below(16) == 0) ray.origin += 1e-9 * size * numbers.point(1);
-  }
+  });
 }
 
 /// Whether rays to what they hit see it.
@@ -149,7 +138,7 @@ void check_boxes(Precision precision, int rounds) {
       for (int bounce = 0; bounce < 3; ++bounce) {
         check_first_crossings(data, rays, work, met);
         check_to_surfaces(data, rays, work);
-        go_on(data, box, numbers, work, rays);
+        go_on_around(data, box, numbers, work, rays);
       }
     }
   }

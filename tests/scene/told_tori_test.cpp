@@ -95,22 +95,13 @@ WorldRay ray_near(const PlacedTorus& placed, Numbers& numbers) {
   return ray;
 }
 
-/// From where some of the rays hit something, to anywhere.
-void go_on(const PreparedData& data, const PlacedTorus& placed, Numbers& numbers, RayWorkspace& work,
-           std::vector<WorldRay>& rays) {
-  for (WorldRay& ray : rays) {
-    const RayHit hit = data.intersect(ray, work);
-    if (!hit.found() || numbers.below(8) == 0) continue;
-    const HitPoint point = data.hit_point(ray, hit);
-    const Side side = numbers.below(2) == 0 ? Side::outside : Side::inside;
-    const StartPoint start = data.start_point(ray, hit, side);
+/// From where rays hit something, to anywhere.
+void go_on_anywhere(const PreparedData& data, const PlacedTorus& placed, Numbers& numbers, RayWorkspace& work,
+                    std::vector<WorldRay>& rays) {
+  go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
     const Vec3 to = ray_near(placed, numbers).origin;
-    ray = {.origin = point.position, .direction = numbers.direction(), .start = start};
-    if (numbers.below(2) == 0 && to != ray.origin) ray.direction = to - ray.origin;
-    ray.direction /= largest_component(ray.direction);
-    const bool outwards = glm::dot(ray.direction, point.normal) > 0;
-    if (outwards != (side == Side::outside) && numbers.below(8) != 0) ray.direction = -ray.direction;
-  }
+    if (numbers.below(2) == 0) ray.direction = to - ray.origin;
+  });
 }
 
 void check_tori(Precision precision, int rounds) {
@@ -140,7 +131,7 @@ void check_tori(Precision precision, int rounds) {
       for (WorldRay& ray : rays) ray = ray_near(placed, numbers);
       for (int bounce = 0; bounce < 3; ++bounce) {
         check_first_crossings(data, rays, work, met, true);
-        go_on(data, placed, numbers, work, rays);
+        go_on_anywhere(data, placed, numbers, work, rays);
       }
     }
   }
