@@ -119,10 +119,7 @@ ObjectRayLanes Placement::to_object(const RayLanes& rays) const {
   if (kind_ == Kind::translation) {
     const Vec3& moved = to_world_.translation;
     result.direction = rays.direction;
-    set(result.origin, result.origin_low, [&](int axis) {
-      const Lanes& from = axis == 0 ? o.x : axis == 1 ? o.y : o.z;
-      return two_sum(from, lanes_of(-moved[axis]));
-    });
+    set(result.origin, result.origin_low, [&](int axis) { return two_sum(o[axis], lanes_of(-moved[axis])); });
     return result;
   }
   const auto turned = [&](const VectorLanes& v, int axis) {

@@ -18,6 +18,7 @@ struct VectorLanes {
 
   /// By axis.
   Lanes& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
+  const Lanes& operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 
   Vec3 lane(std::size_t index) const {
     const int i = static_cast<int>(index);

@@ -9,7 +9,6 @@
 #include <cstring>
 #include <exception>
 #include <new>
-#include <optional>
 
 #include "core/math/float_environment.hpp"
 #include "core/render/accuracy.hpp"
