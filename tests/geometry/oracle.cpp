@@ -254,11 +254,13 @@ void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
       t[static_cast<int>(lane)] = crossing.t * factor;
     }
     core::SurfacePointLanes points;
-    shape.surface_points(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face,
-                         points);
+    shape.points_on(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face, true,
+                    points);
     const core::SurfacePoint point = shape.surface_point(ray, crossing);
     REQUIRE(points.position.lane(2) == point.position);
     REQUIRE(points.normal.lane(2) == point.normal);
+    REQUIRE(points.u[2] == point.u);
+    REQUIRE(points.v[2] == point.v);
   }
 }
 

@@ -56,6 +56,7 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const int k = static_cast<int>(lane);
       REQUIRE((lanes_a + lanes_b).lane(lane) == a[lane] + b[lane]);
+      REQUIRE((lanes_a / lanes_b).lane(lane) == a[lane] / b[lane]);
       REQUIRE(floor(lanes_a).lane(lane) == glm::floor(a[lane]));
       REQUIRE((lanes_a - lanes_b).lane(lane) == a[lane] - b[lane]);
       REQUIRE((lanes_a * lanes_b).lane(lane) == a[lane] * b[lane]);
@@ -82,5 +83,21 @@ TEST_CASE("lanes are chosen by mask") {
       CHECK(c.lane(lane) == ((mask >> lane & 1u) != 0 ? Vec3(1, 2, 3) : Vec3(4, 5, 6)));
     }
     CHECK(mask_of(lanes_with(mask)) == mask);
+  }
+}
+
+TEST_CASE("cross products side by side are those of each pair, to the last bit") {
+  Vectors vectors;
+  for (int i = 0; i < 100000; ++i) {
+    auto a = vectors.four();
+    auto b = vectors.four();
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      a[lane] = scaled_to_one(a[lane]);
+      b[lane] = scaled_to_one(b[lane]);
+    }
+    const VectorLanes crosses = accurate_cross(side_by_side(a), side_by_side(b));
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      REQUIRE(crosses.lane(lane) == accurate_cross(a[lane], b[lane]));
+    }
   }
 }

@@ -79,6 +79,14 @@ class Coordinates {
   std::mt19937_64 engine_{1};
 };
 
+void set_lane(SurfacePointLanes& points, std::size_t lane, const SurfacePoint& point) {
+  const int i = static_cast<int>(lane);
+  points.position.set(lane, point.position);
+  points.normal.set(lane, point.normal);
+  points.u[i] = point.u;
+  points.v[i] = point.v;
+}
+
 }  // namespace
 
 TEST_CASE("a checkerboard changes colour from cube to cube, in all directions and below 0") {

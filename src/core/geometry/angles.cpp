@@ -1,17 +1,8 @@
 #include "core/geometry/angles.hpp"
 
-#include <cmath>
-#include <numbers>
-
 #include "core/math/vector.hpp"
 
 namespace crt::core {
-
-double turn(double x, double y) {
-  const double angle = std::atan2(y, x) / (2 * std::numbers::pi);
-  const double positive = angle < 0 ? angle + 1 : angle + 0.0;
-  return positive < 1 ? positive : 0.0;
-}
 
 AxisFrame frame_about(const Vec3& axis) {
   const Vec3 along = unit_vector(axis);

@@ -85,29 +85,20 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> BoxShape::point_near(const Vec3Of<Real>& offset, const PlaneFace& face) const {
-  const Vec3Of<Real> within = clamp(offset, spread<Real>(Vec3(0)), spread<Real>(upper_ - lower_));
+SurfacePointOf<Real> BoxShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
+                                          std::uint32_t number, bool with_uv) const {
+  using Vector = Vec3Of<Real>;
+  const PlaneFace& face = faces_[number];
+  const Vector size = spread<Real>(upper_ - lower_);
+  const Vector within = clamp(offset, spread<Real>(Vec3(0)), size);
   SurfacePointOf<Real> result{.position = min(spread<Real>(upper_), spread<Real>(lower_) + within),
                               .normal = spread<Real>(face.unit_normal())};
   result.position[face.axis()] = spread<Real>(face.position()[face.axis()]);
-  return result;
-}
-
-SurfacePoint BoxShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  const PlaneFace& face = faces_[crossing.face];
-  const Vec3 offset = ray.from_center(lower_, crossing.t);
-  SurfacePoint result = point_near<double>(offset, face);
   if (!with_uv) return result;
-  const Vec3 size = upper_ - lower_;
-  const Vec3 share = glm::clamp(offset, Vec3(0), size) / size;
+  const Vector share = within / size;
   result.u = face.axis() == 0 ? share.z : share.x;
   result.v = face.axis() == 1 ? share.z : share.y;
   return result;
-}
-
-void BoxShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t face,
-                              SurfacePointLanes& points) const {
-  set_place(points, point_near<Lanes>(offsets, faces_[face]));
 }
 
 void validate(const Box& box) {

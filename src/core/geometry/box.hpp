@@ -15,7 +15,7 @@
 
 namespace crt::core {
 
-class BoxShape final : public Shape {
+class BoxShape final : public ShapeOfPoints<BoxShape> {
  public:
   explicit BoxShape(const Box& box);
 
@@ -23,18 +23,15 @@ class BoxShape final : public Shape {
   std::optional<Spine> spine() const final;
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return lower_; }
-  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                      SurfacePointLanes& points) const override;
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                  std::uint32_t face, bool with_uv) const;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
-  /// What is on a face at `offset` from the lower corner, or next to it.
-  template <class Real>
-  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const PlaneFace& face) const;
   static constexpr unsigned all_faces = 0x3f;
   /// The faces, a bit each, through which a ray in free space can enter or leave the box, for all that plain
   /// doubles tell; none if it surely misses.

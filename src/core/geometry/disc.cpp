@@ -32,18 +32,13 @@ bool DiscShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint DiscShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
-  SurfacePoint result = face_.surface_point(relative);
-  if (!with_uv) return result;
-  result.u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter));
-  result.v = std::min(1.0, glm::length(relative / radius_));
+template <class Real>
+SurfacePointOf<Real> DiscShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                                           bool with_uv) const {
+  const Vec3Of<Real> relative = face_.onto_plane(offset);
+  SurfacePointOf<Real> result = face_.surface_point(relative);
+  if (with_uv) set_polar(relative, frame_, radius_, result);
   return result;
-}
-
-void DiscShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
-                               SurfacePointLanes& points) const {
-  set_place(points, face_.surface_point(face_.onto_plane(offsets)));
 }
 
 void validate(const Disc& disc) {

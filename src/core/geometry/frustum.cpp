@@ -253,36 +253,30 @@ FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3
   if (sine > 0) point.normal = chosen(at_apex, -axis, point.normal);
 }
 
-SurfacePoint FrustumShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  if (crossing.face != side_face) return cap_point(ray, crossing, with_uv);
-  const SidePoint<double> side(*this, ray.from_center(narrow_, crossing.t));
-  SurfacePoint result = side.point;
+template <class Real>
+SurfacePointOf<Real> FrustumShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
+                                              std::uint32_t face, bool with_uv) const {
+  if (face != side_face) return cap_point<Real>(offset, face - 1, with_uv);
+  const SidePoint<Real> side(*this, offset);
+  SurfacePointOf<Real> result = side.point;
   if (!with_uv) return result;
-  result.u = turn(glm::dot(side.radial, frame_.zero), glm::dot(side.radial, frame_.quarter));
+  result.u =
+      turn(dot(side.radial, spread<Real>(frame_.zero)), dot(side.radial, spread<Real>(frame_.quarter)));
   result.v = narrow_ == from_ ? side.share : 1 - side.share;
   return result;
 }
 
-void FrustumShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t face,
-                                  SurfacePointLanes& points) const {
-  if (face == side_face) {
-    set_place(points, SidePoint<Lanes>(*this, offsets).point);
-  } else {
-    const PlaneFace& cap = *caps_[face - 1];
-    set_place(points, cap.surface_point(cap.onto_plane(offsets)));
-  }
-}
-
-SurfacePoint FrustumShape::cap_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  const std::size_t end = crossing.face - 1;
+template <class Real>
+SurfacePointOf<Real> FrustumShape::cap_point(const Vec3Of<Real>& offset, std::size_t end,
+                                             bool with_uv) const {
   const PlaneFace& cap = *caps_[end];
-  const Vec3 relative = cap.onto_plane(ray.from_center(cap.position(), crossing.t));
-  SurfacePoint result = cap.surface_point(relative);
-  if (!with_uv) return result;
-  result.u = turn(glm::dot(relative, frame_.zero), glm::dot(relative, frame_.quarter));
-  result.v = std::min(1.0, glm::length(relative / radii_[end]));
+  const Vec3Of<Real> relative = cap.onto_plane(offset);
+  SurfacePointOf<Real> result = cap.surface_point(relative);
+  if (with_uv) set_polar(relative, frame_, radii_[end], result);
   return result;
 }
+
+template class ShapeOfPoints<FrustumShape>;
 
 Surface FrustumShape::surface(std::uint32_t face) const {
   if (face != side_face) return caps_[face - 1]->surface();

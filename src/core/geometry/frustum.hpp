@@ -28,7 +28,7 @@ namespace crt::core {
 /// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
 /// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
 /// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
-class FrustumShape : public Shape {
+class FrustumShape : public ShapeOfPoints<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
 
@@ -36,12 +36,12 @@ class FrustumShape : public Shape {
   Bounds bounds() const final;
   std::optional<Spine> spine() const final { return Spine{from_, to_, radii_[0], radii_[1]}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const final;
   Vec3 anchor(std::uint32_t face) const final {
     return face == side_face ? narrow_ : caps_[face - 1]->position();
   }
-  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                      SurfacePointLanes& points) const final;
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                  std::uint32_t face, bool with_uv) const;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
   std::size_t bytes() const override { return sizeof *this; }
@@ -79,7 +79,9 @@ class FrustumShape : public Shape {
 
     SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset);
   };
-  SurfacePoint cap_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const;
+  /// What is on a cap at `offset` from its middle, or next to it.
+  template <class Real>
+  SurfacePointOf<Real> cap_point(const Vec3Of<Real>& offset, std::size_t end, bool with_uv) const;
 
   Vec3 from_;
   Vec3 to_;
@@ -95,5 +97,7 @@ class FrustumShape : public Shape {
   double cosine_ = 1;
   double sine_ = 0;
 };
+// Cylinders and cones are made where the formula is not to be seen.
+extern template class ShapeOfPoints<FrustumShape>;
 
 }  // namespace crt::core

@@ -37,19 +37,15 @@ bool HalfPlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return false;
 }
 
-SurfacePoint HalfPlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
-                                           bool /*with_uv*/) const {
-  const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
-  const Vec3 along_edge = glm::cross(face_.unit_normal(), inward_);
-  SurfacePoint result = face_.surface_point(relative);
-  result.u = std::max(0.0, glm::dot(relative, inward_));
-  result.v = glm::dot(relative, along_edge);
+template <class Real>
+SurfacePointOf<Real> HalfPlaneShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
+                                                std::uint32_t, bool with_uv) const {
+  const Vec3Of<Real> relative = face_.onto_plane(offset);
+  SurfacePointOf<Real> result = face_.surface_point(relative);
+  if (!with_uv) return result;
+  result.u = max(Real{}, dot(relative, spread<Real>(inward_)));
+  result.v = dot(relative, spread<Real>(glm::cross(face_.unit_normal(), inward_)));
   return result;
-}
-
-void HalfPlaneShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
-                                    SurfacePointLanes& points) const {
-  set_place(points, face_.surface_point(face_.onto_plane(offsets)));
 }
 
 void validate(const HalfPlane& half_plane) {

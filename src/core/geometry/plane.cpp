@@ -31,18 +31,15 @@ bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return meeting.rate > 0;
 }
 
-SurfacePoint PlaneShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
-                                       bool /*with_uv*/) const {
-  const Vec3 relative = face_.onto_plane(ray.from_center(face_.position(), crossing.t));
-  SurfacePoint result = face_.surface_point(relative);
-  result.u = glm::dot(relative, axes_.u);
-  result.v = glm::dot(relative, axes_.v);
+template <class Real>
+SurfacePointOf<Real> PlaneShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                                            bool with_uv) const {
+  const Vec3Of<Real> relative = face_.onto_plane(offset);
+  SurfacePointOf<Real> result = face_.surface_point(relative);
+  if (!with_uv) return result;
+  result.u = dot(relative, spread<Real>(axes_.u));
+  result.v = dot(relative, spread<Real>(axes_.v));
   return result;
-}
-
-void PlaneShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
-                                SurfacePointLanes& points) const {
-  set_place(points, face_.surface_point(face_.onto_plane(offsets)));
 }
 
 void validate(const Plane& plane) {

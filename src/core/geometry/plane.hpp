@@ -11,17 +11,17 @@
 
 namespace crt::core {
 
-class PlaneShape final : public Shape {
+class PlaneShape final : public ShapeOfPoints<PlaneShape> {
  public:
   explicit PlaneShape(const Plane& plane);
 
   bool is_solid() const override { return true; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }
-  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                      SurfacePointLanes& points) const override;
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                  std::uint32_t face, bool with_uv) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
   std::size_t bytes() const override { return sizeof *this; }

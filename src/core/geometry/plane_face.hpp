@@ -5,6 +5,7 @@
 #include <limits>
 #include <type_traits>
 
+#include "core/geometry/angles.hpp"
 #include "core/geometry/object_ray.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/stretch.hpp"
@@ -124,6 +125,15 @@ class PlaneFace {
   Vec3 position_;
   int axis_;
 };
+
+/// Sets u and v of points on a disc, `relative` to its middle: the angle from where the frame has it 0, and
+/// the distance as a share of the radius.
+template <class Vector, class Real = RealOf<Vector>>
+void set_polar(const Vector& relative, const AxisFrame& frame, double radius, SurfacePointOf<Real>& point) {
+  const Vector scaled = relative / spread<Real>(radius);
+  point.u = turn(dot(relative, spread<Real>(frame.zero)), dot(relative, spread<Real>(frame.quarter)));
+  point.v = min(spread<Real>(1), square_root(dot(scaled, scaled)));
+}
 
 /// Two unit vectors in the plane across `normal`, along growing u and v: u is x projected (z where
 /// the normal is mostly along x), and v is across u on the side of growing y (z where the normal is

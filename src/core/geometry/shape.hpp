@@ -56,20 +56,6 @@ inline SurfacePoint lane_of(const SurfacePointLanes& points, std::size_t lane) {
   return {points.position.lane(lane), points.normal.lane(lane), points.u[i], points.v[i]};
 }
 
-/// All but u and v.
-inline void set_place(SurfacePointLanes& points, const SurfacePointLanes& place) {
-  points.position = place.position;
-  points.normal = place.normal;
-}
-
-inline void set_lane(SurfacePointLanes& points, std::size_t lane, const SurfacePoint& point) {
-  const int i = static_cast<int>(lane);
-  points.position.set(lane, point.position);
-  points.normal.set(lane, point.normal);
-  points.u[i] = point.u;
-  points.v[i] = point.v;
-}
-
 /// A line through something long, and how far from the line that reaches at its ends; in between it reaches
 /// as far as a straight line from one to the other.
 struct Spine {
@@ -114,14 +100,19 @@ class Shape {
 
   /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray. Without
   /// `with_uv`, u and v need not be set: they may cost more than the rest.
-  virtual SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
-                                     bool with_uv = true) const = 0;
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv = true) const {
+    return point_on(ray.from_center(anchor(crossing.face), crossing.t), ray.direction, crossing.face,
+                    with_uv);
+  }
 
-  /// The same but for u and v where as many rays as there are lanes cross one face, to the last bit.
-  /// `offsets` are where they do so, relative to the face's anchor: ObjectRayLanes::from_center(anchor, t).
+  /// The same by where rays of that direction cross a face, relative to the face's anchor:
+  /// from_center(anchor, t) of an ObjectRay or of ObjectRayLanes. Of each lane it is that of one, to the last
+  /// bit.
   virtual Vec3 anchor(std::uint32_t face) const = 0;
-  virtual void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                              SurfacePointLanes& points) const = 0;
+  virtual SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
+                                bool with_uv) const = 0;
+  virtual void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
+                         bool with_uv, SurfacePointLanes& points) const = 0;
 
   /// How many faces there are, and the surface that a face is a piece of (for finding faces that
   /// coincide).
@@ -130,6 +121,24 @@ class Shape {
 
   /// Of memory.
   virtual std::size_t bytes() const = 0;
+};
+
+/// A shape with one formula for one point and for lanes:
+/// SurfacePointOf<Real> Derived::point_near<Real>(offset, direction, face, with_uv).
+template <class Derived>
+class ShapeOfPoints : public Shape {
+ public:
+  SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
+                        bool with_uv) const final {
+    return derived().template point_near<double>(offset, direction, face, with_uv);
+  }
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face, bool with_uv,
+                 SurfacePointLanes& points) const final {
+    points = derived().template point_near<Lanes>(offsets, directions, face, with_uv);
+  }
+
+ private:
+  const Derived& derived() const { return static_cast<const Derived&>(*this); }
 };
 
 /// Checks a primitive's parameters; throws Error (invalid_argument) naming the field.

@@ -40,25 +40,15 @@ bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out
 }
 
 template <class Real>
-SurfacePointOf<Real> SphereShape::point_near(const Vec3Of<Real>& offset,
-                                             const Vec3Of<Real>& direction) const {
+SurfacePointOf<Real> SphereShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                             std::uint32_t, bool with_uv) const {
   const auto is_apart = largest_component(offset) > 0.0;
-  const Vec3Of<Real> normal = unit_vector(chosen(is_apart, offset, -direction));
-  return {.position = spread<Real>(center_) + spread<Real>(radius_) * normal, .normal = normal};
-}
-
-SurfacePoint SphereShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  SurfacePoint result = point_near<double>(ray.from_center(center_, crossing.t), ray.direction);
+  const Vec3Of<Real> n = unit_vector(chosen(is_apart, offset, -direction));
+  SurfacePointOf<Real> result{.position = spread<Real>(center_) + spread<Real>(radius_) * n, .normal = n};
   if (!with_uv) return result;
-  const Vec3& n = result.normal;
   result.u = turn(n.z, n.x);
-  result.v = std::atan2(n.y, std::sqrt(n.x * n.x + n.z * n.z)) / std::numbers::pi + 0.5;
+  result.v = rise(square_root(n.x * n.x + n.z * n.z), n.y);
   return result;
-}
-
-void SphereShape::surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t,
-                                 SurfacePointLanes& points) const {
-  set_place(points, point_near<Lanes>(offsets, directions));
 }
 
 Surface SphereShape::surface(std::uint32_t) const {

@@ -88,25 +88,22 @@ SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center
   return end;
 }
 
-class SphereShape final : public Shape {
+class SphereShape final : public ShapeOfPoints<SphereShape> {
  public:
   explicit SphereShape(const Sphere& sphere);
 
   bool is_solid() const override { return true; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
-  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                      SurfacePointLanes& points) const override;
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                  std::uint32_t face, bool with_uv) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
-  /// The place where a line of that direction meets the surface at `offset` from the center, or next to it.
-  template <class Real>
-  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction) const;
   bool crossings_from_surface(const ObjectRay& ray, CrossingList& out) const;
 
   Vec3 center_;

@@ -158,26 +158,19 @@ TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Rea
 }
 
 template <class Real>
-SurfacePointOf<Real> TorusShape::point_near(const TubePlace<Real>& place) const {
+SurfacePointOf<Real> TorusShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                                            bool with_uv) const {
+  const TubePlace<Real> place(*this, offset);
   const Vec3Of<Real>& radial = place.radial;
   const Vec3Of<Real> from_ring = place.outward * radial + place.height * spread<Real>(frame_.along);
   const Vec3Of<Real> normal = chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
-  const Vec3Of<Real> offset = spread<Real>(ring_) * radial + spread<Real>(tube_) * normal;
-  return {.position = spread<Real>(center_) + spread<Real>(unit_) * offset, .normal = normal};
-}
-
-SurfacePoint TorusShape::surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const {
-  const TubePlace<double> place(*this, ray.from_center(center_, crossing.t));
-  SurfacePoint result = point_near(place);
+  const Vec3Of<Real> from_center = spread<Real>(ring_) * radial + spread<Real>(tube_) * normal;
+  SurfacePointOf<Real> result{.position = spread<Real>(center_) + spread<Real>(unit_) * from_center,
+                              .normal = normal};
   if (!with_uv) return result;
-  result.u = turn(glm::dot(place.radial, frame_.zero), glm::dot(place.radial, frame_.quarter));
+  result.u = turn(dot(radial, spread<Real>(frame_.zero)), dot(radial, spread<Real>(frame_.quarter)));
   result.v = turn(place.outward, place.height);
   return result;
-}
-
-void TorusShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
-                                SurfacePointLanes& points) const {
-  set_place(points, point_near(TubePlace<Lanes>(*this, offsets)));
 }
 
 Surface TorusShape::surface(std::uint32_t) const {

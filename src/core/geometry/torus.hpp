@@ -36,7 +36,7 @@ struct TorusEntry {
   Real error{};  ///< as in Crossing
 };
 
-class TorusShape final : public Shape {
+class TorusShape final : public ShapeOfPoints<TorusShape> {
  public:
   explicit TorusShape(const Torus& torus);
 
@@ -52,10 +52,10 @@ class TorusShape final : public Shape {
   template <class Real, class Ray>
   typename TorusEntry<Real>::Mask comes_back(const Ray& ray,
                                              const typename TorusEntry<Real>::Mask& wanted) const;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return center_; }
-  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                      SurfacePointLanes& points) const override;
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                  std::uint32_t face, bool with_uv) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }
@@ -92,8 +92,6 @@ class TorusShape final : public Shape {
 
     TubePlace(const TorusShape& torus, const Vec3Of<Real>& offset);
   };
-  template <class Real>
-  SurfacePointOf<Real> point_near(const TubePlace<Real>& place) const;
 
   Vec3 center_;
   AxisFrame frame_;

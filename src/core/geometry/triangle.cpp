@@ -135,22 +135,13 @@ bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> TriangleShape::point_at(const Vec3Of<Real>& relative) const {
+SurfacePointOf<Real> TriangleShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                                               bool with_uv) const {
+  using Vector = Vec3Of<Real>;
+  const Vector relative = face_.onto_plane(offset);
   SurfacePointOf<Real> result = face_.surface_point(relative);
   const Bounds box = bounds();
   result.position = clamp(result.position, spread<Real>(box.lower), spread<Real>(box.upper));
-  return result;
-}
-
-void TriangleShape::surface_points(const VectorLanes& offsets, const VectorLanes&, std::uint32_t,
-                                   SurfacePointLanes& points) const {
-  set_place(points, point_at<Lanes>(face_.onto_plane(offsets)));
-}
-
-SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& crossing,
-                                          bool with_uv) const {
-  const Vec3 relative = face_.onto_plane(ray.from_center(corners_[0], crossing.t));
-  SurfacePoint result = point_at<double>(relative);
   if (!with_uv) return result;
   const Vec3 ab = corners_[1] - corners_[0];
   const Vec3 ac = corners_[2] - corners_[0];
@@ -159,10 +150,13 @@ SurfacePoint TriangleShape::surface_point(const ObjectRay& ray, const Crossing& 
   const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
   const double squared_area = glm::dot(area, area);
   if (!(squared_area > 0)) return result;
-  const double u = glm::dot(accurate_cross(relative * scale, ac * scale_c), area) / squared_area;
-  const double v = glm::dot(accurate_cross(ab * scale, relative * scale_c), area) / squared_area;
-  result.u = std::clamp(u, 0.0, 1.0);
-  result.v = std::clamp(v, 0.0, 1.0 - result.u);
+  const Vector across = spread<Real>(area);
+  const Vector scaled = spread<Real>(scale) * relative;
+  const Real u = dot(accurate_cross(scaled, spread<Real>(ac * scale_c)), across) / squared_area;
+  const Real v =
+      dot(accurate_cross(spread<Real>(ab * scale), spread<Real>(scale_c) * relative), across) / squared_area;
+  result.u = clamp(u, Real{}, spread<Real>(1));
+  result.v = clamp(v, Real{}, 1 - result.u);
   return result;
 }
 

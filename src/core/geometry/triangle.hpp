@@ -19,25 +19,22 @@
 
 namespace crt::core {
 
-class TriangleShape final : public Shape {
+class TriangleShape final : public ShapeOfPoints<TriangleShape> {
  public:
   explicit TriangleShape(const Triangle& triangle);
 
   bool is_solid() const override { return false; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv) const override;
   Vec3 anchor(std::uint32_t) const override { return corners_[0]; }
-  void surface_points(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                      SurfacePointLanes& points) const override;
+  template <class Real>
+  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                                  std::uint32_t face, bool with_uv) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
-  /// What is at a point of the plane, relative to the first corner.
-  template <class Real>
-  SurfacePointOf<Real> point_at(const Vec3Of<Real>& relative) const;
   PlaneFace::Meeting meet(const ObjectRay& ray) const;
   bool passes_edges(const ObjectRay& ray) const;
 

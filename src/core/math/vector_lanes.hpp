@@ -70,6 +70,10 @@ inline VectorLanes operator/(const VectorLanes& v, const Lanes& divisor) {
   return {v.x / divisor, v.y / divisor, v.z / divisor};
 }
 
+inline VectorLanes operator/(const VectorLanes& a, const VectorLanes& b) {
+  return {a.x / b.x, a.y / b.y, a.z / b.z};
+}
+
 inline Lanes dot(const VectorLanes& a, const VectorLanes& b) {
   return a.x * b.x + a.y * b.y + a.z * b.z;
 }
@@ -100,6 +104,12 @@ inline Vec3 chosen(bool first, const Vec3& a, const Vec3& b) {
 }
 inline VectorLanes chosen(const LaneMask& first, const VectorLanes& a, const VectorLanes& b) {
   return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+}
+
+/// As core/math/vector.hpp has it, of each.
+inline VectorLanes accurate_cross(const VectorLanes& a, const VectorLanes& b) {
+  return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
+          difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
 /// As accurate_dot() has it, before its last rounding.

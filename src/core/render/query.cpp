@@ -9,6 +9,7 @@
 
 #include "core/math/float_environment.hpp"
 #include "core/math/vector.hpp"
+#include "core/scene/hit_faces.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
@@ -24,6 +25,15 @@ bool is_finite(const Vec3& v) {
   return v.x * 0 + v.y * 0 + v.z * 0 == 0;
 }
 
+/// Whether a ray is valid, where that is seen at a glance. (What has too large a sum is not.)
+bool is_plainly_valid(const Ray& ray) {
+  const Vec3& o = ray.origin;
+  const Vec3& d = ray.direction;
+  const double extent = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
+  const double sum = std::abs(o.x) + std::abs(o.y) + std::abs(o.z) + extent;
+  return extent > 0 && sum <= std::numeric_limits<double>::max() && !std::isunordered(ray.t_min, ray.t_max);
+}
+
 /// Multiplies by a power of two, exactly wherever the result is a normal number.
 class PowerOfTwo {
  public:
@@ -37,6 +47,9 @@ class PowerOfTwo {
 
   double operator*(double value) const {
     return factor_ != 0 ? factor_ * value : std::scalbn(value, exponent_);
+  }
+  Vec3 operator*(const Vec3& v) const {
+    return factor_ != 0 ? factor_ * v : Vec3(*this * v.x, *this * v.y, *this * v.z);
   }
 
  private:
@@ -62,7 +75,7 @@ PowerOfTwo follow(const Ray& users, WorldRay& ray) {
   const PowerOfTwo shorten(-exponent);
   const PowerOfTwo lengthen(exponent);
   ray.origin = users.origin;
-  for (int axis = 0; axis < 3; ++axis) ray.direction[axis] = shorten * users.direction[axis];
+  ray.direction = shorten * users.direction;
   ray.t_min = lengthen * std::max(users.t_min, -largest);
   ray.t_max = lengthen * std::min(users.t_max, largest);
   return shorten;
@@ -127,15 +140,17 @@ class QueryPacket {
 
   void nearest(std::span<std::optional<Hit>> hits) {
     data_.intersect_each(followed(), hits_, work_);
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (hits_[i].found()) data_.hit_point(rays_[i], hits_[i], true, points_[i]);
-    }
-    for (std::size_t i = 0; i < count_; ++i) {
-      if (hits_[i].found()) {
-        hits[i] = described(points_[i], to_users_t_[i]);
-      } else {
-        hits[i].reset();
+    for (std::size_t first = 0; first < count_; first += lane_count) {
+      const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
+      RayMask found = 0;
+      for (std::size_t i = 0; i < count; ++i) {
+        if (hits_[first + i].found()) {
+          found |= 1u << i;
+        } else {
+          hits[first + i].reset();
+        }
       }
+      if (found != 0) describe(first, found, hits.subspan(first, count));
     }
   }
 
@@ -147,13 +162,38 @@ class QueryPacket {
  private:
   std::span<const WorldRay> followed() const { return std::span(rays_).first(count_); }
 
+  /// Tells of those of the rays from `first` on that have found something: those on one face side by side.
+  void describe(std::size_t first, RayMask found, std::span<std::optional<Hit>> hits) {
+    const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
+    const RayLanes lines = ray_lanes(std::span(rays_).subspan(first, lane_count));
+    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    const HitFaces faces(group);
+    for (RayMask to_come = found; to_come != 0;) {
+      const RayHit& hit = group[first_ray(to_come)];
+      const RayMask alike = mask_of(faces.like(hit)) & to_come;
+      to_come &= ~alike;
+      data_.object_points(hit, lines, t, true, points_);
+      data_.take_to_world(hit, points_);
+      for_each_ray(alike, [&](std::size_t lane) {
+        const SurfacePoint point = lane_of(points_, lane);
+        hits[lane] = {.t = to_users_t_[first + lane] * group[lane].t,
+                      .position = point.position,
+                      .normal = point.normal,
+                      .u = point.u,
+                      .v = point.v,
+                      .entity_id = data_.entity_id(hit),
+                      .entering = hit.entering};
+      });
+    }
+  }
+
   const PreparedData& data_;
   RayWorkspace& work_;
   std::size_t count_ = 0;
   std::array<WorldRay, packet_size> rays_;
   std::array<PowerOfTwo, packet_size> to_users_t_;
   std::array<RayHit, packet_size> hits_;
-  std::array<HitPoint, packet_size> points_;
+  SurfacePointLanes points_;  ///< of those that are told of
 };
 
 /// Calls ask(packet, answers) for packet after packet.
@@ -197,6 +237,7 @@ std::size_t batch_size(std::size_t count, int threads) {
 
 void validate(const Ray& ray) {
   using core::is_finite;
+  if (core::is_plainly_valid(ray)) return;
   if (!is_finite(ray.origin)) {
     throw Error(ErrorCode::invalid_argument, "origin of a ray must be finite", "origin");
   }

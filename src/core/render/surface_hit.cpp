@@ -3,6 +3,7 @@
 #include <bit>
 #include <cmath>
 
+#include "core/scene/hit_faces.hpp"
 #include "core/shading/bump.hpp"
 
 namespace crt::core {
@@ -73,25 +74,6 @@ void set_bumped_normals(const PreparedData& data, const AlikeHits& alike, const 
   });
 }
 
-/// What hits of a group are on, by lane: of AlikeHits both are the same.
-struct HitFaces {
-  LaneMask faces;
-  LaneMask entering;
-
-  explicit HitFaces(std::span<const RayHit, lane_count> hits)
-      : faces{of(hits[0]), of(hits[1]), of(hits[2]), of(hits[3])},
-        entering{hits[0].entering, hits[1].entering, hits[2].entering, hits[3].entering} {}
-
-  LaneMask like(const RayHit& hit) const {
-    return (faces == of(hit)) & (entering == static_cast<std::int64_t>(hit.entering));
-  }
-
- private:
-  static std::int64_t of(const RayHit& hit) {
-    return static_cast<std::int64_t>(std::uint64_t{hit.face} << 32 | hit.leaf);
-  }
-};
-
 }  // namespace
 
 void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
@@ -108,7 +90,7 @@ void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> ray
     const AlikeHits alike = {first, material, mask_of(lanes), lanes};
     to_come &= ~alike.rays;
 
-    data.object_points(rays, hits, lines, t, alike.rays, material.uses_uv, points);
+    data.object_points(first, lines, t, material.uses_uv, points);
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
     set_material(alike, colors.color, transparency, group);

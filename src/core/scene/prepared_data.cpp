@@ -178,13 +178,6 @@ SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, 
   return point;
 }
 
-void PreparedData::object_points_with_uv(std::span<const WorldRay, lane_count> rays,
-                                         std::span<const RayHit, lane_count> hits, RayMask alike,
-                                         SurfacePointLanes& points) const {
-  for_each_ray(alike,
-               [&](std::size_t lane) { set_lane(points, lane, object_point(rays[lane], hits[lane], true)); });
-}
-
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
   StartPoint start = start_face(hit, side);
   double farthest = 0;

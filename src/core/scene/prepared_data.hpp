@@ -140,20 +140,17 @@ class PreparedData {
   /// Of these the place, in the primitive's own space; the normal points out of the object.
   SurfacePoint object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
 
-  /// The same where those of a group of rays that have their bit in `alike` hit one face of one leaf, each at
-  /// its t. `lines` are those of all the group.
-  void object_points(std::span<const WorldRay, lane_count> rays, std::span<const RayHit, lane_count> hits,
-                     const RayLanes& lines, const Lanes& t, RayMask alike, bool with_uv,
+  /// The same of a group of rays, each at its t, of which some hit the same face as `first`. Of the others the
+  /// point is of no use.
+  void object_points(const RayHit& first, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
-    const RayHit& first = hits[first_ray(alike)];
     const Leaf& leaf = leaves_[first.leaf];
-    if (with_uv) return object_points_with_uv(rays, hits, alike, points);
     const Vec3 anchor = leaf.shape->anchor(first.face);
     if (leaf.placement->is_identity()) {
-      leaf.shape->surface_points(lines.from_center(anchor, t), lines.direction, first.face, points);
+      leaf.shape->points_on(lines.from_center(anchor, t), lines.direction, first.face, with_uv, points);
     } else {
       const ObjectRayLanes moved = leaf.placement->to_object(lines);
-      leaf.shape->surface_points(moved.from_center(anchor, t), moved.direction, first.face, points);
+      leaf.shape->points_on(moved.from_center(anchor, t), moved.direction, first.face, with_uv, points);
     }
     if (leaf.complemented) points.normal = -points.normal;
   }
@@ -205,10 +202,6 @@ class PreparedData {
 
  private:
   struct Geometry;
-
-  void object_points_with_uv(std::span<const WorldRay, lane_count> rays,
-                             std::span<const RayHit, lane_count> hits, RayMask alike,
-                             SurfacePointLanes& points) const;
 
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;
