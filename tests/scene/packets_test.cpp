@@ -265,6 +265,64 @@ TEST_CASE("so it does in a packet of rays that go anywhere") {
   CHECK(met > 10000);
 }
 
+namespace {
+
+/// Those rays that have their bit in `some`; in the other lanes is no ray at all.
+SurfaceRays by_component(std::span<const WorldRay> rays, RayMask some) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  SurfaceRays result{};
+  for (std::size_t i = 0; i < packet_size; ++i) {
+    const bool is_one = (some >> i & 1u) != 0;
+    const WorldRay ray = is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan};
+    RayLanes& lines = result.lines[i / lane_count];
+    lines.origin.set(i % lane_count, ray.origin);
+    lines.direction.set(i % lane_count, ray.direction);
+    result.t_max[i / lane_count][static_cast<int>(i % lane_count)] = ray.t_max;
+    result.end_errors[i / lane_count][static_cast<int>(i % lane_count)] = ray.end_error;
+    result.starts[i] = ray.start;
+  }
+  return result;
+}
+
+}  // namespace
+
+TEST_CASE("so does what starts on surfaces, in whichever lanes") {
+  Numbers numbers(seed);
+  RayWorkspace work;
+  int free = 0;
+  int met = 0;
+  for (int round = 0; round < 20; ++round) {
+    Crowd crowd = ::crowd(numbers, Precision::standard);
+    keep(crowd, static_cast<std::size_t>(2 + numbers.below(200)), numbers);
+    const PreparedData data(crowd.scene);
+    for (int i = 0; i < 300; ++i) {
+      std::vector<WorldRay> rays(packet_size);
+      for (WorldRay& ray : rays) ray = ray_anywhere(numbers);
+      const bool alike = numbers.below(2) == 0;
+      const Vec3 way = numbers.direction();
+      go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
+        if (alike) ray.direction = way + 0.1 * numbers.direction();
+        if (numbers.below(3) == 0) ray.t_max = numbers.within(0, 10);
+        if (std::isfinite(ray.t_max)) ray.end_error = 1e-14;
+      });
+      for (WorldRay& ray : rays) ray.t_min = 0;
+      const auto some = static_cast<RayMask>(numbers.below(1 << packet_size)) |
+                        (numbers.below(2) == 0 ? 0u : RayMask{0xff});
+      SurfaceRays shadow_rays = by_component(rays, some);
+      data.note_starts(some, shadow_rays);
+      const RayMask hidden = data.occluded_each(shadow_rays, some, work);
+      CHECK((hidden & ~some) == 0);
+      for_each_ray(some, [&](std::size_t k) {
+        const bool is_hidden = data.occluded(rays[k], work);
+        REQUIRE(((hidden >> k & 1u) != 0) == is_hidden);
+        ++(is_hidden ? met : free);
+      });
+    }
+  }
+  CHECK(met > 5000);
+  CHECK(free > 5000);
+}
+
 TEST_CASE("so it does at lenses however far from the origin they are") {
   Numbers numbers(seed);
   RayWorkspace work;

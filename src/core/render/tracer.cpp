@@ -1,5 +1,6 @@
 #include "core/render/tracer.hpp"
 
+#include <bit>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -156,62 +157,72 @@ void Tracer::see_background(std::size_t ray) {
   }
 }
 
-void Tracer::send_to(const PreparedLight& source, RayMask on_surface) {
-  shadows_.count = 0;
-  for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
-    const SurfaceGroup& surfaces = surfaces_[first / lane_count];
-    const PhongSurfaces& phong = surfaces.phong;
+RayMask Tracer::taking_light(RayMask on_surface) const {
+  RayMask taking = 0;
+  RayPacket::for_each_group(on_surface, [&](std::size_t i, RayMask lanes) {
+    const PhongSurfaces& phong = surfaces_[i].phong;
+    taking |= (lanes & mask_of((phong.diffuse > 0.0) | (phong.specular > 0.0))) << (i * lane_count);
+  });
+  return taking;
+}
+
+RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
+  RayMask sent = 0;
+  RayPacket::for_each_group(surfaces_lit, [&](std::size_t i, RayMask lanes) {
+    const SurfaceGroup& surfaces = surfaces_[i];
     LightSamples sample;
-    LaneMask lit = lanes_with(RayPacket::lanes(on_surface, first / lane_count));
-    lit &= (phong.diffuse > 0.0) | (phong.specular > 0.0);
-    if (!any(lit)) continue;
+    LaneMask lit = lanes_with(lanes);
     lit &= source.sample(surfaces.position, surfaces.path_length, sample);
     lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
-    const VectorLanes light = direct_light(phong, sample, source.color(), lit);
-    lit &= ~is_black(light);
-    const Lanes end_errors = lamp_errors(surfaces.position, sample);
-    for_each_ray(mask_of(lit), [&](std::size_t lane) {
-      const std::size_t index = shadows_.count++;
-      shadows_.rays_to[index] = first + lane;
-      shadows_.lights[index] = light.lane(lane);
-      WorldRay& ray = shadows_.rays[index];
-      ray.origin = surfaces.position.lane(lane);
-      ray.direction = sample.directions.lane(lane);
-      ray.t_max = sample.distances[static_cast<int>(lane)];
-      ray.start = surfaces.hits[lane].start;
-      ray.end_error = end_errors[static_cast<int>(lane)];
-    });
-  }
+    lights_[i] = direct_light(surfaces.phong, sample, source.color(), lit);
+    lit &= ~is_black(lights_[i]);
+    sent |= mask_of(lit) << (i * lane_count);
+    shadow_rays_.lines[i] = {surfaces.position, sample.directions};
+    shadow_rays_.t_max[i] = sample.distances;
+    shadow_rays_.end_errors[i] = lamp_errors(surfaces.position, sample);
+  });
+  return sent;
 }
 
 void Tracer::add_light(RayMask on_surface) {
+  const RayMask taking = taking_light(on_surface);
+  if (taking == 0) return;
+  for_each_ray(taking, [&](std::size_t i) { shadow_rays_.starts[i] = surface(i).hit().start; });
+  data_.note_starts(taking, shadow_rays_);
   std::size_t lamp = 0;
   for (const PreparedLight& source : frame_.lights()) {
-    send_to(source, on_surface);
-    const std::span<const WorldRay> rays = std::span(shadows_.rays).first(shadows_.count);
-    work_.stats.shadow_rays += rays.size();
-    tick(static_cast<unsigned>(rays.size()));
-    const RayMask hidden = data_.occluded_each(rays, work_.rays);
-    for (std::size_t i = 0; i < rays.size(); ++i) {
-      const std::size_t ray = shadows_.rays_to[i];
-      const bool is_hidden = (hidden >> i & 1u) != 0;
-      if (is_hidden && identifies_) note(*round_->samples[ray], shaded_from(lamp));
-      const SurfaceLane lit = surface(ray);
-      const Rgb light = shadows_.lights[i] * light_share_of(rays[i], ray, is_hidden);
-      lit.group.light.set(lit.lane, lit.light() + light);
+    const RayMask sent = send_to(source, taking);
+    const auto count = static_cast<unsigned>(std::popcount(sent));
+    work_.stats.shadow_rays += count;
+    tick(count);
+    const RayMask hidden = data_.occluded_each(shadow_rays_, sent, work_.rays);
+    if (identifies_) {
+      for_each_ray(hidden, [&](std::size_t i) { note(*round_->samples[i], shaded_from(lamp)); });
     }
+    const RayMask filtered = filtering(sent, hidden);
+    const RayMask reached = sent & ~hidden & ~filtered;
+    RayPacket::for_each_group(reached, [&](std::size_t i, RayMask lanes) {
+      VectorLanes& light = surfaces_[i].light;
+      light = chosen(lanes_with(lanes), light + lights_[i], light);
+    });
+    for_each_ray(filtered, [&](std::size_t i) {
+      const Rgb share =
+          light_share(data_, shadow_rays_.ray(i), round_->works[i]->media, round_->paths[i].media, work_);
+      const SurfaceLane lit = surface(i);
+      lit.group.light.set(lit.lane, lit.light() + lights_[i / lane_count].lane(lit.lane) * share);
+    });
     ++lamp;
   }
 }
 
-Rgb Tracer::light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hidden) {
-  const MediaLists::List media = round_->paths[ray].media;
-  if (!hidden) {
-    if (media == MediaLists::empty || !frame_.features().absorption) return Rgb(1);
-  } else if (!has_transparency_) {
-    return Rgb(0);
+RayMask Tracer::filtering(RayMask sent, RayMask hidden) const {
+  RayMask filtered = has_transparency_ ? hidden : 0;
+  if (frame_.features().absorption) {
+    for_each_ray(sent & ~hidden, [&](std::size_t i) {
+      filtered |= static_cast<RayMask>(round_->paths[i].media != MediaLists::empty) << i;
+    });
   }
-  return light_share(data_, shadow_ray, round_->works[ray]->media, media, work_);
+  return filtered;
 }
 
 RayHit Tracer::seen_of(const WorldRay& ray) {

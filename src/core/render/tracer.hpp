@@ -75,10 +75,13 @@ class Tracer {
   void look_up_each(RayMask on_surface);
   /// Adds the light of all lights that these surfaces send back along the paths.
   void add_light(RayMask on_surface);
-  /// Makes the rays that find out which of some surfaces a light reaches; to the others none comes.
-  void send_to(const PreparedLight& source, RayMask on_surface);
-  /// What gets through along the way to a light, of which it is known whether anything is met there.
-  Rgb light_share_of(const WorldRay& shadow_ray, std::size_t ray, bool hidden);
+  /// Those that any light makes brighter.
+  RayMask taking_light(RayMask on_surface) const;
+  /// Makes the rays that find out which of some surfaces a light reaches, and returns which: to the others no
+  /// light comes.
+  RayMask send_to(const PreparedLight& source, RayMask surfaces_lit);
+  /// Those of the ways to a light along which it may get through in part.
+  RayMask filtering(RayMask sent, RayMask hidden) const;
 
   /// The mirrored and the refracted rays that go on from where a group of rays ends.
   struct Split {
@@ -162,14 +165,9 @@ class Tracer {
   Round* next_round_ = rounds_.data() + 1;  ///< is made meanwhile
   std::array<RayHit, packet_size> hits_;
   std::array<SurfaceGroup, packet_size / lane_count> surfaces_;
-  /// Rays to a light, and what comes along them if they meet nothing.
-  struct Shadows {
-    std::size_t count = 0;
-    std::array<WorldRay, packet_size> rays;
-    std::array<std::size_t, packet_size> rays_to;  ///< the rays to the surfaces where they start
-    std::array<Rgb, packet_size> lights;
-  };
-  Shadows shadows_;
+  /// Rays from these to a light, and what comes along them if they meet nothing.
+  SurfaceRays shadow_rays_{};
+  std::array<VectorLanes, packet_size / lane_count> lights_;
 };
 
 }  // namespace crt::core

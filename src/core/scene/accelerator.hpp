@@ -40,6 +40,10 @@ class Accelerator {
   void nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
   RayMask any_each(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
+  /// The same for some rays that start on surfaces, once it has been noted what these mean.
+  RayMask any_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const;
+  void note_starts(RayMask some, SurfaceRays& rays) const;
+
   /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
   /// material `is_opaque` says so (if given).
   bool all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
@@ -87,15 +91,19 @@ class Accelerator {
   /// Whether there are so few boxes that all of them are looked at.
   bool has_box_row() const { return bounded_.list.size() <= BoxRow::most_boxes; }
   /// Whether some rays are to be followed as a packet.
-  bool pay_together(std::span<const WorldRay> rays, RayMask some) const;
+  template <class Rays>
+  bool pay_together(const Rays& rays, RayMask some) const;
   template <class Kind>
   void traverse_filtered(Kind& query) const;
   /// Returns the rays that still go, of those which do.
   template <class QueryOf>
   RayMask traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
                             const QueryOf& query_of) const;
-  /// On what the rays of a packet start, and what they have left for good.
-  void note_starts(std::span<const WorldRay> rays, RayPacket& packet) const;
+  /// On what rays start, and what they have left for good; start_of(ray) says where.
+  template <class StartOf>
+  PacketStarts noted_starts(RayMask rays, const StartOf& start_of) const;
+  /// At least one ray.
+  RayPacket packet_of(std::span<const WorldRay> rays) const;
   /// Where nothing but an object is that keeps apart.
   Bounds room_of(std::uint32_t object) const { return compiled_.objects[object].bounds.grown(margin_); }
   /// Empties the hits, and follows those rays that leave_apart(); the others are still open.

@@ -47,15 +47,13 @@ class BoxRow {
   /// The same of some rays of a packet.
   static RayMask takes(const RayPacket& packet, RayMask rays) {
     RayMask taken = 0;
-    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-      const RayMask lanes = RayPacket::lanes(rays, group);
-      if (lanes == 0) continue;
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
       const OutlineLine<Lanes>& lines = packet.groups[group];
       const Lanes steepest =
           max(max(size_of(lines.inverse[0]), size_of(lines.inverse[1])), size_of(lines.inverse[2]));
       const LaneMask is_taken = both(lines.begin >= 0.0, steepest < RaySlabs::largest_inverse);
       taken |= (lanes & mask_of(is_taken)) << (group * lane_count);
-    }
+    });
     return taken;
   }
 
@@ -191,13 +189,11 @@ class BoxRow {
       same.upper[axis] = lanes_of(boxes.upper[axis][i]);
     }
     RayMask met = 0;
-    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-      const RayMask lanes = RayPacket::lanes(rays, group);
-      if (lanes == 0) continue;
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
       const OutlineLine<Lanes>& lines = packet.groups[group];
       const Spans of_rays = spans(same, lines.origin, lines.inverse, lines.begin, packet.limits[group]);
       met |= (lanes & ~mask_of(of_rays.empty())) << (group * lane_count);
-    }
+    });
     return met;
   }
 

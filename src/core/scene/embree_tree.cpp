@@ -307,7 +307,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
-LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines) const {
+LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines, RayMask lanes) const {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
   LaneMask steep{};
@@ -322,7 +322,7 @@ LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines) const {
     span.leave = min(span.leave, high + RaySlabs::slack * size_of(high));
     steep |= size_of(inverse) > RaySlabs::largest_inverse;
   }
-  for_each_ray(mask_of(steep), [&](std::size_t ray) {
+  for_each_ray(mask_of(steep) & lanes, [&](std::size_t ray) {
     const auto i = static_cast<int>(ray);
     const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
     const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
@@ -358,11 +358,16 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
   bool some = false;
   for (std::size_t first = 0; first < Count; first += lane_count) {
     const std::size_t group = (first_ray + first) / lane_count;
+    const RayMask lanes = RayPacket::lanes(rays, group);
+    if (lanes == 0) {
+      put(IntLanes{}, valid, first);
+      continue;
+    }
     const OutlineLine<Lanes>& lines = packet.groups[group];
-    const LineSpanLanes inside = clip(lines);
+    const LineSpanLanes inside = clip(lines, lanes);
     const Lanes start = max(lines.begin, inside.enter);
     const Lanes end = min(packet.limits[group], inside.leave);
-    const RayMask meeting = RayPacket::lanes(rays, group) & mask_of(start <= end);
+    const RayMask meeting = lanes & mask_of(start <= end);
     some = some || meeting != 0;
     traversal.t_start[group] = start;
     // As ObjectRay::from_center() has it.

@@ -91,8 +91,8 @@ class EmbreeTree {
   template <class RayHits, std::size_t Count>
   void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                      PacketVisitor& visitor) const;
-  /// The part of each line that is in the box around all boxes.
-  LineSpanLanes clip(const OutlineLine<Lanes>& lines) const;
+  /// The part of each line that is in the box around all boxes; of those lanes.
+  LineSpanLanes clip(const OutlineLine<Lanes>& lines, RayMask lanes) const;
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

@@ -36,14 +36,14 @@ class PacketTests {
     RayMask open = rays & ~verdict.missed;
     if constexpr (Kind::any_will_do) {
       open &= ~verdict.met;
-      for_each_ray(verdict.met, [&](std::size_t ray) { ask(ray, [](Kind& query) { query.settle(); }); });
+      settle(verdict.met);
     }
     if (open != 0 && outlines.leaf_told(outline) != nothing) {
       const RayMask told = open & outlined_.told(outline, starts);
       open &= ~told;
-      for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-        open |= test_told(outline, outlines, group, told, starts);
-      }
+      RayPacket::for_each_group(told, [&](std::size_t group, RayMask asked) {
+        open |= test_told(outline, outlines, group, asked, starts) << (group * lane_count);
+      });
     }
     for_each_ray(open, [&](std::size_t ray) { ask(ray, [&](Kind& query) { query.test(outline.object); }); });
     return changed_;
@@ -53,19 +53,29 @@ class PacketTests {
   void limit_by(const Outline& plane, const Outlines& outlines) {
     std::array<Lanes, RayPacket::group_count> last;
     const RayMask met = outlined_.judge(plane, outlines, going_ & ~outlined_.left(plane), last).met;
-    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-      const RayMask lanes = RayPacket::lanes(met, group);
-      if (lanes == 0) continue;
+    RayPacket::for_each_group(met, [&](std::size_t group, RayMask lanes) {
       // As a hit there would have it.
       const OutlineLine<Lanes>& lines = packet_.groups[group];
       const Lanes reach = last[group] + company_width(plain_ray(lines), last[group], Lanes{});
       Lanes& limits = packet_.limits[group];
       limits = both(lanes_with(lanes), reach < limits) ? reach : limits;
       going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * lane_count));
-    }
+    });
   }
 
  private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  /// Those rays have found what they ask for.
+  void settle(RayMask rays) {
+    changed_ |= rays;
+    going_ &= ~rays;
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      Lanes& limits = packet_.limits[group];
+      limits = lanes_with(lanes) ? lanes_of(-infinity) : limits;
+    });
+  }
+
   /// use(query) of one ray, and what it changes.
   template <class Use>
   void ask(std::size_t ray, const Use& use) {
@@ -80,12 +90,10 @@ class PacketTests {
     if (query.limit() <= query.ray().t_min) going_ &= ~bit;
   }
 
-  /// Those rays of a group whose crossings with an object the outline alone tells. Returns which of them it
+  /// Those lanes of a group whose crossings with an object the outline alone tells. Returns which of them it
   /// leaves open nevertheless.
-  RayMask test_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask rays,
+  RayMask test_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask asked,
                     const BoxStarts& starts) {
-    const RayMask asked = RayPacket::lanes(rays, group);
-    if (asked == 0) return 0;
     const OutlineLine<Lanes>& lines = packet_.groups[group];
     const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, asked, starts);
     const RayMask open = asked & mask_of(first.unknown);
@@ -101,7 +109,7 @@ class PacketTests {
         });
       });
     }
-    return open << (group * lane_count);
+    return open;
   }
 
   RayPacket& packet_;
@@ -142,24 +150,37 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
   return tests.going();
 }
 
-void Accelerator::note_starts(std::span<const WorldRay> rays, RayPacket& packet) const {
-  packet.start_surfaces.fill(nothing);
-  packet.start_leaves.fill(nothing);
-  packet.left_objects.fill(nothing);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const StartPoint& start = rays[i].start;
-    if (start.leaf == nothing) continue;
+template <class StartOf>
+PacketStarts Accelerator::noted_starts(RayMask rays, const StartOf& start_of) const {
+  PacketStarts starts;
+  const StartPoint* before = nullptr;
+  std::uint32_t left = nothing;
+  for_each_ray(rays, [&](std::size_t i) {
+    const StartPoint& start = start_of(i);
+    if (start.leaf == nothing) return;
     const RayMask bit = RayMask{1} << i;
-    packet.start_surfaces[i] = start.surface;
-    packet.start_leaves[i] = start.leaf;
-    packet.on_surface |= bit;
-    if (start.side == Side::outside) packet.outwards |= bit;
+    starts.surfaces[i] = start.surface;
+    starts.leaves[i] = start.leaf;
+    starts.on_surface |= bit;
+    if (start.side == Side::outside) starts.outwards |= bit;
     // Neighbours start on the same face more often than not.
-    const bool as_before = i > 0 && start.is_to_same_side(rays[i - 1].start);
-    const std::uint32_t left = as_before ? packet.left_objects[i - 1] : left_for_good(start);
-    packet.left_objects[i] = left;
-    if (left != nothing) packet.left_some |= bit;
-  }
+    if (before == nullptr || !start.is_to_same_side(*before)) left = left_for_good(start);
+    before = &start;
+    starts.left_objects[i] = left;
+    if (left != nothing) starts.left_some |= bit;
+  });
+  return starts;
+}
+
+void Accelerator::note_starts(RayMask some, SurfaceRays& rays) const {
+  rays.noted = noted_starts(some, [&](std::size_t i) -> const StartPoint& { return rays.starts[i]; });
+}
+
+RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
+  RayPacket packet(rays);
+  packet.starts = noted_starts(RayPacket::all(rays.size()),
+                               [&](std::size_t i) -> const StartPoint& { return rays[i].start; });
+  return packet;
 }
 
 bool Accelerator::leaves_apart(const Outline& solid, const WorldRay& ray, RayWorkspace& work,
@@ -223,8 +244,7 @@ RayMask Accelerator::begin_nearest(std::span<const WorldRay> rays, std::span<Ray
 
 void Accelerator::nearest_together(std::span<const WorldRay> rays, RayMask open, std::span<RayHit> hits,
                                    RayWorkspace& work) const {
-  RayPacket packet(rays);
-  note_starts(rays, packet);
+  RayPacket packet = packet_of(rays);
   traverse_filtered(packet, open, work,
                     [&](std::size_t ray) { return Nearest(*this, rays[ray], work, hits[ray]); });
   for_each_ray(open, [&](std::size_t i) {
@@ -238,7 +258,8 @@ void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits
   expect_surface_points(hits.first(rays.size()));
 }
 
-bool Accelerator::pay_together(std::span<const WorldRay> rays, RayMask some) const {
+template <class Rays>
+bool Accelerator::pay_together(const Rays& rays, RayMask some) const {
   // A row of boxes is looked at for any rays as for those that go the same way.
   return has_box_row() ? std::popcount(some) >= fewest_together : go_together(rays, some);
 }
@@ -256,8 +277,7 @@ void Accelerator::nearest_each(std::span<const WorldRay> rays, std::span<RayHit>
 
 RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {
   if (rays.empty()) return 0;
-  RayPacket packet(rays);
-  note_starts(rays, packet);
+  RayPacket packet = packet_of(rays);
   const RayMask all = RayPacket::all(rays.size());
   return all &
          ~traverse_filtered(packet, all, work, [&](std::size_t ray) { return Any(*this, rays[ray], work); });
@@ -268,6 +288,20 @@ RayMask Accelerator::any_each(std::span<const WorldRay> rays, RayWorkspace& work
   RayMask found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(any(rays[i], work)) << i;
   return found;
+}
+
+RayMask Accelerator::any_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const {
+  if (!pay_together(rays, some)) {
+    RayMask found = 0;
+    for_each_ray(some, [&](std::size_t i) { found |= static_cast<RayMask>(any(rays.ray(i), work)) << i; });
+    return found;
+  }
+  RayPacket packet(rays, some);
+  WorldRay asked;
+  return some & ~traverse_filtered(packet, some, work, [&](std::size_t ray) {
+           asked = rays.ray(ray);
+           return Any(*this, asked, work);
+         });
 }
 
 }  // namespace crt::core

@@ -38,7 +38,7 @@ FirstCrossing<Lanes> OutlinedPacket::first_crossing_at_torus(const Outline& toru
   const OutlineAxis& axis = outlines.axis(torus);
   const OutlineLine<Lanes>& lines = packet_.groups[group];
   const RayMask starting =
-      packet_.on_surface != 0 ? asked & RayPacket::lanes(starting_on(torus.surface), group) : 0;
+      packet_.starts.on_surface != 0 ? asked & RayPacket::lanes(starting_on(torus.surface), group) : 0;
   const RayMask elsewhere = asked & ~starting;
   FirstCrossing<Lanes> first;
   if (elsewhere != 0) first = first_crossing_of_torus(axis, lines, lanes_with(elsewhere));

@@ -108,12 +108,12 @@ class OutlinedPacket {
 
   /// Those that have left an object for good.
   RayMask left(const Outline& outline) const {
-    return packet_.left_some == 0 ? 0 : rays_with(packet_.left_objects, outline.object);
+    return packet_.starts.left_some == 0 ? 0 : rays_with(packet_.starts.left_objects, outline.object);
   }
 
   /// Of those rays, if it is a box.
   BoxStarts box_starts(const Outline& outline, const Outlines& outlines, RayMask rays) const {
-    if ((rays & packet_.on_surface) == 0 || outline.kind != Outline::Kind::box) return {};
+    if ((rays & packet_.starts.on_surface) == 0 || outline.kind != Outline::Kind::box) return {};
     return BoxStarts::of(outlines.box(outline), *this);
   }
 
@@ -134,11 +134,11 @@ class OutlinedPacket {
     Verdict<RayMask> verdict = judge_groups(rays, [&](std::size_t group) {
       return judge_outline(outline, outlines, packet_.groups[group], packet_.limits[group], last[group]);
     });
-    if ((rays & packet_.on_surface) != 0) {
+    if ((rays & packet_.starts.on_surface) != 0) {
       const RayMask open = starting_on(outline.surface);
       verdict.missed &= ~open;
       verdict.met &= ~open;
-      const RayMask outwards = open & rays & packet_.outwards;
+      const RayMask outwards = open & rays & packet_.starts.outwards;
       if (outline.kind == Outline::Kind::torus && outwards != 0)
         verdict.missed |= outwards & leaving(outline, outlines.axis(outline), outwards);
     }
@@ -147,10 +147,10 @@ class OutlinedPacket {
 
   /// Those whose crossings first_crossing() tells, of one that leaf_told() knows of.
   RayMask told(const Outline& outline, const BoxStarts& starts) const {
-    if (packet_.on_surface == 0) return ~RayMask{0};
+    if (packet_.starts.on_surface == 0) return ~RayMask{0};
     if (outline.kind == Outline::Kind::box) return starts.some == 0 ? ~RayMask{0} : ~starts.open;
     const RayMask starting = starting_on(outline.surface);
-    return outline.kind == Outline::Kind::torus ? ~starting | packet_.outwards : ~starting;
+    return outline.kind == Outline::Kind::torus ? ~starting | packet_.starts.outwards : ~starting;
   }
 
   /// Of rays that it is asked for, by lane.
@@ -165,9 +165,9 @@ class OutlinedPacket {
 
  private:
   friend struct BoxStarts;
-  RayMask starting_on(std::uint32_t surface) const { return rays_with(packet_.start_surfaces, surface); }
-  RayMask starting_on_leaf(std::uint32_t leaf) const { return rays_with(packet_.start_leaves, leaf); }
-  RayMask starting_outwards() const { return packet_.outwards; }
+  RayMask starting_on(std::uint32_t surface) const { return rays_with(packet_.starts.surfaces, surface); }
+  RayMask starting_on_leaf(std::uint32_t leaf) const { return rays_with(packet_.starts.leaves, leaf); }
+  RayMask starting_outwards() const { return packet_.starts.outwards; }
   RayMask at_front() const {
     return in_groups(~RayMask{0}, [&](std::size_t group) { return packet_.groups[group].begin >= 0.0; });
   }
@@ -179,9 +179,8 @@ class OutlinedPacket {
   template <class Test>
   static RayMask in_groups(RayMask rays, const Test& test) {
     RayMask result = 0;
-    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-      if (RayPacket::lanes(rays, group) != 0) result |= mask_of(test(group)) << (group * lane_count);
-    }
+    RayPacket::for_each_group(
+        rays, [&](std::size_t group, RayMask) { result |= mask_of(test(group)) << (group * lane_count); });
     return result;
   }
 
@@ -189,13 +188,12 @@ class OutlinedPacket {
   template <class Judge>
   static Verdict<RayMask> judge_groups(RayMask rays, const Judge& judge) {
     Verdict<RayMask> verdict{};
-    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-      if (RayPacket::lanes(rays, group) == 0) continue;
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask) {
       const std::size_t first = group * lane_count;
       const Verdict<LaneMask> of_lanes = judge(group);
       verdict.missed |= mask_of(of_lanes.missed) << first;
       verdict.met |= mask_of(of_lanes.met) << first;
-    }
+    });
     return verdict;
   }
 

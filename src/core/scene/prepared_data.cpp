@@ -128,6 +128,14 @@ RayMask PreparedData::occluded_each(std::span<const WorldRay> rays, RayWorkspace
   return accelerator_->any_each(rays, work);
 }
 
+RayMask PreparedData::occluded_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const {
+  return accelerator_->any_each(rays, some, work);
+}
+
+void PreparedData::note_starts(RayMask some, SurfaceRays& rays) const {
+  accelerator_->note_starts(some, rays);
+}
+
 bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
                              RayWorkspace& work) const {
   out.clear();

@@ -114,6 +114,10 @@ class PreparedData {
   void intersect_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
   RayMask occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const;
 
+  /// The same for some rays that start on surfaces, once note_starts() has looked at where.
+  RayMask occluded_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const;
+  void note_starts(RayMask some, SurfaceRays& rays) const;
+
   /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
   /// others are entered. With `stop_at_opaque`, returns false as soon as one of an opaque
   /// material is found (the list is then of no use); otherwise true.
@@ -140,8 +144,8 @@ class PreparedData {
   /// Of these the place, in the primitive's own space; the normal points out of the object.
   SurfacePoint object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
 
-  /// The same of a group of rays, each at its t, of which some hit the same face as `first`. Of the others the
-  /// point is of no use.
+  /// The same of a group of rays, each at its t, of which some hit the same face as `first`. Of the others
+  /// the point is of no use.
   void object_points(const RayHit& first, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
     const Leaf& leaf = leaves_[first.leaf];

@@ -35,7 +35,8 @@ class RayBundle {
     Extent begins;
     std::array<Extent, 3> origins;
     std::array<Extent, 3> directions;
-    for_each_group(rays, [&](std::size_t group, const LaneMask& lanes) {
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask some) {
+      const LaneMask lanes = lanes_with(some);
       const OutlineLine<Lanes>& lines = packet.groups[group];
       begins.include(lines.begin, lanes);
       for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -55,8 +56,9 @@ class RayBundle {
   /// The limit of that which goes farthest.
   static double last_limit(const RayPacket& packet, RayMask rays) {
     Extent limits;
-    for_each_group(
-        rays, [&](std::size_t group, const LaneMask& lanes) { limits.include(packet.limits[group], lanes); });
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      limits.include(packet.limits[group], lanes_with(lanes));
+    });
     return limits.high();
   }
 
@@ -95,14 +97,6 @@ class RayBundle {
           falls(inverse_lowest < 0),
           rises(inverse_highest > 0) {}
   };
-
-  template <class Use>
-  static void for_each_group(RayMask rays, const Use& use) {
-    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
-      const RayMask lanes = RayPacket::lanes(rays, group);
-      if (lanes != 0) use(group, lanes_with(lanes));
-    }
-  }
 
   std::array<Axis, 3> axes_;
   double begin_ = 0;

@@ -41,19 +41,42 @@ RayLanes lines_of(const RayGroup& group) {
   return {gathered(group, &WorldRay::origin), gathered(group, &WorldRay::direction)};
 }
 
-void fill(const RayGroup& group, OutlineLine<Lanes>& lines, Lanes& limits) {
-  const RayLanes rays = lines_of(group);
+/// When rays begin and end, and by how much both may be off.
+struct Ends {
+  Lanes t_min;
+  Lanes start_error;
+  Lanes t_max;
+  Lanes end_error;
+};
+
+void fill(const RayLanes& rays, const Ends& ends, OutlineLine<Lanes>& lines, Lanes& limits) {
   lines.origin = {rays.origin.x, rays.origin.y, rays.origin.z};
   lines.direction = {rays.direction.x, rays.direction.y, rays.direction.z};
   lines.squared_speed = dot(lines.direction, lines.direction);
   lines.inverse_squared_speed = 1.0 / lines.squared_speed;
   lines.inverse_speed = sqrt(lines.inverse_squared_speed);
   for (std::size_t axis = 0; axis < 3; ++axis) lines.inverse[axis] = 1.0 / lines.direction[axis];
-  lines.begin = gathered(group, &WorldRay::t_min);
-  lines.start_error = gathered(group, [](const WorldRay& ray) { return ray.start.t_error; });
+  lines.begin = ends.t_min;
+  lines.start_error = ends.start_error;
   lines.certain_from = farthest_start(lines.begin, lines.start_error);
-  limits = gathered(group, &WorldRay::t_max);
-  lines.certain_to = finite_end(certain_end(rays, limits, gathered(group, &WorldRay::end_error)));
+  limits = ends.t_max;
+  lines.certain_to = finite_end(certain_end(rays, limits, ends.end_error));
+}
+
+/// Whether some rays go nearly the same way as the first of them; directions(group) are those of a group.
+template <class Directions>
+bool go_together(RayMask some, const Vec3& first, const Directions& directions) {
+  constexpr double widest = 0.9;  // the cosine of the angle with the first ray
+  const VectorLanes first_lanes = lanes_of(first);
+  const double first_square = widest * widest * glm::dot(first, first);
+  RayMask astray = 0;
+  RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
+    const VectorLanes direction = directions(group);
+    const Lanes along = dot(direction, first_lanes);
+    const LaneMask is_near = (along > 0.0) & (along * along > first_square * dot(direction, direction));
+    astray |= lanes & ~mask_of(is_near);
+  });
+  return astray == 0;
 }
 
 }  // namespace
@@ -66,32 +89,53 @@ Lanes ray_lanes(std::span<const WorldRay> rays, double WorldRay::*number) {
   return gathered(group_from(rays, 0), number);
 }
 
+WorldRay SurfaceRays::ray(std::size_t index) const {
+  const std::size_t group = index / lane_count;
+  const std::size_t lane = index % lane_count;
+  const auto i = static_cast<int>(lane);
+  return {.origin = lines[group].origin.lane(lane),
+          .direction = lines[group].direction.lane(lane),
+          .t_max = t_max[group][i],
+          .start = starts[index],
+          .end_error = end_errors[group][i]};
+}
+
 RayPacket::RayPacket(std::span<const WorldRay> rays) {
-  std::size_t group = 0;
-  for (; group * lane_count < rays.size(); ++group) {
-    fill(group_from(rays, group * lane_count), groups[group], limits[group]);
+  for (std::size_t group = 0; group * lane_count < rays.size(); ++group) {
+    const RayGroup of_rays = group_from(rays, group * lane_count);
+    const Ends ends = {
+        .t_min = gathered(of_rays, &WorldRay::t_min),
+        .start_error = gathered(of_rays, [](const WorldRay& ray) { return ray.start.t_error; }),
+        .t_max = gathered(of_rays, &WorldRay::t_max),
+        .end_error = gathered(of_rays, &WorldRay::end_error)};
+    fill(lines_of(of_rays), ends, groups[group], limits[group]);
   }
-  for (; group < group_count; ++group) {
-    groups[group] = groups[group - 1];
-    limits[group] = limits[group - 1];
-  }
+}
+
+RayPacket::RayPacket(const SurfaceRays& rays, RayMask some) : starts(rays.noted) {
+  for_each_group(some, [&](std::size_t group, RayMask) {
+    const StartPoint* const start = &rays.starts[group * lane_count];
+    const Ends ends = {
+        .t_min = {},
+        .start_error = {start[0].t_error, start[1].t_error, start[2].t_error, start[3].t_error},
+        .t_max = rays.t_max[group],
+        .end_error = rays.end_errors[group]};
+    fill(rays.lines[group], ends, groups[group], limits[group]);
+  });
 }
 
 bool go_together(std::span<const WorldRay> rays, RayMask some) {
   if (std::popcount(some) < fewest_together) return false;
-  constexpr double widest = 0.9;  // the cosine of the angle with the first ray
-  const Vec3& first = rays[first_ray(some)].direction;
-  const VectorLanes first_lanes = lanes_of(first);
-  const double first_square = widest * widest * glm::dot(first, first);
-  for (std::size_t i = 0; i < rays.size(); i += lane_count) {
-    const RayMask lanes = RayPacket::lanes(some, i / lane_count);
-    if (lanes == 0) continue;
-    const VectorLanes direction = gathered(group_from(rays, i), &WorldRay::direction);
-    const Lanes along = dot(direction, first_lanes);
-    const LaneMask is_near = (along > 0.0) & (along * along > first_square * dot(direction, direction));
-    if ((lanes & ~mask_of(is_near)) != 0) return false;
-  }
-  return true;
+  return go_together(some, rays[first_ray(some)].direction, [&](std::size_t group) {
+    return gathered(group_from(rays, group * lane_count), &WorldRay::direction);
+  });
+}
+
+bool go_together(const SurfaceRays& rays, RayMask some) {
+  if (std::popcount(some) < fewest_together) return false;
+  const std::size_t first = first_ray(some);
+  return go_together(some, rays.lines[first / lane_count].direction.lane(first % lane_count),
+                     [&](std::size_t group) { return rays.lines[group].direction; });
 }
 
 }  // namespace crt::core

@@ -33,27 +33,61 @@ void for_each_ray(RayMask mask, const Use& use) {
 RayLanes ray_lanes(std::span<const WorldRay> rays);
 Lanes ray_lanes(std::span<const WorldRay> rays, double WorldRay::*number);
 
-/// Up to packet_size rays by component, as vector instructions take them.
-struct RayPacket {
-  static constexpr std::size_t group_count = packet_size / lane_count;
-  static constexpr RayMask group_mask = (1u << lane_count) - 1;
-
-  /// There is at least one ray. On what they start remains to be set.
-  explicit RayPacket(std::span<const WorldRay> rays);
-
-  std::array<OutlineLine<Lanes>, group_count> groups;
-  /// Beyond it nothing matters any more to a ray.
-  std::array<Lanes, group_count> limits;
-  std::array<std::uint32_t, packet_size> start_surfaces;
-  std::array<std::uint32_t, packet_size> start_leaves;
+/// On what rays start.
+struct PacketStarts {
+  std::array<std::uint32_t, packet_size> surfaces;
+  std::array<std::uint32_t, packet_size> leaves;
   RayMask on_surface = 0;  ///< that start on one
   RayMask outwards = 0;    ///< of those
   /// The object that a ray has left for good.
   std::array<std::uint32_t, packet_size> left_objects;
   RayMask left_some = 0;  ///< that have left one
 
+  PacketStarts() {
+    surfaces.fill(nothing);
+    leaves.fill(nothing);
+    left_objects.fill(nothing);
+  }
+};
+
+/// Up to packet_size rays that start on surfaces, by component. A mask that comes with them says which of
+/// them there are; the others may hold anything.
+struct SurfaceRays {
+  std::array<RayLanes, packet_size / lane_count> lines;
+  std::array<Lanes, packet_size / lane_count> t_max;
+  std::array<Lanes, packet_size / lane_count> end_errors;  ///< as in WorldRay
+  std::array<StartPoint, packet_size> starts;
+  PacketStarts noted;  ///< what `starts` mean: PreparedData::note_starts()
+
+  /// One of them.
+  WorldRay ray(std::size_t index) const;
+};
+
+/// Up to packet_size rays by component, as vector instructions take them.
+struct RayPacket {
+  static constexpr std::size_t group_count = packet_size / lane_count;
+  static constexpr RayMask group_mask = (1u << lane_count) - 1;
+
+  /// On what they start remains to be set.
+  explicit RayPacket(std::span<const WorldRay> rays);
+  RayPacket(const SurfaceRays& rays, RayMask some);
+
+  /// Groups without a ray hold nothing.
+  std::array<OutlineLine<Lanes>, group_count> groups;
+  /// Beyond it nothing matters any more to a ray.
+  std::array<Lanes, group_count> limits;
+  PacketStarts starts;
+
   /// A group's rays, by lane.
   static RayMask lanes(RayMask rays, std::size_t group) { return rays >> (group * lane_count) & group_mask; }
+
+  /// Calls use(group, lanes) for each group that has some of the rays.
+  template <class Use>
+  static void for_each_group(RayMask rays, const Use& use) {
+    for (std::size_t group = 0; group < group_count; ++group) {
+      if (lanes(rays, group) != 0) use(group, lanes(rays, group));
+    }
+  }
 
   static RayMask all(std::size_t count) { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
   double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
@@ -76,5 +110,6 @@ inline constexpr int fewest_together = 3;
 
 /// Whether some of up to packet_size rays go so nearly the same way that a packet of them pays.
 bool go_together(std::span<const WorldRay> rays, RayMask some);
+bool go_together(const SurfaceRays& rays, RayMask some);
 
 }  // namespace crt::core
