@@ -259,8 +259,8 @@ void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
     const core::SurfacePoint point = shape.surface_point(ray, crossing);
     REQUIRE(points.position.lane(2) == point.position);
     REQUIRE(points.normal.lane(2) == point.normal);
-    REQUIRE(points.u[2] == point.u);
-    REQUIRE(points.v[2] == point.v);
+    REQUIRE(core::lane_of(points, 2).u == point.u);
+    REQUIRE(core::lane_of(points, 2).v == point.v);
   }
 }
 

@@ -246,7 +246,7 @@ TEST_CASE("so it does in a packet of rays that go anywhere") {
   std::size_t met = 0;
   for (int round = 0; round < 20; ++round) {
     Crowd crowd = ::crowd(numbers, Precision::standard);
-    keep(crowd, static_cast<std::size_t>(2 + numbers.below(70)), numbers);
+    keep(crowd, 2 + static_cast<std::size_t>(numbers.below(70)), numbers);
     const PreparedData data(crowd.scene);
     for (int i = 0; i < 300; ++i) {
       std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
@@ -273,7 +273,8 @@ SurfaceRays by_component(std::span<const WorldRay> rays, RayMask some) {
   SurfaceRays result{};
   for (std::size_t i = 0; i < packet_size; ++i) {
     const bool is_one = (some >> i & 1u) != 0;
-    const WorldRay ray = is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan};
+    const WorldRay ray =
+        is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan};
     RayLanes& lines = result.lines[i / lane_count];
     lines.origin.set(i % lane_count, ray.origin);
     lines.direction.set(i % lane_count, ray.direction);
@@ -293,7 +294,7 @@ TEST_CASE("so does what starts on surfaces, in whichever lanes") {
   int met = 0;
   for (int round = 0; round < 20; ++round) {
     Crowd crowd = ::crowd(numbers, Precision::standard);
-    keep(crowd, static_cast<std::size_t>(2 + numbers.below(200)), numbers);
+    keep(crowd, 2 + static_cast<std::size_t>(numbers.below(200)), numbers);
     const PreparedData data(crowd.scene);
     for (int i = 0; i < 300; ++i) {
       std::vector<WorldRay> rays(packet_size);

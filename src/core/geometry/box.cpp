@@ -85,19 +85,19 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> BoxShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
-                                          std::uint32_t number, bool with_uv) const {
+SurfacePointOf<Real> BoxShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face,
+                                          bool with_uv) const {
   using Vector = Vec3Of<Real>;
-  const PlaneFace& face = faces_[number];
+  const PlaneFace& plane = faces_[face];
   const Vector size = spread<Real>(upper_ - lower_);
   const Vector within = clamp(offset, spread<Real>(Vec3(0)), size);
   SurfacePointOf<Real> result{.position = min(spread<Real>(upper_), spread<Real>(lower_) + within),
-                              .normal = spread<Real>(face.unit_normal())};
-  result.position[face.axis()] = spread<Real>(face.position()[face.axis()]);
+                              .normal = spread<Real>(plane.unit_normal())};
+  result.position[plane.axis()] = spread<Real>(plane.position()[plane.axis()]);
   if (!with_uv) return result;
   const Vector share = within / size;
-  result.u = face.axis() == 0 ? share.z : share.x;
-  result.v = face.axis() == 1 ? share.z : share.y;
+  result.u = plane.axis() == 0 ? share.z : share.x;
+  result.v = plane.axis() == 1 ? share.z : share.y;
   return result;
 }
 
