@@ -12,7 +12,6 @@ namespace {
 using core::Crossing;
 using core::CrossingList;
 using core::ObjectRay;
-using core::RayStart;
 using core::Shape;
 using core::Side;
 
