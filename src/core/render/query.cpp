@@ -81,14 +81,16 @@ PowerOfTwo follow(const Ray& users, WorldRay& ray) {
   return shorten;
 }
 
-Hit described(const HitPoint& point, const PowerOfTwo& to_users_t) {
-  return {.t = to_users_t * point.t,
+/// At the user's t; where that is in the world a HitPoint says or a SurfacePoint.
+template <class Point>
+Hit described(double t, const Point& point, std::uint32_t entity_id, bool entering) {
+  return {.t = t,
           .position = point.position,
           .normal = point.normal,
           .u = point.u,
           .v = point.v,
-          .entity_id = point.entity_id,
-          .entering = point.entering};
+          .entity_id = entity_id,
+          .entering = entering};
 }
 
 /// One query.
@@ -116,7 +118,7 @@ class Query {
   Hit described(const RayHit& hit) const {
     HitPoint point;
     data_.hit_point(ray_, hit, true, point);
-    return core::described(point, to_users_t_);
+    return core::described(to_users_t_ * point.t, point, point.entity_id, point.entering);
   }
 
   const PreparedData& data_;
@@ -175,14 +177,8 @@ class QueryPacket {
       data_.object_points(hit, lines, t, true, points_);
       data_.take_to_world(hit, points_);
       for_each_ray(alike, [&](std::size_t lane) {
-        const SurfacePoint point = lane_of(points_, lane);
-        hits[lane] = {.t = to_users_t_[first + lane] * group[lane].t,
-                      .position = point.position,
-                      .normal = point.normal,
-                      .u = point.u,
-                      .v = point.v,
-                      .entity_id = data_.entity_id(hit),
-                      .entering = hit.entering};
+        hits[lane] = described(to_users_t_[first + lane] * group[lane].t, lane_of(points_, lane),
+                               data_.entity_id(hit), hit.entering);
       });
     }
   }

@@ -124,9 +124,9 @@ bool Tracer::see(std::size_t ray) {
 }
 
 void Tracer::look_up_each(RayMask on_surface) {
-  for (std::size_t first = 0; on_surface >> first != 0; first += lane_count) {
-    SurfaceGroup& group = surfaces_[first / lane_count];
-    const RayMask seen = RayPacket::lanes(on_surface, first / lane_count);
+  RayPacket::for_each_group(on_surface, [&](std::size_t i, RayMask seen) {
+    SurfaceGroup& group = surfaces_[i];
+    const std::size_t first = i * lane_count;
     const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
     const auto hits = std::span(hits_).subspan(first).first<lane_count>();
     look_up(data_, rays, hits, seen, group, work_);
@@ -134,7 +134,7 @@ void Tracer::look_up_each(RayMask on_surface) {
     const PathState* const paths = &round_->paths[first];
     group.path_length = Lanes{paths[0].path_length + hits[0].t, paths[1].path_length + hits[1].t,
                               paths[2].path_length + hits[2].t, paths[3].path_length + hits[3].t};
-  }
+  });
 }
 
 bool Tracer::pass_medium(std::size_t ray) {
