@@ -374,6 +374,7 @@ TEST_CASE("several rays at once are the same to the last bit") {
   std::uniform_real_distribution<double> place(-20, 100);
   std::uniform_real_distribution<double> on_lens(-1, 1);
   constexpr std::size_t most = 11;
+  constexpr std::size_t groups = 3;
   for (const Projection projection : all_projections) {
     // At the scales at the ends lengths are beyond what can be squared.
     for (const double scale : {1.0, 1e-160, 1e160}) {
@@ -389,18 +390,21 @@ TEST_CASE("several rays at once are the same to the last bit") {
       }
       for (std::size_t count = 0; count <= most; ++count) {
         const std::span some = std::span(places).first(count);
-        std::array<CameraRay, most> found;
+        std::array<RayLanes, groups> found;
         rays.rays(some, {}, found);
-        std::array<CameraRay, most> with_lens;
+        std::array<RayLanes, groups> with_lens;
         rays.rays(some, std::span(lens_points).first(count), with_lens);
         for (std::size_t i = 0; i < count; ++i) {
           const auto& [x, y] = places[i];
           const CameraRay one = rays.ray(x, y);
-          CHECK(found[i].origin == one.origin);
-          CHECK(found[i].direction == one.direction);
+          const auto is_lane = [&](const std::array<RayLanes, groups>& all, const CameraRay& ray) {
+            const RayLanes& group = all[i / lane_count];
+            CHECK(group.origin.lane(i % lane_count) == ray.origin);
+            CHECK(group.direction.lane(i % lane_count) == ray.direction);
+          };
+          is_lane(found, one);
           const CameraRay through_lens = rays.ray(x, y, lens_points[i]);
-          CHECK(with_lens[i].origin == through_lens.origin);
-          CHECK(with_lens[i].direction == through_lens.direction);
+          is_lane(with_lens, through_lens);
         }
       }
     }

@@ -84,7 +84,7 @@ void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   REQUIRE(found.hit().start.leaf == start.leaf);
   REQUIRE(found.hit().start.surface == start.surface);
   REQUIRE(found.hit().start.side == start.side);
-  REQUIRE(found.hit().start.t_error == start.t_error);
+  REQUIRE(found.start().t_error == start.t_error);
   REQUIRE(found.color() == rgb(color));
   const double diffuse = found.group.phong.diffuse[lane];
   const double reflectivity = found.group.reflectivity[lane];
@@ -120,13 +120,16 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
       const Vec3 origin = numbers.point(8);
       const Vec3 target = numbers.point(4);
       RayMask seen = 0;
+      RayLanes lines;
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         const Vec3 aim = target + numbers.point(0.3);
         rays[lane] = {.origin = origin, .direction = glm::normalize(aim - origin)};
+        lines.origin.set(lane, rays[lane].origin);
+        lines.direction.set(lane, rays[lane].direction);
         hits[lane] = data.intersect(rays[lane], work.rays);
         seen |= static_cast<RayMask>(hits[lane].found()) << lane;
       }
-      look_up(data, rays, hits, seen, group, work);
+      look_up(data, lines, hits, seen, group, work);
       for_each_ray(seen, [&](std::size_t lane) {
         check_alone(data, rays[lane], hits[lane], {group, lane}, work);
       });

@@ -92,9 +92,9 @@ int check_alike(const Scene& first, const Scene& second, double size, const Vec3
       const RayHit hit = data.intersect(ray, work);
       REQUIRE(same(hit, other.intersect(ray, other_work)));
       const std::array rays = {ray, ray, ray};
-      data.intersect(rays, hits, work);
+      intersect_as_packet(data, rays, hits, work);
       for (const RayHit& in_packet : std::span(hits).first(rays.size())) REQUIRE(same(hit, in_packet));
-      other.intersect(rays, hits, other_work);
+      intersect_as_packet(other, rays, hits, other_work);
       for (const RayHit& in_packet : std::span(hits).first(rays.size())) REQUIRE(same(hit, in_packet));
       REQUIRE(data.occluded(ray, work) == hit.found());
       REQUIRE(other.occluded(ray, other_work) == hit.found());
@@ -178,7 +178,8 @@ TEST_CASE("so do rays side by side that go anywhere, inside of glass balls and o
           if (numbers.below(8) == 0) ray.t_min = size * numbers.within(0, 2);
           if (numbers.below(4) == 0) ray.direction *= std::pow(2, numbers.within(-3, 3));
         }
-        data.intersect_each(rays, hits, work);
+        const RayMask all = RayPacket::all(rays.size());
+        data.intersect_each(batch_of(rays, all), all, hits, work);
         for (std::size_t i = 0; i < rays.size(); ++i) {
           REQUIRE(same(hits[i], other.intersect(rays[i], other_work)));
           REQUIRE(same(hits[i], data.intersect(rays[i], work)));

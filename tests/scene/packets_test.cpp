@@ -182,7 +182,7 @@ void check_packets(Precision precision, int packets, std::size_t largest = 1000)
     int met = 0;
     for (int i = 0; i < packets; ++i) {
       std::vector<WorldRay> rays = some_rays(crowd, data, numbers, work);
-      data.intersect(rays, hits, work);
+      intersect_as_packet(data, rays, hits, work);
       for (std::size_t k = 0; k < rays.size(); ++k) {
         const RayHit alone = data.intersect(rays[k], work);
         REQUIRE(same(alone, hits[k]));
@@ -196,7 +196,7 @@ void check_packets(Precision precision, int packets, std::size_t largest = 1000)
       for (WorldRay& ray : rays) {
         if (std::isfinite(ray.t_max)) ray.end_error = 1e-14;
       }
-      const RayMask hidden = data.occluded(rays, work);
+      const RayMask hidden = occluded_as_packet(data, rays, work);
       for (std::size_t k = 0; k < rays.size(); ++k) {
         data.crossings(rays[k], false, line, work);
         REQUIRE(data.occluded(rays[k], work) == !line.empty());
@@ -251,8 +251,10 @@ TEST_CASE("so it does in a packet of rays that go anywhere") {
     for (int i = 0; i < 300; ++i) {
       std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
       for (WorldRay& ray : rays) ray = ray_anywhere(numbers);
-      data.intersect_each(rays, hits, work);
-      const RayMask hidden = data.occluded_each(rays, work);
+      const RayMask all = RayPacket::all(rays.size());
+      const RayBatch batch = batch_of(rays, all);
+      data.intersect_each(batch, all, hits, work);
+      const RayMask hidden = data.occluded_each(batch, all, work);
       for (std::size_t k = 0; k < rays.size(); ++k) {
         REQUIRE(same(data.intersect(rays[k], work), hits[k]));
         data.crossings(rays[k], false, line, work);
@@ -265,31 +267,10 @@ TEST_CASE("so it does in a packet of rays that go anywhere") {
   CHECK(met > 10000);
 }
 
-namespace {
-
-/// Those rays that have their bit in `some`; in the other lanes is no ray at all.
-SurfaceRays by_component(std::span<const WorldRay> rays, RayMask some) {
-  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-  SurfaceRays result{};
-  for (std::size_t i = 0; i < packet_size; ++i) {
-    const bool is_one = (some >> i & 1u) != 0;
-    const WorldRay ray =
-        is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan};
-    RayLanes& lines = result.lines[i / lane_count];
-    lines.origin.set(i % lane_count, ray.origin);
-    lines.direction.set(i % lane_count, ray.direction);
-    result.t_max[i / lane_count][static_cast<int>(i % lane_count)] = ray.t_max;
-    result.end_errors[i / lane_count][static_cast<int>(i % lane_count)] = ray.end_error;
-    result.starts[i] = ray.start;
-  }
-  return result;
-}
-
-}  // namespace
-
 TEST_CASE("so does what starts on surfaces, in whichever lanes") {
   Numbers numbers(seed);
   RayWorkspace work;
+  std::array<RayHit, packet_size> hits;
   int free = 0;
   int met = 0;
   for (int round = 0; round < 20; ++round) {
@@ -306,14 +287,20 @@ TEST_CASE("so does what starts on surfaces, in whichever lanes") {
         if (numbers.below(3) == 0) ray.t_max = numbers.within(0, 10);
         if (std::isfinite(ray.t_max)) ray.end_error = 1e-14;
       });
-      for (WorldRay& ray : rays) ray.t_min = 0;
       const auto some = static_cast<RayMask>(numbers.below(1 << packet_size)) |
                         (numbers.below(2) == 0 ? 0u : RayMask{0xff});
-      SurfaceRays shadow_rays = by_component(rays, some);
-      data.note_starts(some, shadow_rays);
-      const RayMask hidden = data.occluded_each(shadow_rays, some, work);
+      const RayBatch batch = batch_of(rays, some);
+      const RayHit untouched{.t = -1};
+      hits.fill(untouched);
+      data.intersect_each(batch, some, hits, work);
+      for_each_ray(~some & RayPacket::all(packet_size),
+                   [&](std::size_t k) { REQUIRE(same(hits[k], untouched)); });
+      const PacketStarts starts = data.noted_starts(batch, some);
+      const RayMask hidden = data.occluded_each(batch, starts, some, work);
+      REQUIRE(hidden == data.occluded_each(batch, some, work));
       CHECK((hidden & ~some) == 0);
       for_each_ray(some, [&](std::size_t k) {
+        REQUIRE(same(hits[k], data.intersect(rays[k], work)));
         const bool is_hidden = data.occluded(rays[k], work);
         REQUIRE(((hidden >> k & 1u) != 0) == is_hidden);
         ++(is_hidden ? met : free);
@@ -422,13 +409,14 @@ TEST_CASE("rays go together that go nearly the same way") {
   std::vector<WorldRay> rays(6);
   for (WorldRay& ray : rays) ray.direction = {0, 0, 1};
   const RayMask all = RayPacket::all(rays.size());
-  CHECK(go_together(rays, all));
+  const auto together = [&](RayMask some) { return go_together(batch_of(rays, some), some); };
+  CHECK(together(all));
   rays[1].direction = {0.1, 0, 3};
-  CHECK(go_together(rays, all));
+  CHECK(together(all));
   rays[4].direction = {0, 0, -1};
-  CHECK_FALSE(go_together(rays, all));
+  CHECK_FALSE(together(all));
   rays[4].direction = {1, 0, 1};
-  CHECK_FALSE(go_together(rays, all));
-  CHECK(go_together(rays, all & ~0b10000u));
-  CHECK_FALSE(go_together(rays, 0b11u));
+  CHECK_FALSE(together(all));
+  CHECK(together(all & ~0b10000u));
+  CHECK_FALSE(together(0b11u));
 }

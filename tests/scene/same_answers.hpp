@@ -5,6 +5,8 @@
 
 #include <array>
 #include <glm/geometric.hpp>
+#include <limits>
+#include <span>
 #include <vector>
 
 #include "core/math/vector.hpp"
@@ -21,14 +23,37 @@ inline bool same(const RayHit& a, const RayHit& b) {
          a.has_company == b.has_company;
 }
 
+/// Those rays that have their bit in `some`; in the other lanes is no ray at all.
+inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
+  constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+  RayBatch batch;
+  for (std::size_t i = 0; i < packet_size; ++i) {
+    const bool is_one = (some >> i & 1u) != 0;
+    batch.set(i, is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan});
+  }
+  return batch;
+}
+
+/// What rays find in a packet, wherever they go.
+inline void intersect_as_packet(const PreparedData& data, std::span<const WorldRay> rays,
+                                std::span<RayHit> hits, RayWorkspace& work) {
+  const RayMask all = RayPacket::all(rays.size());
+  data.intersect_each(batch_of(rays, all), all, hits, work, Packets::always);
+}
+inline RayMask occluded_as_packet(const PreparedData& data, std::span<const WorldRay> rays,
+                                  RayWorkspace& work) {
+  const RayMask all = RayPacket::all(rays.size());
+  return data.occluded_each(batch_of(rays, all), all, work, Packets::always);
+}
+
 /// With `rough_errors` the bounds on the errors of first crossings may be larger than where the others are
 /// found as well.
 inline void check_first_crossings(const PreparedData& data, const std::vector<WorldRay>& rays,
                                   RayWorkspace& work, int& met, bool rough_errors = false) {
   std::array<RayHit, packet_size> hits;
   std::vector<RayHit> line;
-  data.intersect(rays, hits, work);
-  const RayMask hidden = data.occluded(rays, work);
+  intersect_as_packet(data, rays, hits, work);
+  const RayMask hidden = occluded_as_packet(data, rays, work);
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const RayHit alone = data.intersect(rays[k], work);
     REQUIRE(same(alone, hits[k]));

@@ -117,7 +117,7 @@ void check_to_surfaces(const PreparedData& data, std::vector<WorldRay> rays, Ray
     ray.t_max = hit.t;
     ray.end_error = start_rounding * largest_component(data.hit_point(ray, hit).position);
   }
-  const RayMask hidden = data.occluded(rays, work);
+  const RayMask hidden = occluded_as_packet(data, rays, work);
   for (std::size_t k = 0; k < rays.size(); ++k) {
     data.crossings(rays[k], false, line, work);
     REQUIRE(data.occluded(rays[k], work) == !line.empty());

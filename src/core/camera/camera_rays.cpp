@@ -133,29 +133,34 @@ void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay&
 }
 
 void CameraRays::rays(std::span<const PicturePlace> places, std::span<const LensPoint> lens_points,
-                      std::span<CameraRay> result) const {
+                      std::span<RayLanes> result) const {
   const bool has_lens_points = !lens_points.empty();
   const auto one_by_one = [&](std::size_t begin, std::size_t end) {
+    CameraRay one;
     for (std::size_t i = begin; i < end; ++i) {
       if (has_lens_points) {
-        ray(places[i].x, places[i].y, lens_points[i], result[i]);
+        ray(places[i].x, places[i].y, lens_points[i], one);
       } else {
-        ray(places[i].x, places[i].y, result[i]);
+        ray(places[i].x, places[i].y, one);
       }
+      result[i / lane_count].origin.set(i % lane_count, one.origin);
+      result[i / lane_count].direction.set(i % lane_count, one.direction);
     }
   };
   std::size_t done = 0;
   if (projection_ == Projection::pinhole) {
     for (; done + lane_count <= places.size(); done += lane_count) {
       const LensPoint* on_lens = has_lens_points ? &lens_points[done] : nullptr;
-      if (!pinhole_rays(&places[done], on_lens, &result[done])) one_by_one(done, done + lane_count);
+      if (!pinhole_rays(&places[done], on_lens, result[done / lane_count])) {
+        one_by_one(done, done + lane_count);
+      }
     }
   }
   one_by_one(done, places.size());
 }
 
 bool CameraRays::pinhole_rays(const PicturePlace* places, const LensPoint* lens_points,
-                              CameraRay* result) const {
+                              RayLanes& result) const {
   const auto gathered = [](const auto* values, auto member) {
     return Lanes{values[0].*member, values[1].*member, values[2].*member, values[3].*member};
   };
@@ -177,10 +182,7 @@ bool CameraRays::pinhole_rays(const PicturePlace* places, const LensPoint* lens_
   if (!all((square > safe_square_min) & (square < safe_square_max))) return false;
   const Lanes length = sqrt(square);
   for (Lanes& component : way) component /= length;
-  for (int lane = 0; lane < lane_count; ++lane) {
-    result[lane].origin = Vec3(origin[0][lane], origin[1][lane], origin[2][lane]);
-    result[lane].direction = Vec3(way[0][lane], way[1][lane], way[2][lane]);
-  }
+  result = {.origin = {origin[0], origin[1], origin[2]}, .direction = {way[0], way[1], way[2]}};
   return true;
 }
 

@@ -9,7 +9,7 @@
 #include <span>
 
 #include "core/camera/aperture_shape.hpp"
-#include "core/math/lanes.hpp"
+#include "core/geometry/plain_ray.hpp"
 #include "crt/camera.hpp"
 #include "crt/vec.hpp"
 
@@ -43,9 +43,10 @@ class CameraRays {
   void ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
-  /// The same rays for several places at once; without points of the lens those through its middle.
+  /// The same rays for several places at once, as many in each part of the result as there are lanes; without
+  /// points of the lens those through its middle. Lanes beyond the last ray stay as they are.
   void rays(std::span<const PicturePlace> places, std::span<const LensPoint> lens_points,
-            std::span<CameraRay> result) const;
+            std::span<RayLanes> result) const;
 
   /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a camera
   /// that does not look there.
@@ -72,7 +73,7 @@ class CameraRays {
   void orthographic_ray(double nx, double ny, CameraRay& ray) const;
   /// As many rays of a pinhole camera as there are lanes; no lens points for those through its middle. False
   /// if lengths are so extreme that each must be found by itself.
-  bool pinhole_rays(const PicturePlace* places, const LensPoint* lens_points, CameraRay* result) const;
+  bool pinhole_rays(const PicturePlace* places, const LensPoint* lens_points, RayLanes& result) const;
   template <class Real>
   Real across(const Real& x) const {
     return 2.0 * x / width_ - 1.0;

@@ -107,15 +107,16 @@ void AovTile::take(const PixelMeasures& measures, const Region& region) {
 void AovTile::look(const CameraRays& camera, Tracer& tracer) {
   if (!aovs_.depth && !aovs_.id) return;
   constexpr double middle = 0.5;
-  std::array<CameraRay, Tiles::side> rays;
-  static_assert(rays.size() <= packet_size);
+  std::array<PicturePlace, Tiles::side> places;
+  static_assert(places.size() <= packet_size);
+  std::array<RayLanes, RayPacket::group_count> rays;
   const auto width = static_cast<std::size_t>(tile_.width);
   for (int y = 0; y < tile_.height; ++y) {
     for (int x = 0; x < tile_.width; ++x) {
-      rays[static_cast<std::size_t>(x)] = camera.ray(tile_.x + x + middle, tile_.y + y + middle);
+      places[static_cast<std::size_t>(x)] = {tile_.x + x + middle, tile_.y + y + middle};
     }
-    tracer.look(std::span(rays).first(width),
-                std::span(first_places_).subspan(static_cast<std::size_t>(y) * width, width));
+    camera.rays(std::span(places).first(width), {}, rays);
+    tracer.look(rays, std::span(first_places_).subspan(static_cast<std::size_t>(y) * width, width));
   }
 }
 

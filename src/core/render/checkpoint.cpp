@@ -38,12 +38,19 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
   WorkspacePool::Loan work(pool);
   Progress nobody({});
   Tracer tracer(frame, *work, nobody);
-  std::array<CameraRay, packet_size> rays;
-  std::array<Tracer::Sample, packet_size> samples;
+  constexpr double middle = 0.5;
+  std::array<PicturePlace, packet_size> places;
+  std::array<LensPoint, packet_size> lens_points;
+  lens_points.fill(frame.camera().lens_point(middle, middle));
+  std::array<RayLanes, RayPacket::group_count> rays;
+  std::array<Tracer::Sample, packet_size> all_samples;
   std::size_t count = 0;
   const auto trace = [&] {
-    tracer.trace(std::span(rays).first(count), samples);
-    for (const Tracer::Sample& sample : std::span(samples).first(count)) {
+    const std::span<Tracer::Sample> samples = std::span(all_samples).first(count);
+    frame.camera().rays(std::span(places).first(count),
+                        std::span(lens_points).first(frame.features().lens ? count : 0), rays);
+    tracer.trace(rays, samples);
+    for (const Tracer::Sample& sample : samples) {
       for (int channel = 0; channel < 3; ++channel) add(hash, sample.color[channel]);
       add(hash, sample.alpha);
     }
@@ -51,17 +58,12 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
   };
   const int columns = std::min(probes_a_side, region.width);
   const int rows = std::min(probes_a_side, region.height);
-  constexpr double middle = 0.5;
   for (int row = 0; row < rows; ++row) {
     const double y = region.y + (row + middle) * region.height / rows;
     for (int column = 0; column < columns; ++column) {
       const double x = region.x + (column + middle) * region.width / columns;
-      if (frame.features().lens) {
-        frame.camera().ray(x, y, frame.camera().lens_point(middle, middle), rays[count]);
-      } else {
-        frame.camera().ray(x, y, rays[count]);
-      }
-      if (++count == rays.size()) trace();
+      places[count] = {x, y};
+      if (++count == places.size()) trace();
     }
   }
   trace();

@@ -15,16 +15,16 @@ void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
   }
 }
 
-void Tracer::look(std::span<const CameraRay> rays, std::span<FirstPlace> places) {
-  const std::span<WorldRay> world_rays = std::span(round_->rays).first(rays.size());
-  for (std::size_t i = 0; i < rays.size(); ++i) Frame::eye_ray(rays[i], world_rays[i]);
-  tick(static_cast<unsigned>(rays.size()));
-  data_.intersect_each(world_rays, hits_, work_.rays);
-  for (std::size_t i = 0; i < rays.size(); ++i) {
-    const WorldRay& ray = world_rays[i];
+void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> places) {
+  RayBatch& rays = round_->rays;
+  Frame::set_eye_rays(camera_rays, rays);
+  tick(static_cast<unsigned>(places.size()));
+  data_.intersect_each(rays, RayPacket::all(places.size()), hits_, work_.rays);
+  for (std::size_t i = 0; i < places.size(); ++i) {
     RayHit& hit = hits_[i];
     places[i] = {};
     if (!hit.found()) continue;
+    const WorldRay ray = rays.ray(i);
     if (hit.has_company && frame_.features().transparency) hit = seen_of(ray);
     HitPoint point;
     data_.hit_point(ray, hit, false, point);

@@ -74,8 +74,12 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   }
   if (!features().transparency || features().lens) return;
   if (data.scene().camera.projection == Projection::orthographic) return;
-  WorldRay middle;
-  eye_ray(camera_.ray(0.5 * settings.width, 0.5 * settings.height), middle);
+  const PicturePlace in_middle = {0.5 * settings.width, 0.5 * settings.height};
+  RayLanes line;
+  camera_.rays({&in_middle, 1}, {}, {&line, 1});
+  RayBatch eye;
+  set_eye_rays({&line, 1}, eye);
+  const WorldRay middle = eye.ray(0);
   one_viewpoint_ = !is_on_surface(data, middle.origin, work);
   if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
 }

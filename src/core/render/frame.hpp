@@ -28,13 +28,14 @@ class Frame {
   /// What all lights together give every point.
   const Rgb& ambient() const { return ambient_; }
 
-  /// A camera's ray in the world. What is at its very start, to rounding, is passed: an eye on a surface sees
+  /// Camera rays in the world. What is at their very start, to rounding, is passed: an eye on a surface sees
   /// what is before it, or from within what is behind it.
-  /// An end that `ray` has is kept.
-  static void eye_ray(const CameraRay& camera_ray, WorldRay& ray) {
-    ray.origin = camera_ray.origin;
-    ray.direction = camera_ray.direction;
-    ray.start = {.t_error = start_rounding * largest_component(camera_ray.origin)};
+  static void set_eye_rays(std::span<const RayLanes> camera_rays, RayBatch& rays) {
+    for (std::size_t group = 0; group < camera_rays.size(); ++group) {
+      rays.lines[group] = camera_rays[group];
+      rays.start_errors[group] = start_rounding * largest_component(camera_rays[group].origin);
+    }
+    rays.with_starts = 0;
   }
 
   /// Whether all camera rays start at one point off all surfaces, so that the same solids surround them all;

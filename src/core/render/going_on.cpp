@@ -53,26 +53,24 @@ RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
   RayMask gone_on = 0;
   for_each_ray(parts.mirrored | parts.refracted, [&](std::size_t lane) {
     const std::size_t ray = group * lane_count + lane;
-    const SurfaceHit& hit = surface(ray).hit();
+    const SurfaceLane from = surface(ray);
     SampleWork& work = *round_->works[ray];
     const bool goes_through = (parts.refracted >> lane & 1u) != 0;
     const bool waits = work.rays == most_rays_per_sample;
     if ((parts.mirrored >> lane & 1u) != 0) {
-      const Departure departure = depart(ray, RayKind::reflection, waits || goes_through);
-      departure.ray->direction = parts.mirrored_direction.lane(lane);
-      departure.ray->start = hit.start;
-      departure.path->weight = parts.mirrored_weight.lane(lane);
-      departure.path->media = round_->paths[ray].media;
-      departure.path->media_mark = parts.media_marks[lane];
+      PathState& path = depart(ray, RayKind::reflection, waits || goes_through,
+                               parts.mirrored_direction.lane(lane), from.start());
+      path.weight = parts.mirrored_weight.lane(lane);
+      path.media = round_->paths[ray].media;
+      path.media_mark = parts.media_marks[lane];
       if (!goes_through) work.media.release(parts.media_marks[lane]);
     }
     if (goes_through) {
-      const Departure departure = depart(ray, RayKind::refraction, waits);
-      departure.ray->direction = parts.refracted_direction.lane(lane);
-      departure.ray->start = hit.start_behind();
-      departure.path->weight = parts.refracted_weight.lane(lane);
-      departure.path->media = parts.media_behind[lane];
-      departure.path->media_mark = work.media.mark();
+      PathState& path = depart(ray, RayKind::refraction, waits, parts.refracted_direction.lane(lane),
+                               from.start_behind());
+      path.weight = parts.refracted_weight.lane(lane);
+      path.media = parts.media_behind[lane];
+      path.media_mark = work.media.mark();
     }
     gone_on |= static_cast<RayMask>(!waits) << lane;
   });
@@ -149,24 +147,29 @@ RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep, const V
   return lanes & ~dropped;
 }
 
-Tracer::Departure Tracer::depart(std::size_t ray, RayKind kind, bool waits) {
-  Departure departure{};
+PathState& Tracer::depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction,
+                          const StartPoint& start) {
+  const SurfaceLane from = surface(ray);
+  PathState* path = nullptr;
   if (waits) {
     PathRay& pending = round_->works[ray]->pending.push();
-    departure = {&pending.ray, &pending.path};
+    pending.origin = from.position();
+    pending.direction = direction;
+    pending.start = start;
+    path = &pending.path;
     ++waiting_;
   } else {
-    departure = join_next_round(ray, kind);
+    const std::size_t place = join_next_round(ray, kind);
+    next_round_->rays.set(place, from.position(), direction, start);
+    path = &next_round_->paths[place];
   }
-  const SurfaceLane from = surface(ray);
-  departure.ray->origin = from.position();
-  departure.path->kind = kind;
-  departure.path->bounces = round_->paths[ray].bounces + 1;
-  departure.path->path_length = from.group.path_length[static_cast<int>(from.lane)];
-  return departure;
+  path->kind = kind;
+  path->bounces = round_->paths[ray].bounces + 1;
+  path->path_length = from.group.path_length[static_cast<int>(from.lane)];
+  return *path;
 }
 
-Tracer::Departure Tracer::join_next_round(std::size_t ray, RayKind kind) {
+std::size_t Tracer::join_next_round(std::size_t ray, RayKind kind) {
   RenderStats& stats = work_.stats;
   ++(kind == RayKind::reflection ? stats.reflection_rays : stats.refraction_rays);
   Round& next = *next_round_;
@@ -174,13 +177,14 @@ Tracer::Departure Tracer::join_next_round(std::size_t ray, RayKind kind) {
   next.works[place] = round_->works[ray];
   next.samples[place] = round_->samples[ray];
   ++next.works[place]->rays;
-  return {&next.rays[place], &next.paths[place]};
+  return place;
 }
 
 WorldRay Tracer::ray_behind(std::size_t ray) {
   const SurfaceLane lit = surface(ray);
-  return {
-      .origin = lit.position(), .direction = round_->rays[ray].direction, .start = lit.hit().start_behind()};
+  return {.origin = lit.position(),
+          .direction = round_->rays.direction(ray),
+          .start = lit.start_behind()};
 }
 
 MediaLists::List Tracer::media_behind(std::size_t ray) {
@@ -198,7 +202,7 @@ MediaLists::List Tracer::media_behind(std::size_t ray) {
 void Tracer::pass_company(std::size_t ray, Passage& passage) {
   const WorldRay behind = ray_behind(ray);
   const RayHit& hit = hits_[ray];
-  const WorldRay& before = round_->rays[ray];
+  const WorldRay before = round_->rays.ray(ray);
   MediaLists& media = round_->works[ray]->media;
   data_.intersect(before, work_.rays);  // once more: others have been asked for since then
   std::vector<RayHit>& entered = work_.entered;
@@ -250,9 +254,9 @@ void Tracer::go_back(std::size_t ray) {
     return;
   }
   const PathRay& last = work.pending.top();
-  const Departure departure = join_next_round(ray, last.path.kind);
-  *departure.ray = last.ray;
-  *departure.path = last.path;
+  const std::size_t place = join_next_round(ray, last.path.kind);
+  next_round_->rays.set(place, last.origin, last.direction, last.start);
+  next_round_->paths[place] = last.path;
   work.media.release(last.path.media_mark);
   work.pending.pop();
   --waiting_;

@@ -40,12 +40,12 @@ class PacketTracer {
   };
   /// The first rays, so many.
   Traced trace(const RayPlaces& places, std::size_t count) {
-    const std::span<CameraRay> rays = std::span(rays_).first(count);
     const std::size_t lens_points = with_lens_ ? count : 0;
-    camera_.rays(std::span(places.picture).first(count), std::span(places.lens).first(lens_points), rays);
+    camera_.rays(std::span(places.picture).first(count), std::span(places.lens).first(lens_points), rays_);
+    const std::span<Tracer::Sample> samples = std::span(samples_).first(count);
     const std::span<FirstHit> first_hits = std::span(first_hits_).first(with_first_hits_ ? count : 0);
-    tracer_.trace(rays, samples_, first_hits);
-    return {std::span(samples_).first(count), first_hits};
+    tracer_.trace(rays_, samples, first_hits);
+    return {samples, first_hits};
   }
 
  private:
@@ -53,7 +53,7 @@ class PacketTracer {
   bool with_lens_;
   bool with_first_hits_;
   Tracer& tracer_;
-  std::array<CameraRay, packet_size> rays_;
+  std::array<RayLanes, RayPacket::group_count> rays_;
   std::array<Tracer::Sample, packet_size> samples_;
   std::array<FirstHit, packet_size> first_hits_;
 };

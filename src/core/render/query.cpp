@@ -136,12 +136,14 @@ class QueryPacket {
     count_ = rays.size();
     for (std::size_t i = 0; i < count_; ++i) {
       validate(rays[i]);
-      to_users_t_[i] = follow(rays[i], rays_[i]);
+      WorldRay ray;
+      to_users_t_[i] = follow(rays[i], ray);
+      rays_.set(i, ray);
     }
   }
 
   void nearest(std::span<std::optional<Hit>> hits) {
-    data_.intersect_each(followed(), hits_, work_);
+    data_.intersect_each(rays_, all(), hits_, work_);
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
       RayMask found = 0;
@@ -157,17 +159,17 @@ class QueryPacket {
   }
 
   void occluded(std::span<bool> occluded) {
-    const RayMask found = data_.occluded_each(followed(), work_);
+    const RayMask found = data_.occluded_each(rays_, all(), work_);
     for (std::size_t i = 0; i < count_; ++i) occluded[i] = (found >> i & 1u) != 0;
   }
 
  private:
-  std::span<const WorldRay> followed() const { return std::span(rays_).first(count_); }
+  RayMask all() const { return RayPacket::all(count_); }
 
   /// Tells of those of the rays from `first` on that have found something: those on one face side by side.
   void describe(std::size_t first, RayMask found, std::span<std::optional<Hit>> hits) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
-    const RayLanes lines = ray_lanes(std::span(rays_).subspan(first, lane_count));
+    const RayLanes& lines = rays_.lines[first / lane_count];
     const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
     const HitFaces faces(group);
     for (RayMask to_come = found; to_come != 0;) {
@@ -186,7 +188,7 @@ class QueryPacket {
   const PreparedData& data_;
   RayWorkspace& work_;
   std::size_t count_ = 0;
-  std::array<WorldRay, packet_size> rays_;
+  RayBatch rays_;
   std::array<PowerOfTwo, packet_size> to_users_t_;
   std::array<RayHit, packet_size> hits_;
   SurfacePointLanes points_;  ///< of those that are told of

@@ -12,20 +12,14 @@ namespace crt::core {
 struct SurfaceHit {
   const PreparedMaterial* material = nullptr;
   double transparency = 0;
-  StartPoint start;  ///< of those that leave to the viewer's side
-
-  /// Of those that go on behind the surface.
-  StartPoint start_behind() const {
-    StartPoint behind = start;
-    behind.side = opposite(start.side);
-    return behind;
-  }
+  StartPoint start;  ///< of those that leave to the viewer's side; but for its error
 };
 
 /// As many surfaces as there are lanes. What lanes hold whose rays have met none is of no use.
 struct SurfaceGroup {
   std::array<SurfaceHit, lane_count> hits;
   VectorLanes position;
+  Lanes start_errors{};     ///< StartPoint::t_error of rays that start there
   VectorLanes face_normal;  ///< of the geometry, turned to the viewer
   PhongSurfaces phong;      ///< its normal is that tilted by bumps
   Lanes reflectivity{};     ///< of the materials
@@ -43,6 +37,19 @@ struct SurfaceLane {
   Vec3 normal() const { return group.phong.normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
   Rgb light() const { return group.light.lane(lane); }
+
+  /// Of a ray that leaves to the viewer's side.
+  StartPoint start() const {
+    StartPoint start = hit().start;
+    start.t_error = group.start_errors[static_cast<int>(lane)];
+    return start;
+  }
+  /// Of one that goes on behind the surface.
+  StartPoint start_behind() const {
+    StartPoint behind = start();
+    behind.side = opposite(behind.side);
+    return behind;
+  }
 };
 
 }  // namespace crt::core

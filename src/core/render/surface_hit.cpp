@@ -76,11 +76,10 @@ void set_bumped_normals(const PreparedData& data, const AlikeHits& alike, const 
 
 }  // namespace
 
-void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
-             std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work) {
-  const RayLanes lines = ray_lanes(rays);
+void look_up(const PreparedData& data, const RayLanes& rays, std::span<const RayHit, lane_count> hits,
+             RayMask seen, SurfaceGroup& group, Workspace& work) {
   const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
-  group.phong.view = lines.direction;
+  group.phong.view = rays.direction;
   const HitFaces faces(hits);
   SurfacePointLanes& points = work.points;
   for (RayMask to_come = seen; to_come != 0;) {
@@ -90,7 +89,7 @@ void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> ray
     const AlikeHits alike = {first, material, mask_of(lanes), lanes};
     to_come &= ~alike.rays;
 
-    data.object_points(first, lines, t, material.uses_uv, points);
+    data.object_points(first, rays, t, material.uses_uv, points);
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
     set_material(alike, colors.color, transparency, group);
@@ -103,10 +102,7 @@ void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> ray
     alike.set(group.face_normal, first.entering ? points.normal : -points.normal);
     if (!material.bump) alike.set(group.phong.normal, group.face_normal);
   }
-  const Lanes start_errors = start_rounding * largest_component(lines.at(t));
-  for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    group.hits[lane].start.t_error = start_errors[static_cast<int>(lane)];
-  }
+  group.start_errors = start_rounding * largest_component(rays.at(t));
 }
 
 CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,

@@ -8,8 +8,8 @@ namespace crt::core {
 
 /// Looks up the places where those of a group of rays hit that have their bit in `seen`, with their
 /// materials' colours and bumps there.
-void look_up(const PreparedData& data, std::span<const WorldRay, lane_count> rays,
-             std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group, Workspace& work);
+void look_up(const PreparedData& data, const RayLanes& rays, std::span<const RayHit, lane_count> hits,
+             RayMask seen, SurfaceGroup& group, Workspace& work);
 
 /// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
 struct CrossingFilter {

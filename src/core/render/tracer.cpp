@@ -60,19 +60,19 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
   }
 }
 
-void Tracer::trace(std::span<const CameraRay> rays, std::span<Sample> samples,
+void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
                    std::span<FirstHit> first_hits) {
-  for (std::size_t i = 0; i < rays.size(); ++i) {
+  round_->count = samples.size();
+  Frame::set_eye_rays(camera_rays, round_->rays);
+  for (std::size_t i = 0; i < round_->count; ++i) {
     samples[i] = {};
     round_->samples[i] = &samples[i];
     round_->works[i] = &work_.samples[i];
     round_->works[i]->rays = 1;
-    Frame::eye_ray(rays[i], round_->rays[i]);
     round_->paths[i] = {};
     if (has_transparency_) start_media(i);
   }
-  work_.stats.camera_rays += rays.size();
-  round_->count = rays.size();
+  work_.stats.camera_rays += round_->count;
   while (round_->count > 0) {
     follow();
     if (!first_hits.empty()) tell_first_hits(std::exchange(first_hits, {}));
@@ -86,7 +86,7 @@ void Tracer::start_media(std::size_t ray) {
   work.media.release(camera_media_mark_);
   path.media = camera_media_;
   if (!frame_.one_viewpoint()) {
-    find_surrounding_media(data_, round_->rays[ray], work_.surrounding, work_);
+    find_surrounding_media(data_, round_->rays.ray(ray), work_.surrounding, work_);
     path.media = nested(work.media, work_.surrounding);
   }
   path.media_mark = work.media.mark();
@@ -94,9 +94,8 @@ void Tracer::start_media(std::size_t ray) {
 
 void Tracer::follow() {
   const std::size_t count = round_->count;
-  const std::span<const WorldRay> rays = std::span(round_->rays).first(count);
   tick(static_cast<unsigned>(count));
-  data_.intersect_each(rays, hits_, work_.rays);
+  data_.intersect_each(round_->rays, RayPacket::all(count), hits_, work_.rays);
 
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
@@ -105,6 +104,7 @@ void Tracer::follow() {
   look_up_each(on_surface);
   add_light(on_surface);
   next_round_->count = 0;
+  next_round_->rays.with_starts = 0;
   for (std::size_t group = 0; group * lane_count < count; ++group) {
     finish(group, RayPacket::lanes(on_surface, group));
   }
@@ -112,7 +112,7 @@ void Tracer::follow() {
 
 bool Tracer::see(std::size_t ray) {
   RayHit& hit = hits_[ray];
-  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays[ray]);
+  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays.ray(ray));
   const bool absorbs = frame_.features().absorption && round_->paths[ray].media != MediaLists::empty;
   if (absorbs && !pass_medium(ray)) return false;
   if (!hit.found()) {
@@ -127,9 +127,8 @@ void Tracer::look_up_each(RayMask on_surface) {
   RayPacket::for_each_group(on_surface, [&](std::size_t i, RayMask seen) {
     SurfaceGroup& group = surfaces_[i];
     const std::size_t first = i * lane_count;
-    const auto rays = std::span(round_->rays).subspan(first).first<lane_count>();
     const auto hits = std::span(hits_).subspan(first).first<lane_count>();
-    look_up(data_, rays, hits, seen, group, work_);
+    look_up(data_, round_->rays.lines[i], hits, seen, group, work_);
     group.light = ambient_light(frame_.ambient(), group.reflectivity);
     const PathState* const paths = &round_->paths[first];
     group.path_length = Lanes{paths[0].path_length + hits[0].t, paths[1].path_length + hits[1].t,
@@ -148,7 +147,7 @@ void Tracer::see_background(std::size_t ray) {
   Sample& sample = *round_->samples[ray];
   const PathState& path = round_->paths[ray];
   if (identifies_) note(sample, nothing);
-  const Color background = data_.background().color(round_->rays[ray].direction);
+  const Color background = data_.background().color(round_->rays.direction(ray));
   if (path.kind == RayKind::camera) {
     sample.alpha = background.a;
     sample.color += background.a * path.weight * rgb(background);
@@ -187,15 +186,19 @@ RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
 void Tracer::add_light(RayMask on_surface) {
   const RayMask taking = taking_light(on_surface);
   if (taking == 0) return;
+  RayPacket::for_each_group(taking, [&](std::size_t i, RayMask) {
+    shadow_rays_.start_errors[i] = surfaces_[i].start_errors;
+  });
   for_each_ray(taking, [&](std::size_t i) { shadow_rays_.starts[i] = surface(i).hit().start; });
-  data_.note_starts(taking, shadow_rays_);
+  shadow_rays_.with_starts = taking;
+  const PacketStarts starts = data_.noted_starts(shadow_rays_, taking);
   std::size_t lamp = 0;
   for (const PreparedLight& source : frame_.lights()) {
     const RayMask sent = send_to(source, taking);
     const auto count = static_cast<unsigned>(std::popcount(sent));
     work_.stats.shadow_rays += count;
     tick(count);
-    const RayMask hidden = data_.occluded_each(shadow_rays_, sent, work_.rays);
+    const RayMask hidden = data_.occluded_each(shadow_rays_, starts, sent, work_.rays);
     if (identifies_) {
       for_each_ray(hidden, [&](std::size_t i) { note(*round_->samples[i], shaded_from(lamp)); });
     }

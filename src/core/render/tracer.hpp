@@ -37,18 +37,19 @@ class Tracer {
   /// From now on samples get an identity.
   void identify() { identifies_ = true; }
 
-  /// Traces up to packet_size camera rays. Says of each what it meets first, if there is room for that in
-  /// `first_hits`. Throws Error (cancelled) soon after the progress says so.
-  void trace(std::span<const CameraRay> rays, std::span<Sample> samples, std::span<FirstHit> first_hits = {});
+  /// Traces as many camera rays as there are samples, up to packet_size. Says of each what it meets first, if
+  /// there is room for that in `first_hits`. Throws Error (cancelled) soon after the progress says so.
+  void trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
+             std::span<FirstHit> first_hits = {});
 
-  /// Where each of up to packet_size camera rays meets something first; no light is followed.
-  void look(std::span<const CameraRay> rays, std::span<FirstPlace> places);
+  /// Where as many camera rays as there are places meet something first; no light is followed.
+  void look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> places);
 
  private:
   /// A ray for each sample that is not done yet. Below they are known by their numbers in the round.
   struct Round {
     std::size_t count = 0;
-    std::array<WorldRay, packet_size> rays;  ///< apart from the rest: together they are asked for
+    RayBatch rays;
     std::array<PathState, packet_size> paths;
     std::array<SampleWork*, packet_size> works;
     std::array<Sample*, packet_size> samples;
@@ -112,16 +113,12 @@ class Tracer {
   void look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split);
   /// Which rays of such weights are to go on from where a group of rays ends, of which some are too deep.
   RayMask worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights);
-  /// Where a ray is written that goes on.
-  struct Departure {
-    WorldRay* ray;
-    PathState* path;
-  };
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
-  /// fills in its direction, its start, its weight and its media.
-  Departure depart(std::size_t ray, RayKind kind, bool waits);
+  /// fills in its weight and its media.
+  PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction,
+                    const StartPoint& start);
   /// A place in the next round for the sample of a ray.
-  Departure join_next_round(std::size_t ray, RayKind kind);
+  std::size_t join_next_round(std::size_t ray, RayKind kind);
   /// Takes up what waits of a ray's sample.
   void go_back(std::size_t ray);
 
@@ -166,7 +163,7 @@ class Tracer {
   std::array<RayHit, packet_size> hits_;
   std::array<SurfaceGroup, packet_size / lane_count> surfaces_;
   /// Rays from these to a light, and what comes along them if they meet nothing.
-  SurfaceRays shadow_rays_{};
+  RayBatch shadow_rays_;
   std::array<VectorLanes, packet_size / lane_count> lights_;
 };
 

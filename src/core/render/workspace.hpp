@@ -29,7 +29,9 @@ struct PathState {
 };
 
 struct PathRay {
-  WorldRay ray;  ///< its direction has unit length
+  Vec3 origin;
+  Vec3 direction;  ///< unit length
+  StartPoint start;
   PathState path;
 };
 

@@ -121,15 +121,15 @@ SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, 
   return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing, with_uv);
 }
 
-void Accelerator::expect_surface_points(std::span<const RayHit> hits) const {
+void Accelerator::expect_surface_points(std::span<const RayHit> hits, RayMask some) const {
   constexpr std::size_t in_cache = 64;
   if (compiled_.leaves.size() <= in_cache) return;
-  for (const RayHit& hit : hits) {
-    if (hit.found()) __builtin_prefetch(&compiled_.leaves[hit.leaf].complemented);
-  }
-  for (const RayHit& hit : hits) {
-    if (hit.found()) __builtin_prefetch(compiled_.leaves[hit.leaf].shape.get());
-  }
+  for_each_ray(some, [&](std::size_t i) {
+    if (hits[i].found()) __builtin_prefetch(&compiled_.leaves[hits[i].leaf].complemented);
+  });
+  for_each_ray(some, [&](std::size_t i) {
+    if (hits[i].found()) __builtin_prefetch(compiled_.leaves[hits[i].leaf].shape.get());
+  });
 }
 
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {

@@ -30,19 +30,15 @@ class Accelerator {
   RayHit nearest(const WorldRay& ray, RayWorkspace& work) const;
   bool any(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// The same for up to packet_size rays that go nearly the same way, each with what it finds alone; but
-  /// RayWorkspace::here and near are of no use after it.
-  void nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
-  /// Which of the rays.
-  RayMask any(std::span<const WorldRay> rays, RayWorkspace& work) const;
-
-  /// The same for rays that may go anywhere: together only where that pays.
-  void nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
-  RayMask any_each(std::span<const WorldRay> rays, RayWorkspace& work) const;
-
-  /// The same for some rays that start on surfaces, once it has been noted what these mean.
-  RayMask any_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const;
-  void note_starts(RayMask some, SurfaceRays& rays) const;
+  /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near are of no
+  /// use after it. Hits of other rays stay as they are.
+  void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits, Packets packets,
+                    RayWorkspace& work) const;
+  /// Which of the rays; `starts` says what these start on.
+  RayMask any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
+                   RayWorkspace& work) const;
+  /// On what some rays start, and what they have left for good.
+  PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
   /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
   /// material `is_opaque` says so (if given).
@@ -69,7 +65,7 @@ class Accelerator {
   /// The point of a hit that `ray` found, in the space of its leaf; u and v only if asked for.
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
   /// Lets memory fetch beforehand what surface_point() looks at.
-  void expect_surface_points(std::span<const RayHit> hits) const;
+  void expect_surface_points(std::span<const RayHit> hits, RayMask some) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Whether a crossing near the ray's end is of a surface through that end.
@@ -91,31 +87,25 @@ class Accelerator {
   /// Whether there are so few boxes that all of them are looked at.
   bool has_box_row() const { return bounded_.list.size() <= BoxRow::most_boxes; }
   /// Whether some rays are to be followed as a packet.
-  template <class Rays>
-  bool pay_together(const Rays& rays, RayMask some) const;
+  bool pay_together(const RayBatch& rays, RayMask some, Packets packets) const;
   template <class Kind>
   void traverse_filtered(Kind& query) const;
   /// Returns the rays that still go, of those which do.
-  template <class QueryOf>
-  RayMask traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
-                            const QueryOf& query_of) const;
-  /// On what rays start, and what they have left for good; start_of(ray) says where.
-  template <class StartOf>
-  PacketStarts noted_starts(RayMask rays, const StartOf& start_of) const;
-  /// At least one ray.
-  RayPacket packet_of(std::span<const WorldRay> rays) const;
+  template <class Answers>
+  RayMask traverse_filtered(RayPacket& packet, RayMask going, Answers& answers) const;
   /// Where nothing but an object is that keeps apart.
   Bounds room_of(std::uint32_t object) const { return compiled_.objects[object].bounds.grown(margin_); }
-  /// Empties the hits, and follows those rays that leave_apart(); the others are still open.
-  RayMask begin_nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
-  /// nearest() for such rays, whose hits are empty.
-  void nearest_together(std::span<const WorldRay> rays, RayMask open, std::span<RayHit> hits,
-                        RayWorkspace& work) const;
+  /// nearest_each() for rays whose hits are empty, as a packet.
+  void nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit> hits, RayWorkspace& work) const;
   RayHit nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const;
-  /// Takes those rays of a group, of as many as there are lanes at most, that start into solids which keep
-  /// apart to where they leave these: what there is elsewhere they cannot meet before. Returns which; the
-  /// hits of the others are left empty.
-  RayMask leave_apart(std::span<const WorldRay> group, std::span<RayHit> hits, RayWorkspace& work) const;
+  /// Takes those of a batch's rays that start into solids which keep apart to where they leave these: what
+  /// there is elsewhere they cannot meet before. Returns which; the hits of the others are left empty.
+  RayMask leave_apart(const RayBatch& rays, RayMask some, std::span<RayHit> hits, RayWorkspace& work) const;
+  /// The same of those rays of a group that start into one such solid.
+  RayMask leave_apart(const Outline& solid, const RayBatch& rays, std::size_t group, RayMask some,
+                      std::span<RayHit, lane_count> hits, RayWorkspace& work) const;
+  /// The same of one ray.
+  bool leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
   /// The same of one ray and the solid that it starts into, by the exact test.
   bool leaves_apart(const Outline& solid, const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
   /// The crossings around the place of a hit that has company, into `work`; returns the first of those at it.

@@ -75,7 +75,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
 
 RayHit Accelerator::nearest(const WorldRay& ray, RayWorkspace& work) const {
   RayHit hit;
-  if (!apart_.empty() && leave_apart({&ray, 1}, {&hit, 1}, work) != 0) return hit;
+  if (leaves_apart(ray, work, hit)) return hit;
   return nearest_elsewhere(ray, work);
 }
 

@@ -25,19 +25,26 @@ class Nearest final : public ObjectQuery<Nearest> {
     return false;
   }
 
-  /// `reach` is up to where it may have company. write(hit) writes it where it stays: a copy of what has just
-  /// been written waits until that has reached the cache.
+  /// `reach` is up to where it may have company.
   template <class Write>
   void take(double t, double t_low, std::uint32_t object, double reach, const Write& write) {
     if (!(t < ray().t_max)) return;
-    if (std::tie(t, t_low, object) < std::tie(best_.t, best_.t_low, best_.object)) {
-      const bool has_company = best_.t <= reach;
-      write(best_);
-      best_.has_company = has_company;
-      set_limit(std::min(limit(), reach));
-    } else {
-      best_.has_company = true;
+    if (take(best_, t, t_low, object, reach, write)) set_limit(std::min(limit(), reach));
+  }
+
+  /// Of a crossing before the ray's end: whether it becomes the best. write(hit) writes it where it stays: a
+  /// copy of what has just been written waits until that has reached the cache.
+  template <class Write>
+  static bool take(RayHit& best, double t, double t_low, std::uint32_t object, double reach,
+                   const Write& write) {
+    if (!(std::tie(t, t_low, object) < std::tie(best.t, best.t_low, best.object))) {
+      best.has_company = true;
+      return false;
     }
+    const bool has_company = best.t <= reach;
+    write(best);
+    best.has_company = has_company;
+    return true;
   }
 
  private:

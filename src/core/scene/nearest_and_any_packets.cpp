@@ -13,15 +13,46 @@ namespace crt::core {
 
 namespace {
 
-/// Tests the rays of a packet against objects. `query_of(ray)` gives one ray's query, in the state that what
-/// has been found so far puts it in; but for the limit, which the packet has.
-template <class QueryOf>
+/// What some rays of a batch ask, and find: the nearest crossing.
+struct NearestOfEach {
+  static constexpr bool any_will_do = false;
+
+  const Accelerator& accelerator;
+  const RayBatch& rays;
+  std::span<RayHit> hits;
+  RayWorkspace& work;
+  WorldRay asked{};
+
+  /// In the state that what has been found so far puts it in; but for the limit. The only one at a time.
+  Nearest query(std::size_t ray) {
+    asked = rays.ray(ray);
+    return {accelerator, asked, work, hits[ray]};
+  }
+};
+
+/// The same: whether there is any.
+struct AnyOfEach {
+  static constexpr bool any_will_do = true;
+
+  const Accelerator& accelerator;
+  const RayBatch& rays;
+  RayWorkspace& work;
+  WorldRay asked{};
+
+  Any query(std::size_t ray) {
+    asked = rays.ray(ray);
+    return {accelerator, asked, work};
+  }
+};
+
+/// Tests the rays of a packet against objects.
+template <class Answers>
 class PacketTests {
  public:
-  using Kind = std::invoke_result_t<QueryOf, std::size_t>;
+  static constexpr bool any_will_do = Answers::any_will_do;
 
-  PacketTests(RayPacket& packet, RayMask going, RayWorkspace& work, const QueryOf& query_of)
-      : packet_(packet), outlined_(packet), going_(going), work_(work), query_of_(query_of) {}
+  PacketTests(RayPacket& packet, RayMask going, Answers& answers)
+      : packet_(packet), outlined_(packet), going_(going), answers_(answers) {}
 
   /// The rays that still go.
   RayMask going() const { return going_; }
@@ -32,9 +63,9 @@ class PacketTests {
     rays &= ~outlined_.left(outline);
     if (rays == 0) return 0;
     const BoxStarts starts = outlined_.box_starts(outline, outlines, rays);
-    const Verdict<RayMask> verdict = outlined_.judge(outline, outlines, rays, starts, Kind::any_will_do);
+    const Verdict<RayMask> verdict = outlined_.judge(outline, outlines, rays, starts, any_will_do);
     RayMask open = rays & ~verdict.missed;
-    if constexpr (Kind::any_will_do) {
+    if constexpr (any_will_do) {
       open &= ~verdict.met;
       settle(verdict.met);
     }
@@ -45,7 +76,7 @@ class PacketTests {
         open |= test_told(outline, outlines, group, asked, starts) << (group * lane_count);
       });
     }
-    for_each_ray(open, [&](std::size_t ray) { ask(ray, [&](Kind& query) { query.test(outline.object); }); });
+    for_each_ray(open, [&](std::size_t ray) { ask(ray, [&](auto& query) { query.test(outline.object); }); });
     return changed_;
   }
 
@@ -80,7 +111,7 @@ class PacketTests {
   template <class Use>
   void ask(std::size_t ray, const Use& use) {
     const double before = packet_.limit(ray);
-    Kind query = query_of_(ray);
+    auto query = answers_.query(ray);
     query.set_limit(before);
     use(query);
     if (query.limit() == before) return;
@@ -97,38 +128,57 @@ class PacketTests {
     const OutlineLine<Lanes>& lines = packet_.groups[group];
     const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, asked, starts);
     const RayMask open = asked & mask_of(first.unknown);
-    work_.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
+    answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
     const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
-    if (found != 0) {
-      const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
-      for_each_ray(found, [&](std::size_t lane) {
-        const FirstCrossing<double> of_ray = lane_of(first, lane);
-        const auto write = [&](RayHit& hit) { write_first(outline, outlines, of_ray, hit); };
-        ask(group * lane_count + lane, [&](Kind& query) {
-          query.take(of_ray.t, 0, outline.object, reach[static_cast<int>(lane)], write);
-        });
+    if (found == 0) return open;
+    if constexpr (any_will_do) {
+      const RayMask surely = found & mask_of(first.t < lines.certain_to);
+      settle(surely << (group * lane_count));
+      for_each_ray(found & ~surely, [&](std::size_t lane) {
+        RayHit hit;
+        write_first(outline, outlines, lane_of(first, lane), hit);
+        ask(group * lane_count + lane, [&](Any& query) { query.take(hit); });
       });
+    } else {
+      take(outline, outlines, group, first, found);
     }
     return open;
+  }
+
+  /// What is found before the limits.
+  void take(const Outline& outline, const Outlines& outlines, std::size_t group,
+            const FirstCrossing<Lanes>& first, RayMask found) {
+    Lanes& limits = packet_.limits[group];
+    found &= mask_of(first.t < answers_.rays.t_max[group]);
+    const Lanes reach = first.t + company_width(plain_ray(packet_.groups[group]), first.t, first.error);
+    RayMask best = 0;
+    for_each_ray(found, [&](std::size_t lane) {
+      const FirstCrossing<double> of_ray = lane_of(first, lane);
+      const bool is_best = Nearest::take(
+          answers_.hits[group * lane_count + lane], of_ray.t, 0, outline.object,
+          reach[static_cast<int>(lane)], [&](RayHit& hit) { write_first(outline, outlines, of_ray, hit); });
+      best |= static_cast<RayMask>(is_best) << lane;
+    });
+    // After the rays' starts, so that they go on.
+    const LaneMask nearer = both(lanes_with(best), reach < limits);
+    limits = nearer ? reach : limits;
+    changed_ |= mask_of(nearer) << (group * lane_count);
   }
 
   RayPacket& packet_;
   OutlinedPacket outlined_;
   RayMask going_;
   RayMask changed_ = 0;
-  RayWorkspace& work_;
-  const QueryOf& query_of_;
+  Answers& answers_;
 };
 
 }  // namespace
 
-template <class QueryOf>
-RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWorkspace& work,
-                                       const QueryOf& query_of) const {
-  PacketTests tests(packet, going, work, query_of);
-  constexpr bool any_will_do = decltype(tests)::Kind::any_will_do;
+template <class Answers>
+RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, Answers& answers) const {
+  PacketTests tests(packet, going, answers);
   // Where exactly a plane is met is only asked if nothing is before it.
-  constexpr bool planes_last = !any_will_do;
+  constexpr bool planes_last = !Answers::any_will_do;
   for (const Outline& outline : unbounded_.list) {
     if (tests.going() == 0) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
@@ -138,7 +188,7 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
     }
   }
   if (tests.going() != 0) {
-    visit_boxes<!any_will_do>(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
+    visit_boxes<!Answers::any_will_do>(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
       return tests.test(bounded_.list[box], bounded_, rays);
     });
   }
@@ -150,13 +200,12 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, RayWork
   return tests.going();
 }
 
-template <class StartOf>
-PacketStarts Accelerator::noted_starts(RayMask rays, const StartOf& start_of) const {
+PacketStarts Accelerator::noted_starts(const RayBatch& rays, RayMask some) const {
   PacketStarts starts;
   const StartPoint* before = nullptr;
   std::uint32_t left = nothing;
-  for_each_ray(rays, [&](std::size_t i) {
-    const StartPoint& start = start_of(i);
+  for_each_ray(some & rays.with_starts, [&](std::size_t i) {
+    const StartPoint& start = rays.starts[i];
     if (start.leaf == nothing) return;
     const RayMask bit = RayMask{1} << i;
     starts.surfaces[i] = start.surface;
@@ -172,17 +221,6 @@ PacketStarts Accelerator::noted_starts(RayMask rays, const StartOf& start_of) co
   return starts;
 }
 
-void Accelerator::note_starts(RayMask some, SurfaceRays& rays) const {
-  rays.noted = noted_starts(some, [&](std::size_t i) -> const StartPoint& { return rays.starts[i]; });
-}
-
-RayPacket Accelerator::packet_of(std::span<const WorldRay> rays) const {
-  RayPacket packet(rays);
-  packet.starts = noted_starts(RayPacket::all(rays.size()),
-                               [&](std::size_t i) -> const StartPoint& { return rays[i].start; });
-  return packet;
-}
-
 bool Accelerator::leaves_apart(const Outline& solid, const WorldRay& ray, RayWorkspace& work,
                                RayHit& hit) const {
   Nearest query(*this, ray, work, hit);
@@ -194,114 +232,109 @@ bool Accelerator::leaves_apart(const Outline& solid, const WorldRay& ray, RayWor
   return false;
 }
 
-RayMask Accelerator::leave_apart(std::span<const WorldRay> group, std::span<RayHit> hits,
-                                 RayWorkspace& work) const {
-  std::array<std::uint32_t, lane_count> places;
-  RayMask to_come = 0;
-  for (std::size_t i = 0; i < group.size(); ++i) {
-    const bool as_before = i > 0 && group[i].start.is_to_same_side(group[i - 1].start);
-    places[i] = as_before ? places[i - 1] : entered_apart(group[i].start);
-    to_come |= static_cast<RayMask>(places[i] != nothing) << i;
-  }
-  if (to_come == 0) return 0;
-  const RayLanes lines = ray_lanes(group);
-  const Lanes begin = ray_lanes(group, &WorldRay::t_min);
-  const Lanes end = ray_lanes(group, &WorldRay::t_max);
-  RayMask done = 0;
-  while (to_come != 0) {
-    const std::uint32_t place = places[first_ray(to_come)];
-    RayMask alike = 0;
-    for_each_ray(to_come, [&](std::size_t i) { alike |= static_cast<RayMask>(places[i] == place) << i; });
-    to_come &= ~alike;
-    const Outline& outline = bounded_.list[place];
-    if (tells_exit(outline)) {
-      const auto exit = exit_apart(outline, room_of(outline.object), lines, begin, end);
-      const RayMask told = alike & mask_of(exit.found);
-      for_each_ray(told, [&](std::size_t i) { write_first(outline, bounded_, lane_of(exit, i), hits[i]); });
-      work.intersection_tests += static_cast<unsigned>(std::popcount(told));
-      done |= told;
-      alike &= ~told;
+bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
+  const std::uint32_t place = entered_apart(ray.start);
+  if (place == nothing) return false;
+  const Outline& solid = bounded_.list[place];
+  if (tells_exit(solid)) {
+    const PlainRay<double> line{ray.origin, ray.direction};
+    const auto exit = exit_apart(solid, room_of(solid.object), line, ray.t_min, ray.t_max);
+    if (exit.found) {
+      write_first(solid, bounded_, exit, hit);
+      ++work.intersection_tests;
+      return true;
     }
-    for_each_ray(alike, [&](std::size_t i) {
-      done |= static_cast<RayMask>(leaves_apart(outline, group[i], work, hits[i])) << i;
-    });
   }
+  return leaves_apart(solid, ray, work, hit);
+}
+
+RayMask Accelerator::leave_apart(const Outline& solid, const RayBatch& rays, std::size_t group, RayMask some,
+                                 std::span<RayHit, lane_count> hits, RayWorkspace& work) const {
+  RayMask done = 0;
+  if (tells_exit(solid)) {
+    const auto exit = exit_apart(solid, room_of(solid.object), rays.lines[group], rays.t_min[group],
+                                 rays.t_max[group]);
+    done = some & mask_of(exit.found);
+    for_each_ray(done, [&](std::size_t lane) {
+      write_first(solid, bounded_, lane_of(exit, lane), hits[lane]);
+    });
+    work.intersection_tests += static_cast<unsigned>(std::popcount(done));
+  }
+  for_each_ray(some & ~done, [&](std::size_t lane) {
+    const WorldRay ray = rays.ray(group * lane_count + lane);
+    done |= static_cast<RayMask>(leaves_apart(solid, ray, work, hits[lane])) << lane;
+  });
   return done;
 }
 
-RayMask Accelerator::begin_nearest(std::span<const WorldRay> rays, std::span<RayHit> hits,
-                                   RayWorkspace& work) const {
-  std::fill_n(hits.begin(), rays.size(), RayHit{});
-  RayMask open = RayPacket::all(rays.size());
-  if (apart_.empty()) return open;
-  for (std::size_t first = 0; first < rays.size(); first += lane_count) {
-    const std::size_t count = std::min<std::size_t>(lane_count, rays.size() - first);
-    const RayMask done = leave_apart(rays.subspan(first, count), hits.subspan(first, count), work);
-    open &= ~(done << first);
-  }
-  return open;
+RayMask Accelerator::leave_apart(const RayBatch& rays, RayMask some, std::span<RayHit> hits,
+                                 RayWorkspace& work) const {
+  if (apart_.empty()) return 0;
+  RayMask done = 0;
+  RayPacket::for_each_group(some & rays.with_starts, [&](std::size_t group, RayMask to_come) {
+    const std::size_t first = group * lane_count;
+    std::array<std::uint32_t, lane_count> places;
+    const StartPoint* before = nullptr;
+    std::uint32_t place = nothing;
+    for_each_ray(to_come, [&](std::size_t lane) {
+      const StartPoint& start = rays.starts[first + lane];
+      if (before == nullptr || !start.is_to_same_side(*before)) place = entered_apart(start);
+      before = &start;
+      places[lane] = place;
+      if (place == nothing) to_come &= ~(RayMask{1} << lane);
+    });
+    while (to_come != 0) {
+      place = places[first_ray(to_come)];
+      RayMask alike = 0;
+      for_each_ray(to_come, [&](std::size_t i) { alike |= static_cast<RayMask>(places[i] == place) << i; });
+      to_come &= ~alike;
+      done |= leave_apart(bounded_.list[place], rays, group, alike,
+                          hits.subspan(first).first<lane_count>(), work)
+              << first;
+    }
+  });
+  return done;
 }
 
-void Accelerator::nearest_together(std::span<const WorldRay> rays, RayMask open, std::span<RayHit> hits,
+void Accelerator::nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit> hits,
                                    RayWorkspace& work) const {
-  RayPacket packet = packet_of(rays);
-  traverse_filtered(packet, open, work,
-                    [&](std::size_t ray) { return Nearest(*this, rays[ray], work, hits[ray]); });
-  for_each_ray(open, [&](std::size_t i) {
-    if (hits[i].has_company) hits[i] = gather_company(rays[i], hits[i], work);
+  const PacketStarts starts = noted_starts(rays, some);
+  RayPacket packet(rays, starts, some);
+  NearestOfEach answers{*this, rays, hits, work};
+  traverse_filtered(packet, some, answers);
+  for_each_ray(some, [&](std::size_t i) {
+    if (hits[i].has_company) hits[i] = gather_company(rays.ray(i), hits[i], work);
   });
 }
 
-void Accelerator::nearest(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const {
-  const RayMask open = begin_nearest(rays, hits, work);
-  if (open != 0) nearest_together(rays, open, hits, work);
-  expect_surface_points(hits.first(rays.size()));
-}
-
-template <class Rays>
-bool Accelerator::pay_together(const Rays& rays, RayMask some) const {
+bool Accelerator::pay_together(const RayBatch& rays, RayMask some, Packets packets) const {
+  if (packets == Packets::always) return some != 0;
   // A row of boxes is looked at for any rays as for those that go the same way.
   return has_box_row() ? std::popcount(some) >= fewest_together : go_together(rays, some);
 }
 
-void Accelerator::nearest_each(std::span<const WorldRay> rays, std::span<RayHit> hits,
+void Accelerator::nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits, Packets packets,
                                RayWorkspace& work) const {
-  const RayMask open = begin_nearest(rays, hits, work);
-  if (pay_together(rays, open)) {
+  for_each_ray(some, [&](std::size_t i) { hits[i] = {}; });
+  const RayMask open = some & ~leave_apart(rays, some, hits, work);
+  if (pay_together(rays, open, packets)) {
     nearest_together(rays, open, hits, work);
   } else {
-    for_each_ray(open, [&](std::size_t i) { hits[i] = nearest_elsewhere(rays[i], work); });
+    for_each_ray(open, [&](std::size_t i) { hits[i] = nearest_elsewhere(rays.ray(i), work); });
   }
-  expect_surface_points(hits.first(rays.size()));
+  expect_surface_points(hits, some);
 }
 
-RayMask Accelerator::any(std::span<const WorldRay> rays, RayWorkspace& work) const {
-  if (rays.empty()) return 0;
-  RayPacket packet = packet_of(rays);
-  const RayMask all = RayPacket::all(rays.size());
-  return all &
-         ~traverse_filtered(packet, all, work, [&](std::size_t ray) { return Any(*this, rays[ray], work); });
-}
-
-RayMask Accelerator::any_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
-  if (pay_together(rays, RayPacket::all(rays.size()))) return any(rays, work);
-  RayMask found = 0;
-  for (std::size_t i = 0; i < rays.size(); ++i) found |= static_cast<RayMask>(any(rays[i], work)) << i;
-  return found;
-}
-
-RayMask Accelerator::any_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const {
-  if (!pay_together(rays, some)) {
+RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                              Packets packets, RayWorkspace& work) const {
+  if (!pay_together(rays, some, packets)) {
     RayMask found = 0;
     for_each_ray(some, [&](std::size_t i) { found |= static_cast<RayMask>(any(rays.ray(i), work)) << i; });
     return found;
   }
-  RayPacket packet(rays, some);
-  WorldRay asked;
-  return some & ~traverse_filtered(packet, some, work, [&](std::size_t ray) {
-           asked = rays.ray(ray);
-           return Any(*this, asked, work);
-         });
+  RayPacket packet(rays, starts, some);
+  AnyOfEach answers{*this, rays, work};
+  return some & ~traverse_filtered(packet, some, answers);
 }
 
 }  // namespace crt::core

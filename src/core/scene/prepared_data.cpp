@@ -110,30 +110,23 @@ bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
   return accelerator_->any(ray, work);
 }
 
-void PreparedData::intersect(std::span<const WorldRay> rays, std::span<RayHit> hits,
-                             RayWorkspace& work) const {
-  accelerator_->nearest(rays, hits, work);
+void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits,
+                                  RayWorkspace& work, Packets packets) const {
+  accelerator_->nearest_each(rays, some, hits, packets, work);
 }
 
-RayMask PreparedData::occluded(std::span<const WorldRay> rays, RayWorkspace& work) const {
-  return accelerator_->any(rays, work);
+RayMask PreparedData::occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
+                                    Packets packets) const {
+  return accelerator_->any_each(rays, noted_starts(rays, some), some, packets, work);
 }
 
-void PreparedData::intersect_each(std::span<const WorldRay> rays, std::span<RayHit> hits,
-                                  RayWorkspace& work) const {
-  accelerator_->nearest_each(rays, hits, work);
+RayMask PreparedData::occluded_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                                    RayWorkspace& work) const {
+  return accelerator_->any_each(rays, starts, some, Packets::where_they_pay, work);
 }
 
-RayMask PreparedData::occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const {
-  return accelerator_->any_each(rays, work);
-}
-
-RayMask PreparedData::occluded_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const {
-  return accelerator_->any_each(rays, some, work);
-}
-
-void PreparedData::note_starts(RayMask some, SurfaceRays& rays) const {
-  accelerator_->note_starts(some, rays);
+PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) const {
+  return accelerator_->noted_starts(rays, some);
 }
 
 bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,

@@ -105,18 +105,17 @@ class PreparedData {
   /// Whether there is any crossing at all before the ray's end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// The same for up to packet_size rays that go nearly the same way, each with what it finds alone; but
-  /// RayWorkspace::here and near are of no use after it.
-  void intersect(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
-  RayMask occluded(std::span<const WorldRay> rays, RayWorkspace& work) const;
+  /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near are of no
+  /// use after it. Hits of other rays stay as they are.
+  void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits, RayWorkspace& work,
+                      Packets packets = Packets::where_they_pay) const;
+  RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
+                        Packets packets = Packets::where_they_pay) const;
 
-  /// The same for up to packet_size rays that may go anywhere: together only where that pays.
-  void intersect_each(std::span<const WorldRay> rays, std::span<RayHit> hits, RayWorkspace& work) const;
-  RayMask occluded_each(std::span<const WorldRay> rays, RayWorkspace& work) const;
-
-  /// The same for some rays that start on surfaces, once note_starts() has looked at where.
-  RayMask occluded_each(const SurfaceRays& rays, RayMask some, RayWorkspace& work) const;
-  void note_starts(RayMask some, SurfaceRays& rays) const;
+  /// The same for rays of which it is known what they start on.
+  RayMask occluded_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                        RayWorkspace& work) const;
+  PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
   /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
   /// others are entered. With `stop_at_opaque`, returns false as soon as one of an opaque

@@ -4,7 +4,7 @@
 #include <array>
 #include <bit>
 #include <cstdint>
-#include <span>
+#include <limits>
 
 #include "core/geometry/plain_ray.hpp"
 #include "core/scene/outline.hpp"
@@ -28,11 +28,6 @@ void for_each_ray(RayMask mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
 }
 
-/// Of at least one ray, and at most as many as there are lanes, the lines and another number by component.
-/// Lanes beyond the last ray are like it.
-RayLanes ray_lanes(std::span<const WorldRay> rays);
-Lanes ray_lanes(std::span<const WorldRay> rays, double WorldRay::*number);
-
 /// On what rays start.
 struct PacketStarts {
   std::array<std::uint32_t, packet_size> surfaces;
@@ -50,33 +45,40 @@ struct PacketStarts {
   }
 };
 
-/// Up to packet_size rays that start on surfaces, by component. A mask that comes with them says which of
-/// them there are; the others may hold anything.
-struct SurfaceRays {
+/// Up to packet_size rays by component. A mask that comes with them says which of them there are; the others
+/// may hold anything.
+struct RayBatch {
   std::array<RayLanes, packet_size / lane_count> lines;
-  std::array<Lanes, packet_size / lane_count> t_max;
-  std::array<Lanes, packet_size / lane_count> end_errors;  ///< as in WorldRay
+  std::array<Lanes, packet_size / lane_count> t_min{};
+  std::array<Lanes, packet_size / lane_count> t_max;         ///< infinity unless it is set
+  std::array<Lanes, packet_size / lane_count> start_errors;  ///< StartPoint::t_error
+  std::array<Lanes, packet_size / lane_count> end_errors{};  ///< as in WorldRay
+  RayMask with_starts = 0;  ///< the others start in free space
   std::array<StartPoint, packet_size> starts;
-  PacketStarts noted;  ///< what `starts` mean: PreparedData::note_starts()
+
+  RayBatch() { t_max.fill(lanes_of(std::numeric_limits<double>::infinity())); }
 
   /// One of them.
   WorldRay ray(std::size_t index) const;
+  Vec3 direction(std::size_t index) const { return lines[index / lane_count].direction.lane(index % lane_count); }
+  void set(std::size_t index, const WorldRay& ray);
+  /// All but t_min, t_max and end_errors.
+  void set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start);
 };
 
-/// Up to packet_size rays by component, as vector instructions take them.
+/// Up to packet_size rays as vector instructions take them.
 struct RayPacket {
   static constexpr std::size_t group_count = packet_size / lane_count;
   static constexpr RayMask group_mask = (1u << lane_count) - 1;
 
-  /// On what they start remains to be set.
-  explicit RayPacket(std::span<const WorldRay> rays);
-  RayPacket(const SurfaceRays& rays, RayMask some);
+  /// Of some of a batch, and what their starts mean, which must outlive the packet.
+  RayPacket(const RayBatch& rays, const PacketStarts& starts, RayMask some);
 
   /// Groups without a ray hold nothing.
   std::array<OutlineLine<Lanes>, group_count> groups;
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
-  PacketStarts starts;
+  const PacketStarts& starts;
 
   /// A group's rays, by lane.
   static RayMask lanes(RayMask rays, std::size_t group) { return rays >> (group * lane_count) & group_mask; }
@@ -105,11 +107,16 @@ inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, s
   return mask;
 }
 
+/// Which rays of a batch are followed together.
+enum class Packets {
+  where_they_pay,
+  always  ///< it makes no difference to what they find
+};
+
 /// A packet of fewer rays does not pay.
 inline constexpr int fewest_together = 3;
 
-/// Whether some of up to packet_size rays go so nearly the same way that a packet of them pays.
-bool go_together(std::span<const WorldRay> rays, RayMask some);
-bool go_together(const SurfaceRays& rays, RayMask some);
+/// Whether some rays go so nearly the same way that a packet of them pays.
+bool go_together(const RayBatch& rays, RayMask some);
 
 }  // namespace crt::core
