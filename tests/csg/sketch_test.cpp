@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "core/scene/accelerator.hpp"
+#include "core/scene/line_of_ray.hpp"
 #include "csg/continued_ray.hpp"
 #include "support/solids.hpp"
 
@@ -155,24 +156,23 @@ class Comparison {
       : materials_(compiled.materials), accelerator_(std::move(compiled), materials_) {}
 
   void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
-    const SketchedChange change =
-        program().sketch.first_change(ray, ray.t_max, scene().leaves, scene().face_surfaces);
-    switch (change.kind) {
-      case SketchedChange::Kind::open:
-        ++counts.open;
-        break;
-      case SketchedChange::Kind::none:
-        ++counts.missed;
-        REQUIRE(hit == nullptr);
-        break;
-      case SketchedChange::Kind::one:
-        ++counts.met;
-        REQUIRE(hit != nullptr);
-        REQUIRE(hit->leaf == change.leaf);
-        REQUIRE(hit->entering == change.into_object);
-        REQUIRE(hit->t - hit->error >= change.from);
-        REQUIRE(hit->t + hit->error <= change.to);
-        break;
+    const OutlineLine<double> line = line_of(ray);
+    const bool on_surface = ray.start.surface != nothing;
+    const SketchedChanges<double> change = program().sketch.first_changes<double>(
+        {.lines = line, .limits = ray.t_max, .asked = 1, .on_surface = on_surface, .starts = {&ray.start, 1}},
+        scene().leaves, scene().face_surfaces);
+    if (change.none) {
+      ++counts.missed;
+      REQUIRE(hit == nullptr);
+    } else if (change.one) {
+      ++counts.met;
+      REQUIRE(hit != nullptr);
+      REQUIRE(hit->leaf == static_cast<std::uint32_t>(change.leaf));
+      REQUIRE(hit->entering == change.into_object);
+      REQUIRE(hit->t - hit->error >= change.from);
+      REQUIRE(hit->t + hit->error <= change.to);
+    } else {
+      ++counts.open;
     }
   }
 

@@ -2,10 +2,12 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 
+#include "core/csg/outline_line.hpp"
 #include "core/geometry/bounds.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/vector.hpp"
@@ -18,6 +20,12 @@ struct LineSpan {
   double leave = 0;
 
   bool empty() const { return !(enter <= leave); }
+};
+
+/// The same of several lines.
+struct LineSpanLanes {
+  Lanes enter;
+  Lanes leave;
 };
 
 /// What of a line does not change from box to box.
@@ -49,6 +57,33 @@ class RaySlabs {
     }
     spans(lower, upper, enter, leave);
     return {enter[0], leave[0]};
+  }
+
+  /// The spans of lines that have their bit in `some`; origins are what is meant.
+  static LineSpanLanes spans(const OutlineLine<Lanes>& lines, const Bounds& box, std::uint32_t some) {
+    constexpr double infinity = std::numeric_limits<double>::infinity();
+    LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
+    LaneMask steep{};
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      const Lanes& inverse = lines.inverse[i];
+      const Lanes first = (box.lower[axis] - lines.origin[i]) * inverse;
+      const Lanes second = (box.upper[axis] - lines.origin[i]) * inverse;
+      const Lanes low = min(first, second);
+      const Lanes high = max(first, second);
+      span.enter = max(span.enter, low - slack * size_of(low));
+      span.leave = min(span.leave, high + slack * size_of(high));
+      steep |= size_of(inverse) > largest_inverse;
+    }
+    for (std::uint32_t left = mask_of(steep) & some; left != 0; left &= left - 1) {
+      const int i = std::countr_zero(left);
+      const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
+      const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
+      const LineSpan of_line = RaySlabs(origin, direction).span(box);
+      span.enter[i] = of_line.enter;
+      span.leave[i] = of_line.leave;
+    }
+    return span;
   }
 
   /// Whether a t is in the span of a line in a box, for a line whose origin is what is meant.

@@ -28,32 +28,29 @@ std::uint32_t take_bit(std::uint32_t& bits) {
   return index;
 }
 
-}  // namespace
-
-bool CsgSketch::Spheres::set_from(std::size_t first_lane, const Leaf& leaf) {
+/// A leaf in the world; none if it is no sphere, or not where doubles tell exactly.
+std::optional<CsgSketch::Sphere> sphere_of(const Leaf& leaf) {
   const Surface surface = leaf.shape->surface(0);
   const std::optional<Vec3> place = leaf.placement->exactly_to_world(surface.position);
-  if (surface.kind != SurfaceKind::sphere || !place || !has_fair_size(surface.sizes[0])) return false;
-  for (std::size_t lane = first_lane; lane < lane_count; ++lane) {
-    for (std::size_t axis = 0; axis < 3; ++axis) center[axis][lane] = (*place)[static_cast<int>(axis)];
-    radius[lane] = surface.sizes[0];
-  }
-  return true;
+  if (surface.kind != SurfaceKind::sphere || !place || !has_fair_size(surface.sizes[0])) return {};
+  return CsgSketch::Sphere{*place, surface.sizes[0]};
 }
 
-bool CsgSketch::Boxes::set_from(std::size_t first_lane, const Leaf& leaf) {
+/// Likewise of a box.
+std::optional<CsgSketch::Box> box_of(const Leaf& leaf) {
   // Of all shapes only the box has six faces, two across each axis.
-  if (leaf.face_count != 6) return false;
+  if (leaf.face_count != 6) return {};
+  CsgSketch::Box box{};
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
     const std::optional<Vec3> place = leaf.placement->exactly_to_world(leaf.shape->surface(face).position);
-    if (!place) return false;
-    const std::size_t axis = face / 2;
-    for (std::size_t lane = first_lane; lane < lane_count; ++lane) {
-      (is_upper(face) ? upper : lower)[axis][lane] = (*place)[static_cast<int>(axis)];
-    }
+    if (!place) return {};
+    const auto axis = static_cast<int>(face / 2);
+    (is_upper(face) ? box.upper : box.lower)[axis] = (*place)[axis];
   }
-  return true;
+  return box;
 }
+
+}  // namespace
 
 CsgSketch::CsgSketch(const CsgProgram& program, std::span<const Leaf> leaves,
                      std::span<const FaceSurface> faces) {
@@ -71,23 +68,16 @@ CsgSketch::CsgSketch(const CsgProgram& program, std::span<const Leaf> leaves,
 }
 
 bool CsgSketch::place_leaves(std::span<const Leaf> leaves) {
-  std::vector<std::uint32_t> boxes;
-  std::size_t place = 0;
-  for (std::uint32_t i = 0; i < leaves.size(); ++i) {
-    if (leaves[i].face_count != 1) {
-      boxes.push_back(i);
-      continue;
+  for (const bool boxes : {false, true}) {
+    for (std::uint32_t i = 0; i < leaves.size(); ++i) {
+      if ((leaves[i].face_count != 1) != boxes) continue;
+      const std::optional<Sphere> sphere = boxes ? std::nullopt : sphere_of(leaves[i]);
+      const std::optional<Box> box = boxes ? box_of(leaves[i]) : std::nullopt;
+      if (!sphere && !box) return false;
+      put(i, leaves[i], spheres_.size() + boxes_.size());
+      if (sphere) spheres_.push_back(*sphere);
+      if (box) boxes_.push_back(*box);
     }
-    if (place % lane_count == 0) spheres_.emplace_back();
-    if (!spheres_.back().set_from(place % lane_count, leaves[i])) return false;
-    put(i, leaves[i], place++);
-  }
-  place = spheres_.size() * lane_count;
-  for (const std::uint32_t i : boxes) {
-    if (place == most_places) return false;
-    if (place % lane_count == 0) boxes_.emplace_back();
-    if (!boxes_.back().set_from(place % lane_count, leaves[i])) return false;
-    put(i, leaves[i], place++);
   }
   return true;
 }
@@ -111,134 +101,193 @@ void CsgSketch::place_nodes(const CsgProgram& program) {
 }
 
 std::size_t CsgSketch::bytes() const {
-  return spheres_.capacity() * sizeof(Spheres) + boxes_.capacity() * sizeof(Boxes) +
+  return spheres_.capacity() * sizeof(Sphere) + boxes_.capacity() * sizeof(Box) +
          nodes_.capacity() * sizeof(Node);
 }
 
-SketchedChange CsgSketch::first_change(const WorldRay& ray, double limit, std::span<const Leaf> leaves,
-                                       std::span<const FaceSurface> faces) const {
-  const Line line(ray, limit);
-  if (!line.is_fair()) return {};
-  Ends ends(line);
-  for (std::size_t i = 0; i < spheres_.size(); ++i) ends.set(spheres_[i], i);
-  for (std::size_t i = 0; i < boxes_.size(); ++i) ends.set(boxes_[i], spheres_.size() + i);
-  if (ray.start.surface != nothing && !set_start(ray.start, line, leaves, faces, ends)) return {};
-
-  bool value = true;
-  double from = possible_from(ends, 0, line.begin, value);
-  if (from == line.begin) {
-    value = false;
-    from = possible_from(ends, 0, line.begin, value);
-  }
-  while (from <= line.limit) {
-    const double next = possible_from(ends, 0, from, value);
-    if (next == from) return change_at(from, value, line, ends);
-    from = next;
-  }
-  return {.kind = SketchedChange::Kind::none};
+const CsgSketch::Sphere* CsgSketch::sphere(std::uint32_t leaf) const {
+  const std::size_t place = place_of_[leaf];
+  return place < spheres_.size() ? &spheres_[place] : nullptr;
 }
 
-/// The change at the end of a leaf that begins at `from`, if there is just one and it is certain.
-SketchedChange CsgSketch::change_at(double from, bool value, const Line& line, const Ends& ends) const {
-  if (!(from > line.certain_from)) return {};
-  const Places turned = turned_for(value);
-  for (Places places = used_ & ~ends.outside(); places != 0;) {
-    const std::uint32_t place = take_bit(places);
-    const bool leaving = (turned & bit_of(place)) != 0;
-    if ((leaving ? ends.leave_from(place) : ends.enter_from(place)) != from) continue;
-    const double to = leaving ? ends.leave_to(place) : ends.enter_to(place);
-    // Next to grazing it, the leaf may not be met at all.
-    const bool is_apart = leaving ? ends.enter_to(place) < from : ends.leave_from(place) > to;
-    if (!(to < line.limit) || !is_apart || !hangs_on(place, ends, from, to)) return {};
-    return {.kind = SketchedChange::Kind::one,
-            .into_object = value,
-            .into_leaf = !leaving,
-            .leaf = leaf_at_[place],
-            .from = from,
-            .to = to};
+const CsgSketch::Box* CsgSketch::box(std::uint32_t leaf) const {
+  const std::size_t place = place_of_[leaf];
+  return place < spheres_.size() ? nullptr : &boxes_[place - spheres_.size()];
+}
+
+template <class Real>
+SketchedChanges<Real> CsgSketch::first_changes(const SketchedRays<Real>& rays, std::span<const Leaf> leaves,
+                                               std::span<const FaceSurface> faces) const {
+  using Mask = MaskOf<Real>;
+  SketchedChanges<Real> changes;
+  Ends<Real> ends(rays.lines, rays.limits, lanes_of_mask<Real>(rays.asked));
+  Mask asked = ends.asked();
+  for (std::size_t i = 0; i < spheres_.size(); ++i) ends.set(i, spheres_[i]);
+  for (std::size_t i = 0; i < boxes_.size(); ++i) ends.set(spheres_.size() + i, boxes_[i]);
+  for (std::uint32_t starting = rays.on_surface & rays.asked; starting != 0;) {
+    const std::uint32_t lane = take_bit(starting);
+    if (!set_start(rays.starts[lane], lane, leaves, faces, ends)) {
+      asked = without(asked, lanes_of_mask<Real>(bit_of(lane)));
+    }
   }
-  return {};
+
+  const Real& begin = rays.lines.begin;
+  const Real from = possible_from(ends, 0, begin, true);
+  const Mask may_be_inside = both(asked, from == begin);
+  if (any(may_be_inside)) leap(ends, false, possible_from(ends, 0, begin, false), may_be_inside, changes);
+  const Mask outside = without(asked, may_be_inside);
+  if (any(outside)) leap(ends, true, from, outside, changes);
+  return changes;
+}
+
+/// Goes from where the root may have a value to where it has it, of those rays that are going.
+template <class Real>
+void CsgSketch::leap(const Ends<Real>& ends, bool value, Real from, MaskOf<Real> going,
+                     SketchedChanges<Real>& changes) const {
+  while (true) {
+    const auto beyond = without(going, from <= ends.limits());
+    changes.none = either(changes.none, beyond);
+    going = without(going, beyond);
+    if (!any(going)) return;
+    const Real next = possible_from(ends, 0, from, value);
+    const auto there = both(going, next == from);
+    if (any(there)) set_change(ends, value, from, there, changes);
+    going = without(going, there);
+    from = next;
+  }
+}
+
+/// The changes at the ends of leaves that begin at `from`, where there is just one and it is certain.
+template <class Real>
+void CsgSketch::set_change(const Ends<Real>& ends, bool value, const Real& from,
+                           MaskOf<Real> rays, SketchedChanges<Real>& changes) const {
+  rays = both(rays, from > ends.lines().certain_from);
+  const Places turned = turned_for(value);
+  for (Places places = used_ & ~ends.outside(); places != 0 && any(rays);) {
+    const std::uint32_t place = take_bit(places);
+    const auto& of_leaf = ends[place];
+    const bool leaving = (turned & bit_of(place)) != 0;
+    const auto here = both(rays, (leaving ? of_leaf.leave_from : of_leaf.enter_from) == from);
+    if (!any(here)) continue;
+    rays = without(rays, here);
+    const Real to = leaving ? of_leaf.leave_to : of_leaf.enter_to;
+    // Next to grazing it, the leaf may not be met at all.
+    const auto is_apart = leaving ? of_leaf.enter_to < from : of_leaf.leave_from > to;
+    const auto sure = both(both(here, to < ends.limits()), both(is_apart, hang_on(place, ends, from, to)));
+    changes.one = either(changes.one, sure);
+    if (value) changes.into_object = either(changes.into_object, sure);
+    if (!leaving) changes.into_leaf = either(changes.into_leaf, sure);
+    changes.leaf = sure ? spread<Real>(leaf_at_[place]) : changes.leaf;
+    changes.from = sure ? from : changes.from;
+    changes.to = sure ? to : changes.to;
+  }
 }
 
 /// Of the surface at the start it is known otherwise where the ray meets it; false if not by all that is
 /// told here.
-bool CsgSketch::set_start(const StartPoint& start, const Line& line, std::span<const Leaf> leaves,
-                          std::span<const FaceSurface> faces, Ends& ends) const {
+template <class Real>
+bool CsgSketch::set_start(const StartPoint& start, std::size_t lane, std::span<const Leaf> leaves,
+                          std::span<const FaceSurface> faces, Ends<Real>& ends) const {
   const std::uint32_t index = start.leaf - first_leaf_;
   const bool is_named_here = start.surface >= first_face_ && start.surface < end_face_;
   if (index >= leaves.size()) return !is_named_here && !shares_surfaces_;
   const Leaf& leaf = leaves[index];
-  if (faces[leaf.first_face + start.face].shared != FaceSurface::not_shared || line.begin != 0) return false;
+  const bool is_shared = faces[leaf.first_face + start.face].shared != FaceSurface::not_shared;
+  if (is_shared || !ends.starts_at_0(lane)) return false;
   const std::size_t place = place_of_[index];
   if (start_on_leaf(leaf, start.leaf, faces, start).side == Side::outside) {
-    ends.set_left(place);
+    ends.set_left(place, lane);
     return true;
   }
-  return goes_into(place, start.face, line, ends) && ends.set_entered(place);
+  return goes_into(place, start.face, lane, ends) && ends.set_entered(place, lane);
 }
 
-bool CsgSketch::goes_into(std::size_t place, std::uint32_t face, const Line& line, const Ends& ends) const {
-  const std::size_t group = place / lane_count;
-  if (group < spheres_.size()) return ends.starts_on(spheres_[group], place % lane_count);
-  const double speed = line.direction[face / 2];
-  return is_upper(face) ? speed < 0 : speed > 0;
+template <class Real>
+bool CsgSketch::goes_into(std::size_t place, std::uint32_t face, std::size_t lane,
+                          const Ends<Real>& ends) const {
+  if (place < spheres_.size()) return ends.starts_on(spheres_[place], lane);
+  return ends.goes_into_box(face / 2, is_upper(face), lane);
 }
 
 /// The first t not before this one at which a node may have a value.
-double CsgSketch::possible_from(const Ends& ends, std::uint32_t node_index, double t, bool value) const {
+template <class Real>
+Real CsgSketch::possible_from(const Ends<Real>& ends, std::uint32_t node_index, Real t, bool value) const {
   const Node& node = nodes_[node_index];
   const Places turned = turned_for(value);
   const Places open = node.leaves & ~ends.outside();
   std::uint32_t children = node.nodes;
   const auto leaf_from = [&](std::uint32_t place) {
-    return (turned & bit_of(place)) != 0 ? ends.outside_from(place, t) : ends.inside_from(place, t);
+    return (turned & bit_of(place)) != 0 ? ends[place].outside_from(t) : ends[place].inside_from(t);
   };
   // What is turned and not come into has the value everywhere, what is not turned nowhere.
   if (node.all == value) {
-    if ((node.leaves & ends.outside() & ~turned) != 0) return infinity;
+    if ((node.leaves & ends.outside() & ~turned) != 0) return spread<Real>(infinity);
     for (Places places = open; places != 0;) t = leaf_from(take_bit(places));
     while (children != 0) t = possible_from(ends, take_bit(children), t, value);
     return t;
   }
   if ((node.leaves & ends.outside() & turned) != 0) return t;
-  double first = infinity;
-  for (Places places = open; places != 0;) first = std::min(first, leaf_from(take_bit(places)));
-  while (children != 0) first = std::min(first, possible_from(ends, take_bit(children), t, value));
+  Real first = spread<Real>(infinity);
+  for (Places places = open; places != 0;) first = min(first, leaf_from(take_bit(places)));
+  while (children != 0) first = min(first, possible_from(ends, take_bit(children), t, value));
   return first;
 }
 
-/// Whether a node is true where those leaves are.
-bool CsgSketch::holds(Places values, std::uint32_t node_index) const {
+/// Whether leaves are true, of those in `mixed` by ray; of the others for all of them.
+template <class Real>
+struct CsgSketch::Values {
+  Places all = 0;
+  Places mixed = 0;
+  std::array<MaskOf<Real>, most_places> by_ray;
+};
+
+/// Where a node is true.
+template <class Real>
+MaskOf<Real> CsgSketch::holds(const Values<Real>& values, std::uint32_t node_index) const {
+  using Mask = MaskOf<Real>;
   const Node& node = nodes_[node_index];
+  const Mask nowhere{};
+  const Mask everywhere = lanes_of_mask<Real>(~std::uint32_t{0});
   std::uint32_t children = node.nodes;
+  Places mixed = node.leaves & values.mixed;
+  const Places fixed = node.leaves & ~values.mixed;
   if (node.all) {
-    if ((values & node.leaves) != node.leaves) return false;
-    while (children != 0) {
-      if (!holds(values, take_bit(children))) return false;
-    }
-    return true;
+    Mask result = (fixed & ~values.all) == 0 ? everywhere : nowhere;
+    while (mixed != 0 && any(result)) result = both(result, values.by_ray[take_bit(mixed)]);
+    while (children != 0 && any(result)) result = both(result, holds(values, take_bit(children)));
+    return result;
   }
-  if ((values & node.leaves) != 0) return true;
-  while (children != 0) {
-    if (holds(values, take_bit(children))) return true;
-  }
-  return false;
+  if ((fixed & values.all) != 0) return everywhere;
+  Mask result = nowhere;
+  while (mixed != 0) result = either(result, values.by_ray[take_bit(mixed)]);
+  while (children != 0) result = either(result, holds(values, take_bit(children)));
+  return result;
 }
 
 /// Whether all leaves but one are certain between two t, and the root hangs on that one.
-bool CsgSketch::hangs_on(std::size_t place, const Ends& ends, double from, double to) const {
-  const Places one = bit_of(place);
-  Places inside = 0;
-  Places outside = ends.outside();
-  for (std::size_t group = 0; group < spheres_.size() + boxes_.size(); ++group) {
-    const Places open = used_ & ~(outside | one) & places_of(group);
-    if (open == 0) continue;
-    inside |= ends.inside(group, from, to);
-    outside |= ends.outside(group, from, to);
-    if (((inside | outside) & open) != open) return false;
+template <class Real>
+MaskOf<Real> CsgSketch::hang_on(std::size_t place, const Ends<Real>& ends, const Real& from,
+                                const Real& to) const {
+  using Mask = MaskOf<Real>;
+  Values<Real> values;
+  values.all = ends.outside() & complemented_;
+  values.mixed = used_ & ~(ends.outside() | bit_of(place));
+  Mask certain = lanes_of_mask<Real>(~std::uint32_t{0});
+  for (Places others = values.mixed; others != 0;) {
+    const std::uint32_t other = take_bit(others);
+    const Mask inside = ends[other].is_inside(from, to);
+    const Mask outside = ends[other].is_outside(from, to);
+    certain = both(certain, either(inside, outside));
+    values.by_ray[other] = (complemented_ & bit_of(other)) != 0 ? outside : inside;
   }
-  const Places values = (inside & ~complemented_) | (outside & complemented_);
-  return !holds(values & ~one, 0) && holds(values | one, 0);
+  const Mask without_it = holds(values, 0);
+  values.all |= bit_of(place);
+  return both(certain, without(holds(values, 0), without_it));
 }
+
+template SketchedChanges<double> CsgSketch::first_changes(const SketchedRays<double>&, std::span<const Leaf>,
+                                                          std::span<const FaceSurface>) const;
+template SketchedChanges<Lanes> CsgSketch::first_changes(const SketchedRays<Lanes>&, std::span<const Leaf>,
+                                                         std::span<const FaceSurface>) const;
 
 }  // namespace crt::core

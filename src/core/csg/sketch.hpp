@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "core/math/lanes.hpp"
+#include "core/csg/outline_line.hpp"
 
 namespace crt::core {
 
@@ -25,27 +25,56 @@ struct CsgProgram;
 struct FaceSurface;
 struct Leaf;
 struct StartPoint;
-struct WorldRay;
 
-/// What a sketch says of a ray.
-struct SketchedChange {
-  enum class Kind : std::uint8_t {
-    open,  ///< nothing is sure
-    none,  ///< no crossing of the object's boundary counts
-    one    ///< the first that counts is of `leaf` alone, somewhere from `from` to `to`
-  };
-
-  Kind kind = Kind::open;
-  bool into_object = false;
-  bool into_leaf = false;  ///< its primitive, whether or not it is complemented
-  std::uint32_t leaf = 0;  ///< within the object
-  double from = 0;
-  double to = 0;
+/// Rays as a sketch takes them: one, or as many side by side as a Real has lanes.
+template <class Real>
+struct SketchedRays {
+  const OutlineLine<Real>& lines;
+  Real limits;                        ///< nothing beyond matters
+  std::uint32_t asked;                ///< a bit each
+  std::uint32_t on_surface;           ///< those of them that start on a surface
+  std::span<const StartPoint> starts;  ///< of these
 };
+
+/// What a sketch says of each of them.
+template <class Real>
+struct SketchedChanges {
+  using Mask = MaskOf<Real>;
+
+  Mask none{};  ///< no crossing of the object's boundary counts
+  Mask one{};   ///< the first that counts is of `leaf` alone, somewhere from `from` to `to`
+  // Where neither is so nothing is sure.
+
+  Mask into_object{};
+  Mask into_leaf{};  ///< its primitive, whether or not it is complemented
+  Real leaf{};       ///< its number within the object
+  Real from{};
+  Real to{};
+};
+
+inline SketchedChanges<double> lane_of(const SketchedChanges<Lanes>& changes, std::size_t lane) {
+  const auto i = static_cast<int>(lane);
+  return {.none = changes.none[i] != 0,
+          .one = changes.one[i] != 0,
+          .into_object = changes.into_object[i] != 0,
+          .into_leaf = changes.into_leaf[i] != 0,
+          .leaf = changes.leaf[i],
+          .from = changes.from[i],
+          .to = changes.to[i]};
+}
 
 /// Of programs with few leaves, which all are spheres or boxes that are not turned.
 class CsgSketch {
  public:
+  struct Sphere {
+    Vec3 center;
+    double radius;
+  };
+  struct Box {
+    Vec3 lower;
+    Vec3 upper;
+  };
+
   /// None, for other programs.
   CsgSketch() = default;
   /// `leaves` are those of the program.
@@ -57,59 +86,57 @@ class CsgSketch {
 
   /// What counts are crossings with t_min < t <= limit, by what CsgEvaluation says of the ray. `leaves` are
   /// those of the program.
-  SketchedChange first_change(const WorldRay& ray, double limit, std::span<const Leaf> leaves,
-                              std::span<const FaceSurface> faces) const;
+  template <class Real>
+  SketchedChanges<Real> first_changes(const SketchedRays<Real>& rays, std::span<const Leaf> leaves,
+                                      std::span<const FaceSurface> faces) const;
+
+  /// A leaf in the world, by its number within the object; none if it is of the other kind.
+  const Sphere* sphere(std::uint32_t leaf) const;
+  const Box* box(std::uint32_t leaf) const;
 
  private:
   static constexpr std::size_t most_places = 32;
-  /// A bit for each place. Places are numbered through all groups of spheres and then those of boxes; those
-  /// at the end of a group may be of no leaf.
+  /// A bit for each place. Spheres have the first places, and boxes those after them.
   using Places = std::uint32_t;
   static constexpr std::uint32_t bit_of(std::size_t index) { return std::uint32_t{1} << index; }
-  static constexpr Places places_of(std::size_t group) {
-    return (bit_of(lane_count) - 1) << (group * lane_count);
-  }
 
-  /// As many as there are lanes, in the world.
-  struct Spheres {
-    std::array<Lanes, 3> center;
-    Lanes radius;
-
-    /// Puts it into this lane and those after it, so that none holds nonsense. False if the leaf is no
-    /// sphere, or not where doubles tell exactly.
-    bool set_from(std::size_t first_lane, const Leaf& leaf);
-  };
-  struct Boxes {
-    std::array<Lanes, 3> lower;
-    std::array<Lanes, 3> upper;
-
-    bool set_from(std::size_t first_lane, const Leaf& leaf);
-  };
   struct Node {
     bool all = false;         ///< true if all of its children are; else if any is
     Places leaves = 0;        ///< that are its children
     std::uint32_t nodes = 0;  ///< likewise, a bit each
   };
 
-  class Line;
+  template <class Real>
   class Ends;
+  template <class Real>
+  struct Values;
 
   bool place_leaves(std::span<const Leaf> leaves);
   void put(std::uint32_t index, const Leaf& leaf, std::size_t place);
   void place_nodes(const CsgProgram& program);
 
-  bool set_start(const StartPoint& start, const Line& line, std::span<const Leaf> leaves,
-                 std::span<const FaceSurface> faces, Ends& ends) const;
-  bool goes_into(std::size_t place, std::uint32_t face, const Line& line, const Ends& ends) const;
-  SketchedChange change_at(double from, bool value, const Line& line, const Ends& ends) const;
-  double possible_from(const Ends& ends, std::uint32_t node_index, double t, bool value) const;
-  bool holds(Places values, std::uint32_t node_index) const;
-  bool hangs_on(std::size_t place, const Ends& ends, double from, double to) const;
+  template <class Real>
+  bool set_start(const StartPoint& start, std::size_t lane, std::span<const Leaf> leaves,
+                 std::span<const FaceSurface> faces, Ends<Real>& ends) const;
+  template <class Real>
+  bool goes_into(std::size_t place, std::uint32_t face, std::size_t lane, const Ends<Real>& ends) const;
+  template <class Real>
+  void leap(const Ends<Real>& ends, bool value, Real from, MaskOf<Real> going,
+            SketchedChanges<Real>& changes) const;
+  template <class Real>
+  void set_change(const Ends<Real>& ends, bool value, const Real& from, MaskOf<Real> rays,
+                  SketchedChanges<Real>& changes) const;
+  template <class Real>
+  Real possible_from(const Ends<Real>& ends, std::uint32_t node_index, Real t, bool value) const;
+  template <class Real>
+  MaskOf<Real> hang_on(std::size_t place, const Ends<Real>& ends, const Real& from, const Real& to) const;
+  template <class Real>
+  MaskOf<Real> holds(const Values<Real>& values, std::uint32_t node_index) const;
   /// The leaves whose being outside makes for a value of the root, if others' being inside does.
   Places turned_for(bool value) const { return value ? complemented_ : ~complemented_; }
 
-  std::vector<Spheres> spheres_;
-  std::vector<Boxes> boxes_;
+  std::vector<Sphere> spheres_;
+  std::vector<Box> boxes_;
   std::vector<Node> nodes_;  ///< 0 is the root
   std::array<std::uint8_t, most_places> leaf_at_{};
   std::array<std::uint8_t, most_places> place_of_{};  ///< of a leaf

@@ -148,6 +148,10 @@ inline Lanes floor(const Lanes& a) {
 // Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles gives a
 // bool, and comparing lanes a mask of lanes.
 
+/// What comparing gives.
+template <class Real>
+using MaskOf = decltype(Real{} < Real{});
+
 using std::clamp;
 using std::floor;
 using std::fma;

@@ -59,6 +59,13 @@ class Accelerator {
   const CompiledScene& compiled() const { return compiled_; }
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
+  /// Of a CSG object, if it has one.
+  const CsgSketch* sketch(std::uint32_t object) const {
+    const SceneObject& solid = compiled_.objects[object];
+    if (!solid.is_csg()) return nullptr;
+    const CsgSketch& sketch = compiled_.programs[solid.program].sketch;
+    return sketch.empty() ? nullptr : &sketch;
+  }
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
     return compiled_.face_surfaces[leaf.first_face + face];
   }

@@ -307,32 +307,6 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
-LineSpanLanes EmbreeTree::clip(const OutlineLine<Lanes>& lines, RayMask lanes) const {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
-  LaneMask steep{};
-  for (int axis = 0; axis < 3; ++axis) {
-    const auto i = static_cast<std::size_t>(axis);
-    const Lanes& inverse = lines.inverse[i];
-    const Lanes first = (total_.lower[axis] - lines.origin[i]) * inverse;
-    const Lanes second = (total_.upper[axis] - lines.origin[i]) * inverse;
-    const Lanes low = min(first, second);
-    const Lanes high = max(first, second);
-    span.enter = max(span.enter, low - RaySlabs::slack * size_of(low));
-    span.leave = min(span.leave, high + RaySlabs::slack * size_of(high));
-    steep |= size_of(inverse) > RaySlabs::largest_inverse;
-  }
-  for_each_ray(mask_of(steep) & lanes, [&](std::size_t ray) {
-    const auto i = static_cast<int>(ray);
-    const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
-    const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
-    const LineSpan of_ray = RaySlabs(origin, direction).span(total_);
-    span.enter[i] = of_ray.enter;
-    span.leave[i] = of_ray.leave;
-  });
-  return span;
-}
-
 void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
   if (handles_->takes_sixteen) {
     traverse_part<RTCRayHit16, packet_size>(packet, rays, 0, visitor);
@@ -364,7 +338,7 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
       continue;
     }
     const OutlineLine<Lanes>& lines = packet.groups[group];
-    const LineSpanLanes inside = clip(lines, lanes);
+    const LineSpanLanes inside = RaySlabs::spans(lines, total_, lanes);
     const Lanes start = max(lines.begin, inside.enter);
     const Lanes end = min(packet.limits[group], inside.leave);
     const RayMask meeting = lanes & mask_of(start <= end);

@@ -28,12 +28,6 @@ class PacketVisitor {
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
 };
 
-/// Pieces of several lines.
-struct LineSpanLanes {
-  Lanes enter;
-  Lanes leave;
-};
-
 /// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved
 /// and scaled by a power of two to around 1, and grown by more than all roundings on the way: it
 /// decides nothing, it only spares tests. The scene's own size and place never matter.
@@ -92,7 +86,6 @@ class EmbreeTree {
   void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                      PacketVisitor& visitor) const;
   /// The part of each line that is in the box around all boxes; of those lanes.
-  LineSpanLanes clip(const OutlineLine<Lanes>& lines, RayMask lanes) const;
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

@@ -17,7 +17,7 @@ namespace crt::core {
 /// Of one ray, or of as many side by side as a Real has lanes.
 template <class Real>
 struct FirstCrossing {
-  using Mask = decltype(Real{} < Real{});
+  using Mask = MaskOf<Real>;
 
   Mask found{};    ///< there is one after the start; else what follows means nothing
   Mask unknown{};  ///< it takes a closer look to tell: nothing here means anything
@@ -91,6 +91,40 @@ FirstCrossing<Real> first_crossing_of_plane(const Outline& plane, const OutlineA
           .error = meeting.error};
 }
 
+/// Where lines that pass through a box enter it, or else leave it, if that is plainly on one face; next to an
+/// edge it is the exact test that says which face is met. The box has what OutlineBox calls lower and upper.
+template <class Real, class Box>
+FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings,
+                               const OutlineLine<Real>& line, const MaskOf<Real>& enters) {
+  // The greatest of three, of which the second must plainly be less.
+  const std::array<Real, 3> t = {enters ? meetings.enter[0] : -meetings.leave[0],
+                                 enters ? meetings.enter[1] : -meetings.leave[1],
+                                 enters ? meetings.enter[2] : -meetings.leave[2]};
+  const Real greatest = max(max(t[0], t[1]), t[2]);
+  const Real second = max(min(t[0], t[1]), min(max(t[0], t[1]), t[2]));
+  const auto alone = greatest - second > meetings.error_of(greatest) + meetings.error_of(second);
+
+  const auto across_x = t[0] == greatest;
+  const auto across_y = t[1] == greatest;
+  const auto chosen = [&](const Real& x, const Real& y, const Real& z) {
+    return across_x ? x : across_y ? y : z;
+  };
+  const auto of_axis = [&](const Vec3& v) {
+    return chosen(spread<Real>(v.x), spread<Real>(v.y), spread<Real>(v.z));
+  };
+  const Real speed = chosen(line.direction[0], line.direction[1], line.direction[2]);
+  const auto downwards = speed < 0.0;
+  const auto is_upper = either(both(enters, downwards), neither(enters, downwards));
+  const Real position = is_upper ? of_axis(box.upper) : of_axis(box.lower);
+  const auto meeting =
+      AxisMeeting<Real>::of(position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
+  return {.found = both(meetings.known, both(alone, meeting.found)),
+          .entering = enters,
+          .t = meeting.t,
+          .error = meeting.error,
+          .face = of_axis({0, 2, 4}) + (is_upper ? spread<Real>(1) : Real{})};
+}
+
 template <class Real>
 FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetings<Real>& meetings,
                                           const OutlineLine<Real>& line) {
@@ -108,34 +142,11 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
   const Mask found = either(enters, leaves);
   FirstCrossing<Real> first{.found = found, .unknown = neither(found, misses), .entering = enters};
   if (!any(found)) return first;
-
-  // The greatest of three, of which the second must plainly be less: next to an edge it is the exact test
-  // that says which face is met.
-  const std::array<Real, 3> t = {enters ? meetings.enter[0] : -meetings.leave[0],
-                                 enters ? meetings.enter[1] : -meetings.leave[1],
-                                 enters ? meetings.enter[2] : -meetings.leave[2]};
-  const Real greatest = enters ? enter : -leave;
-  const Real second = max(min(t[0], t[1]), min(max(t[0], t[1]), t[2]));
-  const Mask alone = greatest - second > meetings.error_of(greatest) + meetings.error_of(second);
-
-  const Mask across_x = t[0] == greatest;
-  const Mask across_y = t[1] == greatest;
-  const auto chosen = [&](const Real& x, const Real& y, const Real& z) {
-    return across_x ? x : across_y ? y : z;
-  };
-  const auto of_axis = [&](const Vec3& v) {
-    return chosen(spread<Real>(v.x), spread<Real>(v.y), spread<Real>(v.z));
-  };
-  const Real speed = chosen(line.direction[0], line.direction[1], line.direction[2]);
-  const Mask downwards = speed < 0.0;
-  const Mask is_upper = either(both(enters, downwards), neither(enters, downwards));
-  const Real position = is_upper ? of_axis(box.upper) : of_axis(box.lower);
-  const auto meeting =
-      AxisMeeting<Real>::of(position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
-  first.unknown = neither(misses, both(found, both(alone, meeting.found)));
-  first.t = meeting.t;
-  first.error = meeting.error;
-  first.face = of_axis({0, 2, 4}) + (is_upper ? spread<Real>(1) : Real{});
+  const FirstCrossing<Real> end = end_in_box(box, meetings, line, enters);
+  first.unknown = neither(misses, both(found, end.found));
+  first.t = end.t;
+  first.error = end.error;
+  first.face = end.face;
   return first;
 }
 
@@ -155,6 +166,27 @@ FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outli
                                    const OutlineLine<Real>& line) {
   if (outline.kind == Outline::Kind::sphere) return first_crossing_of_sphere(outline, line);
   return first_crossing_of_plane(outline, outlines.axis(outline), line);
+}
+
+/// Whether the outline alone tells where lines cross a sphere or a box, a leaf of a CSG object.
+inline bool outline_tells(const Leaf& leaf) {
+  return !leaf.exact && leaf.placement->is_identity();
+}
+
+/// Of such a leaf, by its number, where lines that do not start on it come into it, or else out of it; as its
+/// sketch has found that they do.
+template <class Real>
+FirstCrossing<Real> crossing_of_change(const CsgSketch& sketch, std::uint32_t leaf, bool into_leaf,
+                                       const OutlineLine<Real>& line) {
+  if (const CsgSketch::Box* box = sketch.box(leaf)) {
+    const auto enters = lanes_of_mask<Real>(into_leaf ? ~std::uint32_t{0} : 0);
+    return end_in_box(*box, BoxMeetings<Real>::of(*box, line), line, enters);
+  }
+  const CsgSketch::Sphere& sphere = *sketch.sphere(leaf);
+  const double unit = power_of_two_below(sphere.radius);
+  const auto chord = SphereChord<Real>::of(plain_ray(line), sphere.center, sphere.radius, unit);
+  const auto& end = into_leaf ? chord.enter : chord.leave;
+  return {.found = chord.found, .t = end.t, .error = end.error};
 }
 
 /// Whether a line is within a box at t.

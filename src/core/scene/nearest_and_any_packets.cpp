@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <type_traits>
+#include <utility>
 
 #include "core/scene/first_crossing.hpp"
 #include "core/scene/nearest_and_any.hpp"
@@ -76,7 +76,13 @@ class PacketTests {
         open |= test_told(outline, outlines, group, asked, starts) << (group * lane_count);
       });
     }
-    for_each_ray(open, [&](std::size_t ray) { ask(ray, [&](auto& query) { query.test(outline.object); }); });
+    if (const CsgSketch* sketch = answers_.accelerator.sketch(outline.object); open != 0 && sketch != nullptr) {
+      RayPacket::for_each_group(std::exchange(open, 0), [&](std::size_t group, RayMask asked) {
+        open |= test_sketch(outline.object, *sketch, group, asked) << (group * lane_count);
+      });
+    }
+    for_each_ray(open,
+                 [&](std::size_t ray) { ask(ray, [&](auto& query) { query.test_in_full(outline.object); }); });
     return changed_;
   }
 
@@ -125,44 +131,119 @@ class PacketTests {
   /// leaves open nevertheless.
   RayMask test_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask asked,
                     const BoxStarts& starts) {
-    const OutlineLine<Lanes>& lines = packet_.groups[group];
     const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, asked, starts);
     const RayMask open = asked & mask_of(first.unknown);
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
     const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
-    if (found == 0) return open;
-    if constexpr (any_will_do) {
-      const RayMask surely = found & mask_of(first.t < lines.certain_to);
-      settle(surely << (group * lane_count));
-      for_each_ray(found & ~surely, [&](std::size_t lane) {
-        RayHit hit;
+    if (found != 0) {
+      take(outline.object, group, first, found, [&](std::size_t lane, RayHit& hit) {
         write_first(outline, outlines, lane_of(first, lane), hit);
-        ask(group * lane_count + lane, [&](Any& query) { query.take(hit); });
       });
-    } else {
-      take(outline, outlines, group, first, found);
     }
     return open;
   }
 
-  /// What is found before the limits.
-  void take(const Outline& outline, const Outlines& outlines, std::size_t group,
-            const FirstCrossing<Lanes>& first, RayMask found) {
-    Lanes& limits = packet_.limits[group];
-    found &= mask_of(first.t < answers_.rays.t_max[group]);
-    const Lanes reach = first.t + company_width(plain_ray(packet_.groups[group]), first.t, first.error);
-    RayMask best = 0;
-    for_each_ray(found, [&](std::size_t lane) {
-      const FirstCrossing<double> of_ray = lane_of(first, lane);
-      const bool is_best = Nearest::take(
-          answers_.hits[group * lane_count + lane], of_ray.t, 0, outline.object,
-          reach[static_cast<int>(lane)], [&](RayHit& hit) { write_first(outline, outlines, of_ray, hit); });
-      best |= static_cast<RayMask>(is_best) << lane;
+  /// Takes crossings with an object before the limits; write(lane, hit) writes one where it stays.
+  template <class Write>
+  void take(std::uint32_t object, std::size_t group, const FirstCrossing<Lanes>& first, RayMask found,
+            const Write& write) {
+    const OutlineLine<Lanes>& lines = packet_.groups[group];
+    const std::size_t first_ray = group * lane_count;
+    if constexpr (any_will_do) {
+      const RayMask surely = found & mask_of(first.t < lines.certain_to);
+      settle(surely << first_ray);
+      for_each_ray(found & ~surely, [&](std::size_t lane) {
+        RayHit hit;
+        write(lane, hit);
+        ask(first_ray + lane, [&](Any& query) { query.take(hit); });
+      });
+    } else {
+      Lanes& limits = packet_.limits[group];
+      found &= mask_of(first.t < answers_.rays.t_max[group]);
+      const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
+      RayMask best = 0;
+      for_each_ray(found, [&](std::size_t lane) {
+        const auto i = static_cast<int>(lane);
+        const bool is_best = Nearest::take(answers_.hits[first_ray + lane], first.t[i], 0, object, reach[i],
+                                           [&](RayHit& hit) { write(lane, hit); });
+        best |= static_cast<RayMask>(is_best) << lane;
+      });
+      // After the rays' starts, so that they go on.
+      const LaneMask nearer = both(lanes_with(best), reach < limits);
+      limits = nearer ? reach : limits;
+      changed_ |= mask_of(nearer) << first_ray;
+    }
+  }
+
+  /// The same as test_told() by the sketch of a CSG object.
+  RayMask test_sketch(std::uint32_t object, const CsgSketch& sketch, std::size_t group, RayMask asked) {
+    const CompiledScene& scene = answers_.accelerator.compiled();
+    const OutlineLine<Lanes>& lines = packet_.groups[group];
+    const auto changes = sketch.first_changes<Lanes>(
+        {.lines = lines,
+         .limits = packet_.limits[group],
+         .asked = asked,
+         .on_surface = RayPacket::lanes(packet_.starts.on_surface, group),
+         .starts = std::span(answers_.rays.starts).subspan(group * lane_count, lane_count)},
+        scene.leaves_of(scene.objects[object]), scene.face_surfaces);
+    RayMask to_come = asked & mask_of(changes.one);
+    RayMask open = asked & ~mask_of(changes.one | changes.none);
+    answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
+    if constexpr (any_will_do) {
+      const RayMask surely = to_come & mask_of(changes.to < lines.certain_to);
+      settle(surely << (group * lane_count));
+      to_come &= ~surely;
+    }
+    while (to_come != 0) {
+      const std::size_t first = first_ray(to_come);
+      const RayMask into_leaf = mask_of(changes.into_leaf);
+      const RayMask same_way = (into_leaf >> first & 1u) != 0 ? into_leaf : ~into_leaf;
+      const RayMask alike =
+          to_come & same_way & mask_of(changes.leaf == changes.leaf[static_cast<int>(first)]);
+      to_come &= ~alike;
+      open |= take_changes(object, sketch, group, alike, changes);
+    }
+    return open;
+  }
+
+  /// Takes changes of one leaf, all into it or all out of it. Returns where none has been found.
+  RayMask take_changes(std::uint32_t object, const CsgSketch& sketch, std::size_t group, RayMask alike,
+                       const SketchedChanges<Lanes>& changes) {
+    const CompiledScene& scene = answers_.accelerator.compiled();
+    const OutlineLine<Lanes>& lines = packet_.groups[group];
+    const std::size_t first = first_ray(alike);
+    const auto number = static_cast<std::uint32_t>(changes.leaf[static_cast<int>(first)]);
+    const std::uint32_t index = scene.objects[object].first_leaf + number;
+    const Leaf& leaf = scene.leaves[index];
+    RayMask told = 0;
+    if (outline_tells(leaf)) {
+      const bool into_leaf = changes.into_leaf[static_cast<int>(first)] != 0;
+      const FirstCrossing<Lanes> crossing = crossing_of_change(sketch, number, into_leaf, lines);
+      const RayMask starting = RayPacket::lanes(rays_with(packet_.starts.leaves, index), group);
+      const LineSpanLanes span = RaySlabs::spans(lines, leaf.bounds, alike);
+      const LaneMask in_span = (crossing.t >= span.enter) & (crossing.t <= span.leave);
+      told = alike & ~starting & mask_of(crossing.found & in_span);
+      answers_.work.csg.events += static_cast<unsigned>(std::popcount(told));
+      take(object, group, crossing, told, [&](std::size_t lane, RayHit& hit) {
+        const FirstCrossing<double> of_ray = lane_of(crossing, lane);
+        const auto face = static_cast<std::uint32_t>(of_ray.face);
+        hit = {.t = of_ray.t,
+               .error = of_ray.error,
+               .object = object,
+               .leaf = index,
+               .face = face,
+               .surface = scene.face_surfaces[leaf.first_face + face].surface,
+               .root = static_cast<std::uint8_t>(sketch.sphere(number) != nullptr && !into_leaf),
+               .entering = changes.into_object[static_cast<int>(lane)] != 0};
+      });
+    }
+    RayMask open = 0;
+    for_each_ray(alike & ~told, [&](std::size_t lane) {
+      ask(group * lane_count + lane, [&](auto& query) {
+        if (!query.test_change(object, lane_of(changes, lane))) open |= RayMask{1} << lane;
+      });
     });
-    // After the rays' starts, so that they go on.
-    const LaneMask nearer = both(lanes_with(best), reach < limits);
-    limits = nearer ? reach : limits;
-    changed_ |= mask_of(nearer) << (group * lane_count);
+    return open;
   }
 
   RayPacket& packet_;

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "core/scene/accelerator.hpp"
-#include "core/scene/certain_end.hpp"
+#include "core/scene/line_of_ray.hpp"
 
 namespace crt::core {
 
@@ -29,6 +29,17 @@ class ObjectQuery {
   RayWorkspace& work() const { return *work_; }
 
   void test(std::uint32_t object_index) {
+    const SceneObject& object = accelerator_->object(object_index);
+    if constexpr (Kind::takes_one) {
+      if (test_sketch(object_index, object)) {
+        ++work_->intersection_tests;
+        return;
+      }
+    }
+    test_in_full(object_index);
+  }
+  /// Without a sketch.
+  void test_in_full(std::uint32_t object_index) {
     ++work_->intersection_tests;
     const SceneObject& object = accelerator_->object(object_index);
     if (object.is_csg()) {
@@ -37,6 +48,8 @@ class ObjectQuery {
       test_leaf(object_index, object);
     }
   }
+  /// Of a CSG object the change that its sketch has found, if there is a crossing where it should be.
+  bool test_change(std::uint32_t object_index, const SketchedChanges<double>& change);
 
  protected:
   ~ObjectQuery() = default;
@@ -54,7 +67,7 @@ class ObjectQuery {
   void test_leaf(std::uint32_t object_index, const SceneObject& object);
   void test_csg(std::uint32_t object_index, const SceneObject& object);
   /// By a sketch of the object; false if that leaves anything open.
-  bool test_sketch(std::uint32_t object_index, const CsgProgram& program);
+  bool test_sketch(std::uint32_t object_index, const SceneObject& object);
 
   /// A leaf that is an object of its own, whose crossings are in the workspace.
   struct LoneLeaf {
@@ -120,9 +133,6 @@ template <class Kind>
 void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& object) {
   const CompiledScene& scene = accelerator_->compiled();
   const CsgProgram& program = scene.programs[object.program];
-  if constexpr (Kind::takes_one) {
-    if (test_sketch(object_index, program)) return;
-  }
   WorldRay csg_ray = *ray_;
   csg_ray.t_max = std::nextafter(limit_, std::numeric_limits<double>::infinity());
   CsgEvaluation evaluation(program, scene.leaves, scene.face_surfaces, csg_ray, work_->csg);
@@ -148,20 +158,30 @@ void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& 
 }
 
 template <class Kind>
-bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const CsgProgram& program) {
-  if (program.sketch.empty()) return false;
+bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const SceneObject& object) {
   const CompiledScene& scene = accelerator_->compiled();
-  const std::span<const Leaf> leaves =
-      std::span(scene.leaves).subspan(program.first_leaf, program.leaf_count());
-  const SketchedChange change = program.sketch.first_change(*ray_, limit_, leaves, scene.face_surfaces);
-  if (change.kind != SketchedChange::Kind::one) return change.kind == SketchedChange::Kind::none;
+  const CsgSketch* sketch = accelerator_->sketch(object_index);
+  if (sketch == nullptr) return false;
+  const OutlineLine<double> line = line_of(*ray_);
+  const bool on_surface = ray_->start.surface != nothing;
+  const auto change = sketch->first_changes<double>(
+      {.lines = line, .limits = limit_, .asked = 1, .on_surface = on_surface, .starts = {&ray_->start, 1}},
+      scene.leaves_of(object), scene.face_surfaces);
+  if (!change.one) return change.none;
   if constexpr (Kind::any_will_do) {
-    if (change.to < certain_end(*ray_)) {
+    if (change.to < line.certain_to) {
       kind().settle();
       return true;
     }
   }
-  const std::uint32_t index = program.first_leaf + change.leaf;
+  return test_change(object_index, change);
+}
+
+template <class Kind>
+bool ObjectQuery<Kind>::test_change(std::uint32_t object_index, const SketchedChanges<double>& change) {
+  const CompiledScene& scene = accelerator_->compiled();
+  const std::uint32_t index =
+      accelerator_->object(object_index).first_leaf + static_cast<std::uint32_t>(change.leaf);
   const Leaf& leaf = scene.leaves[index];
   CrossingList& crossings = work_->crossings;
   crossings.clear();

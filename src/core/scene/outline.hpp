@@ -9,7 +9,7 @@
 #include "core/csg/evaluate.hpp"
 #include "core/math/lanes.hpp"
 #include "core/scene/outline_box.hpp"
-#include "core/scene/outline_line.hpp"
+#include "core/csg/outline_line.hpp"
 
 namespace crt::core {
 

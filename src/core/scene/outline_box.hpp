@@ -6,7 +6,7 @@
 #include <cstdint>
 
 #include "core/math/lanes.hpp"
-#include "core/scene/outline_line.hpp"
+#include "core/csg/outline_line.hpp"
 
 namespace crt::core {
 
@@ -32,7 +32,9 @@ struct BoxMeetings {
   /// Not so flat to any face that quotients fail; else nothing is certain.
   Mask known;
 
-  static BoxMeetings of(const OutlineBox& box, const OutlineLine<Real>& line);
+  /// The box has what OutlineBox calls lower and upper.
+  template <class Box>
+  static BoxMeetings of(const Box& box, const OutlineLine<Real>& line);
 
   /// Those lines start on the surface of a face by identity, inwards or outwards: it is exactly at t = 0. Put
   /// in before that by next to nothing, which is plainly not after the start.
@@ -53,7 +55,8 @@ struct BoxMeetings {
 };
 
 template <class Real>
-BoxMeetings<Real> BoxMeetings<Real>::of(const OutlineBox& box, const OutlineLine<Real>& line) {
+template <class Box>
+BoxMeetings<Real> BoxMeetings<Real>::of(const Box& box, const OutlineLine<Real>& line) {
   BoxMeetings result;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);

@@ -8,8 +8,8 @@
 
 #include "core/scene/accelerator.hpp"
 #include "core/scene/box_starts.hpp"
-#include "core/scene/certain_end.hpp"
 #include "core/scene/first_crossing.hpp"
+#include "core/scene/line_of_ray.hpp"
 #include "core/scene/ray_packet.hpp"
 
 namespace crt::core {
@@ -26,22 +26,11 @@ inline bool is_judged(const OutlineBox& box, bool any_will_do) {
 class OutlinedRay {
  public:
   OutlinedRay(const Accelerator& accelerator, const WorldRay& ray)
-      : start_surface_(ray.start.surface),
+      : line_(line_of(ray)),
+        start_surface_(ray.start.surface),
         start_leaf_(ray.start.leaf),
         start_side_(ray.start.side),
-        left_object_(accelerator.left_for_good(ray.start)) {
-    const Vec3& d = ray.direction;
-    line_.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
-    line_.direction = {d.x, d.y, d.z};
-    line_.squared_speed = glm::dot(d, d);
-    line_.inverse_squared_speed = 1 / line_.squared_speed;
-    line_.inverse_speed = std::sqrt(line_.inverse_squared_speed);
-    line_.inverse = {1 / d.x, 1 / d.y, 1 / d.z};
-    line_.begin = ray.t_min;
-    line_.start_error = ray.start.t_error;
-    line_.certain_from = farthest_start(ray);
-    line_.certain_to = finite_end(certain_end(ray));
-  }
+        left_object_(accelerator.left_for_good(ray.start)) {}
 
   const OutlineLine<double>& line() const { return line_; }
 
