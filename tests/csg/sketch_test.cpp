@@ -10,6 +10,7 @@
 #include "core/scene/accelerator.hpp"
 #include "core/scene/line_of_ray.hpp"
 #include "csg/continued_ray.hpp"
+#include "scene/same_answers.hpp"
 #include "support/solids.hpp"
 
 using namespace crt;
@@ -140,6 +141,19 @@ class Comparison {
   }
   const CsgProgram& program() const { return scene().programs.front(); }
 
+  /// Side by side rays find what they find alone.
+  void compare_packet(std::span<const WorldRay> rays, RayMask some) {
+    const RayBatch batch = batch_of(rays, some);
+    std::array<RayHit, packet_size> hits;
+    accelerator_.nearest_each(batch, some, hits, Packets::always, work_);
+    const PacketStarts starts = accelerator_.noted_starts(batch, some);
+    const RayMask met = accelerator_.any_each(batch, starts, some, Packets::always, work_);
+    for_each_ray(some, [&](std::size_t i) {
+      REQUIRE(same(hits[i], accelerator_.nearest(rays[i], work_)));
+      REQUIRE(((met >> i & 1u) != 0) == hits[i].found());
+    });
+  }
+
   /// Returns whether there is a hit.
   bool compare(const WorldRay& ray, CsgHit& hit, Counts& counts) {
     WorldRay whole = ray;
@@ -228,4 +242,34 @@ TEST_CASE("what a sketch calls sure is what following all crossings finds") {
   CHECK(free.missed > scene_count);
   CHECK(from_surface.met > scene_count / 20);
   CHECK(from_surface.missed > scene_count);
+}
+
+TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
+  for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
+    Trees trees(seed);
+    Comparison comparison(trees.tree(trees.random().integer(1, 3)),
+                          seed % 4 == 3 ? Precision::exact : Precision::standard);
+    if (!comparison.is_sketched()) continue;
+    CAPTURE(seed);
+    // All but alike, so that the packet's rays meet the same leaves, or each its own; some start on a surface.
+    std::vector<WorldRay> rays;
+    Counts counts;
+    while (rays.size() < packet_size) {
+      WorldRay ray = random_ray(trees);
+      CsgHit hit;
+      if (trees.random().integer(0, 1) == 0 && comparison.compare(ray, hit, counts)) {
+        const Vec3 direction = random_ray(trees).direction;
+        const Side side = trees.random().integer(0, 1) == 0 ? Side::outside : Side::inside;
+        ray = continued(comparison.scene(), comparison.program(), ray, hit, direction, side);
+      }
+      const int alike = trees.random().integer(1, 5);
+      for (int i = 0; i < alike && rays.size() < packet_size; ++i) {
+        rays.push_back(ray);
+        ray.direction += 1e-3 * glm::length(ray.direction) * trees.random().real(-1, 1) * trees.point();
+      }
+    }
+    const auto some = static_cast<RayMask>(trees.random().integer(1, (1 << packet_size) - 1));
+    comparison.compare_packet(rays, some);
+    comparison.compare_packet(rays, RayPacket::all(packet_size));
+  }
 }

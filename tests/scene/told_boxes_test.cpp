@@ -78,9 +78,11 @@ WorldRay ray_near(const Corners& box, Numbers& numbers) {
   const Vec3 place = box.at(share);
   Vec3 d = numbers.direction();
   if (numbers.below(4) == 0) {
-    // All but along the faces, or just along them.
-    const int axis = numbers.below(3);
-    d[axis] = numbers.below(3) == 0 ? 0 : d[axis] * numbers.size(1e-300, 1e-3);
+    // All but along the faces, or just along them; of two axes along an edge.
+    for (int axes = 1 + numbers.below(2); axes > 0; --axes) {
+      const int axis = numbers.below(3);
+      d[axis] = numbers.below(3) == 0 ? 0 : d[axis] * numbers.size(1e-300, 1e-3);
+    }
     if (!(largest_component(d) > 0)) d = {0, 0, 1};
     d = glm::normalize(d);
   }

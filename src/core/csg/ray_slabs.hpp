@@ -73,7 +73,13 @@ class RaySlabs {
       const Lanes high = max(first, second);
       span.enter = max(span.enter, low - slack * size_of(low));
       span.leave = min(span.leave, high + slack * size_of(high));
-      steep |= size_of(inverse) > largest_inverse;
+      LaneMask is_steep = size_of(inverse) > largest_inverse;
+      if (any(is_steep)) {
+        // Between planes that it goes along a line is from minus infinity to infinity, as told above.
+        const LaneMask between = (lines.origin[i] >= box.lower[axis]) & (lines.origin[i] <= box.upper[axis]);
+        is_steep &= ~(between & (lines.direction[i] == 0.0));
+      }
+      steep |= is_steep;
     }
     for (std::uint32_t left = mask_of(steep) & some; left != 0; left &= left - 1) {
       const int i = std::countr_zero(left);

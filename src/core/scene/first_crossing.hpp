@@ -102,7 +102,8 @@ FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings
                                  enters ? meetings.enter[2] : -meetings.leave[2]};
   const Real greatest = max(max(t[0], t[1]), t[2]);
   const Real second = max(min(t[0], t[1]), min(max(t[0], t[1]), t[2]));
-  const auto alone = greatest - second > meetings.error_of(greatest) + meetings.error_of(second);
+  // (Minus infinity with its error is no number, and is not next to anything.)
+  const auto beside = second + meetings.error_of(second) >= greatest - meetings.error_of(greatest);
 
   const auto across_x = t[0] == greatest;
   const auto across_y = t[1] == greatest;
@@ -118,7 +119,7 @@ FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings
   const Real position = is_upper ? of_axis(box.upper) : of_axis(box.lower);
   const auto meeting =
       AxisMeeting<Real>::of(position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
-  return {.found = both(meetings.known, both(alone, meeting.found)),
+  return {.found = without(both(meetings.known, meeting.found), beside),
           .entering = enters,
           .t = meeting.t,
           .error = meeting.error,

@@ -29,7 +29,8 @@ struct BoxMeetings {
 
   std::array<Real, 3> enter;  ///< by axis
   std::array<Real, 3> leave;
-  /// Not so flat to any face that quotients fail; else nothing is certain.
+  /// Not so flat to any face that quotients fail, or just along it and plainly not on it: what lies between two
+  /// planes comes there at minus infinity and leaves at infinity. Else nothing is certain.
   Mask known;
 
   /// The box has what OutlineBox calls lower and upper.
@@ -58,16 +59,24 @@ template <class Real>
 template <class Box>
 BoxMeetings<Real> BoxMeetings<Real>::of(const Box& box, const OutlineLine<Real>& line) {
   BoxMeetings result;
+  const auto& inverse = line.inverse;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);
-    const Real lower = (box.lower[i] - line.origin[axis]) * line.inverse[axis];
-    const Real upper = (box.upper[i] - line.origin[axis]) * line.inverse[axis];
-    const Mask upwards = line.inverse[axis] > 0.0;
+    const Real lower = (box.lower[i] - line.origin[axis]) * inverse[axis];
+    const Real upper = (box.upper[i] - line.origin[axis]) * inverse[axis];
+    const Mask upwards = inverse[axis] > 0.0;
     result.enter[axis] = upwards ? lower : upper;
     result.leave[axis] = upwards ? upper : lower;
   }
-  const auto& inverse = line.inverse;
   result.known = max(max(size_of(inverse[0]), size_of(inverse[1])), size_of(inverse[2])) < steepest;
+  if (all(result.known)) return result;
+  result.known = lanes_of_mask<Real>(~std::uint32_t{0});
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<int>(axis);
+    const Real& origin = line.origin[axis];
+    const Mask between = both(line.direction[axis] == 0.0, both(origin > box.lower[i], origin < box.upper[i]));
+    result.known = both(result.known, either(between, size_of(inverse[axis]) < steepest));
+  }
   return result;
 }
 
@@ -78,6 +87,7 @@ void BoxMeetings<Real>::start_on(std::size_t face, const Mask& lines, const Outl
   const Mask upwards = line.inverse[axis] > 0.0;
   const Mask enters = both(lines, is_upper ? line.inverse[axis] < 0.0 : upwards);
   const Mask leaves = both(lines, is_upper ? upwards : line.inverse[axis] < 0.0);
+  known = without(known, both(lines, line.direction[axis] == 0.0));
   enter[axis] = enters ? spread<Real>(before_start) : enter[axis];
   leave[axis] = leaves ? spread<Real>(before_start) : leave[axis];
 }
