@@ -58,41 +58,46 @@ Ray to_ray(const std::byte* place) {
           .t_max = ray.t_max};
 }
 
+/// Rays that are copied out of the caller's memory at a time.
+constexpr std::size_t piece_size = 64;
+
 class Rays {
  public:
   Rays(const crt_ray* rays, std::size_t stride, std::size_t count)
       : places_(reinterpret_cast<const std::byte*>(rays), stride, sizeof(crt_ray), count, "rays"),
         count_(count) {}
 
-  Ray operator[](std::size_t index) const { return to_ray(places_[index]); }
+  /// Calls ask(begin, rays) for piece after piece of the rays first ... last - 1.
+  template <class Ask>
+  void for_pieces(std::size_t first, std::size_t last, const Ask& ask) const {
+    std::array<Ray, piece_size> rays;
+    for (std::size_t begin = first; begin < last; begin += piece_size) {
+      const std::size_t count = std::min(piece_size, last - begin);
+      for (std::size_t i = 0; i < count; ++i) rays[i] = to_ray(places_[begin + i]);
+      ask(begin, std::span<const Ray>(rays).first(count));
+    }
+  }
 
   /// Throws if any ray is wrong, of several the first.
   void validate_all(const PreparedScene& scene) const {
     std::atomic<std::size_t> first_wrong = count_;
     query_in_parallel(scene, count_, [&](RayQueries&, std::size_t first, std::size_t last) {
-      for (std::size_t i = first; i < last && i < first_wrong; ++i) {
-        if (is_valid(i)) continue;
+      for_pieces(first, last, [&](std::size_t begin, std::span<const Ray> rays) {
+        if (begin > first_wrong) return;
+        const std::size_t index = first_invalid(rays);
+        if (index == rays.size()) return;
         std::size_t known = first_wrong;
-        while (i < known && !first_wrong.compare_exchange_weak(known, i)) {
+        while (begin + index < known && !first_wrong.compare_exchange_weak(known, begin + index)) {
         }
-      }
+      });
     });
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
  private:
-  bool is_valid(std::size_t index) const {
-    try {
-      validate((*this)[index]);
-      return true;
-    } catch (const Error&) {
-      return false;
-    }
-  }
-
   [[noreturn]] void throw_error_of(std::size_t index) const {
     try {
-      validate((*this)[index]);
+      validate(to_ray(places_[index]));
     } catch (const Error& error) {
       throw Error(error.code(), fmt::format("rays[{}]: {}", index, error.what()), "rays");
     }
@@ -118,20 +123,6 @@ crt_hit to_hit(const std::optional<Hit>& hit) {
   return out;
 }
 
-/// Rays that are copied out of the caller's memory at a time.
-constexpr std::size_t piece_size = 64;
-
-/// Calls ask(begin, rays) for piece after piece of the rays first ... last - 1.
-template <class Ask>
-void for_pieces(const Rays& questions, std::size_t first, std::size_t last, const Ask& ask) {
-  std::array<Ray, piece_size> rays;
-  for (std::size_t begin = first; begin < last; begin += piece_size) {
-    const std::size_t count = std::min(piece_size, last - begin);
-    for (std::size_t i = 0; i < count; ++i) rays[i] = questions[begin + i];
-    ask(begin, std::span<const Ray>(rays).first(count));
-  }
-}
-
 }  // namespace
 
 }  // namespace crt::capi
@@ -150,7 +141,7 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
         prepared->value, count, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
           std::array<std::optional<crt::Hit>, piece_size> found;
           std::array<crt_hit, piece_size> told;
-          for_pieces(questions, first, last, [&](std::size_t begin, auto piece) {
+          questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
             queries.intersect(piece, found);
             // Step by step: a copy of what was just written waits until it is there.
             std::transform(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(piece.size()),
@@ -173,7 +164,7 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     crt::query_in_parallel(prepared->value, count,
                            [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
                              std::array<bool, piece_size> found{};
-                             for_pieces(questions, first, last, [&](std::size_t begin, auto piece) {
+                             questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
                                queries.occluded(piece, found);
                                for (std::size_t i = 0; i < piece.size(); ++i) {
                                  occluded[begin + i] = found[i] ? 1 : 0;

@@ -25,25 +25,55 @@ bool is_finite(const Vec3& v) {
   return v.x * 0 + v.y * 0 + v.z * 0 == 0;
 }
 
-/// Whether a ray is valid, where that is seen at a glance. (What has too large a sum is not.)
-bool is_plainly_valid(const Ray& ray) {
-  const Vec3& o = ray.origin;
-  const Vec3& d = ray.direction;
-  const double extent = std::abs(d.x) + std::abs(d.y) + std::abs(d.z);
-  const double sum = std::abs(o.x) + std::abs(o.y) + std::abs(o.z) + extent;
-  return extent > 0 && sum <= std::numeric_limits<double>::max() && !std::isunordered(ray.t_min, ray.t_max);
+/// Whether rays are valid, where that is seen at a glance. (What has too large a sum is not.)
+template <class Real>
+MaskOf<Real> are_plainly_valid(const Vec3Of<Real>& origin, const Vec3Of<Real>& direction, const Real& t_min,
+                               const Real& t_max) {
+  const auto sum_of = [](const auto& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
+  const Real extent = sum_of(direction);
+  const auto finite = sum_of(origin) + extent <= std::numeric_limits<double>::max();
+  return both(both(extent > 0.0, finite), either(t_min <= t_max, t_min > t_max));
 }
+
+bool is_plainly_valid(const Ray& ray) {
+  return are_plainly_valid<double>(ray.origin, ray.direction, ray.t_min, ray.t_max);
+}
+
+/// Users' rays side by side.
+struct UserRays {
+  VectorLanes origin;
+  VectorLanes direction;
+  Lanes t_min;
+  Lanes t_max;
+
+  explicit UserRays(std::span<const Ray, lane_count> rays) {
+    const auto gathered = [&](const auto& number) {
+      return Lanes{number(rays[0]), number(rays[1]), number(rays[2]), number(rays[3])};
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis] = gathered([=](const Ray& ray) { return ray.origin[axis]; });
+      direction[axis] = gathered([=](const Ray& ray) { return ray.direction[axis]; });
+    }
+    t_min = gathered([](const Ray& ray) { return ray.t_min; });
+    t_max = gathered([](const Ray& ray) { return ray.t_max; });
+  }
+
+  LaneMask plainly_valid() const { return are_plainly_valid<Lanes>(origin, direction, t_min, t_max); }
+};
 
 /// Multiplies by a power of two, exactly wherever the result is a normal number.
 class PowerOfTwo {
  public:
-  explicit PowerOfTwo(int exponent = 0) : exponent_(exponent) {
+  explicit PowerOfTwo(int exponent) : exponent_(exponent) {
     constexpr int bias = 1023;
     constexpr int fraction_bits = 52;
     if (std::abs(exponent) < bias) {
       factor_ = std::bit_cast<double>(static_cast<std::uint64_t>(bias + exponent) << fraction_bits);
     }
   }
+
+  /// One that is a normal number, and so is its inverse.
+  explicit PowerOfTwo(double factor = 1) : factor_(factor), exponent_(0) {}
 
   double operator*(double value) const {
     return factor_ != 0 ? factor_ * value : std::scalbn(value, exponent_);
@@ -54,7 +84,7 @@ class PowerOfTwo {
 
  private:
   double factor_ = 0;  ///< 0 where no normal number holds it
-  int exponent_;
+  int exponent_;       ///< means nothing otherwise
 };
 
 /// That of a number's highest digit; x > 0.
@@ -79,6 +109,22 @@ PowerOfTwo follow(const Ray& users, WorldRay& ray) {
   ray.t_min = lengthen * std::max(users.t_min, -largest);
   ray.t_max = lengthen * std::min(users.t_max, largest);
   return shorten;
+}
+
+/// The same side by side, of valid rays that are not too long or short for that; else false. What shortens them
+/// is put into `to_users_t`.
+bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lanes& to_users_t) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  constexpr double longest = 0x1p1022;
+  const Lanes extent = largest_component(users.direction);
+  const Lanes lengthen = power_of_two_below(extent);
+  if (!all((extent >= 1 / longest) & (lengthen <= longest))) return false;
+  to_users_t = 1.0 / lengthen;
+  rays.lines[group] = {users.origin, to_users_t * users.direction};
+  rays.t_min[group] = lengthen * max(users.t_min, lanes_of(-largest));
+  rays.t_max[group] = lengthen * min(users.t_max, lanes_of(largest));
+  rays.start_errors[group] = Lanes{};
+  return true;
 }
 
 /// At the user's t; where that is in the world a HitPoint says or a SurfacePoint.
@@ -134,12 +180,13 @@ class QueryPacket {
 
   void take(std::span<const Ray> rays) {
     count_ = rays.size();
-    for (std::size_t i = 0; i < count_; ++i) {
-      validate(rays[i]);
-      WorldRay ray;
-      to_users_t_[i] = follow(rays[i], ray);
-      rays_.set(i, ray);
+    rays_.with_starts = 0;
+    std::size_t done = 0;
+    for (; done + lane_count <= count_; done += lane_count) {
+      const auto group = rays.subspan(done).first<lane_count>();
+      if (!take_group(group, done)) take_each(group, done);
     }
+    take_each(rays.subspan(done), done);
   }
 
   void nearest(std::span<std::optional<Hit>> hits) {
@@ -165,6 +212,25 @@ class QueryPacket {
 
  private:
   RayMask all() const { return RayPacket::all(count_); }
+
+  /// Those from `first` on side by side; false if that does not do for some.
+  bool take_group(std::span<const Ray, lane_count> rays, std::size_t first) {
+    const UserRays users(rays);
+    Lanes factors;
+    if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors)) return false;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      to_users_t_[first + lane] = PowerOfTwo(factors[static_cast<int>(lane)]);
+    }
+    return true;
+  }
+  void take_each(std::span<const Ray> rays, std::size_t first) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      validate(rays[i]);
+      WorldRay ray;
+      to_users_t_[first + i] = follow(rays[i], ray);
+      rays_.set(first + i, ray);
+    }
+  }
 
   /// Tells of those of the rays from `first` on that have found something: those on one face side by side.
   void describe(std::size_t first, RayMask found, std::span<std::optional<Hit>> hits) {
@@ -244,6 +310,29 @@ void validate(const Ray& ray) {
   }
   if (std::isnan(ray.t_min)) throw Error(ErrorCode::invalid_argument, "t_min is not a number", "t_min");
   if (std::isnan(ray.t_max)) throw Error(ErrorCode::invalid_argument, "t_max is not a number", "t_max");
+}
+
+std::size_t first_invalid(std::span<const Ray> rays) {
+  using core::lane_count;
+  const auto is_valid = [](const Ray& ray) {
+    try {
+      validate(ray);
+      return true;
+    } catch (const Error&) {
+      return false;
+    }
+  };
+  for (std::size_t first = 0; first < rays.size(); first += lane_count) {
+    const std::size_t count = std::min<std::size_t>(lane_count, rays.size() - first);
+    if (count == lane_count) {
+      const core::UserRays group(rays.subspan(first).first<lane_count>());
+      if (core::all(group.plainly_valid())) continue;
+    }
+    for (std::size_t i = first; i < first + count; ++i) {
+      if (!is_valid(rays[i])) return i;
+    }
+  }
+  return rays.size();
 }
 
 class RayQueries::State {
