@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -105,25 +106,45 @@ TEST_CASE("a tree is the same on any number of threads") {
   }
 }
 
-TEST_CASE("whether a t is in a line's span in a box is told as the span itself tells it") {
+TEST_CASE("a line's span in a box is the same by axes side by side, and by lines side by side") {
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> real(-3, 3);
   std::uniform_int_distribution<int> grid(-2, 2);
+  // Steep ones, those along a side, and those next to one that is meant to be on it.
+  const std::array<double, 4> steps = {0, 0x1p-1022, 0x1p-52, -0x1p-50};
+  const auto step = [&] { return steps[static_cast<std::size_t>(grid(random) + 2) % steps.size()]; };
+  int empty = 0;
   for (int i = 0; i < 20'000; ++i) {
-    const Vec3 origin(real(random), grid(random), real(random));
-    const Vec3 direction(real(random), grid(random), real(random));
     Bounds box;
     for (int axis = 0; axis < 3; ++axis) {
       box.lower[axis] = grid(random);
-      box.upper[axis] = box.lower[axis] + 1;
+      box.upper[axis] = box.lower[axis] + 3;
     }
-    const LineSpan span = RaySlabs(origin, direction).span(box);
-    for (const double end : {span.enter, span.leave, 0.5 * (span.enter + span.leave), real(random)}) {
-      for (const double t : {end, std::nextafter(end, -9.0), std::nextafter(end, 9.0)}) {
-        if (std::isnan(t)) continue;
-        const bool in_span = t >= span.enter && t <= span.leave;
-        CHECK(RaySlabs::is_in_span(origin, direction, box, t) == in_span);
+    OutlineLine<Lanes> lines;
+    std::array<LineSpan, lane_count> alone;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const Vec3 origin(real(random), grid(random) + step(), real(random));
+      const Vec3 direction(real(random), grid(random) * (grid(random) == 0 ? step() : 1), real(random));
+      alone[lane] = RaySlabs(origin, direction).span(box);
+      empty += alone[lane].empty() ? 1 : 0;
+      const LineSpan by_axes = RaySlabs::span(origin, direction, box);
+      CHECK(by_axes.empty() == alone[lane].empty());
+      if (!by_axes.empty()) CHECK((by_axes.enter == alone[lane].enter && by_axes.leave == alone[lane].leave));
+      for (int axis = 0; axis < 3; ++axis) {
+        const auto a = static_cast<std::size_t>(axis);
+        lines.origin[a][static_cast<int>(lane)] = origin[axis];
+        lines.direction[a][static_cast<int>(lane)] = direction[axis];
+        lines.inverse[a][static_cast<int>(lane)] = 1 / direction[axis];
       }
     }
+    const LineSpanLanes side_by_side = RaySlabs::spans(lines, box, ~0u);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const double enter = side_by_side.enter[static_cast<int>(lane)];
+      const double leave = side_by_side.leave[static_cast<int>(lane)];
+      CHECK((enter <= leave) == !alone[lane].empty());
+      if (!alone[lane].empty()) CHECK((enter == alone[lane].enter && leave == alone[lane].leave));
+    }
   }
+  CHECK(empty > 10'000);
+  CHECK(empty < 70'000);
 }

@@ -1,6 +1,7 @@
 // A line against axis-parallel boxes, by slabs.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <cmath>
@@ -76,7 +77,7 @@ class RaySlabs {
       LaneMask is_steep = size_of(inverse) > largest_inverse;
       if (any(is_steep)) {
         // Between planes that it goes along a line is from minus infinity to infinity, as told above.
-        const LaneMask between = (lines.origin[i] >= box.lower[axis]) & (lines.origin[i] <= box.upper[axis]);
+        const LaneMask between = (lines.origin[i] > box.lower[axis]) & (lines.origin[i] < box.upper[axis]);
         is_steep &= ~(between & (lines.direction[i] == 0.0));
       }
       steep |= is_steep;
@@ -92,21 +93,19 @@ class RaySlabs {
     return span;
   }
 
-  /// Whether a t is in the span of a line in a box, for a line whose origin is what is meant.
-  static bool is_in_span(const Vec3& origin, const Vec3& direction, const Bounds& box, double t) {
-    const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 1}; };
+  /// The span of a line whose origin is what is meant, axes side by side.
+  static LineSpan span(const Vec3& origin, const Vec3& direction, const Bounds& box) {
+    const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, v.z}; };
     const Lanes inverse = 1.0 / by_axis(direction);
-    if (!all(size_of(inverse) <= largest_inverse)) {
-      const LineSpan span = RaySlabs(origin, direction).span(box);
-      return t >= span.enter && t <= span.leave;
-    }
+    if (!all(size_of(inverse) <= largest_inverse)) return RaySlabs(origin, direction).span(box);
     const Lanes first = (by_axis(box.lower) - by_axis(origin)) * inverse;
     const Lanes second = (by_axis(box.upper) - by_axis(origin)) * inverse;
-    const Lanes low = first < second ? first : second;
-    const Lanes high = first < second ? second : first;
-    const LaneMask beside = (low - slack * size_of(low) > t) | (high + slack * size_of(high) < t);
-    constexpr std::uint32_t all_axes = 7;  // the fourth lane is none
-    return (mask_of(beside) & all_axes) == 0;
+    const Lanes low = min(first, second);
+    const Lanes high = max(first, second);
+    const Lanes enter = low - slack * size_of(low);
+    const Lanes leave = high + slack * size_of(high);
+    return {.enter = std::max(std::max(enter[0], enter[1]), enter[2]),
+            .leave = std::min(std::min(leave[0], leave[1]), leave[2])};
   }
 
   /// The spans of several boxes at once, given by axis. The same bits as of each alone.

@@ -272,7 +272,7 @@ std::uint64_t EmbreeTree::bytes() const {
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                           BoxVisitor& visitor) const {
   // A distant origin is moved up to the scene first, where floats are fine enough.
-  const LineSpan span = RaySlabs(origin, direction).span(total_);
+  const LineSpan span = RaySlabs::span(origin, direction, total_);
   const double t_start = std::max(t_min, span.enter);
   const double t_end = std::min(t_max, span.leave);
   if (t_start > t_end) return;
@@ -284,21 +284,21 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   traversal.t_start = t_start;
   traversal.scale = scale_ / direction_scale;
 
+  // Axes side by side, and the start as ObjectRay::from_center() has it.
+  const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 0}; };
+  const Lanes way = by_axis(direction);
+  const DoubleDoubleLanes offset = two_sum(by_axis(origin), -by_axis(center_));
+  const Lanes place = (fma(lanes_of(t_start), way, offset.hi) + offset.lo) * scale_;
+  const Lanes far = lanes_of(farthest_place);
+  const FloatLanes place_floats = to_floats(clamp(place, -far, far));
+  const FloatLanes way_floats = to_floats(way * direction_scale);
   RTCRayHit ray_hit{};
-  ObjectRay ray;
-  ray.origin = origin;
-  ray.direction = direction;
-  const Vec3 start = ray.from_center(center_, t_start);
-  const auto place = [&](int axis) {
-    return static_cast<float>(std::clamp(start[axis] * scale_, -farthest_place, farthest_place));
-  };
-  const auto way = [&](int axis) { return static_cast<float>(direction[axis] * direction_scale); };
-  ray_hit.ray.org_x = place(0);
-  ray_hit.ray.org_y = place(1);
-  ray_hit.ray.org_z = place(2);
-  ray_hit.ray.dir_x = way(0);
-  ray_hit.ray.dir_y = way(1);
-  ray_hit.ray.dir_z = way(2);
+  ray_hit.ray.org_x = place_floats[0];
+  ray_hit.ray.org_y = place_floats[1];
+  ray_hit.ray.org_z = place_floats[2];
+  ray_hit.ray.dir_x = way_floats[0];
+  ray_hit.ray.dir_y = way_floats[1];
+  ray_hit.ray.dir_z = way_floats[2];
   ray_hit.ray.tnear = 0;
   ray_hit.ray.tfar = traversal.far_end(t_end);
   ray_hit.ray.mask = ~0u;

@@ -189,7 +189,8 @@ bool ObjectQuery<Kind>::test_change(std::uint32_t object_index, const SketchedCh
   for (const Crossing& crossing : crossings) {
     if (crossing.entering != change.into_leaf) continue;
     // What rounding puts next to the leaf's box is told by the box.
-    if (!RaySlabs::is_in_span(ray_->origin, ray_->direction, leaf.bounds, crossing.t)) return false;
+    const LineSpan span = RaySlabs::span(ray_->origin, ray_->direction, leaf.bounds);
+    if (!(crossing.t >= span.enter && crossing.t <= span.leave)) return false;
     ++work_->csg.events;
     kind().take({.t = crossing.t,
                  .error = crossing.error,
