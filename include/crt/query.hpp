@@ -48,7 +48,8 @@ std::vector<Hit> crossings(const PreparedScene& scene, const Ray& ray);
 /// Throws Error (invalid_argument) for a ray that no query takes.
 void validate(const Ray& ray);
 
-/// Of several rays the index of the first one that validate() takes exception to; their number if there is none.
+/// Of several rays the index of the first one that validate() takes exception to; their number if there is
+/// none.
 std::size_t first_invalid(std::span<const Ray> rays);
 
 /// The same questions for many rays one after the other, with memory that it keeps between them: cheaper

@@ -251,7 +251,8 @@ TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
                           seed % 4 == 3 ? Precision::exact : Precision::standard);
     if (!comparison.is_sketched()) continue;
     CAPTURE(seed);
-    // All but alike, so that the packet's rays meet the same leaves, or each its own; some start on a surface.
+    // All but alike, so that the packet's rays meet the same leaves, or each its own; some start on a
+    // surface.
     std::vector<WorldRay> rays;
     Counts counts;
     while (rays.size() < packet_size) {

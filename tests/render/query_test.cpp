@@ -3,8 +3,14 @@
 #include <crt/query.hpp>
 #include <crt/scene.hpp>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <limits>
+#include <optional>
+#include <random>
+#include <span>
+#include <vector>
 
 using namespace crt;
 
@@ -98,4 +104,68 @@ TEST_CASE("a ray without a direction or with a number that is none is refused, a
   CHECK(rejected({.direction = {0, inf, 0}}) == "direction");
   CHECK(rejected({.t_min = nan}) == "t_min");
   CHECK(rejected({.t_max = nan}) == "t_max");
+}
+
+TEST_CASE("the first ray of many that is refused is told") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const double inf = std::numeric_limits<double>::infinity();
+  const double largest = std::numeric_limits<double>::max();
+  const std::array<Ray, 7> wrong = {Ray{.origin = {0, nan, 0}},
+                                    Ray{.origin = {0, 0, -inf}},
+                                    Ray{.direction = {0, 0, 0}},
+                                    Ray{.direction = {nan, 0, 1}},
+                                    Ray{.direction = {0, inf, 1}},
+                                    Ray{.t_min = nan},
+                                    Ray{.t_max = nan}};
+  // What is as large, or as empty, as can be is not refused.
+  const std::array<Ray, 3> extreme = {
+      Ray{.origin = {largest, -largest, largest}, .direction = {largest, 0, 0}},
+      Ray{.direction = {0, 0, 5e-324}}, Ray{.t_min = inf, .t_max = -inf}};
+  for (std::size_t count = 0; count < 20; ++count) {
+    std::vector<Ray> rays;
+    for (std::size_t i = 0; i < count; ++i) rays.push_back(i % 5 == 3 ? extreme[i % 3] : Ray{});
+    CHECK(first_invalid(rays) == count);
+    for (std::size_t at = 0; at < count; ++at) {
+      std::vector<Ray> some = rays;
+      some[at] = wrong[(at + count) % wrong.size()];
+      CHECK(first_invalid(some) == at);
+      if (at + 1 < count) some[at + 1] = wrong[at % wrong.size()];
+      CHECK(first_invalid(some) == at);
+    }
+  }
+}
+
+TEST_CASE("many rays at once find what each finds, however long they are") {
+  const PreparedScene scene = two_balls();
+  RayQueries queries(scene);
+  std::mt19937_64 random(3);
+  std::uniform_real_distribution<double> real(-1, 1);
+  const std::array<double, 8> lengths = {1, 1, 1, 1e-308, 5e-324, 1e307, 1e-160, 7e20};
+  const double inf = std::numeric_limits<double>::infinity();
+  int met = 0;
+  for (int round = 0; round < 500; ++round) {
+    std::vector<Ray> rays(1 + random() % 40);
+    for (Ray& ray : rays) {
+      const double length = lengths[random() % lengths.size()];
+      ray.direction = {0.3 * length * real(random), 0.3 * length * real(random), length};
+      if (random() % 4 == 0) ray.t_max = 8 / length * real(random);
+      if (random() % 8 == 0) ray.t_min = random() % 2 == 0 ? -inf : real(random) / length;
+    }
+    std::vector<std::optional<Hit>> hits(rays.size());
+    std::array<bool, 40> hidden{};
+    queries.intersect(rays, hits);
+    queries.occluded(rays, hidden);
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      const std::optional<Hit> alone = queries.intersect(rays[i]);
+      REQUIRE(alone.has_value() == hits[i].has_value());
+      REQUIRE(queries.occluded(rays[i]) == hidden[i]);
+      if (!alone) continue;
+      ++met;
+      REQUIRE(alone->t == hits[i]->t);
+      REQUIRE(alone->position == hits[i]->position);
+      REQUIRE(alone->normal == hits[i]->normal);
+      REQUIRE(alone->entity_id == hits[i]->entity_id);
+    }
+  }
+  CHECK(met > 2000);
 }

@@ -163,7 +163,7 @@ TEST_CASE("so do rays side by side that go anywhere, inside of glass balls and o
       RayWorkspace work;
       RayWorkspace other_work;
       std::vector<WorldRay> rays(packet_size);
-      std::vector<RayHit> hits(packet_size);
+      std::array<RayHit, packet_size> hits;
       int exits = 0;
       for (int round = 0; round < 300; ++round) {
         rays.resize(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));

@@ -36,7 +36,7 @@ inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
 
 /// What rays find in a packet, wherever they go.
 inline void intersect_as_packet(const PreparedData& data, std::span<const WorldRay> rays,
-                                std::span<RayHit> hits, RayWorkspace& work) {
+                                std::span<RayHit, packet_size> hits, RayWorkspace& work) {
   const RayMask all = RayPacket::all(rays.size());
   data.intersect_each(batch_of(rays, all), all, hits, work, Packets::always);
 }

@@ -159,8 +159,8 @@ void CsgSketch::leap(const Ends<Real>& ends, bool value, Real from, MaskOf<Real>
 
 /// The changes at the ends of leaves that begin at `from`, where there is just one and it is certain.
 template <class Real>
-void CsgSketch::set_change(const Ends<Real>& ends, bool value, const Real& from,
-                           MaskOf<Real> rays, SketchedChanges<Real>& changes) const {
+void CsgSketch::set_change(const Ends<Real>& ends, bool value, const Real& from, MaskOf<Real> rays,
+                           SketchedChanges<Real>& changes) const {
   rays = both(rays, from > ends.lines().certain_from);
   const Places turned = turned_for(value);
   for (Places places = used_ & ~ends.outside(); places != 0 && any(rays);) {

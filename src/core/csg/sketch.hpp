@@ -30,9 +30,9 @@ struct StartPoint;
 template <class Real>
 struct SketchedRays {
   const OutlineLine<Real>& lines;
-  Real limits;                        ///< nothing beyond matters
-  std::uint32_t asked;                ///< a bit each
-  std::uint32_t on_surface;           ///< those of them that start on a surface
+  Real limits;                         ///< nothing beyond matters
+  std::uint32_t asked;                 ///< a bit each
+  std::uint32_t on_surface;            ///< those of them that start on a surface
   std::span<const StartPoint> starts;  ///< of these
 };
 

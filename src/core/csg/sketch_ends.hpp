@@ -28,7 +28,7 @@ class CsgSketch::Ends {
     Real outside_from(const Real& t) const { return both(t > enter_to, t < leave_from) ? leave_from : t; }
 
     /// Whether it surely is inside of the leaf from one t to another, or outside.
-    Mask is_inside(const Real& from, const Real& to) const { return both(enter_to < from, leave_from > to); }
+    Mask is_inside(const Real& from, const Real& to) const { return both(enter_to<from, leave_from> to); }
     Mask is_outside(const Real& from, const Real& to) const {
       return either(enter_from > to, leave_to < from);
     }

@@ -66,8 +66,8 @@ RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
       if (!goes_through) work.media.release(parts.media_marks[lane]);
     }
     if (goes_through) {
-      PathState& path = depart(ray, RayKind::refraction, waits, parts.refracted_direction.lane(lane),
-                               from.start_behind());
+      PathState& path =
+          depart(ray, RayKind::refraction, waits, parts.refracted_direction.lane(lane), from.start_behind());
       path.weight = parts.refracted_weight.lane(lane);
       path.media = parts.media_behind[lane];
       path.media_mark = work.media.mark();
@@ -182,9 +182,7 @@ std::size_t Tracer::join_next_round(std::size_t ray, RayKind kind) {
 
 WorldRay Tracer::ray_behind(std::size_t ray) {
   const SurfaceLane lit = surface(ray);
-  return {.origin = lit.position(),
-          .direction = round_->rays.direction(ray),
-          .start = lit.start_behind()};
+  return {.origin = lit.position(), .direction = round_->rays.direction(ray), .start = lit.start_behind()};
 }
 
 MediaLists::List Tracer::media_behind(std::size_t ray) {

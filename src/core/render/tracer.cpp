@@ -186,9 +186,8 @@ RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
 void Tracer::add_light(RayMask on_surface) {
   const RayMask taking = taking_light(on_surface);
   if (taking == 0) return;
-  RayPacket::for_each_group(taking, [&](std::size_t i, RayMask) {
-    shadow_rays_.start_errors[i] = surfaces_[i].start_errors;
-  });
+  RayPacket::for_each_group(
+      taking, [&](std::size_t i, RayMask) { shadow_rays_.start_errors[i] = surfaces_[i].start_errors; });
   for_each_ray(taking, [&](std::size_t i) { shadow_rays_.starts[i] = surface(i).hit().start; });
   shadow_rays_.with_starts = taking;
   const PacketStarts starts = data_.noted_starts(shadow_rays_, taking);

@@ -121,7 +121,7 @@ SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, 
   return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing, with_uv);
 }
 
-void Accelerator::expect_surface_points(std::span<const RayHit> hits, RayMask some) const {
+void Accelerator::expect_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
   constexpr std::size_t in_cache = 64;
   if (compiled_.leaves.size() <= in_cache) return;
   for_each_ray(some, [&](std::size_t i) {

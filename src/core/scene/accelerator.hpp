@@ -32,7 +32,7 @@ class Accelerator {
 
   /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near are of no
   /// use after it. Hits of other rays stay as they are.
-  void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits, Packets packets,
+  void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits, Packets packets,
                     RayWorkspace& work) const;
   /// Which of the rays; `starts` says what these start on.
   RayMask any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
@@ -72,7 +72,7 @@ class Accelerator {
   /// The point of a hit that `ray` found, in the space of its leaf; u and v only if asked for.
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
   /// Lets memory fetch beforehand what surface_point() looks at.
-  void expect_surface_points(std::span<const RayHit> hits, RayMask some) const;
+  void expect_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   /// A leaf's own ray for a ray in the world.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
   /// Whether a crossing near the ray's end is of a surface through that end.
@@ -103,11 +103,13 @@ class Accelerator {
   /// Where nothing but an object is that keeps apart.
   Bounds room_of(std::uint32_t object) const { return compiled_.objects[object].bounds.grown(margin_); }
   /// nearest_each() for rays whose hits are empty, as a packet.
-  void nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit> hits, RayWorkspace& work) const;
+  void nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
+                        RayWorkspace& work) const;
   RayHit nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const;
   /// Takes those of a batch's rays that start into solids which keep apart to where they leave these: what
   /// there is elsewhere they cannot meet before. Returns which; the hits of the others are left empty.
-  RayMask leave_apart(const RayBatch& rays, RayMask some, std::span<RayHit> hits, RayWorkspace& work) const;
+  RayMask leave_apart(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
+                      RayWorkspace& work) const;
   /// The same of those rays of a group that start into one such solid.
   RayMask leave_apart(const Outline& solid, const RayBatch& rays, std::size_t group, RayMask some,
                       std::span<RayHit, lane_count> hits, RayWorkspace& work) const;

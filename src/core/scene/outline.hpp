@@ -7,9 +7,9 @@
 #include <vector>
 
 #include "core/csg/evaluate.hpp"
+#include "core/csg/outline_line.hpp"
 #include "core/math/lanes.hpp"
 #include "core/scene/outline_box.hpp"
-#include "core/csg/outline_line.hpp"
 
 namespace crt::core {
 

@@ -5,8 +5,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "core/math/lanes.hpp"
 #include "core/csg/outline_line.hpp"
+#include "core/math/lanes.hpp"
 
 namespace crt::core {
 
@@ -29,8 +29,8 @@ struct BoxMeetings {
 
   std::array<Real, 3> enter;  ///< by axis
   std::array<Real, 3> leave;
-  /// Not so flat to any face that quotients fail, or just along it and plainly not on it: what lies between two
-  /// planes comes there at minus infinity and leaves at infinity. Else nothing is certain.
+  /// Not so flat to any face that quotients fail, or just along it and plainly not on it: what lies between
+  /// two planes comes there at minus infinity and leaves at infinity. Else nothing is certain.
   Mask known;
 
   /// The box has what OutlineBox calls lower and upper.
@@ -74,7 +74,8 @@ BoxMeetings<Real> BoxMeetings<Real>::of(const Box& box, const OutlineLine<Real>&
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);
     const Real& origin = line.origin[axis];
-    const Mask between = both(line.direction[axis] == 0.0, both(origin > box.lower[i], origin < box.upper[i]));
+    const Mask between =
+        both(line.direction[axis] == 0.0, both(origin > box.lower[i], origin < box.upper[i]));
     result.known = both(result.known, either(between, size_of(inverse[axis]) < steepest));
   }
   return result;

@@ -110,7 +110,7 @@ bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
   return accelerator_->any(ray, work);
 }
 
-void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits,
+void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                                   RayWorkspace& work, Packets packets) const {
   accelerator_->nearest_each(rays, some, hits, packets, work);
 }

@@ -107,8 +107,8 @@ class PreparedData {
 
   /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near are of no
   /// use after it. Hits of other rays stay as they are.
-  void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit> hits, RayWorkspace& work,
-                      Packets packets = Packets::where_they_pay) const;
+  void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
+                      RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
                         Packets packets = Packets::where_they_pay) const;
 

@@ -53,14 +53,16 @@ struct RayBatch {
   std::array<Lanes, packet_size / lane_count> t_max;         ///< infinity unless it is set
   std::array<Lanes, packet_size / lane_count> start_errors;  ///< StartPoint::t_error
   std::array<Lanes, packet_size / lane_count> end_errors{};  ///< as in WorldRay
-  RayMask with_starts = 0;  ///< the others start in free space
+  RayMask with_starts = 0;                                   ///< the others start in free space
   std::array<StartPoint, packet_size> starts;
 
   RayBatch() { t_max.fill(lanes_of(std::numeric_limits<double>::infinity())); }
 
   /// One of them.
   WorldRay ray(std::size_t index) const;
-  Vec3 direction(std::size_t index) const { return lines[index / lane_count].direction.lane(index % lane_count); }
+  Vec3 direction(std::size_t index) const {
+    return lines[index / lane_count].direction.lane(index % lane_count);
+  }
   void set(std::size_t index, const WorldRay& ray);
   /// All but t_min, t_max and end_errors.
   void set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start);
@@ -72,7 +74,7 @@ struct RayPacket {
   static constexpr RayMask group_mask = (1u << lane_count) - 1;
 
   /// Of some of a batch, and what their starts mean, which must outlive the packet.
-  RayPacket(const RayBatch& rays, const PacketStarts& starts, RayMask some);
+  RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some);
 
   /// Groups without a ray hold nothing.
   std::array<OutlineLine<Lanes>, group_count> groups;

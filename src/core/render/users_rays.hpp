@@ -1,0 +1,119 @@
+// Rays of queries, as users ask them and as they are followed.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <span>
+
+#include "core/math/vector_lanes.hpp"
+#include "core/scene/ray_packet.hpp"
+#include "crt/query.hpp"
+
+namespace crt::core {
+
+/// Whether rays are valid, where that is seen at a glance. (What has too large a sum is not.)
+template <class Real>
+MaskOf<Real> are_plainly_valid(const Vec3Of<Real>& origin, const Vec3Of<Real>& direction, const Real& t_min,
+                               const Real& t_max) {
+  const auto sum_of = [](const auto& v) { return size_of(v.x) + size_of(v.y) + size_of(v.z); };
+  const Real extent = sum_of(direction);
+  const auto finite = sum_of(origin) + extent <= std::numeric_limits<double>::max();
+  return both(both(extent > 0.0, finite), either(t_min <= t_max, t_min > t_max));
+}
+
+inline bool is_plainly_valid(const Ray& ray) {
+  return are_plainly_valid<double>(ray.origin, ray.direction, ray.t_min, ray.t_max);
+}
+
+/// Users' rays side by side.
+struct UserRays {
+  VectorLanes origin;
+  VectorLanes direction;
+  Lanes t_min;
+  Lanes t_max;
+
+  explicit UserRays(std::span<const Ray, lane_count> rays) {
+    const auto gathered = [&](const auto& number) {
+      return Lanes{number(rays[0]), number(rays[1]), number(rays[2]), number(rays[3])};
+    };
+    for (int axis = 0; axis < 3; ++axis) {
+      origin[axis] = gathered([=](const Ray& ray) { return ray.origin[axis]; });
+      direction[axis] = gathered([=](const Ray& ray) { return ray.direction[axis]; });
+    }
+    t_min = gathered([](const Ray& ray) { return ray.t_min; });
+    t_max = gathered([](const Ray& ray) { return ray.t_max; });
+  }
+
+  LaneMask plainly_valid() const { return are_plainly_valid<Lanes>(origin, direction, t_min, t_max); }
+};
+
+/// Multiplies by a power of two, exactly wherever the result is a normal number.
+class PowerOfTwo {
+ public:
+  explicit PowerOfTwo(int exponent) : exponent_(exponent) {
+    constexpr int bias = 1023;
+    constexpr int fraction_bits = 52;
+    if (std::abs(exponent) < bias) {
+      factor_ = std::bit_cast<double>(static_cast<std::uint64_t>(bias + exponent) << fraction_bits);
+    }
+  }
+
+  /// One that is a normal number, and so is its inverse.
+  explicit PowerOfTwo(double factor = 1) : factor_(factor), exponent_(0) {}
+
+  double operator*(double value) const {
+    return factor_ != 0 ? factor_ * value : std::scalbn(value, exponent_);
+  }
+  Vec3 operator*(const Vec3& v) const {
+    return factor_ != 0 ? factor_ * v : Vec3(*this * v.x, *this * v.y, *this * v.z);
+  }
+
+ private:
+  double factor_ = 0;  ///< 0 where no normal number holds it
+  int exponent_;       ///< means nothing otherwise
+};
+
+/// That of a number's highest digit; x > 0.
+inline int exponent_of(double x) {
+  constexpr int bias = 1023;
+  constexpr int fraction_bits = 52;
+  const auto biased = static_cast<int>(std::bit_cast<std::uint64_t>(x) >> fraction_bits);
+  return biased > 0 ? biased - bias : std::ilogb(x);
+}
+
+/// Makes of the user's ray one that can be followed: its direction is brought near length 1 by a power of
+/// two, which makes any length safe and changes no digit of t. Returns what turns a t of that ray into one of
+/// the user's.
+inline PowerOfTwo follow(const Ray& users, WorldRay& ray) {
+  // Beyond the largest number there is no t to tell of, and so no hit.
+  constexpr double largest = std::numeric_limits<double>::max();
+  const int exponent = exponent_of(largest_component(users.direction));
+  const PowerOfTwo shorten(-exponent);
+  const PowerOfTwo lengthen(exponent);
+  ray.origin = users.origin;
+  ray.direction = shorten * users.direction;
+  ray.t_min = lengthen * std::max(users.t_min, -largest);
+  ray.t_max = lengthen * std::min(users.t_max, largest);
+  return shorten;
+}
+
+/// The same side by side, of valid rays that are not too long or short for that; else false. What shortens
+/// them is put into `to_users_t`.
+inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lanes& to_users_t) {
+  constexpr double largest = std::numeric_limits<double>::max();
+  constexpr double longest = 0x1p1022;
+  const Lanes extent = largest_component(users.direction);
+  const Lanes lengthen = power_of_two_below(extent);
+  if (!all((extent >= 1 / longest) & (lengthen <= longest))) return false;
+  to_users_t = 1.0 / lengthen;
+  rays.lines[group] = {users.origin, to_users_t * users.direction};
+  rays.t_min[group] = lengthen * max(users.t_min, lanes_of(-largest));
+  rays.t_max[group] = lengthen * min(users.t_max, lanes_of(largest));
+  rays.start_errors[group] = Lanes{};
+  return true;
+}
+
+}  // namespace crt::core
