@@ -99,3 +99,18 @@ TEST_CASE("angles side by side are what each is by itself, to the last bit") {
     }
   }
 }
+
+TEST_CASE("sine and cosine up to an eighth of a turn are the true ones") {
+  std::mt19937_64 engine(2);
+  std::uniform_real_distribution<double> eighths(-1, 1);
+  for (int i = 0; i < 1000000; ++i) {
+    const double q = i == 0 ? 0 : i == 1 ? 1 : i == 2 ? -1 : eighths(engine);
+    const long double angle = std::numbers::pi_v<long double> / 4 * q;
+    const auto [sine, cosine] = of_eighth_turns(q);
+    REQUIRE(std::abs(sine - std::sin(angle)) <= 0x1p-52L);
+    REQUIRE(std::abs(cosine - std::cos(angle)) <= 0x1p-52L);
+    const auto by_lanes = of_eighth_turns(lanes_of(q));
+    REQUIRE(by_lanes.sine[i % lane_count] == sine);
+    REQUIRE(by_lanes.cosine[i % lane_count] == cosine);
+  }
+}

@@ -96,14 +96,24 @@ TEST_CASE("the numbers of one pixel do not correlate with those of the next") {
 
 TEST_CASE("pairs of four samples are those of each") {
   for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{0x299f31d0a4093822}}) {
-    for (const std::uint32_t sample : {0u, 8u, 0x7ffffffcu, 0xfffffffcu}) {
-      const RandomUse use = {.x = 0x243f6a88, .y = 0x85a308d3, .sample = sample, .dimension = 3};
-      const auto pairs = random_pairs(seed, use);
-      for (std::uint32_t i = 0; i < pairs.size(); ++i) {
+    for (std::uint32_t sample = 0; sample < 4000; sample += 4) {
+      const RandomUse use = {.x = 0x243f6a88, .y = 0x85a308d3, .sample = sample - 2000, .dimension = 3};
+      const auto [first, second] = random_pairs(seed, use);
+      for (std::uint32_t i = 0; i < 4; ++i) {
         RandomUse one = use;
         one.sample += i;
-        CHECK(pairs[i] == random_pair(seed, one));
+        const auto lane = static_cast<int>(i);
+        CHECK(std::array{first[lane], second[lane]} == random_pair(seed, one));
       }
     }
   }
+}
+
+TEST_CASE("bits at the ends of their range are the same numbers four at a time") {
+  constexpr std::uint64_t all = 0xffffffffffffffffu;
+  for (const std::uint64_t bits :
+       {std::uint64_t{0}, all, all - 2047, std::uint64_t{2048}, all >> 21, all << 43}) {
+    CHECK(to_unit_interval(WordLanes{bits, 0, bits, all})[2] == to_unit_interval(bits));
+  }
+  CHECK(to_unit_interval(all) < 1);
 }

@@ -6,6 +6,8 @@
 #include <cstddef>
 #include <numbers>
 
+#include "core/geometry/angles.hpp"
+
 namespace crt::core {
 
 namespace {
@@ -47,17 +49,28 @@ LensPoint polygon_point(const std::array<LensPoint, sides>& corners, double u, d
   return {outwards * (a.x + v * (b.x - a.x)), outwards * (a.y + v * (b.y - a.y))};
 }
 
+/// See circle_point().
+template <class Real>
+struct PointOfDisc {
+  Real x;
+  Real y;
+};
+template <class Real>
+PointOfDisc<Real> point_of_disc(const Real& u, const Real& v) {
+  const Real x = 2.0 * u - 1.0;
+  const Real y = 2.0 * v - 1.0;
+  const auto beside = size_of(x) > size_of(y);
+  const Real radius = beside ? x : y;
+  const Real across = beside ? y : x;
+  const auto [sine, cosine] = of_eighth_turns(across / (radius == 0.0 ? spread<Real>(1) : radius));
+  return {radius * (beside ? cosine : sine), radius * (beside ? sine : cosine)};
+}
+
 }  // namespace
 
 LensPoint circle_point(double u, double v) {
-  const double x = 2 * u - 1;
-  const double y = 2 * v - 1;
-  if (x == 0 && y == 0) return {0, 0};
-  constexpr double quarter = std::numbers::pi / 4;
-  const bool beside = std::abs(x) > std::abs(y);
-  const double radius = beside ? x : y;
-  const double angle = beside ? quarter * (y / x) : 2 * quarter - quarter * (x / y);
-  return {radius * std::cos(angle), radius * std::sin(angle)};
+  const auto [x, y] = point_of_disc(u, v);
+  return {x, y};
 }
 
 LensPoint uniform_point(double u, double v) {
@@ -118,6 +131,15 @@ LensPoint aperture_point(ApertureShape shape, double u, double v) {
       return line_point(u, v);
   }
   return {};
+}
+
+std::array<LensPoint, lane_count> aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v) {
+  if (shape == ApertureShape::circle) {
+    const auto [x, y] = point_of_disc(u, v);
+    return {{{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}}};
+  }
+  return {aperture_point(shape, u[0], v[0]), aperture_point(shape, u[1], v[1]),
+          aperture_point(shape, u[2], v[2]), aperture_point(shape, u[3], v[3])};
 }
 
 }  // namespace crt::core

@@ -2,6 +2,9 @@
 // gaussian keep areas: equal parts of the square go to equal parts of the shape.
 #pragma once
 
+#include <array>
+
+#include "core/math/lanes.hpp"
 #include "crt/camera.hpp"
 
 namespace crt::core {
@@ -38,5 +41,8 @@ LensPoint line_point(double u, double v);
 
 /// The point of any shape.
 LensPoint aperture_point(ApertureShape shape, double u, double v);
+
+/// The same of several pairs of numbers side by side.
+std::array<LensPoint, lane_count> aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v);
 
 }  // namespace crt::core

@@ -5,6 +5,7 @@
 // The camera's directions are left-handed and of unit length: right, up, and forward.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <span>
 
@@ -57,6 +58,10 @@ class CameraRays {
 
   /// The lens point of two numbers in [0, 1).
   LensPoint lens_point(double u, double v) const { return aperture_point(aperture_shape_, u, v); }
+
+  std::array<LensPoint, lane_count> lens_points(const Lanes& u, const Lanes& v) const {
+    return aperture_points(aperture_shape_, u, v);
+  }
 
   /// Whether the lens has any size.
   bool has_lens() const { return lens_radius_ > 0; }

@@ -58,6 +58,31 @@ Real rise(const Real& level, const Real& height) {
   return height < Real{} ? 0.5 - half : 0.5 + half;
 }
 
+template <class Real>
+struct SineAndCosine {
+  Real sine;
+  Real cosine;
+};
+
+/// Of q eighths of a turn, -1 <= q <= 1: within 2^-52 each. By their power series.
+template <class Real>
+SineAndCosine<Real> of_eighth_turns(const Real& q) {
+  constexpr std::array<double, 8> odd = {
+      0x1.921fb54442d18p-1,  -0x1.4abbce625be53p-4,  0x1.466bc6775aae2p-9,  -0x1.32d2cce62bd86p-15,
+      0x1.50783487ee782p-22, -0x1.e3074fde8871fp-30, 0x1.e8f434d018d63p-38, -0x1.6fadb9f155744p-46};
+  constexpr std::array<double, 8> even = {
+      -0x1.3bd3cc9be45dep-2,  0x1.03c1f081b5ac4p-6,  -0x1.55d3c7e3cbffap-12, 0x1.e1f506891babbp-19,
+      -0x1.a6d1f2a204a8cp-26, 0x1.f9d38a3763cc3p-34, -0x1.b6e24f44b128fp-42, 0x1.20c62c2f2d7f5p-50};
+  const Real square = q * q;
+  Real sine = spread<Real>(odd.back());
+  Real cosine = spread<Real>(even.back());
+  for (std::size_t i = odd.size() - 1; i > 0; --i) {
+    sine = fma(sine, square, spread<Real>(odd[i - 1]));
+    cosine = fma(cosine, square, spread<Real>(even[i - 1]));
+  }
+  return {.sine = q * sine, .cosine = fma(cosine, square, spread<Real>(1))};
+}
+
 /// Unit vectors that make a frame with `along`, a unit vector. `zero`, where angles about the axis
 /// start, is +z as far as that is across the axis (+x, if the axis is mostly along z); `quarter` is
 /// along x zero, a quarter of a turn on. Exact for the coordinate axes.

@@ -13,6 +13,8 @@
 #include <immintrin.h>
 #endif
 
+#include "core/math/lanes.hpp"
+
 namespace crt::core {
 
 using PhiloxCounter = std::array<std::uint32_t, 4>;
@@ -82,19 +84,23 @@ constexpr std::array<double, 2> random_pair(std::uint64_t seed, const RandomUse&
           to_unit_interval(std::uint64_t{bits[3]} << 32 | bits[2])};
 }
 
-/// The pairs of a sample and of the three that follow it.
-inline std::array<std::array<double, 2>, 4> random_pairs(std::uint64_t seed, const RandomUse& first) {
+/// The same, by halves that each are a number's last digits; their sum is exact.
+inline Lanes to_unit_interval(const WordLanes& bits) {
+  constexpr std::uint64_t exponent_of_2_to_84 = 0x4530000000000000u;
+  constexpr std::uint64_t exponent_of_2_to_52 = 0x4330000000000000u;
+  const WordLanes high = bits >> 43 | exponent_of_2_to_84;
+  const WordLanes low = (bits >> 11 & 0xffffffffu) | exponent_of_2_to_52;
+  return (reinterpret_cast<Lanes>(high) - (0x1p84 + 0x1p52) + reinterpret_cast<Lanes>(low)) * 0x1p-53;
+}
+
+/// The pairs of a sample and of the three that follow it: all first numbers, and all second ones.
+inline std::array<Lanes, 2> random_pairs(std::uint64_t seed, const RandomUse& first) {
   const auto all = [](std::uint64_t word) { return WordLanes{word, word, word, word}; };
   const WordLanes samples = all(first.sample) + WordLanes{0, 1, 2, 3};
   const auto bits =
       philox_rounds<WordLanes>({all(first.x), all(first.y), samples, all(first.dimension)}, key_of(seed));
-  const WordLanes u = bits[1] << 32 | (bits[0] & 0xffffffffu);
-  const WordLanes v = bits[3] << 32 | (bits[2] & 0xffffffffu);
-  std::array<std::array<double, 2>, 4> pairs;
-  for (int i = 0; i < 4; ++i) {
-    pairs[static_cast<std::size_t>(i)] = {to_unit_interval(u[i]), to_unit_interval(v[i])};
-  }
-  return pairs;
+  return {to_unit_interval(bits[1] << 32 | (bits[0] & 0xffffffffu)),
+          to_unit_interval(bits[3] << 32 | (bits[2] & 0xffffffffu))};
 }
 
 /// One number, uniform in [0, 1): the first of random_pair.

@@ -46,6 +46,40 @@ void Tracer::finish(std::size_t group, RayMask on_surface) {
   });
 }
 
+std::size_t Tracer::join_next_round(std::size_t ray, RayKind kind) {
+  RenderStats& stats = work_.stats;
+  ++(kind == RayKind::reflection ? stats.reflection_rays : stats.refraction_rays);
+  Round& next = *next_round_;
+  const std::size_t place = next.count++;
+  next.works[place] = round_->works[ray];
+  next.samples[place] = round_->samples[ray];
+  ++next.works[place]->rays;
+  return place;
+}
+
+// (Calls would take as long as it does.)
+[[gnu::always_inline]] inline PathState& Tracer::depart(std::size_t ray, RayKind kind, bool waits,
+                                                        const Vec3& direction, const StartPoint& start) {
+  const SurfaceLane from = surface(ray);
+  PathState* path = nullptr;
+  if (waits) {
+    PathRay& pending = round_->works[ray]->pending.push();
+    pending.origin = from.position();
+    pending.direction = direction;
+    pending.start = start;
+    path = &pending.path;
+    ++waiting_;
+  } else {
+    const std::size_t place = join_next_round(ray, kind);
+    next_round_->rays.set(place, from.position(), direction, start);
+    path = &next_round_->paths[place];
+  }
+  path->kind = kind;
+  path->bounces = round_->paths[ray].bounces + 1;
+  path->path_length = from.group.path_length[static_cast<int>(from.lane)];
+  return *path;
+}
+
 RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
   Split parts;
   split(group, lanes, parts);
@@ -145,39 +179,6 @@ RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep, const V
     round_->samples[group * lane_count + lane]->dropped += largest_component(weights.lane(lane));
   });
   return lanes & ~dropped;
-}
-
-PathState& Tracer::depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction,
-                          const StartPoint& start) {
-  const SurfaceLane from = surface(ray);
-  PathState* path = nullptr;
-  if (waits) {
-    PathRay& pending = round_->works[ray]->pending.push();
-    pending.origin = from.position();
-    pending.direction = direction;
-    pending.start = start;
-    path = &pending.path;
-    ++waiting_;
-  } else {
-    const std::size_t place = join_next_round(ray, kind);
-    next_round_->rays.set(place, from.position(), direction, start);
-    path = &next_round_->paths[place];
-  }
-  path->kind = kind;
-  path->bounces = round_->paths[ray].bounces + 1;
-  path->path_length = from.group.path_length[static_cast<int>(from.lane)];
-  return *path;
-}
-
-std::size_t Tracer::join_next_round(std::size_t ray, RayKind kind) {
-  RenderStats& stats = work_.stats;
-  ++(kind == RayKind::reflection ? stats.reflection_rays : stats.refraction_rays);
-  Round& next = *next_round_;
-  const std::size_t place = next.count++;
-  next.works[place] = round_->works[ray];
-  next.samples[place] = round_->samples[ray];
-  ++next.works[place]->rays;
-  return place;
 }
 
 WorldRay Tracer::ray_behind(std::size_t ray) {

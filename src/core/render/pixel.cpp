@@ -112,15 +112,15 @@ class GridRays {
  private:
   /// Of the next ray.
   LensPoint lens_point(int x, int y) {
-    const std::size_t place = ray_ % numbers_.size();
+    const std::size_t place = ray_ % lens_points_of_rays_.size();
     if (place == 0) {
-      numbers_ = random_pairs(frame_.settings().seed, {.x = static_cast<std::uint32_t>(x),
-                                                       .y = static_cast<std::uint32_t>(y),
-                                                       .sample = ray_,
-                                                       .dimension = lens_dimension});
+      const auto [u, v] = random_pairs(frame_.settings().seed, {.x = static_cast<std::uint32_t>(x),
+                                                                .y = static_cast<std::uint32_t>(y),
+                                                                .sample = ray_,
+                                                                .dimension = lens_dimension});
+      lens_points_of_rays_ = frame_.camera().lens_points(u, v);
     }
-    const auto& [u, v] = numbers_[place];
-    return frame_.camera().lens_point(u, v);
+    return lens_points_of_rays_[place];
   }
 
   const Frame& frame_;
@@ -130,8 +130,8 @@ class GridRays {
   // Which comes next:
   std::size_t place_ = 0;
   std::uint32_t ray_ = 0;  ///< of its pixel
-  /// For points of the lens, of this ray and the others of four.
-  std::array<std::array<double, 2>, 4> numbers_;
+  /// Of this ray and the others of four.
+  std::array<LensPoint, lane_count> lens_points_of_rays_;
 };
 
 /// A pixel's sum is that of its subpixels' sums over the lens, in their order.
@@ -192,7 +192,7 @@ class PassRays {
       if (next_ % points_at_once == 0 && end_ - next_ >= points_at_once &&
           packet_size - count >= points_at_once) {
         sequence_.block(next_, with_lens_, block_);
-        for (std::size_t i = 0; i < points_at_once; ++i) place(block_[i], places, count + i);
+        place(block_, places, count);
         next_ += points_at_once;
         count += points_at_once;
       } else {
@@ -212,6 +212,21 @@ class PassRays {
     sequence_ = PixelSequence(seed_, pixel.x, pixel.y);
     pixels_ = pixels_.subspan(1);
     next_ = begin_;
+  }
+
+  void place(const PixelSequence::Block& block, RayPlaces& places, std::size_t ray) const {
+    const auto& [pixel_u, pixel_v, lens_u, lens_v] = block.coordinates;
+    for (std::size_t i = 0; i < pixel_u.size(); ++i) {
+      places.picture[ray + i] = {x_ + filter_(pixel_u[i]), y_ + filter_(pixel_v[i])};
+    }
+    if (!with_lens_) return;
+    const auto lanes_from = [](const auto& numbers, std::size_t i) {
+      return Lanes{numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]};
+    };
+    for (std::size_t i = 0; i < lens_u.size(); i += lane_count) {
+      const auto points = camera_.lens_points(lanes_from(lens_u, i), lanes_from(lens_v, i));
+      std::copy(points.begin(), points.end(), &places.lens[ray + i]);
+    }
   }
 
   void place(const SequencePoint& point, RayPlaces& places, std::size_t ray) const {

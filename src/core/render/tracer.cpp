@@ -97,9 +97,12 @@ void Tracer::follow() {
   tick(static_cast<unsigned>(count));
   data_.intersect_each(round_->rays, RayPacket::all(count), hits_, work_.rays);
 
+  // Of most rays there is nothing more to see than that.
+  const bool takes_looks = identifies_ || frame_.features().absorption;
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    on_surface |= static_cast<RayMask>(see(i)) << i;
+    const bool plainly = !takes_looks && hits_[i].found() && !hits_[i].has_company;
+    on_surface |= static_cast<RayMask>(plainly || see(i)) << i;
   }
   look_up_each(on_surface);
   add_light(on_surface);

@@ -29,16 +29,6 @@ void RayBatch::set(std::size_t index, const WorldRay& ray) {
   end_errors[group][i] = ray.end_error;
 }
 
-void RayBatch::set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start) {
-  const std::size_t group = index / lane_count;
-  const std::size_t lane = index % lane_count;
-  lines[group].origin.set(lane, origin);
-  lines[group].direction.set(lane, direction);
-  start_errors[group][static_cast<int>(lane)] = start.t_error;
-  starts[index] = start;
-  with_starts |= RayMask{1} << index;
-}
-
 RayPacket::RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some) : starts(of_rays) {
   for_each_group(some, [&](std::size_t group, RayMask) {
     const auto& [origin, direction] = rays.lines[group];

@@ -68,6 +68,17 @@ struct RayBatch {
   void set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start);
 };
 
+inline void RayBatch::set(std::size_t index, const Vec3& origin, const Vec3& direction,
+                          const StartPoint& start) {
+  const std::size_t group = index / lane_count;
+  const std::size_t lane = index % lane_count;
+  lines[group].origin.set(lane, origin);
+  lines[group].direction.set(lane, direction);
+  start_errors[group][static_cast<int>(lane)] = start.t_error;
+  starts[index] = start;
+  with_starts |= RayMask{1} << index;
+}
+
 /// Up to packet_size rays as vector instructions take them.
 struct RayPacket {
   static constexpr std::size_t group_count = packet_size / lane_count;
