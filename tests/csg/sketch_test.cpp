@@ -212,17 +212,25 @@ class Comparison {
   RayWorkspace work_;
 };
 
-}  // namespace
-
-TEST_CASE("what a sketch calls sure is what following all crossings finds") {
-  Counts free;
-  Counts from_surface;
+/// Calls use(trees, comparison) for many trees.
+template <class Use>
+void for_sketched_trees(const Use& use) {
   for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
     Trees trees(seed);
     Comparison comparison(trees.tree(trees.random().integer(1, 3)),
                           seed % 4 == 3 ? Precision::exact : Precision::standard);
     if (!comparison.is_sketched()) continue;
     CAPTURE(seed);
+    use(trees, comparison);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("what a sketch calls sure is what following all crossings finds") {
+  Counts free;
+  Counts from_surface;
+  for_sketched_trees([&](Trees& trees, Comparison& comparison) {
     for (int i = 0; i < 30; ++i) {
       CAPTURE(i);
       const WorldRay ray = random_ray(trees);
@@ -237,7 +245,7 @@ TEST_CASE("what a sketch calls sure is what following all crossings finds") {
         }
       }
     }
-  }
+  });
   CHECK(free.met > scene_count);
   CHECK(free.missed > scene_count);
   CHECK(from_surface.met > scene_count / 20);
@@ -245,12 +253,7 @@ TEST_CASE("what a sketch calls sure is what following all crossings finds") {
 }
 
 TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
-  for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
-    Trees trees(seed);
-    Comparison comparison(trees.tree(trees.random().integer(1, 3)),
-                          seed % 4 == 3 ? Precision::exact : Precision::standard);
-    if (!comparison.is_sketched()) continue;
-    CAPTURE(seed);
+  for_sketched_trees([&](Trees& trees, Comparison& comparison) {
     // All but alike, so that the packet's rays meet the same leaves, or each its own; some start on a
     // surface.
     std::vector<WorldRay> rays;
@@ -272,5 +275,5 @@ TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
     const auto some = static_cast<RayMask>(trees.random().integer(1, (1 << packet_size) - 1));
     comparison.compare_packet(rays, some);
     comparison.compare_packet(rays, RayPacket::all(packet_size));
-  }
+  });
 }

@@ -117,7 +117,7 @@ class QueryPacket {
     Lanes factors;
     if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors)) return false;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      to_users_t_[first + lane] = PowerOfTwo(factors[static_cast<int>(lane)]);
+      to_users_t_[first + lane] = PowerOfTwo::of_factor(factors[static_cast<int>(lane)]);
     }
     return true;
   }

@@ -53,7 +53,8 @@ struct UserRays {
 /// Multiplies by a power of two, exactly wherever the result is a normal number.
 class PowerOfTwo {
  public:
-  explicit PowerOfTwo(int exponent) : exponent_(exponent) {
+  PowerOfTwo() = default;
+  explicit PowerOfTwo(int exponent) : factor_(0), exponent_(exponent) {
     constexpr int bias = 1023;
     constexpr int fraction_bits = 52;
     if (std::abs(exponent) < bias) {
@@ -61,8 +62,12 @@ class PowerOfTwo {
     }
   }
 
-  /// One that is a normal number, and so is its inverse.
-  explicit PowerOfTwo(double factor = 1) : factor_(factor), exponent_(0) {}
+  /// One that is a normal number.
+  static PowerOfTwo of_factor(double factor) {
+    PowerOfTwo power;
+    power.factor_ = factor;
+    return power;
+  }
 
   double operator*(double value) const {
     return factor_ != 0 ? factor_ * value : std::scalbn(value, exponent_);
@@ -72,8 +77,8 @@ class PowerOfTwo {
   }
 
  private:
-  double factor_ = 0;  ///< 0 where no normal number holds it
-  int exponent_;       ///< means nothing otherwise
+  double factor_ = 1;  ///< 0 where no normal number holds it; then the exponent tells it
+  int exponent_ = 0;
 };
 
 /// That of a number's highest digit; x > 0.
