@@ -5,6 +5,7 @@ where there is POV-Ray, and honesty, if its program is told.
 """
 
 import json
+import os
 import pathlib
 import shutil
 import sys
@@ -50,6 +51,7 @@ def check_trade(library: pathlib.Path, folder: pathlib.Path) -> dict:
 
 
 def main() -> int:
+    os.environ.pop("LD_PRELOAD", None)  # sanitizers, for this process and its libcrt; POV-Ray does not run with them
     crt, library, folder, *rest = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
     check_catalogue(crt, folder)
     results = check_trade(library, folder)

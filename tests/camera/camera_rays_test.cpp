@@ -382,20 +382,22 @@ TEST_CASE("several rays at once are the same to the last bit") {
       camera.aperture = 300 * scale;
       camera.focal_distance = 3 * scale;
       const CameraRays rays(camera, 80, 60);
-      std::array<PicturePlace, most> places;
-      std::array<LensPoint, most> lens_points;
+      std::array<PicturePlaceLanes, groups> places;
+      std::array<LensPointLanes, groups> lens_points;
       for (std::size_t i = 0; i < most; ++i) {
-        places[i] = {place(random), place(random)};
-        lens_points[i] = {on_lens(random), on_lens(random)};
+        const std::size_t lane = i % lane_count;
+        set_lane(places[i / lane_count], lane, {place(random), place(random)});
+        set_lane(lens_points[i / lane_count], lane, {on_lens(random), on_lens(random)});
       }
       for (std::size_t count = 0; count <= most; ++count) {
-        const std::span some = std::span(places).first(count);
         std::array<RayLanes, groups> found;
-        rays.rays(some, {}, found);
+        rays.rays(count, places, {}, found);
         std::array<RayLanes, groups> with_lens;
-        rays.rays(some, std::span(lens_points).first(count), with_lens);
+        rays.rays(count, places, lens_points, with_lens);
         for (std::size_t i = 0; i < count; ++i) {
-          const auto& [x, y] = places[i];
+          const auto lane = static_cast<int>(i % lane_count);
+          const double x = places[i / lane_count].x[lane];
+          const double y = places[i / lane_count].y[lane];
           const CameraRay one = rays.ray(x, y);
           const auto is_lane = [&](const std::array<RayLanes, groups>& all, const CameraRay& ray) {
             const RayLanes& group = all[i / lane_count];
@@ -403,7 +405,7 @@ TEST_CASE("several rays at once are the same to the last bit") {
             CHECK(group.direction.lane(i % lane_count) == ray.direction);
           };
           is_lane(found, one);
-          const CameraRay through_lens = rays.ray(x, y, lens_points[i]);
+          const CameraRay through_lens = rays.ray(x, y, lane_of(lens_points[i / lane_count], i % lane_count));
           is_lane(with_lens, through_lens);
         }
       }

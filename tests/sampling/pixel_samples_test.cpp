@@ -19,18 +19,32 @@ struct OneSample {
   double dropped = 0;
 };
 
-/// Gives a pixel that has `count` samples its next step of them.
+/// Gives a pixel that has `count` samples the sum of its next step of them; what they show goes into `seen`.
+template <class SampleAt>
+void add_sum(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at, SeenSamples& seen) {
+  const std::int64_t size = samples_of_next_step(count);
+  Lanes sum{};
+  for (std::int64_t i = count; i < count + size; ++i) {
+    const OneSample sample = sample_at(i);
+    sum += sample.values;
+    seen.add(sample.values, sample.dropped, sample.identity);
+  }
+  pixel.add_step(PixelSamples::place_of_step(count, size), sum);
+}
+
+/// The same and what they show.
 template <class SampleAt>
 void add_step(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at) {
-  StepSum step;
-  SeenSamples seen(sample_at(count).identity);
-  for (std::int64_t i = count; i < count + samples_of_next_step(count); ++i) {
-    const OneSample sample = sample_at(i);
-    step.add(sample.values, sample.dropped);
-    seen.add(sample.values, sample.identity);
-  }
-  pixel.add_step(count, step);
+  SeenSamples seen(pixel, sample_at(count).identity);
+  add_sum(pixel, count, sample_at, seen);
   pixel.add_seen(seen, count == 0);
+}
+
+/// The pixel takes note of a neighbour.
+void take_note(PixelSamples& pixel, const PixelSamples& neighbour) {
+  PixelSamples::Notes notes(pixel);
+  notes.take(neighbour);
+  pixel.keep(notes);
 }
 
 /// Gives a pixel its first `end` samples of a grey function.
@@ -91,9 +105,9 @@ TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its
 
   PixelSamples quiet = sampled(sequence, 16, plain);
   CHECK(quiet.half_width(16, linear) < 1e-6);
-  quiet.take_note(quiet);
+  take_note(quiet, quiet);
   CHECK(quiet.half_width(16, linear) < 1e-6);
-  quiet.take_note(sampled(sequence, 16, halves));
+  take_note(quiet, sampled(sequence, 16, halves));
   CHECK(quiet.half_width(16, linear) == doctest::Approx(2 * 0.6 / 16));
 }
 
@@ -108,7 +122,7 @@ TEST_CASE("things that look alike keep a width where they meet") {
   CHECK(mixed.half_width(9, linear) > 0.01);
   PixelSamples neighbour;
   for (std::int64_t i = 0; i < 8; ++i) add_step(neighbour, i, other);
-  pixel.take_note(neighbour);
+  take_note(pixel, neighbour);
   CHECK(pixel.half_width(8, linear) > 0.01);
 }
 
@@ -166,20 +180,16 @@ TEST_CASE("what steps show may be told together") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto sample_at = [&](std::int64_t i) {
     const double value = i % 5 == 3 ? none : std::sin(static_cast<double>(7 * i));
-    return OneSample{Lanes{value, -value, 0.1 * value, 1}, static_cast<std::uint64_t>(i > 11)};
+    return OneSample{Lanes{value, -value, 0.1 * value, 1}, static_cast<std::uint64_t>(i > 11),
+                     0.1 * static_cast<double>(i)};
   };
   for (const std::int64_t end : {8, 16, 32, 64}) {
     PixelSamples apart;
     PixelSamples together;
-    SeenSamples seen(sample_at(0).identity);
+    SeenSamples seen(together, sample_at(0).identity);
     for (std::int64_t count = 0; count < end; count += samples_of_next_step(count)) {
       add_step(apart, count, sample_at);
-      StepSum step;
-      for (std::int64_t i = count; i < count + samples_of_next_step(count); ++i) {
-        step.add(sample_at(i).values, 0);
-        seen.add(sample_at(i).values, sample_at(i).identity);
-      }
-      together.add_step(count, step);
+      add_sum(together, count, sample_at, seen);
     }
     together.add_seen(seen, true);
     CHECK(apart.stored() == together.stored());

@@ -94,13 +94,16 @@ TEST_CASE("a block of points has those that are found one by one") {
   for (const bool with_lens : {false, true}) {
     for (const std::uint32_t begin : {0u, 8u, 16u, 248u, 0xfffffff0u}) {
       sequence.block(begin, with_lens, block);
-      for (std::uint32_t i = 0; i < sequence_detail::points_at_once; ++i) {
+      const auto number = [&](std::size_t dimension, std::uint32_t i) {
+        return block.coordinates[dimension][i / lane_count][static_cast<int>(i % lane_count)];
+      };
+      for (std::uint32_t i = 0; i < PixelSequence::Block::size; ++i) {
         const SequencePoint expected =
             with_lens ? sequence.point(begin + i) : sequence.pixel_point(begin + i);
-        CHECK(block[i].pixel_u == expected.pixel_u);
-        CHECK(block[i].pixel_v == expected.pixel_v);
-        CHECK((!with_lens || block[i].lens_u == expected.lens_u));
-        CHECK((!with_lens || block[i].lens_v == expected.lens_v));
+        CHECK(number(0, i) == expected.pixel_u);
+        CHECK(number(1, i) == expected.pixel_v);
+        CHECK((!with_lens || number(2, i) == expected.lens_u));
+        CHECK((!with_lens || number(3, i) == expected.lens_v));
       }
     }
   }

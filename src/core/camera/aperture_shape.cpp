@@ -51,12 +51,7 @@ LensPoint polygon_point(const std::array<LensPoint, sides>& corners, double u, d
 
 /// See circle_point().
 template <class Real>
-struct PointOfDisc {
-  Real x;
-  Real y;
-};
-template <class Real>
-PointOfDisc<Real> point_of_disc(const Real& u, const Real& v) {
+LensPointOf<Real> point_of_disc(const Real& u, const Real& v) {
   const Real x = 2.0 * u - 1.0;
   const Real y = 2.0 * v - 1.0;
   const auto beside = size_of(x) > size_of(y);
@@ -69,8 +64,7 @@ PointOfDisc<Real> point_of_disc(const Real& u, const Real& v) {
 }  // namespace
 
 LensPoint circle_point(double u, double v) {
-  const auto [x, y] = point_of_disc(u, v);
-  return {x, y};
+  return point_of_disc(u, v);
 }
 
 LensPoint uniform_point(double u, double v) {
@@ -133,13 +127,13 @@ LensPoint aperture_point(ApertureShape shape, double u, double v) {
   return {};
 }
 
-std::array<LensPoint, lane_count> aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v) {
-  if (shape == ApertureShape::circle) {
-    const auto [x, y] = point_of_disc(u, v);
-    return {{{x[0], y[0]}, {x[1], y[1]}, {x[2], y[2]}, {x[3], y[3]}}};
+LensPointLanes aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v) {
+  if (shape == ApertureShape::circle) return point_of_disc(u, v);
+  LensPointLanes points;
+  for (int i = 0; i < lane_count; ++i) {
+    set_lane(points, static_cast<std::size_t>(i), aperture_point(shape, u[i], v[i]));
   }
-  return {aperture_point(shape, u[0], v[0]), aperture_point(shape, u[1], v[1]),
-          aperture_point(shape, u[2], v[2]), aperture_point(shape, u[3], v[3])};
+  return points;
 }
 
 }  // namespace crt::core

@@ -2,18 +2,27 @@
 // gaussian keep areas: equal parts of the square go to equal parts of the shape.
 #pragma once
 
-#include <array>
-
 #include "core/math/lanes.hpp"
 #include "crt/camera.hpp"
 
 namespace crt::core {
 
 /// A point of the lens in units of its radius, x to the picture's right and y to its top.
-struct LensPoint {
-  double x = 0;
-  double y = 0;
+template <class Real>
+struct LensPointOf {
+  Real x{};
+  Real y{};
 };
+using LensPoint = LensPointOf<double>;
+/// Several, side by side.
+using LensPointLanes = LensPointOf<Lanes>;
+inline void set_lane(LensPointLanes& points, std::size_t lane, const LensPoint& point) {
+  points.x[static_cast<int>(lane)] = point.x;
+  points.y[static_cast<int>(lane)] = point.y;
+}
+inline LensPoint lane_of(const LensPointLanes& points, std::size_t lane) {
+  return {points.x[static_cast<int>(lane)], points.y[static_cast<int>(lane)]};
+}
 
 // Each takes two numbers in [0, 1).
 
@@ -43,6 +52,6 @@ LensPoint line_point(double u, double v);
 LensPoint aperture_point(ApertureShape shape, double u, double v);
 
 /// The same of several pairs of numbers side by side.
-std::array<LensPoint, lane_count> aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v);
+LensPointLanes aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v);
 
 }  // namespace crt::core

@@ -132,40 +132,31 @@ void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay&
   if (to_focus != Vec3(0)) result.direction = unit(to_focus);
 }
 
-void CameraRays::rays(std::span<const PicturePlace> places, std::span<const LensPoint> lens_points,
-                      std::span<RayLanes> result) const {
-  const bool has_lens_points = !lens_points.empty();
-  const auto one_by_one = [&](std::size_t begin, std::size_t end) {
-    CameraRay one;
-    for (std::size_t i = begin; i < end; ++i) {
-      if (has_lens_points) {
-        ray(places[i].x, places[i].y, lens_points[i], one);
+void CameraRays::rays(std::size_t count, std::span<const PicturePlaceLanes> places,
+                      std::span<const LensPointLanes> lens_points, std::span<RayLanes> result) const {
+  for (std::size_t group = 0; group * lane_count < count; ++group) {
+    const PicturePlaceLanes& at = places[group];
+    const LensPointLanes* const through = lens_points.empty() ? nullptr : &lens_points[group];
+    RayLanes& found = result[group];
+    if (projection_ == Projection::pinhole && pinhole_rays(at, through, found)) continue;
+    for (std::size_t lane = 0; lane < lane_count && group * lane_count + lane < count; ++lane) {
+      const auto i = static_cast<int>(lane);
+      CameraRay one;
+      if (through != nullptr) {
+        ray(at.x[i], at.y[i], lane_of(*through, lane), one);
       } else {
-        ray(places[i].x, places[i].y, one);
+        ray(at.x[i], at.y[i], one);
       }
-      result[i / lane_count].origin.set(i % lane_count, one.origin);
-      result[i / lane_count].direction.set(i % lane_count, one.direction);
-    }
-  };
-  std::size_t done = 0;
-  if (projection_ == Projection::pinhole) {
-    for (; done + lane_count <= places.size(); done += lane_count) {
-      const LensPoint* on_lens = has_lens_points ? &lens_points[done] : nullptr;
-      if (!pinhole_rays(&places[done], on_lens, result[done / lane_count])) {
-        one_by_one(done, done + lane_count);
-      }
+      found.origin.set(lane, one.origin);
+      found.direction.set(lane, one.direction);
     }
   }
-  one_by_one(done, places.size());
 }
 
-bool CameraRays::pinhole_rays(const PicturePlace* places, const LensPoint* lens_points,
+bool CameraRays::pinhole_rays(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
                               RayLanes& result) const {
-  const auto gathered = [](const auto* values, auto member) {
-    return Lanes{values[0].*member, values[1].*member, values[2].*member, values[3].*member};
-  };
-  const Lanes to_right = across(gathered(places, &PicturePlace::x)) * half_across_;
-  const Lanes to_top = upwards(gathered(places, &PicturePlace::y)) * half_up_;
+  const Lanes to_right = across(places.x) * half_across_;
+  const Lanes to_top = upwards(places.y) * half_up_;
   std::array<Lanes, 3> way;
   std::array<Lanes, 3> origin;
   for (int axis = 0; axis < 3; ++axis) {
@@ -173,8 +164,7 @@ bool CameraRays::pinhole_rays(const PicturePlace* places, const LensPoint* lens_
     way[i] = forward_[axis] + to_right * right_[axis] + to_top * up_[axis];
     origin[i] = lanes_of(position_[axis]);
     if (lens_points == nullptr) continue;
-    const Lanes offset = lens_radius_ * (gathered(lens_points, &LensPoint::x) * right_[axis] +
-                                         gathered(lens_points, &LensPoint::y) * up_[axis]);
+    const Lanes offset = lens_radius_ * (lens_points->x * right_[axis] + lens_points->y * up_[axis]);
     way[i] = focal_distance_ * way[i] - offset;
     origin[i] += offset;
   }

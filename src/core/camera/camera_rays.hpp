@@ -22,10 +22,18 @@ struct CameraRay {
 };
 
 /// A place in the picture, as above.
-struct PicturePlace {
-  double x = 0;
-  double y = 0;
+template <class Real>
+struct PicturePlaceOf {
+  Real x{};
+  Real y{};
 };
+using PicturePlace = PicturePlaceOf<double>;
+/// Several, side by side.
+using PicturePlaceLanes = PicturePlaceOf<Lanes>;
+inline void set_lane(PicturePlaceLanes& places, std::size_t lane, const PicturePlace& place) {
+  places.x[static_cast<int>(lane)] = place.x;
+  places.y[static_cast<int>(lane)] = place.y;
+}
 
 /// A camera made ready for a picture of some size. Immutable.
 class CameraRays {
@@ -44,10 +52,10 @@ class CameraRays {
   void ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
-  /// The same rays for several places at once, as many in each part of the result as there are lanes; without
-  /// points of the lens those through its middle. Lanes beyond the last ray stay as they are.
-  void rays(std::span<const PicturePlace> places, std::span<const LensPoint> lens_points,
-            std::span<RayLanes> result) const;
+  /// `count` of the same rays, as many side by side as there are lanes; without points of the lens those
+  /// through its middle. What lanes beyond the last ray get is of no use.
+  void rays(std::size_t count, std::span<const PicturePlaceLanes> places,
+            std::span<const LensPointLanes> lens_points, std::span<RayLanes> result) const;
 
   /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a camera
   /// that does not look there.
@@ -59,7 +67,7 @@ class CameraRays {
   /// The lens point of two numbers in [0, 1).
   LensPoint lens_point(double u, double v) const { return aperture_point(aperture_shape_, u, v); }
 
-  std::array<LensPoint, lane_count> lens_points(const Lanes& u, const Lanes& v) const {
+  LensPointLanes lens_points(const Lanes& u, const Lanes& v) const {
     return aperture_points(aperture_shape_, u, v);
   }
 
@@ -76,9 +84,10 @@ class CameraRays {
   void spherical_ray(double nx, double ny, CameraRay& ray) const;
   void cylindrical_ray(double nx, double ny, CameraRay& ray) const;
   void orthographic_ray(double nx, double ny, CameraRay& ray) const;
-  /// As many rays of a pinhole camera as there are lanes; no lens points for those through its middle. False
-  /// if lengths are so extreme that each must be found by itself.
-  bool pinhole_rays(const PicturePlace* places, const LensPoint* lens_points, RayLanes& result) const;
+  /// Of a pinhole camera; no lens points for the rays through its middle. False if lengths are so extreme
+  /// that each must be found by itself.
+  bool pinhole_rays(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
+                    RayLanes& result) const;
   template <class Real>
   Real across(const Real& x) const {
     return 2.0 * x / width_ - 1.0;

@@ -107,15 +107,16 @@ void AovTile::take(const PixelMeasures& measures, const Region& region) {
 void AovTile::look(const CameraRays& camera, Tracer& tracer) {
   if (!aovs_.depth && !aovs_.id) return;
   constexpr double middle = 0.5;
-  std::array<PicturePlace, Tiles::side> places;
-  static_assert(places.size() <= packet_size);
+  static_assert(Tiles::side == packet_size);
+  std::array<PicturePlaceLanes, RayPacket::group_count> places;
   std::array<RayLanes, RayPacket::group_count> rays;
   const auto width = static_cast<std::size_t>(tile_.width);
   for (int y = 0; y < tile_.height; ++y) {
-    for (int x = 0; x < tile_.width; ++x) {
-      places[static_cast<std::size_t>(x)] = {tile_.x + x + middle, tile_.y + y + middle};
+    for (std::size_t group = 0; group < places.size(); ++group) {
+      const double first_x = tile_.x + static_cast<double>(group * lane_count) + middle;
+      places[group] = {first_x + Lanes{0, 1, 2, 3}, lanes_of(tile_.y + y + middle)};
     }
-    camera.rays(std::span(places).first(width), {}, rays);
+    camera.rays(width, places, {}, rays);
     tracer.look(rays, std::span(first_places_).subspan(static_cast<std::size_t>(y) * width, width));
   }
 }

@@ -16,7 +16,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::string_view magic = "CRT checkpoint 1 of " CRT_VERSION "\n";
+constexpr std::string_view magic = "CRT checkpoint 2 of " CRT_VERSION "\n";
 
 /// So many samples on each side tell one scene from another, if the picture has as many pixels.
 constexpr int probes_a_side = 32;
@@ -39,16 +39,16 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
   Progress nobody({});
   Tracer tracer(frame, *work, nobody);
   constexpr double middle = 0.5;
-  std::array<PicturePlace, packet_size> places;
-  std::array<LensPoint, packet_size> lens_points;
-  lens_points.fill(frame.camera().lens_point(middle, middle));
+  std::array<PicturePlaceLanes, RayPacket::group_count> places;
+  std::array<LensPointLanes, RayPacket::group_count> lens_points;
+  lens_points.fill(frame.camera().lens_points(lanes_of(middle), lanes_of(middle)));
   std::array<RayLanes, RayPacket::group_count> rays;
   std::array<Tracer::Sample, packet_size> all_samples;
   std::size_t count = 0;
   const auto trace = [&] {
     const std::span<Tracer::Sample> samples = std::span(all_samples).first(count);
-    frame.camera().rays(std::span(places).first(count),
-                        std::span(lens_points).first(frame.features().lens ? count : 0), rays);
+    const std::size_t with_lens = frame.features().lens ? lens_points.size() : 0;
+    frame.camera().rays(count, places, std::span(lens_points).first(with_lens), rays);
     tracer.trace(rays, samples);
     for (const Tracer::Sample& sample : samples) {
       for (int channel = 0; channel < 3; ++channel) add(hash, sample.color[channel]);
@@ -62,8 +62,8 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
     const double y = region.y + (row + middle) * region.height / rows;
     for (int column = 0; column < columns; ++column) {
       const double x = region.x + (column + middle) * region.width / columns;
-      places[count] = {x, y};
-      if (++count == places.size()) trace();
+      set_lane(places[count / lane_count], count % lane_count, {x, y});
+      if (++count == packet_size) trace();
     }
   }
   trace();

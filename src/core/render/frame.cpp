@@ -74,9 +74,9 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   }
   if (!features().transparency || features().lens) return;
   if (data.scene().camera.projection == Projection::orthographic) return;
-  const PicturePlace in_middle = {0.5 * settings.width, 0.5 * settings.height};
+  const PicturePlaceLanes in_middle = {lanes_of(0.5 * settings.width), lanes_of(0.5 * settings.height)};
   RayLanes line;
-  camera_.rays({&in_middle, 1}, {}, {&line, 1});
+  camera_.rays(1, {&in_middle, 1}, {}, {&line, 1});
   RayBatch eye;
   set_eye_rays({&line, 1}, eye);
   const WorldRay middle = eye.ray(0);

@@ -206,12 +206,14 @@ void Passes::exchange_notes(const TaskRunner& run_tasks) {
 void Passes::take_notes(const Place& place, PixelSamples& samples) const {
   const int right = std::min(place.x + reach_, worked_on_.x + worked_on_.width - 1);
   const int bottom = std::min(place.y + reach_, worked_on_.y + worked_on_.height - 1);
+  PixelSamples::Notes notes(samples);
   for (int y = std::max(place.y - reach_, worked_on_.y); y <= bottom; ++y) {
     for (int x = std::max(place.x - reach_, worked_on_.x); x <= right; ++x) {
       const Tile& tile = tiles_[grid_.index(x, y)];
-      samples.take_note(tile.samples[index_in(tile.region, x, y)]);
+      notes.take(tile.samples[index_in(tile.region, x, y)]);
     }
   }
+  samples.keep(notes);
 }
 
 void Passes::settle(const TaskRunner& run_tasks, bool at_end) {

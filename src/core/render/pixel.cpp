@@ -21,8 +21,8 @@ Lanes channels_of(const Tracer::Sample& sample) {
 
 /// Places of the picture, and of the lens if there is one, that camera rays go through together.
 struct RayPlaces {
-  std::array<PicturePlace, packet_size> picture;
-  std::array<LensPoint, packet_size> lens;
+  std::array<PicturePlaceLanes, RayPacket::group_count> picture;
+  std::array<LensPointLanes, RayPacket::group_count> lens;
 };
 
 /// Traces rays by packets.
@@ -40,8 +40,8 @@ class PacketTracer {
   };
   /// The first rays, so many.
   Traced trace(const RayPlaces& places, std::size_t count) {
-    const std::size_t lens_points = with_lens_ ? count : 0;
-    camera_.rays(std::span(places.picture).first(count), std::span(places.lens).first(lens_points), rays_);
+    const std::size_t with_lens = with_lens_ ? places.lens.size() : 0;
+    camera_.rays(count, places.picture, std::span(places.lens).first(with_lens), rays_);
     const std::span<Tracer::Sample> samples = std::span(samples_).first(count);
     const std::span<FirstHit> first_hits = std::span(first_hits_).first(with_first_hits_ ? count : 0);
     tracer_.trace(rays_, samples, first_hits);
@@ -101,8 +101,10 @@ class GridRays {
       for (; ray_ < rays_per_pixel_; ++ray_, ++count) {
         if (count == packet_size) return count;
         const PicturePlace& subpixel = frame_.subpixels()[with_lens ? ray_ / lens_points_ : ray_];
-        places.picture[count] = {x + subpixel.x, y + subpixel.y};
-        if constexpr (with_lens) places.lens[count] = lens_point(x, y);
+        const std::size_t group = count / lane_count;
+        const std::size_t lane = count % lane_count;
+        set_lane(places.picture[group], lane, {x + subpixel.x, y + subpixel.y});
+        if constexpr (with_lens) set_lane(places.lens[group], lane, lens_point(x, y));
         pixels[count] = pixel;
       }
     }
@@ -112,15 +114,15 @@ class GridRays {
  private:
   /// Of the next ray.
   LensPoint lens_point(int x, int y) {
-    const std::size_t place = ray_ % lens_points_of_rays_.size();
-    if (place == 0) {
+    const std::size_t lane = ray_ % lane_count;
+    if (lane == 0) {
       const auto [u, v] = random_pairs(frame_.settings().seed, {.x = static_cast<std::uint32_t>(x),
                                                                 .y = static_cast<std::uint32_t>(y),
                                                                 .sample = ray_,
                                                                 .dimension = lens_dimension});
       lens_points_of_rays_ = frame_.camera().lens_points(u, v);
     }
-    return lens_points_of_rays_[place];
+    return lane_of(lens_points_of_rays_, lane);
   }
 
   const Frame& frame_;
@@ -131,7 +133,7 @@ class GridRays {
   std::size_t place_ = 0;
   std::uint32_t ray_ = 0;  ///< of its pixel
   /// Of this ray and the others of four.
-  std::array<LensPoint, lane_count> lens_points_of_rays_;
+  LensPointLanes lens_points_of_rays_;
 };
 
 /// A pixel's sum is that of its subpixels' sums over the lens, in their order.
@@ -182,21 +184,19 @@ class PassRays {
 
   /// The next of them. Returns how many; at the end none.
   std::size_t next(RayPlaces& places) {
-    constexpr std::size_t points_at_once = sequence_detail::points_at_once;
     std::size_t count = 0;
     while (count < packet_size) {
       if (next_ == end_) {
         if (pixels_.empty()) break;
         begin_pixel();
       }
-      if (next_ % points_at_once == 0 && end_ - next_ >= points_at_once &&
-          packet_size - count >= points_at_once) {
-        sequence_.block(next_, with_lens_, block_);
-        place(block_, places, count);
-        next_ += points_at_once;
-        count += points_at_once;
+      const bool makes_group = next_ % lane_count == 0 && end_ - next_ >= lane_count;
+      if (makes_group && count % lane_count == 0) {
+        place_group(places, count / lane_count);
+        next_ += lane_count;
+        count += lane_count;
       } else {
-        place(with_lens_ ? sequence_.point(next_) : sequence_.pixel_point(next_), places, count);
+        place_one(places, count);
         ++next_;
         ++count;
       }
@@ -210,28 +210,31 @@ class PassRays {
     x_ = pixel.x;
     y_ = pixel.y;
     sequence_ = PixelSequence(seed_, pixel.x, pixel.y);
+    block_begin_ = none;
     pixels_ = pixels_.subspan(1);
     next_ = begin_;
   }
 
-  void place(const PixelSequence::Block& block, RayPlaces& places, std::size_t ray) const {
-    const auto& [pixel_u, pixel_v, lens_u, lens_v] = block.coordinates;
-    for (std::size_t i = 0; i < pixel_u.size(); ++i) {
-      places.picture[ray + i] = {x_ + filter_(pixel_u[i]), y_ + filter_(pixel_v[i])};
+  /// As many as there are lanes.
+  void place_group(RayPlaces& places, std::size_t group) {
+    const std::uint32_t in_block = next_ % PixelSequence::Block::size;
+    if (next_ - in_block != block_begin_) {
+      block_begin_ = next_ - in_block;
+      sequence_.block(block_begin_, with_lens_, block_);
     }
-    if (!with_lens_) return;
-    const auto lanes_from = [](const auto& numbers, std::size_t i) {
-      return Lanes{numbers[i], numbers[i + 1], numbers[i + 2], numbers[i + 3]};
+    const auto numbers = [&](std::size_t dimension) {
+      return block_.coordinates[dimension][in_block / lane_count];
     };
-    for (std::size_t i = 0; i < lens_u.size(); i += lane_count) {
-      const auto points = camera_.lens_points(lanes_from(lens_u, i), lanes_from(lens_v, i));
-      std::copy(points.begin(), points.end(), &places.lens[ray + i]);
-    }
+    places.picture[group] = {x_ + filter_(numbers(0)), y_ + filter_(numbers(1))};
+    if (with_lens_) places.lens[group] = camera_.lens_points(numbers(2), numbers(3));
   }
 
-  void place(const SequencePoint& point, RayPlaces& places, std::size_t ray) const {
-    places.picture[ray] = {x_ + filter_(point.pixel_u), y_ + filter_(point.pixel_v)};
-    if (with_lens_) places.lens[ray] = camera_.lens_point(point.lens_u, point.lens_v);
+  void place_one(RayPlaces& places, std::size_t ray) const {
+    const SequencePoint point = with_lens_ ? sequence_.point(next_) : sequence_.pixel_point(next_);
+    const std::size_t group = ray / lane_count;
+    const std::size_t lane = ray % lane_count;
+    set_lane(places.picture[group], lane, {x_ + filter_(point.pixel_u), y_ + filter_(point.pixel_v)});
+    if (with_lens_) set_lane(places.lens[group], lane, camera_.lens_point(point.lens_u, point.lens_v));
   }
 
   const CameraRays& camera_;
@@ -245,53 +248,79 @@ class PassRays {
   double y_ = 0;
   PixelSequence sequence_{0, 0, 0};
   std::uint32_t next_;  ///< sample of the pixel
-  PixelSequence::Block block_;
+  static constexpr std::uint32_t none = ~0u;
+  std::uint32_t block_begin_ = none;
+  PixelSequence::Block block_;  ///< of this pixel, from there on
 };
 
 /// Hands on what samples of passes bring, step by step.
 class PassSums {
  public:
   PassSums(std::span<const PixelPlace> pixels, const SampleRange& range)
-      : pixel_(pixels.data()), range_(range) {}
+      : pixel_(pixels.data()), is_first_range_(range.begin == 0) {
+    std::size_t step = 0;
+    for (std::int64_t count = range.begin; count < range.end; count += steps_[step++].size) {
+      const std::int64_t size = samples_of_next_step(count);
+      steps_[step] = {size, PixelSamples::place_of_step(count, size)};
+    }
+    steps_[step].size = none;
+    missing_ = steps_[0].size;
+  }
 
   void add(const PacketTracer::Traced& traced) {
-    StepSum step = step_;
+    const PixelPlace* pixel = pixel_;
+    const Step* step = &steps_[step_];
+    std::int64_t missing = missing_;
+    Lanes sum = sum_;
     SeenSamples seen = seen_;
-    for (std::size_t done = 0; done < traced.samples.size();) {
-      if (count_ == range_.begin && step.count == 0) seen = SeenSamples(traced.samples[done].identity);
-      const auto missing = static_cast<std::size_t>(step_size_ - step.count);
-      const std::size_t count = std::min(traced.samples.size() - done, missing);
-      for (const Tracer::Sample& sample : traced.samples.subspan(done, count)) {
-        const Lanes channels = channels_of(sample);
-        step.add(channels, sample.dropped);
-        seen.add(channels, sample.identity);
+    const auto sample_count = static_cast<std::int64_t>(traced.samples.size());
+    for (std::int64_t done = 0; done < sample_count;) {
+      const Tracer::Sample* const samples = &traced.samples[static_cast<std::size_t>(done)];
+      if (step == steps_.data() && missing == step->size) seen = SeenSamples(*pixel->samples, samples->identity);
+      const std::int64_t count = std::min(sample_count - done, missing);
+      for (std::int64_t i = 0; i < count; ++i) {
+        const Lanes channels = channels_of(samples[i]);
+        sum += channels;
+        seen.add(channels, samples[i].dropped, samples[i].identity);
       }
-      if (!traced.first_hits.empty() && pixel_->first_hits != nullptr) {
-        for (const FirstHit& hit : traced.first_hits.subspan(done, count)) pixel_->first_hits->add(hit);
+      if (!traced.first_hits.empty() && pixel->first_hits != nullptr) {
+        const auto hits = traced.first_hits.subspan(static_cast<std::size_t>(done));
+        for (std::int64_t i = 0; i < count; ++i) pixel->first_hits->add(hits[static_cast<std::size_t>(i)]);
       }
       done += count;
-      if (step.count < step_size_) break;
-      pixel_->samples->add_step(count_, step);
-      step = {};
-      count_ += step_size_;
-      if (count_ == range_.end) {
-        pixel_->samples->add_seen(seen, range_.begin == 0);
-        ++pixel_;
-        count_ = range_.begin;
+      missing -= count;
+      if (missing > 0) break;
+      pixel->samples->add_step(step->place, sum);
+      sum = Lanes{};
+      ++step;
+      if (step->size == none) {
+        pixel->samples->add_seen(seen, is_first_range_);
+        ++pixel;
+        step = steps_.data();
       }
-      step_size_ = samples_of_next_step(count_);
+      missing = step->size;
     }
-    step_ = step;
+    pixel_ = pixel;
+    step_ = static_cast<std::size_t>(step - steps_.data());
+    missing_ = missing;
+    sum_ = sum;
     seen_ = seen;
   }
 
  private:
+  struct Step {
+    std::int64_t size = 0;
+    PixelSamples::StepPlace place;
+  };
+  static constexpr std::int64_t none = 0;
+
   const PixelPlace* pixel_;  ///< whose samples come next
-  SampleRange range_;
-  std::int64_t count_ = range_.begin;  ///< of its samples before this step
-  std::int64_t step_size_ = samples_of_next_step(range_.begin);
-  StepSum step_;      ///< what there is of it
-  SeenSamples seen_;  ///< of this pixel
+  bool is_first_range_;
+  std::array<Step, most_steps + 1> steps_;  ///< of every pixel; none at their end
+  std::size_t step_ = 0;                    ///< that comes next, or of which there is a part
+  std::int64_t missing_ = 0;                ///< of its samples
+  Lanes sum_{};                             ///< of the others
+  SeenSamples seen_;                        ///< of this pixel
 };
 
 }  // namespace

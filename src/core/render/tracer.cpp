@@ -8,6 +8,7 @@
 #include "core/math/vector.hpp"
 #include "core/render/shadow.hpp"
 #include "core/render/surface_hit.hpp"
+#include "core/scene/hit_faces.hpp"
 
 namespace crt::core {
 
@@ -98,12 +99,13 @@ void Tracer::follow() {
   data_.intersect_each(round_->rays, RayPacket::all(count), hits_, work_.rays);
 
   // Of most rays there is nothing more to see than that.
-  const bool takes_looks = identifies_ || frame_.features().absorption;
+  const bool absorbs = frame_.features().absorption;
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool plainly = !takes_looks && hits_[i].found() && !hits_[i].has_company;
+    const bool plainly = !absorbs && hits_[i].found() && !hits_[i].has_company;
     on_surface |= static_cast<RayMask>(plainly || see(i)) << i;
   }
+  if (identifies_) note_surfaces(on_surface);
   look_up_each(on_surface);
   add_light(on_surface);
   next_round_->count = 0;
@@ -122,7 +124,6 @@ bool Tracer::see(std::size_t ray) {
     see_background(ray);
     return false;
   }
-  if (identifies_) note(*round_->samples[ray], met(data_, hit, round_->paths[ray].kind));
   return true;
 }
 
@@ -241,6 +242,26 @@ RayHit Tracer::seen_of(const WorldRay& ray) {
   }
   seen.has_company = true;
   return seen;
+}
+
+void Tracer::note_surfaces(RayMask on_surface) {
+  const auto note_one = [&](std::size_t ray) {
+    note(*round_->samples[ray], met(data_, hits_[ray], round_->paths[ray].kind));
+  };
+  RayPacket::for_each_group(on_surface, [&](std::size_t group, RayMask lanes) {
+    const std::size_t first = group * lane_count;
+    const std::span<const RayHit, lane_count> hits(&hits_[first], lane_count);
+    const bool alike = lanes == mask_of(HitFaces(hits).like(hits[0]));
+    const bool are_first = round_->paths[first].kind == RayKind::camera;
+    if (lanes != RayPacket::all(lane_count) || !alike || !are_first) {
+      for_each_ray(lanes, [&](std::size_t lane) { note_one(first + lane); });
+      return;
+    }
+    note_one(first);
+    for (std::size_t ray = first + 1; ray < first + lane_count; ++ray) {
+      round_->samples[ray]->identity = round_->samples[first]->identity;
+    }
+  });
 }
 
 void Tracer::note(Sample& sample, std::uint64_t thing) {

@@ -142,6 +142,8 @@ class Tracer {
   /// Counts rays; lets the progress speak now and then.
   void tick(unsigned rays = 1);
 
+  /// Takes the surfaces that rays of this round have met into their samples' identities.
+  void note_surfaces(RayMask on_surface);
   /// Takes one more thing that a sample has met into its identity.
   static void note(Sample& sample, std::uint64_t thing);
 

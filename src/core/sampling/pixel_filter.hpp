@@ -5,6 +5,7 @@
 #include <array>
 #include <cstddef>
 
+#include "core/math/lanes.hpp"
 #include "crt/settings.hpp"
 
 namespace crt::core {
@@ -21,6 +22,10 @@ class FilterPlaces {
     const double place = u * double{intervals};
     const auto index = static_cast<std::size_t>(place);
     return places_[index] + (place - static_cast<double>(index)) * (places_[index + 1] - places_[index]);
+  }
+  Lanes operator()(const Lanes& u) const {
+    if (is_box_) return u;
+    return Lanes{(*this)(u[0]), (*this)(u[1]), (*this)(u[2]), (*this)(u[3])};
   }
 
  private:

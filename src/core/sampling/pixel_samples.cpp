@@ -34,30 +34,10 @@ double DisplayScale::half_width(double value, double half_width, bool is_alpha) 
   return std::max(shown(high) - shown(middle), shown(middle) - shown(low));
 }
 
-void PixelSamples::add_seen(const SeenSamples& seen, bool are_first) {
-  const Channels low = rounded_channels(seen.low_);
-  const Channels high = rounded_channels(seen.high_);
-  low_ = are_first ? low : min(low_, low);
-  high_ = are_first ? high : max(high_, high);
-  if (are_first) identity_ = seen.identity_;
-  mixed_ = mixed_ || seen.differing_ != 0 || seen.identity_ != identity_;
-}
-
 Lanes PixelSamples::mean(std::int64_t count) const {
   Lanes sum{};
   for (const Channels& block : blocks_) sum += to_doubles(block);
   return sum / static_cast<double>(count);
-}
-
-void PixelSamples::take_note(const PixelSamples& neighbour) {
-  if (!has_notes_) {
-    low_around_ = neighbour.low_;
-    high_around_ = neighbour.high_;
-    has_notes_ = true;
-  }
-  low_around_ = min(low_around_, neighbour.low_);
-  high_around_ = max(high_around_, neighbour.high_);
-  edge_ = edge_ || neighbour.mixed_ || neighbour.identity_ != identity_;
 }
 
 template <class Self, class Use>

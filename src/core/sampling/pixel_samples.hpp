@@ -30,42 +30,31 @@ inline Channels rounded_channels(const Lanes& values) {
   return to_floats(min(max(values, -largest), largest));
 }
 
-/// The samples of one step (see schedule.hpp).
-struct StepSum {
-  Lanes sum{};
-  double dropped = 0;
-  std::int64_t count = 0;
+class PixelSamples;
 
-  void add(const Lanes& values, double lost) {
-    sum += values;
-    dropped += lost;
-    ++count;
-  }
-};
-
-/// What some samples show, be they of several steps.
+/// What some samples of a pixel show that follow each other, be they of several steps.
 class SeenSamples {
  public:
   SeenSamples() = default;
-  explicit SeenSamples(std::uint64_t first_identity) : identity_(folded(first_identity)) {}
+  /// Of those that come after what the pixel has; the first has that identity.
+  SeenSamples(const PixelSamples& pixel, std::uint64_t first_identity);
 
-  void add(const Lanes& values, std::uint64_t identity) {
+  void add(const Lanes& values, double dropped, std::uint64_t identity) {
     low_ = min(values, low_);  // what is no number is left out
     high_ = max(high_, values);
-    differing_ |= folded(identity) ^ identity_;
+    dropped_ += dropped;
+    differing_ |= identity ^ identity_;
   }
 
  private:
   friend class PixelSamples;
-  static std::uint32_t folded(std::uint64_t identity) {
-    return static_cast<std::uint32_t>(identity ^ identity >> 32);
-  }
 
   /// Of each channel the least and the greatest.
   Lanes low_ = lanes_of(std::numeric_limits<double>::infinity());
-  Lanes high_ = -low_;
-  std::uint32_t identity_ = 0;   ///< of the first
-  std::uint32_t differing_ = 0;  ///< bits in which others differ from it
+  Lanes high_ = lanes_of(-std::numeric_limits<double>::infinity());
+  double dropped_ = 0;           ///< of all of the pixel, those before them too
+  std::uint64_t identity_ = 0;   ///< of the first
+  std::uint64_t differing_ = 0;  ///< bits in which others differ from it
 };
 
 /// What a viewer sees of a channel.
@@ -84,8 +73,15 @@ class DisplayScale {
 
 class PixelSamples {
  public:
-  /// Adds the samples of one step to the `count` that are here.
-  void add_step(std::int64_t count, const StepSum& step);
+  /// Where the samples of a step belong.
+  struct StepPlace {
+    std::uint8_t block = 0;
+    bool merges = false;  ///< before that there are blocks to be merged
+  };
+  /// Of so many samples that come after `count`.
+  static StepPlace place_of_step(std::int64_t count, std::int64_t size);
+  /// Adds the sum of a step's samples (see schedule.hpp); all steps must come, in their order.
+  void add_step(const StepPlace& place, const Lanes& sum);
   /// Adds what the samples of some steps show, the very first ones or further ones.
   void add_seen(const SeenSamples& seen, bool are_first);
 
@@ -94,8 +90,31 @@ class PixelSamples {
   /// The mean share of light that was cut off.
   double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
 
-  /// Takes note of a neighbour, or of itself: what is seen there may reach in here.
-  void take_note(const PixelSamples& neighbour);
+  /// What is seen in some pixels, first of all in the one that it is for.
+  class Notes {
+   public:
+    explicit Notes(const PixelSamples& pixel)
+        : low_(pixel.low_), high_(pixel.high_), identity_(pixel.identity_), edge_(pixel.mixed_) {}
+    void take(const PixelSamples& neighbour) {
+      low_ = min(low_, neighbour.low_);
+      high_ = max(high_, neighbour.high_);
+      edge_ |= neighbour.mixed_ || neighbour.identity_ != identity_;
+    }
+
+   private:
+    friend class PixelSamples;
+    Channels low_;
+    Channels high_;
+    std::uint32_t identity_;
+    bool edge_;
+  };
+  /// What is seen there may reach in here.
+  void keep(const Notes& notes) {
+    low_around_ = notes.low_;
+    high_around_ = notes.high_;
+    edge_ = notes.edge_;
+    has_notes_ = true;
+  }
 
   /// Says that there may be something here that the first samples can miss.
   void expect_small_things() { expects_small_things_ = true; }
@@ -106,7 +125,7 @@ class PixelSamples {
 
   /// All that is kept here, as bytes.
   static constexpr std::size_t stored_size =
-      12 * sizeof(Channels) + sizeof(float) + sizeof(std::uint32_t) + 1;
+      12 * sizeof(Channels) + sizeof(double) + sizeof(std::uint32_t) + 1;
   using Stored = std::array<std::byte, stored_size>;
   Stored stored() const;
   static PixelSamples restored(const Stored& bytes);
@@ -116,6 +135,7 @@ class PixelSamples {
   double half_width(std::int64_t count, const DisplayScale& scale) const;
 
  private:
+  friend class SeenSamples;
   static constexpr std::size_t block_count = 8;
   /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33 of 100.
   static constexpr std::int64_t enough_samples = 64;
@@ -138,7 +158,7 @@ class PixelSamples {
   Channels high_{};
   Channels low_around_{};  ///< here and in the neighbours, after the first samples
   Channels high_around_{};
-  float dropped_ = 0;
+  double dropped_ = 0;
   std::uint32_t identity_ = 0;
   bool mixed_ = false;
   bool edge_ = false;  ///< things of several identities are here or in the neighbours
@@ -157,14 +177,31 @@ inline void PixelSamples::merge_blocks() {
   std::fill(blocks_.begin() + block_count / 2, blocks_.end(), Channels{});
 }
 
-inline void PixelSamples::add_step(std::int64_t count, const StepSum& step) {
+inline PixelSamples::StepPlace PixelSamples::place_of_step(std::int64_t count, std::int64_t size) {
   // No step reaches beyond a power of two.
   const auto before = static_cast<std::uint64_t>(count);
-  if (before >= block_count && std::has_single_bit(before)) merge_blocks();
-  const int exponent = block_exponent(count + step.count);
-  Channels& block = blocks_[static_cast<std::size_t>(count >> exponent)];
-  block = rounded_channels(to_doubles(block) + step.sum);
-  dropped_ = static_cast<float>(double{dropped_} + step.dropped);
+  return {.block = static_cast<std::uint8_t>(count >> block_exponent(count + size)),
+          .merges = before >= block_count && std::has_single_bit(before)};
 }
+
+inline void PixelSamples::add_step(const StepPlace& place, const Lanes& sum) {
+  if (place.merges) merge_blocks();
+  Channels& block = blocks_[place.block];
+  block = rounded_channels(to_doubles(block) + sum);
+}
+
+inline void PixelSamples::add_seen(const SeenSamples& seen, bool are_first) {
+  const Channels low = rounded_channels(seen.low_);
+  const Channels high = rounded_channels(seen.high_);
+  low_ = are_first ? low : min(low_, low);
+  high_ = are_first ? high : max(high_, high);
+  dropped_ = seen.dropped_;
+  const auto identity = static_cast<std::uint32_t>(seen.identity_ ^ seen.identity_ >> 32);
+  if (are_first) identity_ = identity;
+  mixed_ = mixed_ || seen.differing_ != 0 || identity != identity_;
+}
+
+inline SeenSamples::SeenSamples(const PixelSamples& pixel, std::uint64_t first_identity)
+    : dropped_(pixel.dropped_), identity_(first_identity) {}
 
 }  // namespace crt::core

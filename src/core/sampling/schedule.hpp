@@ -7,7 +7,9 @@
 #pragma once
 
 #include <bit>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace crt::core {
 
@@ -47,6 +49,10 @@ constexpr std::int64_t samples_of_next_step(std::int64_t samples) {
   return static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(samples))) /
          samples_before_doubling;
 }
+
+/// More steps than that never come: there are as many samples as an int can tell, at most.
+inline constexpr std::size_t most_steps =
+    samples_before_doubling + std::size_t{passes_per_step} * std::numeric_limits<int>::digits;
 
 /// From 0 to 7: in which of the eight passes a pixel gets its next sample, those of each pass far apart.
 constexpr int rank_of_pixel(int x, int y) {

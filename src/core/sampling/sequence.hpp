@@ -12,6 +12,7 @@
 #include <cstdint>
 #include <cstring>
 
+#include "core/math/lanes.hpp"
 #include "core/math/random.hpp"
 
 namespace crt::core {
@@ -58,6 +59,22 @@ constexpr Bits reversed(Bits bits) {
   bits = (bits >> 8 & 0x00ff00ffu) | (bits & 0x00ff00ffu) << 8;
   return bits >> 16 | bits << 16;
 }
+#ifdef __AVX2__
+/// The same with the halves of bytes looked up.
+inline BitLanes reversed(const BitLanes& bits) {
+  const auto in_both_halves = [](const __m128i& bytes) { return _mm256_broadcastsi128_si256(bytes); };
+  const __m256i low_half = _mm256_set1_epi8(0x0f);
+  const __m256i reversed_half =
+      in_both_halves(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
+  const __m256i bytes_back = in_both_halves(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  const auto all = reinterpret_cast<__m256i>(bits);
+  const __m256i from_low = _mm256_shuffle_epi8(reversed_half, _mm256_and_si256(all, low_half));
+  const __m256i from_high =
+      _mm256_shuffle_epi8(reversed_half, _mm256_and_si256(_mm256_srli_epi32(all, 4), low_half));
+  const __m256i bytes = _mm256_or_si256(_mm256_slli_epi32(from_low, 4), from_high);
+  return reinterpret_cast<BitLanes>(_mm256_shuffle_epi8(bytes, bytes_back));
+}
+#endif
 
 constexpr std::array<Column, index_bits> columns() {
   // The first dimension's numbers are all 1: its coordinates are the index read backwards.
@@ -153,20 +170,16 @@ class PixelSequence {
     return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
-  /// Points side by side, by dimension.
+  /// Points side by side, by dimension; a group of them is as many as there are lanes.
   struct Block {
-    std::array<std::array<double, sequence_detail::points_at_once>, sequence_dimensions> coordinates{};
-
-    SequencePoint operator[](std::size_t i) const {
-      return {coordinates[0][i], coordinates[1][i], coordinates[2][i], coordinates[3][i]};
-    }
+    static constexpr std::uint32_t size = sequence_detail::points_at_once;
+    static constexpr std::size_t group_count = size / lane_count;
+    std::array<std::array<Lanes, group_count>, sequence_dimensions> coordinates{};
   };
   /// The same for as many points as make a block, from a multiple of their number on; without the lens only
   /// their places on the pixel.
   void block(std::uint32_t first, bool with_lens, Block& points) const {
-    const sequence_detail::Column high_bits = bits_of<sequence_dimensions>(first);
-    const std::size_t dimensions = with_lens ? sequence_dimensions : 2;
-    for (std::size_t d = 0; d < dimensions; ++d) fill(points.coordinates[d], d, high_bits[d]);
+    with_lens ? fill_block<sequence_dimensions>(first, points) : fill_block<2>(first, points);
   }
 
  private:
@@ -194,7 +207,12 @@ class PixelSequence {
     return result;
   }
 
-  void fill(std::array<double, sequence_detail::points_at_once>& coordinates, std::size_t dimension,
+  template <std::size_t dimensions>
+  void fill_block(std::uint32_t first, Block& points) const {
+    const auto high_bits = bits_of<dimensions>(first);
+    for (std::size_t d = 0; d < dimensions; ++d) fill(points.coordinates[d], d, high_bits[d]);
+  }
+  void fill(std::array<Lanes, Block::group_count>& coordinates, std::size_t dimension,
             std::uint32_t high_bits) const {
     using namespace sequence_detail;
     BitLanes bits;
@@ -205,6 +223,7 @@ class PixelSequence {
     const auto from_middle =
         __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
     const DoubleLanes fractions = 0x1p-32 * from_middle + 0.5;
+    static_assert(sizeof fractions == sizeof coordinates);
     std::memcpy(coordinates.data(), &fractions, sizeof fractions);
   }
 
