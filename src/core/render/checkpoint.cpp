@@ -51,8 +51,7 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
     frame.camera().rays(count, places, std::span(lens_points).first(with_lens), rays);
     tracer.trace(rays, samples);
     for (const Tracer::Sample& sample : samples) {
-      for (int channel = 0; channel < 3; ++channel) add(hash, sample.color[channel]);
-      add(hash, sample.alpha);
+      for (int channel = 0; channel < lane_count; ++channel) add(hash, sample.channels[channel]);
     }
     count = 0;
   };

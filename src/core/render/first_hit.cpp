@@ -10,7 +10,7 @@ void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
     first_hits[i] = {};
     if (!hits_[i].found()) continue;
     // Behind a medium that lets nothing through the surface has not been looked up.
-    if (is_black(round_->paths[i].weight)) look_up_each(RayMask{1} << i);
+    if (is_black(weight(i))) look_up_each(RayMask{1} << i);
     first_hits[i] = {.normal = surface(i).normal(), .color = surface(i).color()};
   }
 }

@@ -29,15 +29,12 @@ LaneMask is_weaker(const VectorLanes& weight, double least) {
 void Tracer::finish(std::size_t group, RayMask on_surface) {
   const SurfaceGroup& surfaces = surfaces_[group];
   const std::size_t first = group * lane_count;
-  const RayMask black = mask_of(is_black(surfaces.light));
-  RayMask splitting = 0;
-  for_each_ray(on_surface, [&](std::size_t lane) {
-    const std::size_t ray = first + lane;
-    if ((black >> lane & 1u) == 0) {
-      round_->samples[ray]->color += round_->paths[ray].weight * surfaces.light.lane(lane);
-    }
-    splitting |= static_cast<RayMask>(!surfaces.hits[lane].material->ends_paths) << lane;
-  });
+  const RayMask bright = on_surface & ~mask_of(is_black(surfaces.light));
+  if (bright != 0) {
+    const auto colors = by_lane(round_->weights[group] * surfaces.light);
+    for_each_ray(bright, [&](std::size_t lane) { round_->samples[first + lane]->channels += colors[lane]; });
+  }
+  const RayMask splitting = on_surface & surfaces.sending_on;
   const RayMask gone_on = splitting != 0 ? send_on(group, splitting) : 0;
   if (waiting_ == 0) return;
   const RayMask in_group = RayPacket::lanes(RayPacket::all(round_->count), group);
@@ -59,7 +56,8 @@ std::size_t Tracer::join_next_round(std::size_t ray, RayKind kind) {
 
 // (Calls would take as long as it does.)
 [[gnu::always_inline]] inline PathState& Tracer::depart(std::size_t ray, RayKind kind, bool waits,
-                                                        const Vec3& direction, const StartPoint& start) {
+                                                        const Vec3& direction, const StartPoint& start,
+                                                        const Rgb& weight) {
   const SurfaceLane from = surface(ray);
   PathState* path = nullptr;
   if (waits) {
@@ -67,11 +65,13 @@ std::size_t Tracer::join_next_round(std::size_t ray, RayKind kind) {
     pending.origin = from.position();
     pending.direction = direction;
     pending.start = start;
+    pending.weight = weight;
     path = &pending.path;
     ++waiting_;
   } else {
     const std::size_t place = join_next_round(ray, kind);
     next_round_->rays.set(place, from.position(), direction, start);
+    next_round_->weights[place / lane_count].set(place % lane_count, weight);
     path = &next_round_->paths[place];
   }
   path->kind = kind;
@@ -92,17 +92,16 @@ RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
     const bool goes_through = (parts.refracted >> lane & 1u) != 0;
     const bool waits = work.rays == most_rays_per_sample;
     if ((parts.mirrored >> lane & 1u) != 0) {
-      PathState& path = depart(ray, RayKind::reflection, waits || goes_through,
-                               parts.mirrored_direction.lane(lane), from.start());
-      path.weight = parts.mirrored_weight.lane(lane);
+      PathState& path =
+          depart(ray, RayKind::reflection, waits || goes_through, parts.mirrored_direction.lane(lane),
+                 from.start(), parts.mirrored_weight.lane(lane));
       path.media = round_->paths[ray].media;
       path.media_mark = parts.media_marks[lane];
       if (!goes_through) work.media.release(parts.media_marks[lane]);
     }
     if (goes_through) {
-      PathState& path =
-          depart(ray, RayKind::refraction, waits, parts.refracted_direction.lane(lane), from.start_behind());
-      path.weight = parts.refracted_weight.lane(lane);
+      PathState& path = depart(ray, RayKind::refraction, waits, parts.refracted_direction.lane(lane),
+                               from.start_behind(), parts.refracted_weight.lane(lane));
       path.media = parts.media_behind[lane];
       path.media_mark = work.media.mark();
     }
@@ -115,17 +114,13 @@ RayMask Tracer::send_on(std::size_t group, RayMask lanes) {
 void Tracer::split(std::size_t group, RayMask lanes, Split& split) {
   const SurfaceGroup& surfaces = surfaces_[group];
   const VectorLanes& normal = surfaces.phong.normal;
-  Lanes mirrored_share{};
-  RayMask transparent = 0;
+  Lanes mirrored_share = surfaces.reflectivity;
+  RayMask transparent = lanes & mask_of(surfaces.transparency > 0.0);
   RayMask deep = 0;
-  VectorLanes weight;
+  const VectorLanes& weight = round_->weights[group];
   for_each_ray(lanes, [&](std::size_t lane) {
-    const SurfaceHit& hit = surfaces.hits[lane];
-    mirrored_share[static_cast<int>(lane)] = hit.material->description->reflectivity;
-    transparent |= static_cast<RayMask>(hit.transparency > 0) << lane;
     const PathState& path = round_->paths[group * lane_count + lane];
     deep |= static_cast<RayMask>(path.bounces >= frame_.settings().recursion_depth) << lane;
-    weight.set(lane, path.weight);
     split.media_marks[lane] = round_->works[group * lane_count + lane]->media.mark();
   });
 
@@ -151,7 +146,7 @@ void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split
     const std::size_t ray = group * lane_count + lane;
     const auto i = static_cast<int>(lane);
     const bool solid = data_.is_solid(hits_[ray]);
-    Passage passage{.transparency = surfaces.hits[lane].transparency, .media = round_->paths[ray].media};
+    Passage passage{.transparency = surfaces.transparency[i], .media = round_->paths[ray].media};
     const MediaLists& media = round_->works[ray]->media;
     if (hits_[ray].has_company) {
       passage.color = surface(ray).color();
@@ -246,7 +241,7 @@ void Tracer::go_back(std::size_t ray) {
   if (work.rays == most_rays_per_sample) {
     ++work_.stats.samples_over_ray_bound;
     for (const PathRay& dropped : work.pending.all()) {
-      round_->samples[ray]->dropped += largest_component(dropped.path.weight);
+      round_->samples[ray]->dropped += largest_component(dropped.weight);
     }
     waiting_ -= work.pending.all().size();
     work.pending.clear();
@@ -255,6 +250,7 @@ void Tracer::go_back(std::size_t ray) {
   const PathRay& last = work.pending.top();
   const std::size_t place = join_next_round(ray, last.path.kind);
   next_round_->rays.set(place, last.origin, last.direction, last.start);
+  next_round_->weights[place / lane_count].set(place % lane_count, last.weight);
   next_round_->paths[place] = last.path;
   work.media.release(last.path.media_mark);
   work.pending.pop();

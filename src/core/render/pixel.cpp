@@ -14,11 +14,6 @@ namespace {
 /// What random numbers are drawn for.
 constexpr std::uint32_t lens_dimension = 0;
 
-/// As PixelSamples and PixelMean have them.
-Lanes channels_of(const Tracer::Sample& sample) {
-  return Lanes{sample.color.x, sample.color.y, sample.color.z, sample.alpha};
-}
-
 /// Places of the picture, and of the lens if there is one, that camera rays go through together.
 struct RayPlaces {
   std::array<PicturePlaceLanes, RayPacket::group_count> picture;
@@ -148,7 +143,7 @@ class GridSums {
       const Tracer::Sample& sample = traced.samples[i];
       PixelMean& pixel = sums_[pixels[i]];
       PixelMean& sum = lens_points_ == 1 ? pixel : lens_sum_;
-      sum.channels += channels_of(sample);
+      sum.channels += sample.channels;
       sum.dropped += sample.dropped;
       if (lens_points_ == 1 || ++lens_point_ < lens_points_) continue;
       pixel.channels += lens_sum_.channels;
@@ -279,9 +274,8 @@ class PassSums {
       if (step == steps_.data() && missing == step->size) seen = SeenSamples(*pixel->samples, samples->identity);
       const std::int64_t count = std::min(sample_count - done, missing);
       for (std::int64_t i = 0; i < count; ++i) {
-        const Lanes channels = channels_of(samples[i]);
-        sum += channels;
-        seen.add(channels, samples[i].dropped, samples[i].identity);
+        sum += samples[i].channels;
+        seen.add(samples[i].channels, samples[i].dropped, samples[i].identity);
       }
       if (!traced.first_hits.empty() && pixel->first_hits != nullptr) {
         const auto hits = traced.first_hits.subspan(static_cast<std::size_t>(done));

@@ -8,21 +8,17 @@
 
 namespace crt::core {
 
-/// What rays that go on from a surface need of it.
-struct SurfaceHit {
-  const PreparedMaterial* material = nullptr;
-  double transparency = 0;
-  StartPoint start;  ///< of those that leave to the viewer's side; but for its error
-};
-
 /// As many surfaces as there are lanes. What lanes hold whose rays have met none is of no use.
 struct SurfaceGroup {
-  std::array<SurfaceHit, lane_count> hits;
+  /// Of rays that leave to the viewer's side; but for their errors.
+  std::array<StartPoint, lane_count> starts;
   VectorLanes position;
   Lanes start_errors{};     ///< StartPoint::t_error of rays that start there
   VectorLanes face_normal;  ///< of the geometry, turned to the viewer
   PhongSurfaces phong;      ///< its normal is that tilted by bumps
   Lanes reflectivity{};     ///< of the materials
+  Lanes transparency{};
+  RayMask sending_on = 0;   ///< those whose materials do not end paths
   Lanes path_length{};      ///< from the camera
   VectorLanes light;        ///< that they send back, as far as it has been added up
 };
@@ -32,7 +28,6 @@ struct SurfaceLane {
   SurfaceGroup& group;
   std::size_t lane;
 
-  SurfaceHit& hit() const { return group.hits[lane]; }
   Vec3 position() const { return group.position.lane(lane); }
   Vec3 normal() const { return group.phong.normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
@@ -40,7 +35,7 @@ struct SurfaceLane {
 
   /// Of a ray that leaves to the viewer's side.
   StartPoint start() const {
-    StartPoint start = hit().start;
+    StartPoint start = group.starts[lane];
     start.t_error = group.start_errors[static_cast<int>(lane)];
     return start;
   }

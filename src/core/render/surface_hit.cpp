@@ -45,14 +45,6 @@ struct AlikeHits {
   void set(VectorLanes& values, const VectorLanes& value) const { values = chosen(lanes, value, values); }
 };
 
-/// All but the error of where rays start.
-void set_hits(const AlikeHits& alike, const Lanes& transparency, const StartPoint& start,
-              SurfaceGroup& group) {
-  for_each_ray(alike.rays, [&](std::size_t lane) {
-    group.hits[lane] = {&alike.material, transparency[static_cast<int>(lane)], start};
-  });
-}
-
 void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes& transparency,
                   SurfaceGroup& group) {
   const Material& description = *alike.material.description;
@@ -61,6 +53,8 @@ void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes&
   alike.set(group.phong.specular, lanes_of(description.specular));
   alike.set(group.phong.shininess, lanes_of(description.shininess));
   alike.set(group.reflectivity, lanes_of(description.reflectivity));
+  alike.set(group.transparency, transparency);
+  if (!alike.material.ends_paths) group.sending_on |= alike.rays;
 }
 
 /// The rays have those directions, the points are in object space.
@@ -80,6 +74,7 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
              RayMask seen, SurfaceGroup& group, Workspace& work) {
   const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
   group.phong.view = rays.direction;
+  group.sending_on = 0;
   const HitFaces faces(hits);
   SurfacePointLanes& points = work.points;
   for (RayMask to_come = seen; to_come != 0;) {
@@ -93,8 +88,8 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
     set_material(alike, colors.color, transparency, group);
-    set_hits(alike, transparency, data.start_face(first, first.entering ? Side::outside : Side::inside),
-             group);
+    const StartPoint start = data.start_face(first, first.entering ? Side::outside : Side::inside);
+    for_each_ray(alike.rays, [&](std::size_t lane) { group.starts[lane] = start; });
 
     if (material.bump) set_bumped_normals(data, alike, points, group, work);
     data.take_to_world(first, points);

@@ -65,6 +65,7 @@ void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samp
                    std::span<FirstHit> first_hits) {
   round_->count = samples.size();
   Frame::set_eye_rays(camera_rays, round_->rays);
+  round_->weights.fill(lanes_of(Rgb(1)));
   for (std::size_t i = 0; i < round_->count; ++i) {
     samples[i] = {};
     round_->samples[i] = &samples[i];
@@ -141,23 +142,22 @@ void Tracer::look_up_each(RayMask on_surface) {
 }
 
 bool Tracer::pass_medium(std::size_t ray) {
-  PathState& path = round_->paths[ray];
-  const Medium& medium = round_->works[ray]->media.innermost(path.media);
-  path.weight *= transmittance(data_.materials()[medium.material], hits_[ray].t);
-  return !is_black(path.weight);
+  const Medium& medium = round_->works[ray]->media.innermost(round_->paths[ray].media);
+  const Rgb left = weight(ray) * transmittance(data_.materials()[medium.material], hits_[ray].t);
+  round_->weights[ray / lane_count].set(ray % lane_count, left);
+  return !is_black(left);
 }
 
 void Tracer::see_background(std::size_t ray) {
   Sample& sample = *round_->samples[ray];
-  const PathState& path = round_->paths[ray];
   if (identifies_) note(sample, nothing);
   const Color background = data_.background().color(round_->rays.direction(ray));
-  if (path.kind == RayKind::camera) {
-    sample.alpha = background.a;
-    sample.color += background.a * path.weight * rgb(background);
-  } else {
-    sample.color += path.weight * rgb(background);
+  Rgb light = weight(ray) * rgb(background);
+  if (round_->paths[ray].kind == RayKind::camera) {
+    sample.channels[3] = background.a;
+    light = background.a * weight(ray) * rgb(background);
   }
+  sample.channels += Lanes{light.x, light.y, light.z, 0};
 }
 
 RayMask Tracer::taking_light(RayMask on_surface) const {
@@ -192,7 +192,7 @@ void Tracer::add_light(RayMask on_surface) {
   if (taking == 0) return;
   RayPacket::for_each_group(
       taking, [&](std::size_t i, RayMask) { shadow_rays_.start_errors[i] = surfaces_[i].start_errors; });
-  for_each_ray(taking, [&](std::size_t i) { shadow_rays_.starts[i] = surface(i).hit().start; });
+  for_each_ray(taking, [&](std::size_t i) { shadow_rays_.starts[i] = surfaces_[i / lane_count].starts[i % lane_count]; });
   shadow_rays_.with_starts = taking;
   const PacketStarts starts = data_.noted_starts(shadow_rays_, taking);
   std::size_t lamp = 0;

@@ -25,8 +25,7 @@ class Tracer {
   Tracer(const Frame& frame, Workspace& work, Progress& progress);
 
   struct Sample {
-    Rgb color{0, 0, 0};  ///< premultiplied with alpha
-    double alpha = 1;
+    Lanes channels{0, 0, 0, 1};  ///< red, green and blue, premultiplied with the last: alpha
     /// The weight of rays that were not followed, of the channel that lost most.
     double dropped = 0;
     /// If asked for: samples that meet the same things on the same ways have the same, others most likely
@@ -50,6 +49,7 @@ class Tracer {
   struct Round {
     std::size_t count = 0;
     RayBatch rays;
+    std::array<VectorLanes, RayPacket::group_count> weights;  ///< shares of the pixels' light
     std::array<PathState, packet_size> paths;
     std::array<SampleWork*, packet_size> works;
     std::array<Sample*, packet_size> samples;
@@ -114,9 +114,9 @@ class Tracer {
   /// Which rays of such weights are to go on from where a group of rays ends, of which some are too deep.
   RayMask worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights);
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
-  /// fills in its weight and its media.
-  PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction,
-                    const StartPoint& start);
+  /// fills in its media.
+  PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction, const StartPoint& start,
+                    const Rgb& weight);
   /// A place in the next round for the sample of a ray.
   std::size_t join_next_round(std::size_t ray, RayKind kind);
   /// Takes up what waits of a ray's sample.
@@ -141,6 +141,9 @@ class Tracer {
 
   /// Counts rays; lets the progress speak now and then.
   void tick(unsigned rays = 1);
+
+  /// The share of the pixel's light that comes along a ray of this round.
+  Rgb weight(std::size_t ray) const { return round_->weights[ray / lane_count].lane(ray % lane_count); }
 
   /// Takes the surfaces that rays of this round have met into their samples' identities.
   void note_surfaces(RayMask on_surface);

@@ -17,12 +17,11 @@ namespace crt::core {
 
 enum class RayKind : std::uint8_t { camera, reflection, refraction };
 
-/// What a ray has behind it, and what it is worth.
+/// What a ray has behind it.
 struct PathState {
   RayKind kind = RayKind::camera;
   int bounces = 0;         ///< before this ray
   double path_length = 0;  ///< from the camera to the ray's origin
-  Rgb weight{1, 1, 1};     ///< share of the pixel's light that comes along it
   MediaLists::List media = MediaLists::empty;
   /// MediaLists::mark() when it was put aside: lists made later are of no use to it.
   std::uint32_t media_mark = 0;
@@ -32,6 +31,7 @@ struct PathRay {
   Vec3 origin;
   Vec3 direction;  ///< unit length
   StartPoint start;
+  Rgb weight;  ///< share of the pixel's light that comes along it
   PathState path;
 };
 
