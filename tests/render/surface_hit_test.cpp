@@ -77,13 +77,14 @@ void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   const double to_viewer = hit.entering ? 1 : -1;
   const int lane = static_cast<int>(found.lane);
 
-  REQUIRE(found.hit().material == &material);
-  REQUIRE(found.hit().transparency == transparency);
+  const double found_transparency = found.group.transparency[lane];
+  REQUIRE(found_transparency == transparency);
+  REQUIRE((found.group.sending_on >> lane & 1u) == (material.ends_paths ? 0 : 1));
   const StartPoint start = data.start_point(ray, hit, hit.entering ? Side::outside : Side::inside);
-  REQUIRE(found.hit().start.face == start.face);
-  REQUIRE(found.hit().start.leaf == start.leaf);
-  REQUIRE(found.hit().start.surface == start.surface);
-  REQUIRE(found.hit().start.side == start.side);
+  REQUIRE(found.start().face == start.face);
+  REQUIRE(found.start().leaf == start.leaf);
+  REQUIRE(found.start().surface == start.surface);
+  REQUIRE(found.start().side == start.side);
   REQUIRE(found.start().t_error == start.t_error);
   REQUIRE(found.color() == rgb(color));
   const double diffuse = found.group.phong.diffuse[lane];

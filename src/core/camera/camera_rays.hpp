@@ -34,6 +34,9 @@ inline void set_lane(PicturePlaceLanes& places, std::size_t lane, const PictureP
   places.x[static_cast<int>(lane)] = place.x;
   places.y[static_cast<int>(lane)] = place.y;
 }
+inline PicturePlace lane_of(const PicturePlaceLanes& places, std::size_t lane) {
+  return {places.x[static_cast<int>(lane)], places.y[static_cast<int>(lane)]};
+}
 
 /// A camera made ready for a picture of some size. Immutable.
 class CameraRays {

@@ -60,11 +60,16 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
     : data_(data),
       settings_(settings),
       camera_(data.scene().camera, settings.width, settings.height),
-      filter_(settings) {
+      filter_(settings),
+      subpixel_count_(static_cast<std::size_t>(settings.supersampling) *
+                      static_cast<std::size_t>(settings.supersampling)),
+      subpixels_((subpixel_count_ + lane_count - 1) / lane_count) {
   const int side = settings.supersampling;
+  std::size_t index = 0;
   for (int row = 0; row < side; ++row) {
-    for (int column = 0; column < side; ++column) {
-      subpixels_.push_back({filter_((column + 0.5) / side), filter_((row + 0.5) / side)});
+    for (int column = 0; column < side; ++column, ++index) {
+      set_lane(subpixels_[index / lane_count], index % lane_count,
+               {filter_((column + 0.5) / side), filter_((row + 0.5) / side)});
     }
   }
   lights_.reserve(data.scene().lights.size());

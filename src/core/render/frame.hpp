@@ -21,8 +21,10 @@ class Frame {
   const Features& features() const { return data_.features(); }
   const CameraRays& camera() const { return camera_; }
   const FilterPlaces& filter() const { return filter_; }
-  /// A pixel's grid, row by row: where in the first pixel of the picture its samples lie.
-  const std::vector<PicturePlace>& subpixels() const { return subpixels_; }
+  /// A pixel's grid, row by row: where in the first pixel of the picture its samples lie. So many, the last
+  /// lanes may be of no use.
+  std::size_t subpixel_count() const { return subpixel_count_; }
+  const std::vector<PicturePlaceLanes>& subpixels() const { return subpixels_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
 
   /// What all lights together give every point.
@@ -48,7 +50,8 @@ class Frame {
   const Settings& settings_;
   CameraRays camera_;
   FilterPlaces filter_;
-  std::vector<PicturePlace> subpixels_;
+  std::size_t subpixel_count_;
+  std::vector<PicturePlaceLanes> subpixels_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
   bool one_viewpoint_ = false;

@@ -81,32 +81,69 @@ class GridRays {
       : frame_(frame),
         region_(region),
         lens_points_(static_cast<std::uint32_t>(lens_points)),
-        rays_per_pixel_(static_cast<std::uint32_t>(frame.subpixels().size()) * lens_points_) {}
+        rays_per_pixel_(static_cast<std::uint32_t>(frame.subpixel_count()) * lens_points_) {}
 
   /// The next of them. Returns how many; at the end none.
   template <bool with_lens>
   std::size_t next(RayPlaces& places, Pixels& pixels) {
     std::size_t count = 0;
     for (; place_ < tile_places.size(); ++place_, ray_ = 0) {
+      if (!with_lens && count % lane_count == 0) {
+        while (count < packet_size && place_square(places, pixels, count)) count += lane_count;
+        if (place_ == tile_places.size()) break;
+      }
       const TilePlace& place = tile_places[place_];
       if (place.x >= region_.width || place.y >= region_.height) continue;
       const int x = region_.x + place.x;
       const int y = region_.y + place.y;
       const auto pixel = static_cast<std::uint32_t>(place.y * region_.width + place.x);
-      for (; ray_ < rays_per_pixel_; ++ray_, ++count) {
+      while (ray_ < rays_per_pixel_) {
         if (count == packet_size) return count;
-        const PicturePlace& subpixel = frame_.subpixels()[with_lens ? ray_ / lens_points_ : ray_];
-        const std::size_t group = count / lane_count;
-        const std::size_t lane = count % lane_count;
-        set_lane(places.picture[group], lane, {x + subpixel.x, y + subpixel.y});
-        if constexpr (with_lens) set_lane(places.lens[group], lane, lens_point(x, y));
-        pixels[count] = pixel;
+        const std::uint32_t placed = place_some<with_lens>(x, y, places, count);
+        std::fill_n(&pixels[count], placed, pixel);
+        ray_ += placed;
+        count += placed;
       }
     }
     return count;
   }
 
  private:
+  /// The next ray or, where that is easy, as many as there are lanes. Returns how many.
+  template <bool with_lens>
+  std::uint32_t place_some(int x, int y, RayPlaces& places, std::size_t count) {
+    const std::size_t group = count / lane_count;
+    const std::size_t lane = count % lane_count;
+    const bool makes_group = lane == 0 && ray_ % lane_count == 0 && rays_per_pixel_ - ray_ >= lane_count;
+    if (!with_lens && makes_group) {
+      const PicturePlaceLanes& subpixels = frame_.subpixels()[ray_ / lane_count];
+      places.picture[group] = {static_cast<double>(x) + subpixels.x, static_cast<double>(y) + subpixels.y};
+      return lane_count;
+    }
+    const std::size_t index = with_lens ? ray_ / lens_points_ : ray_;
+    const PicturePlace subpixel = lane_of(frame_.subpixels()[index / lane_count], index % lane_count);
+    set_lane(places.picture[group], lane, {x + subpixel.x, y + subpixel.y});
+    if constexpr (with_lens) set_lane(places.lens[group], lane, lens_point(x, y));
+    return 1;
+  }
+
+  /// The rays of the next four pixels if each has one: they are a square. False if they are not all in the
+  /// region.
+  bool place_square(RayPlaces& places, Pixels& pixels, std::size_t count) {
+    if (rays_per_pixel_ > 1 || place_ == tile_places.size() || place_ % lane_count != 0) return false;
+    const TilePlace& place = tile_places[place_];
+    if (place.x + 1 >= region_.width || place.y + 1 >= region_.height) return false;
+    const PicturePlaceLanes& middle = frame_.subpixels().front();
+    places.picture[count / lane_count] = {region_.x + place.x + Lanes{0, 1, 0, 1} + middle.x[0],
+                                          region_.y + place.y + Lanes{0, 0, 1, 1} + middle.y[0]};
+    const auto pixel = static_cast<std::uint32_t>(place.y * region_.width + place.x);
+    const auto below = pixel + static_cast<std::uint32_t>(region_.width);
+    const std::array<std::uint32_t, lane_count> square = {pixel, pixel + 1, below, below + 1};
+    std::copy(square.begin(), square.end(), &pixels[count]);
+    place_ += lane_count;
+    return true;
+  }
+
   /// Of the next ray.
   LensPoint lens_point(int x, int y) {
     const std::size_t lane = ray_ % lane_count;
@@ -271,7 +308,8 @@ class PassSums {
     const auto sample_count = static_cast<std::int64_t>(traced.samples.size());
     for (std::int64_t done = 0; done < sample_count;) {
       const Tracer::Sample* const samples = &traced.samples[static_cast<std::size_t>(done)];
-      if (step == steps_.data() && missing == step->size) seen = SeenSamples(*pixel->samples, samples->identity);
+      if (step == steps_.data() && missing == step->size)
+        seen = SeenSamples(*pixel->samples, samples->identity);
       const std::int64_t count = std::min(sample_count - done, missing);
       for (std::int64_t i = 0; i < count; ++i) {
         sum += samples[i].channels;
@@ -334,7 +372,7 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
   };
   while (const std::size_t count = next()) sums.add(packets.trace(places, count), of_pixels);
 
-  const std::uint64_t samples_per_pixel = frame.subpixels().size() * static_cast<std::uint64_t>(lens_points);
+  const std::uint64_t samples_per_pixel = frame.subpixel_count() * static_cast<std::uint64_t>(lens_points);
   if (samples_per_pixel > 1) {
     const auto divisor = static_cast<double>(samples_per_pixel);
     for (PixelMean& pixel : pixels) pixel = {pixel.channels / divisor, pixel.dropped / divisor};

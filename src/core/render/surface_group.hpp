@@ -18,9 +18,9 @@ struct SurfaceGroup {
   PhongSurfaces phong;      ///< its normal is that tilted by bumps
   Lanes reflectivity{};     ///< of the materials
   Lanes transparency{};
-  RayMask sending_on = 0;   ///< those whose materials do not end paths
-  Lanes path_length{};      ///< from the camera
-  VectorLanes light;        ///< that they send back, as far as it has been added up
+  RayMask sending_on = 0;  ///< those whose materials do not end paths
+  Lanes path_length{};     ///< from the camera
+  VectorLanes light;       ///< that they send back, as far as it has been added up
 };
 
 /// One of them.

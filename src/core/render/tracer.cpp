@@ -192,7 +192,9 @@ void Tracer::add_light(RayMask on_surface) {
   if (taking == 0) return;
   RayPacket::for_each_group(
       taking, [&](std::size_t i, RayMask) { shadow_rays_.start_errors[i] = surfaces_[i].start_errors; });
-  for_each_ray(taking, [&](std::size_t i) { shadow_rays_.starts[i] = surfaces_[i / lane_count].starts[i % lane_count]; });
+  for_each_ray(taking, [&](std::size_t i) {
+    shadow_rays_.starts[i] = surfaces_[i / lane_count].starts[i % lane_count];
+  });
   shadow_rays_.with_starts = taking;
   const PacketStarts starts = data_.noted_starts(shadow_rays_, taking);
   std::size_t lamp = 0;

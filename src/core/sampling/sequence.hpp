@@ -66,7 +66,8 @@ inline BitLanes reversed(const BitLanes& bits) {
   const __m256i low_half = _mm256_set1_epi8(0x0f);
   const __m256i reversed_half =
       in_both_halves(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
-  const __m256i bytes_back = in_both_halves(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
+  const __m256i bytes_back =
+      in_both_halves(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
   const auto all = reinterpret_cast<__m256i>(bits);
   const __m256i from_low = _mm256_shuffle_epi8(reversed_half, _mm256_and_si256(all, low_half));
   const __m256i from_high =

@@ -35,22 +35,30 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, Answers
 
 PacketStarts Accelerator::noted_starts(const RayBatch& rays, RayMask some) const {
   PacketStarts starts;
-  const StartPoint* before = nullptr;
+  // Neighbours start on the same face more often than not.
+  StartPoint face;
   std::uint32_t left = nothing;
+  RayMask on_face = 0;
+  const auto add_face = [&] {
+    if (face.leaf == nothing) return;
+    starts.on_surface |= on_face;
+    if (face.side == Side::outside) starts.outwards |= on_face;
+    if (left != nothing) starts.left_some |= on_face;
+  };
   for_each_ray(some & rays.with_starts, [&](std::size_t i) {
     const StartPoint& start = rays.starts[i];
-    if (start.leaf == nothing) return;
-    const RayMask bit = RayMask{1} << i;
+    if (!start.is_to_same_side(face)) {
+      add_face();
+      face = start;
+      left = left_for_good(start);
+      on_face = 0;
+    }
+    on_face |= RayMask{1} << i;
     starts.surfaces[i] = start.surface;
     starts.leaves[i] = start.leaf;
-    starts.on_surface |= bit;
-    if (start.side == Side::outside) starts.outwards |= bit;
-    // Neighbours start on the same face more often than not.
-    if (before == nullptr || !start.is_to_same_side(*before)) left = left_for_good(start);
-    before = &start;
     starts.left_objects[i] = left;
-    if (left != nothing) starts.left_some |= bit;
   });
+  add_face();
   return starts;
 }
 
