@@ -42,8 +42,8 @@ void add_step(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at
 
 /// The pixel takes note of a neighbour.
 void take_note(PixelSamples& pixel, const PixelSamples& neighbour) {
-  PixelSamples::Notes notes(pixel);
-  notes.take(neighbour);
+  PixelSamples::Notes notes = pixel.notes();
+  notes.take(neighbour.notes());
   pixel.keep(notes);
 }
 

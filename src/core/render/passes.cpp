@@ -6,6 +6,7 @@
 #include <array>
 #include <bit>
 #include <functional>
+#include <memory>
 
 #include "core/render/small_things.hpp"
 #include "crt/error.hpp"
@@ -28,12 +29,12 @@ constexpr std::size_t most_tile_pixels = std::size_t{Tiles::side} * Tiles::side;
 constexpr int reach_of_notes = 1;
 constexpr int reach_of_notes_with_lens = 2;
 
-/// The region and the pixels around it that are in the picture.
-Region with_margin(const Region& region, int margin, const Settings& settings) {
-  const int left = std::max(region.x - margin, 0);
-  const int top = std::max(region.y - margin, 0);
-  const int right = std::min(region.x + region.width + margin, settings.width);
-  const int bottom = std::min(region.y + region.height + margin, settings.height);
+/// The region and the pixels around it, but no others than those within `limits`.
+Region widened(const Region& region, int margin, const Region& limits) {
+  const int left = std::max(region.x - margin, limits.x);
+  const int top = std::max(region.y - margin, limits.y);
+  const int right = std::min(region.x + region.width + margin, limits.x + limits.width);
+  const int bottom = std::min(region.y + region.height + margin, limits.y + limits.height);
   return {left, top, right - left, bottom - top};
 }
 
@@ -48,14 +49,16 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
     : frame_(frame),
       region_(region),
       reach_(frame.features().lens ? reach_of_notes_with_lens : reach_of_notes),
-      worked_on_(with_margin(region, reach_, frame.settings())),
+      worked_on_(widened(region, reach_, {0, 0, frame.settings().width, frame.settings().height})),
       grid_(worked_on_),
       most_samples_(frame.settings().max_samples),
       by_clock_(most_passes == 0 && clock.has_budget()),
       clock_(clock),
       canvas_(canvas),
       scale_(frame.settings().gamma),
-      target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error) {
+      target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error),
+      store_(pixel_count(worked_on_)),
+      small_things_(small_things(frame, worked_on_)) {
   if (most_passes > 0 && most_passes < passes_until(most_samples_)) {
     const SamplesDone done = samples_after(most_passes);
     most_samples_ = done.samples;
@@ -67,25 +70,24 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
   if (with_first_hits) measures_.first_hits.resize(pixels);
   tiles_.resize(grid_.count());
   active_.resize(tiles_.size());
+  std::size_t stored = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
     tile.region = grid_.tile(i);
-    tile.samples.resize(pixel_count(tile.region));
+    tile.samples = store_.part(stored, pixel_count(tile.region));
+    stored += tile.samples.size();
     tile.places.resize(tile.samples.size());
     for (std::size_t k = 0; k < tile.places.size(); ++k) tile.places[k] = static_cast<std::uint8_t>(k);
     active_[i] = i;
   }
-  expect_small_things();
 }
 
-void Passes::expect_small_things() {
-  const std::vector<bool> pixels = small_things(frame_, worked_on_);
-  if (pixels.empty()) return;
-  for (Tile& tile : tiles_) {
-    for (std::size_t i = 0; i < tile.places.size(); ++i) {
-      const Place place = place_of(tile, i);
-      if (pixels[index_in(worked_on_, place.x, place.y)]) tile.samples[i].expect_small_things();
-    }
+void Passes::begin(Tile& tile) const {
+  std::uninitialized_value_construct(tile.samples.begin(), tile.samples.end());
+  if (small_things_.empty()) return;
+  for (std::size_t i = 0; i < tile.places.size(); ++i) {
+    const Place place = place_of(tile, i);
+    if (small_things_[index_in(worked_on_, place.x, place.y)]) tile.samples[i].expect_small_things();
   }
 }
 
@@ -148,6 +150,7 @@ void Passes::trace(const TaskRunner& run_tasks, const Step& step) {
 }
 
 void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStats& stats) {
+  if (count_ == 0) begin(tile);
   std::array<PixelPlace, most_tile_pixels> pixels;
   std::size_t count = 0;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
@@ -195,25 +198,53 @@ void Passes::show(std::span<const PixelPlace> pixels, std::int64_t count) {
 
 void Passes::exchange_notes(const TaskRunner& run_tasks) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& /*work*/, Progress& /*progress*/) {
-    Tile& tile = tiles_[active_[index]];
-    for (std::size_t i = 0; i < tile.places.size(); ++i) {
-      const Place place = place_of(tile, i);
-      if (is_in_region(place)) take_notes(place, tile.samples[i]);
-    }
+    keep_notes(tiles_[active_[index]]);
   });
 }
 
-void Passes::take_notes(const Place& place, PixelSamples& samples) const {
-  const int right = std::min(place.x + reach_, worked_on_.x + worked_on_.width - 1);
-  const int bottom = std::min(place.y + reach_, worked_on_.y + worked_on_.height - 1);
-  PixelSamples::Notes notes(samples);
-  for (int y = std::max(place.y - reach_, worked_on_.y); y <= bottom; ++y) {
-    for (int x = std::max(place.x - reach_, worked_on_.x); x <= right; ++x) {
+void Passes::look_around(const Region& window, std::span<PixelSamples::Notes> notes) const {
+  std::size_t index = 0;
+  for (int y = window.y; y < window.y + window.height; ++y) {
+    for (int x = window.x; x < window.x + window.width;) {
       const Tile& tile = tiles_[grid_.index(x, y)];
-      notes.take(tile.samples[index_in(tile.region, x, y)]);
+      const int end = std::min(window.x + window.width, tile.region.x + tile.region.width);
+      const PixelSamples* samples = &tile.samples[index_in(tile.region, x, y)];
+      for (; x < end; ++x) notes[index++] = (samples++)->notes();
     }
   }
-  samples.keep(notes);
+}
+
+void Passes::keep_notes(Tile& tile) {
+  // A square's notes are those of its rows, and these those of the pixels in them.
+  using Notes = PixelSamples::Notes;
+  constexpr std::size_t widest = Tiles::side + 2 * reach_of_notes_with_lens;
+  std::array<Notes, widest * widest> seen;
+  std::array<Notes, widest * Tiles::side> of_rows;
+  const Region window = widened(tile.region, reach_, worked_on_);
+  const auto width = static_cast<std::size_t>(tile.region.width);
+  const auto first_column = static_cast<std::size_t>(tile.region.x - window.x);
+  const auto first_row = static_cast<std::size_t>(tile.region.y - window.y);
+  look_around(window, seen);
+  // Those of `count` places, `stride` apart, as far from `place` as notes reach.
+  const auto around = [this](const Notes* row, std::size_t stride, std::size_t place, std::size_t count) {
+    const auto reach = static_cast<std::size_t>(reach_);
+    const std::size_t last = std::min(place + reach, count - 1);
+    std::size_t next = place - std::min(place, reach);
+    Notes notes = row[next * stride];
+    while (++next <= last) notes.take(row[next * stride]);
+    return notes;
+  };
+  const auto window_width = static_cast<std::size_t>(window.width);
+  const auto window_height = static_cast<std::size_t>(window.height);
+  for (std::size_t y = 0; y < window_height; ++y) {
+    for (std::size_t x = 0; x < width; ++x) {
+      of_rows[y * width + x] = around(&seen[y * window_width], 1, first_column + x, window_width);
+    }
+  }
+  for (std::size_t i = 0; i < tile.samples.size(); ++i) {
+    if (!is_in_region(place_of(tile, i))) continue;
+    tile.samples[i].keep(around(&of_rows[i % width], width, first_row + i / width, window_height));
+  }
 }
 
 void Passes::settle(const TaskRunner& run_tasks, bool at_end) {
@@ -244,8 +275,7 @@ void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
     ++work.stats.pixels;
     if (half_width > target_) ++work.stats.pixels_unresolved;
   }
-  tile.samples.resize(kept);
-  tile.samples.shrink_to_fit();
+  tile.samples = tile.samples.first(kept);
   tile.places.resize(kept);
 }
 
@@ -265,8 +295,7 @@ void Passes::restore_tile(Tile& tile, StateReader& in) {
   const bool in_order =
       std::adjacent_find(tile.places.begin(), tile.places.end(), std::greater_equal<>()) == tile.places.end();
   if (!in_order || (count > 0 && tile.places.back() >= most)) in.fail();
-  tile.samples.resize(count);
-  tile.samples.shrink_to_fit();
+  tile.samples = tile.samples.first(count);
   PixelSamples::Stored bytes;
   for (PixelSamples& samples : tile.samples) {
     in.get_all(std::span<std::byte>(bytes));

@@ -15,6 +15,7 @@
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"
 #include "core/render/pixel_measures.hpp"
+#include "core/render/pixel_store.hpp"
 #include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 
@@ -53,7 +54,7 @@ class Passes {
   /// The pixels of a tile that are still worked on.
   struct Tile {
     Region region;
-    std::vector<PixelSamples> samples;
+    std::span<PixelSamples> samples;
     std::vector<std::uint8_t> places;  ///< in the tile, row by row
   };
   struct Place {
@@ -67,7 +68,8 @@ class Passes {
   /// Of one that is.
   std::size_t index_of(const Place& place) const;
 
-  void expect_small_things();
+  /// Before its first samples.
+  void begin(Tile& tile) const;
   /// Gives pixels of the ranks from `first` to before `last` the samples up to `until`.
   struct Ranks {
     int first = 0;
@@ -90,7 +92,9 @@ class Passes {
   bool is_doubled() const;
   /// Tells the pixels what their neighbours have seen; while all pixels are still there.
   void exchange_notes(const TaskRunner& run_tasks);
-  void take_notes(const Place& place, PixelSamples& samples) const;
+  void keep_notes(Tile& tile);
+  /// What is seen in each pixel of a window, row by row.
+  void look_around(const Region& window, std::span<PixelSamples::Notes> notes) const;
   /// Takes leave of the pixels that are good enough, at the end of all.
   void settle(const TaskRunner& run_tasks, bool at_end);
   void settle_tile(Tile& tile, bool at_end, Workspace& work);
@@ -107,6 +111,8 @@ class Passes {
   Canvas& canvas_;
   DisplayScale scale_;
   double target_;
+  PixelStore store_;
+  std::vector<bool> small_things_;  ///< the pixels where some may be; empty if there are none
   std::vector<Tile> tiles_;
   std::vector<std::size_t> active_;  ///< of the tiles
   std::int64_t count_ = 0;           ///< samples of every pixel that is left

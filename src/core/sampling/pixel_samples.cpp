@@ -10,6 +10,10 @@ namespace crt::core {
 
 namespace {
 
+bool all_equal(const Channels& a, const Channels& b) {
+  return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
+}
+
 /// By degrees of freedom, from 1 on: what a mean must be divided by to lie within the quotient in 95 of 100
 /// cases (Student, The probable error of a mean, Biometrika 6(1), 1908).
 constexpr std::array<double, 7> student_95 = {12.7062, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462};
@@ -83,6 +87,7 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
   if (blocks < 2) return 1;
   const Channels low = has_notes_ ? min(low_, low_around_) : low_;
   const Channels high = has_notes_ ? max(high_, high_around_) : high_;
+  if (!edge_ && !mixed_ && all_equal(low, high)) return 0;
 
   Lanes middle{};
   for (std::size_t b = 0; b < blocks; ++b) middle += to_doubles(blocks_[b]);

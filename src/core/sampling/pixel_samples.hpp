@@ -90,29 +90,28 @@ class PixelSamples {
   /// The mean share of light that was cut off.
   double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
 
-  /// What is seen in some pixels, first of all in the one that it is for.
-  class Notes {
-   public:
-    explicit Notes(const PixelSamples& pixel)
-        : low_(pixel.low_), high_(pixel.high_), identity_(pixel.identity_), edge_(pixel.mixed_) {}
-    void take(const PixelSamples& neighbour) {
-      low_ = min(low_, neighbour.low_);
-      high_ = max(high_, neighbour.high_);
-      edge_ |= neighbour.mixed_ || neighbour.identity_ != identity_;
-    }
+  /// What is seen in one or several pixels.
+  struct Notes {
+    Channels low;
+    Channels high;
+    std::uint32_t least_identity;
+    std::uint32_t greatest_identity;
+    bool mixed;  ///< some of them are
 
-   private:
-    friend class PixelSamples;
-    Channels low_;
-    Channels high_;
-    std::uint32_t identity_;
-    bool edge_;
+    void take(const Notes& others) {
+      low = min(low, others.low);
+      high = max(high, others.high);
+      least_identity = std::min(least_identity, others.least_identity);
+      greatest_identity = std::max(greatest_identity, others.greatest_identity);
+      mixed |= others.mixed;
+    }
   };
-  /// What is seen there may reach in here.
+  Notes notes() const { return {low_, high_, identity_, identity_, mixed_}; }
+  /// Those of this pixel and its neighbours: what is seen there may reach in here.
   void keep(const Notes& notes) {
-    low_around_ = notes.low_;
-    high_around_ = notes.high_;
-    edge_ = notes.edge_;
+    low_around_ = notes.low;
+    high_around_ = notes.high;
+    edge_ = notes.mixed || notes.least_identity != notes.greatest_identity;
     has_notes_ = true;
   }
 

@@ -69,7 +69,7 @@ def povray(with_lens: bool) -> list[Rung]:
 def all_rungs(with_lens: bool, quick: bool) -> list[Rung]:
     """CRT's and POV-Ray's by turns."""
     own = [*crt_grid(with_lens), *crt_adaptive(ADAPTIVE, 16, (8, 4, 2, 1, 0.5, 0.25)),
-           *crt_adaptive(LOW_START, 4, (32, 16, 8, 4))]
+           *crt_adaptive(LOW_START, 4, (64, 32, 16, 8, 4))]
     others = povray(with_lens)
     if quick:
         own = [rung for rung in own if rung.name in ("1 x 1", "2 x 2", "4 x 4", "1 x 1 x 4", "1 x 1 x 16", "8/255")]
