@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "capi/structs.hpp"
 #include "crt/query.hpp"
@@ -21,6 +22,13 @@ static_assert(sizeof(crt_hit) == 56 && alignof(crt_hit) == alignof(double));
 static_assert(offsetof(crt_hit, t) == 0 && offsetof(crt_hit, normal) == 8);
 static_assert(offsetof(crt_hit, u) == 32 && offsetof(crt_hit, v) == 40);
 static_assert(offsetof(crt_hit, entity_id) == 48 && offsetof(crt_hit, flags) == 52);
+// So that rays can be copied as a whole.
+static_assert(sizeof(crt::Ray) == sizeof(crt_ray) && std::is_trivially_copyable_v<crt::Ray>);
+static_assert(std::is_standard_layout_v<crt::Ray> && sizeof(crt::Vec3) == sizeof(crt_ray::origin));
+static_assert(offsetof(crt::Ray, origin) == offsetof(crt_ray, origin));
+static_assert(offsetof(crt::Ray, direction) == offsetof(crt_ray, direction));
+static_assert(offsetof(crt::Ray, t_min) == offsetof(crt_ray, t_min));
+static_assert(offsetof(crt::Ray, t_max) == offsetof(crt_ray, t_max));
 
 namespace crt::capi {
 
@@ -50,12 +58,9 @@ class Places {
 };
 
 Ray to_ray(const std::byte* place) {
-  crt_ray ray;
+  Ray ray;
   std::memcpy(&ray, place, sizeof ray);
-  return {.origin = {ray.origin[0], ray.origin[1], ray.origin[2]},
-          .direction = {ray.direction[0], ray.direction[1], ray.direction[2]},
-          .t_min = ray.t_min,
-          .t_max = ray.t_max};
+  return ray;
 }
 
 /// Rays that are copied out of the caller's memory at a time.
@@ -73,7 +78,7 @@ class Rays {
     std::array<Ray, piece_size> rays;
     for (std::size_t begin = first; begin < last; begin += piece_size) {
       const std::size_t count = std::min(piece_size, last - begin);
-      for (std::size_t i = 0; i < count; ++i) rays[i] = to_ray(places_[begin + i]);
+      for (std::size_t i = 0; i < count; ++i) std::memcpy(&rays[i], places_[begin + i], sizeof(Ray));
       ask(begin, std::span<const Ray>(rays).first(count));
     }
   }

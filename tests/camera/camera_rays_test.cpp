@@ -395,9 +395,7 @@ TEST_CASE("several rays at once are the same to the last bit") {
         std::array<RayLanes, groups> with_lens;
         rays.rays(count, places, lens_points, with_lens);
         for (std::size_t i = 0; i < count; ++i) {
-          const auto lane = static_cast<int>(i % lane_count);
-          const double x = places[i / lane_count].x[lane];
-          const double y = places[i / lane_count].y[lane];
+          const auto [x, y] = lane_of(places[i / lane_count], i % lane_count);
           const CameraRay one = rays.ray(x, y);
           const auto is_lane = [&](const std::array<RayLanes, groups>& all, const CameraRay& ray) {
             const RayLanes& group = all[i / lane_count];

@@ -74,6 +74,17 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
   }
 }
 
+TEST_CASE("vectors by lane have their components in a row") {
+  const std::array<Vec3, lane_count> vectors = {Vec3(1, 2, 3), Vec3(4, 5, 6), Vec3(7, 8, 9),
+                                                Vec3(-1, -2, -3)};
+  const auto rows = by_lane(side_by_side(vectors));
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const Lanes row = rows[lane];
+    CHECK(Vec3(row[0], row[1], row[2]) == vectors[lane]);
+    CHECK(row[3] == 0);
+  }
+}
+
 TEST_CASE("lanes are chosen by mask") {
   const VectorLanes a = lanes_of(Vec3(1, 2, 3));
   const VectorLanes b = lanes_of(Vec3(4, 5, 6));

@@ -51,7 +51,7 @@ LensPoint polygon_point(const std::array<LensPoint, sides>& corners, double u, d
 
 /// See circle_point().
 template <class Real>
-LensPointOf<Real> point_of_disc(const Real& u, const Real& v) {
+PlanePointOf<Real> point_of_disc(const Real& u, const Real& v) {
   const Real x = 2.0 * u - 1.0;
   const Real y = 2.0 * v - 1.0;
   const auto beside = size_of(x) > size_of(y);

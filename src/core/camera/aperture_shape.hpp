@@ -2,27 +2,14 @@
 // gaussian keep areas: equal parts of the square go to equal parts of the shape.
 #pragma once
 
-#include "core/math/lanes.hpp"
+#include "core/math/plane_point.hpp"
 #include "crt/camera.hpp"
 
 namespace crt::core {
 
 /// A point of the lens in units of its radius, x to the picture's right and y to its top.
-template <class Real>
-struct LensPointOf {
-  Real x{};
-  Real y{};
-};
-using LensPoint = LensPointOf<double>;
-/// Several, side by side.
-using LensPointLanes = LensPointOf<Lanes>;
-inline void set_lane(LensPointLanes& points, std::size_t lane, const LensPoint& point) {
-  points.x[static_cast<int>(lane)] = point.x;
-  points.y[static_cast<int>(lane)] = point.y;
-}
-inline LensPoint lane_of(const LensPointLanes& points, std::size_t lane) {
-  return {points.x[static_cast<int>(lane)], points.y[static_cast<int>(lane)]};
-}
+using LensPoint = PlanePoint;
+using LensPointLanes = PlanePointLanes;
 
 // Each takes two numbers in [0, 1).
 

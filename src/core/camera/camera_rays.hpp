@@ -22,21 +22,8 @@ struct CameraRay {
 };
 
 /// A place in the picture, as above.
-template <class Real>
-struct PicturePlaceOf {
-  Real x{};
-  Real y{};
-};
-using PicturePlace = PicturePlaceOf<double>;
-/// Several, side by side.
-using PicturePlaceLanes = PicturePlaceOf<Lanes>;
-inline void set_lane(PicturePlaceLanes& places, std::size_t lane, const PicturePlace& place) {
-  places.x[static_cast<int>(lane)] = place.x;
-  places.y[static_cast<int>(lane)] = place.y;
-}
-inline PicturePlace lane_of(const PicturePlaceLanes& places, std::size_t lane) {
-  return {places.x[static_cast<int>(lane)], places.y[static_cast<int>(lane)]};
-}
+using PicturePlace = PlanePoint;
+using PicturePlaceLanes = PlanePointLanes;
 
 /// A camera made ready for a picture of some size. Immutable.
 class CameraRays {

@@ -1,0 +1,28 @@
+// Points of a plane, such as the picture's or the lens's.
+#pragma once
+
+#include <cstddef>
+
+#include "core/math/lanes.hpp"
+
+namespace crt::core {
+
+template <class Real>
+struct PlanePointOf {
+  Real x{};
+  Real y{};
+};
+using PlanePoint = PlanePointOf<double>;
+/// As many of them side by side as there are lanes.
+using PlanePointLanes = PlanePointOf<Lanes>;
+
+inline void set_lane(PlanePointLanes& points, std::size_t lane, const PlanePoint& point) {
+  points.x[static_cast<int>(lane)] = point.x;
+  points.y[static_cast<int>(lane)] = point.y;
+}
+
+inline PlanePoint lane_of(const PlanePointLanes& points, std::size_t lane) {
+  return {points.x[static_cast<int>(lane)], points.y[static_cast<int>(lane)]};
+}
+
+}  // namespace crt::core
