@@ -111,6 +111,15 @@ TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its
   CHECK(quiet.half_width(16, linear) == doctest::Approx(2 * 0.6 / 16));
 }
 
+TEST_CASE("a pixel with a sample that is no number claims nothing") {
+  PixelSamples pixel;
+  for (std::int64_t i = 0; i < 8; ++i) {
+    const double value = i == 3 ? std::numeric_limits<double>::quiet_NaN() : 0.5;
+    add_step(pixel, i, [&](std::int64_t) { return OneSample{Lanes{value, value, value, 1}}; });
+  }
+  CHECK(pixel.half_width(8, linear) == 1);
+}
+
 TEST_CASE("things that look alike keep a width where they meet") {
   const auto one = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 1}; };
   const auto other = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 2}; };

@@ -87,7 +87,10 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
   if (blocks < 2) return 1;
   const Channels low = has_notes_ ? min(low_, low_around_) : low_;
   const Channels high = has_notes_ ? max(high_, high_around_) : high_;
-  if (!edge_ && !mixed_ && all_equal(low, high)) return 0;
+  const Lanes means = mean(count);
+  // A sample that is no number is neither low nor high, but leaves the largest mean there is.
+  const bool sees_one_colour = all_equal(low, high) && all(means <= 2 * to_doubles(high));
+  if (!edge_ && !mixed_ && sees_one_colour) return 0;
 
   Lanes middle{};
   for (std::size_t b = 0; b < blocks; ++b) middle += to_doubles(blocks_[b]);
@@ -105,7 +108,6 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
   const Lanes half_widths =
       max(student_95[blocks - 2] * sqrt(variance), overlooked_share * (to_doubles(high) - to_doubles(low)));
 
-  const Lanes means = mean(count);
   double widest = edge_ || mixed_ ? overlooked_share * least_contrast_of_edges : 0;
   for (int i = 0; i < pixel_channels; ++i) {
     const bool is_alpha = i == pixel_channels - 1;
