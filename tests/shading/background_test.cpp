@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <numbers>
@@ -117,4 +118,27 @@ TEST_CASE("a panorama from an 8-bit file is raised to gamma") {
   picture->set(0, 0, {0.5, 0.5, 0.5, 1});
   picture->set_display_encoded(true);
   CHECK(prepared(crt::PanoramaBackground{picture}, 2).color({0, 0, 1}).r == 0.25);
+}
+
+TEST_CASE("several directions side by side see what each sees alone, to the last bit") {
+  const std::array<crt::Background, 3> backgrounds = {
+      crt::SolidBackground{{0.1, 0.2, 0.3, 0.4}},
+      crt::GradientBackground{.horizon = {1, 0, 0, 1}, .sky = {0.1, 0.7, 0.3, 0}},
+      crt::PanoramaBackground{test_picture(8, 4)}};
+  for (const crt::Background& kind : backgrounds) {
+    const PreparedBackground background = prepared(kind);
+    VectorLanes directions;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const double angle = 0.7 * static_cast<double>(lane);
+      directions.set(lane, direction(angle, angle - 1));
+    }
+    constexpr std::uint32_t asked = 0b1011;
+    const ColorLanes colors = background.colors(directions, asked);
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if ((asked >> lane & 1u) == 0) continue;
+      const Vec3 color = colors.color.lane(lane);
+      CHECK(Color{color.x, color.y, color.z, colors.alpha[static_cast<int>(lane)]} ==
+            background.color(directions.lane(lane)));
+    }
+  }
 }

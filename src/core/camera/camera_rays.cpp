@@ -138,7 +138,7 @@ void CameraRays::rays(std::size_t count, std::span<const PicturePlaceLanes> plac
     const PicturePlaceLanes& at = places[group];
     const LensPointLanes* const through = lens_points.empty() ? nullptr : &lens_points[group];
     RayLanes& found = result[group];
-    if (projection_ == Projection::pinhole && pinhole_rays(at, through, found)) continue;
+    if (!turns_across(projection_) && rays_to_plane(at, through, found)) continue;
     for (std::size_t lane = 0; lane < lane_count && group * lane_count + lane < count; ++lane) {
       const auto i = static_cast<int>(lane);
       CameraRay one;
@@ -153,25 +153,31 @@ void CameraRays::rays(std::size_t count, std::span<const PicturePlaceLanes> plac
   }
 }
 
-bool CameraRays::pinhole_rays(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
-                              RayLanes& result) const {
-  const Lanes to_right = across(places.x) * half_across_;
-  const Lanes to_top = upwards(places.y) * half_up_;
+bool CameraRays::rays_to_plane(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
+                               RayLanes& result) const {
+  const bool is_pinhole = projection_ == Projection::pinhole;
+  const double scale = is_pinhole ? 1 : focal_distance_;
+  const Lanes to_right = across(places.x) * half_across_ * scale;
+  const Lanes to_top = upwards(places.y) * half_up_ * scale;
   std::array<Lanes, 3> way;
   std::array<Lanes, 3> origin;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    way[i] = forward_[axis] + to_right * right_[axis] + to_top * up_[axis];
+    way[i] = lanes_of(forward_[axis]);
     origin[i] = lanes_of(position_[axis]);
+    Lanes& moved = is_pinhole ? way[i] : origin[i];
+    moved = moved + to_right * right_[axis] + to_top * up_[axis];
     if (lens_points == nullptr) continue;
     const Lanes offset = lens_radius_ * (lens_points->x * right_[axis] + lens_points->y * up_[axis]);
     way[i] = focal_distance_ * way[i] - offset;
     origin[i] += offset;
   }
-  const Lanes square = dot(way, way);
-  if (!all((square > safe_square_min) & (square < safe_square_max))) return false;
-  const Lanes length = sqrt(square);
-  for (Lanes& component : way) component /= length;
+  if (is_pinhole || lens_points != nullptr) {
+    const Lanes square = dot(way, way);
+    if (!all((square > safe_square_min) & (square < safe_square_max))) return false;
+    const Lanes length = sqrt(square);
+    for (Lanes& component : way) component /= length;
+  }
   result = {.origin = {origin[0], origin[1], origin[2]}, .direction = {way[0], way[1], way[2]}};
   return true;
 }

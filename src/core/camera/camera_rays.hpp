@@ -74,10 +74,10 @@ class CameraRays {
   void spherical_ray(double nx, double ny, CameraRay& ray) const;
   void cylindrical_ray(double nx, double ny, CameraRay& ray) const;
   void orthographic_ray(double nx, double ny, CameraRay& ray) const;
-  /// Of a pinhole camera; no lens points for the rays through its middle. False if lengths are so extreme
-  /// that each must be found by itself.
-  bool pinhole_rays(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
-                    RayLanes& result) const;
+  /// Of a pinhole or an orthographic camera; no lens points for the rays through its middle. False if lengths
+  /// are so extreme that each must be found by itself.
+  bool rays_to_plane(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
+                     RayLanes& result) const;
   template <class Real>
   Real across(const Real& x) const {
     return 2.0 * x / width_ - 1.0;

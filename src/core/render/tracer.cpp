@@ -101,11 +101,15 @@ void Tracer::follow() {
 
   // Of most rays there is nothing more to see than that.
   const bool absorbs = frame_.features().absorption;
+  RayMask bringing = 0;
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    const bool plainly = !absorbs && hits_[i].found() && !hits_[i].has_company;
-    on_surface |= static_cast<RayMask>(plainly || see(i)) << i;
+    bringing |= static_cast<RayMask>((!absorbs && !hits_[i].has_company) || see(i)) << i;
+    on_surface |= static_cast<RayMask>(hits_[i].found()) << i;
   }
+  const RayMask seeing_nothing = bringing & ~on_surface;
+  on_surface &= bringing;
+  if (seeing_nothing != 0) see_background(seeing_nothing);
   if (identifies_) note_surfaces(on_surface);
   look_up_each(on_surface);
   add_light(on_surface);
@@ -120,12 +124,7 @@ bool Tracer::see(std::size_t ray) {
   RayHit& hit = hits_[ray];
   if (hit.has_company && has_transparency_) hit = seen_of(round_->rays.ray(ray));
   const bool absorbs = frame_.features().absorption && round_->paths[ray].media != MediaLists::empty;
-  if (absorbs && !pass_medium(ray)) return false;
-  if (!hit.found()) {
-    see_background(ray);
-    return false;
-  }
-  return true;
+  return !absorbs || pass_medium(ray);
 }
 
 void Tracer::look_up_each(RayMask on_surface) {
@@ -148,16 +147,21 @@ bool Tracer::pass_medium(std::size_t ray) {
   return !is_black(left);
 }
 
-void Tracer::see_background(std::size_t ray) {
-  Sample& sample = *round_->samples[ray];
-  if (identifies_) note(sample, nothing);
-  const Color background = data_.background().color(round_->rays.direction(ray));
-  Rgb light = weight(ray) * rgb(background);
-  if (round_->paths[ray].kind == RayKind::camera) {
-    sample.channels[3] = background.a;
-    light = background.a * weight(ray) * rgb(background);
-  }
-  sample.channels += Lanes{light.x, light.y, light.z, 0};
+void Tracer::see_background(RayMask rays) {
+  RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+    const ColorLanes seen = data_.background().colors(round_->rays.lines[group].direction, lanes);
+    const std::size_t first = group * lane_count;
+    // Only to the camera the background may be transparent; all rays of a round are or are not its.
+    const bool are_camera_rays = round_->paths[first].kind == RayKind::camera;
+    const VectorLanes& weights = round_->weights[group];
+    const auto light = by_lane((are_camera_rays ? seen.alpha * weights : weights) * seen.color);
+    for_each_ray(lanes, [&](std::size_t lane) {
+      Sample& sample = *round_->samples[first + lane];
+      if (identifies_) note(sample, nothing);
+      if (are_camera_rays) sample.channels[3] = seen.alpha[static_cast<int>(lane)];
+      sample.channels += light[lane];
+    });
+  });
 }
 
 RayMask Tracer::taking_light(RayMask on_surface) const {

@@ -59,9 +59,10 @@ class Tracer {
   void start_media(std::size_t ray);
   /// Follows the rays of this round, and makes the next.
   void follow();
-  /// Whether there is a surface, whose light is still to come; else the ray is done.
+  /// Takes a closer look at what a ray meets. False if no light from there gets through what is on the way.
   bool see(std::size_t ray);
-  void see_background(std::size_t ray);
+  /// Adds what those rays see that hit nothing.
+  void see_background(RayMask rays);
   /// Takes from the weight what the medium around the way to a hit absorbs; whether anything is left.
   bool pass_medium(std::size_t ray);
 

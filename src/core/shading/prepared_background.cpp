@@ -4,8 +4,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "core/shading/rgb.hpp"
-
 namespace crt::core {
 
 namespace {
@@ -25,6 +23,15 @@ Color PreparedBackground::color(const Vec3& direction) const {
     return mix(gradient->horizon, gradient->sky, std::min(1.0, std::abs(direction.y)));
   }
   return panorama(std::get<PanoramaBackground>(background_), direction);
+}
+
+ColorLanes PreparedBackground::colors(const VectorLanes& directions, std::uint32_t lanes) const {
+  if (const auto* solid = std::get_if<SolidBackground>(&background_)) return lanes_of(solid->color);
+  ColorLanes colors;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    if ((lanes >> lane & 1u) != 0) colors.set(lane, color(directions.lane(lane)));
+  }
+  return colors;
 }
 
 Color PreparedBackground::panorama(const PanoramaBackground& panorama, const Vec3& direction) const {

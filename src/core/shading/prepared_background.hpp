@@ -3,6 +3,7 @@
 
 #include <memory>
 
+#include "core/shading/rgb.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/background.hpp"
 #include "crt/vec.hpp"
@@ -17,6 +18,8 @@ class PreparedBackground {
 
   /// The colour in a direction (unit length), not premultiplied.
   Color color(const Vec3& direction) const;
+  /// The same, to the last bit, in the lanes that have their bit in `lanes`.
+  ColorLanes colors(const VectorLanes& directions, std::uint32_t lanes) const;
 
  private:
   Color panorama(const PanoramaBackground& panorama, const Vec3& direction) const;
