@@ -33,7 +33,7 @@ class PreparedTree {
     FoundFlips result;
     scene_.surrounding(line, hits_, work_);
     result.inside_before = !hits_.empty();
-    scene_.crossings(line, false, hits_, work_);
+    scene_.crossings(line, hits_, work_);
     for (const core::RayHit& hit : hits_) result.flips.push_back({hit.t, hit.entering});
     return result;
   }

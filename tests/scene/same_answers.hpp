@@ -58,7 +58,7 @@ inline void check_first_crossings(const PreparedData& data, const std::vector<Wo
     const RayHit alone = data.intersect(rays[k], work);
     REQUIRE(same(alone, hits[k]));
     // The crossings are found by the shapes themselves.
-    data.crossings(rays[k], false, line, work);
+    data.crossings(rays[k], line, work);
     REQUIRE(alone.found() == !line.empty());
     REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
     if (!alone.found() || alone.has_company) continue;

@@ -24,7 +24,7 @@ namespace {
 std::vector<RayHit> all_crossings(const PreparedData& scene, const WorldRay& ray) {
   RayWorkspace work;
   std::vector<RayHit> hits;
-  scene.crossings(ray, false, hits, work);
+  scene.crossings(ray, hits, work);
   return hits;
 }
 

@@ -121,7 +121,7 @@ void check_to_surfaces(const PreparedData& data, std::vector<WorldRay> rays, Ray
   }
   const RayMask hidden = occluded_as_packet(data, rays, work);
   for (std::size_t k = 0; k < rays.size(); ++k) {
-    data.crossings(rays[k], false, line, work);
+    data.crossings(rays[k], line, work);
     REQUIRE(data.occluded(rays[k], work) == !line.empty());
     REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
   }

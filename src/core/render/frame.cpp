@@ -46,7 +46,7 @@ bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work)
     WorldRay line = {.origin = point, .direction = Vec3(0)};
     line.direction[axis] = 1;
     line.t_min = -std::numeric_limits<double>::max();
-    data.crossings(line, false, work.crossings, work.rays);
+    data.crossings(line, work.crossings, work.rays);
     for (const RayHit& hit : work.crossings) {
       if (std::abs(hit.t) <= hit.error + width) return true;
     }

@@ -52,7 +52,7 @@ class Query {
   bool occluded() const { return data_.occluded(ray_, work_); }
 
   void crossings(std::vector<RayHit>& found, std::vector<Hit>& out) const {
-    data_.crossings(ray_, false, found, work_);
+    data_.crossings(ray_, found, work_);
     out.clear();
     out.reserve(found.size());
     for (const RayHit& hit : found) out.push_back(described(hit));

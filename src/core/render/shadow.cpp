@@ -10,20 +10,19 @@ namespace crt::core {
 
 namespace {
 
-/// What the media along the ray absorb, between the crossings in work.crossings.
+/// What the media along the ray absorb, between the crossings.
 class AbsorbedShare {
  public:
-  AbsorbedShare(const PreparedData& data, const WorldRay& ray, MediaLists& lists, MediaLists::List media,
-                Workspace& work)
-      : data_(data), ray_(ray), lists_(lists), media_(media), work_(work) {}
+  AbsorbedShare(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
+                MediaLists& lists, MediaLists::List media, Workspace& work)
+      : data_(data), ray_(ray), crossings_(crossings), lists_(lists), media_(media), work_(work) {}
 
   Rgb share() {
     const std::uint32_t mark = lists_.mark();
-    const std::vector<RayHit>& crossings = work_.crossings;
-    for (std::size_t begin = 0; begin < crossings.size();) {
+    for (std::size_t begin = 0; begin < crossings_.size();) {
       std::size_t end = begin + 1;
-      while (end < crossings.size() && same_place(crossings[begin], crossings[end])) ++end;
-      go_on_to(crossings[begin].t);
+      while (end < crossings_.size() && same_place(crossings_[begin], crossings_[end])) ++end;
+      go_on_to(crossings_[begin].t);
       pass(begin, end);
       begin = end;
     }
@@ -45,7 +44,7 @@ class AbsorbedShare {
     std::vector<RayHit>& entered = work_.entered;
     entered.clear();
     for (std::size_t i = begin; i < end; ++i) {
-      const RayHit& crossing = work_.crossings[i];
+      const RayHit& crossing = crossings_[i];
       if (!data_.is_solid(crossing)) continue;
       if (crossing.entering) {
         if (entered.size() < most_media_at_once) entered.push_back(crossing);
@@ -63,8 +62,8 @@ class AbsorbedShare {
 
   /// Where the ray's line leaves a solid, from a crossing on.
   RayHit exit_after(std::size_t index, std::uint32_t object) const {
-    for (; index < work_.crossings.size(); ++index) {
-      const RayHit& crossing = work_.crossings[index];
+    for (; index < crossings_.size(); ++index) {
+      const RayHit& crossing = crossings_[index];
       if (crossing.object == object && !crossing.entering) return crossing;
     }
     if (std::isinf(ray_.t_max)) return {};
@@ -76,6 +75,7 @@ class AbsorbedShare {
 
   const PreparedData& data_;
   const WorldRay& ray_;
+  std::span<const RayHit> crossings_;
   MediaLists& lists_;
   MediaLists::List media_;
   Workspace& work_;
@@ -85,17 +85,15 @@ class AbsorbedShare {
 
 }  // namespace
 
-Rgb light_share(const PreparedData& data, const WorldRay& ray, MediaLists& lists, MediaLists::List media,
-                Workspace& work) {
-  if (!data.crossings(ray, true, work.crossings, work.rays)) return Rgb(0);
-
+Rgb light_share(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
+                MediaLists& lists, MediaLists::List media, Workspace& work) {
   Rgb share(1);
-  for (const RayHit& crossing : work.crossings) {
+  for (const RayHit& crossing : crossings) {
     const CrossingFilter filter = crossing_filter(data, ray, crossing, work.stats);
     share *= filter.transparency * filter.color;
     if (is_black(share)) return share;
   }
-  if (data.features().absorption) share *= AbsorbedShare(data, ray, lists, media, work).share();
+  if (data.features().absorption) share *= AbsorbedShare(data, ray, crossings, lists, media, work).share();
   return share;
 }
 

@@ -5,10 +5,10 @@
 
 namespace crt::core {
 
-/// Where something is transparent: the share of light, by channel, that the way along `ray` to its t_max
-/// leaves. Transparent things tint it at each crossing, and where solids absorb (the innermost around the ray
-/// does) by the length inside. `media` are those around the ray's start, of `lists`.
-Rgb light_share(const PreparedData& data, const WorldRay& ray, MediaLists& lists, MediaLists::List media,
-                Workspace& work);
+/// The share of light, by channel, that the way along `ray` to its t_max leaves, on which all crossings are
+/// of transparent things. These tint it at each crossing, and where solids absorb (the innermost around the
+/// ray does) by the length inside. `media` are those around the ray's start, of `lists`.
+Rgb light_share(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
+                MediaLists& lists, MediaLists::List media, Workspace& work);
 
 }  // namespace crt::core

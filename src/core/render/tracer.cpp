@@ -207,19 +207,20 @@ void Tracer::add_light(RayMask on_surface) {
     const auto count = static_cast<unsigned>(std::popcount(sent));
     work_.stats.shadow_rays += count;
     tick(count);
-    const RayMask hidden = data_.occluded_each(shadow_rays_, starts, sent, work_.rays);
+    const LightWays ways = ways_to_light(starts, sent);
     if (identifies_) {
-      for_each_ray(hidden, [&](std::size_t i) { note(*round_->samples[i], shaded_from(lamp)); });
+      for_each_ray(ways.blocked | ways.filtered,
+                   [&](std::size_t i) { note(*round_->samples[i], shaded_from(lamp)); });
     }
-    const RayMask filtered = filtering(sent, hidden);
-    const RayMask reached = sent & ~hidden & ~filtered;
+    const RayMask filtered = ways.filtered | absorbing(sent & ~ways.blocked);
+    const RayMask reached = sent & ~ways.blocked & ~filtered;
     RayPacket::for_each_group(reached, [&](std::size_t i, RayMask lanes) {
       VectorLanes& light = surfaces_[i].light;
       light = chosen(lanes_with(lanes), light + lights_[i], light);
     });
     for_each_ray(filtered, [&](std::size_t i) {
-      const Rgb share =
-          light_share(data_, shadow_rays_.ray(i), round_->works[i]->media, round_->paths[i].media, work_);
+      const Rgb share = light_share(data_, shadow_rays_.ray(i), work_.rays.on_ways[i],
+                                    round_->works[i]->media, round_->paths[i].media, work_);
       const SurfaceLane lit = surface(i);
       lit.group.light.set(lit.lane, lit.light() + lights_[i / lane_count].lane(lit.lane) * share);
     });
@@ -227,14 +228,19 @@ void Tracer::add_light(RayMask on_surface) {
   }
 }
 
-RayMask Tracer::filtering(RayMask sent, RayMask hidden) const {
-  RayMask filtered = has_transparency_ ? hidden : 0;
+LightWays Tracer::ways_to_light(const PacketStarts& starts, RayMask sent) {
+  if (has_transparency_) return data_.ways_to_light(shadow_rays_, starts, sent, work_.rays);
+  return {.blocked = data_.occluded_each(shadow_rays_, starts, sent, work_.rays)};
+}
+
+RayMask Tracer::absorbing(RayMask sent) const {
+  RayMask absorbing = 0;
   if (frame_.features().absorption) {
-    for_each_ray(sent & ~hidden, [&](std::size_t i) {
-      filtered |= static_cast<RayMask>(round_->paths[i].media != MediaLists::empty) << i;
+    for_each_ray(sent, [&](std::size_t i) {
+      absorbing |= static_cast<RayMask>(round_->paths[i].media != MediaLists::empty) << i;
     });
   }
-  return filtered;
+  return absorbing;
 }
 
 RayHit Tracer::seen_of(const WorldRay& ray) {

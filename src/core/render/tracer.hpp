@@ -82,8 +82,10 @@ class Tracer {
   /// Makes the rays that find out which of some surfaces a light reaches, and returns which: to the others no
   /// light comes.
   RayMask send_to(const PreparedLight& source, RayMask surfaces_lit);
-  /// Those of the ways to a light along which it may get through in part.
-  RayMask filtering(RayMask sent, RayMask hidden) const;
+  /// What is on the ways of the shadow rays that are sent.
+  LightWays ways_to_light(const PacketStarts& starts, RayMask sent);
+  /// Those that start where something absorbs light.
+  RayMask absorbing(RayMask sent) const;
 
   /// The mirrored and the refracted rays that go on from where a group of rays ends.
   struct Split {

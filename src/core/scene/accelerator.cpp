@@ -7,10 +7,10 @@
 #include <span>
 
 #include "core/math/vector.hpp"
+#include "core/scene/all_crossings.hpp"
 #include "core/scene/apart.hpp"
 #include "core/scene/embree_tree.hpp"
 #include "core/scene/memory.hpp"
-#include "core/scene/object_query.hpp"
 #include "core/scene/space_order.hpp"
 #include "core/tasks/parallel.hpp"
 
@@ -169,40 +169,6 @@ void Accelerator::traverse(Kind& query) const {
 
 namespace {
 
-class All final : public ObjectQuery<All> {
- public:
-  All(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace,
-      const std::vector<bool>* opaque, std::vector<RayHit>& hits)
-      : ObjectQuery(accelerator, world_ray, workspace),
-        accelerator_(accelerator),
-        is_opaque_(opaque),
-        left_object_(opaque == nullptr ? nothing : accelerator.left_for_good(world_ray.start)),
-        out_(hits) {}
-  static constexpr bool takes_one = false;
-  bool stopped = false;
-
-  void test(std::uint32_t object) {
-    if (object != left_object_) ObjectQuery::test(object);
-  }
-
-  bool take(const RayHit& hit) {
-    if (!is_on_way(hit)) return false;
-    if (is_opaque_ != nullptr && (*is_opaque_)[accelerator_.leaf(hit.leaf).material]) {
-      stopped = true;
-      set_limit(-infinity);
-      return false;
-    }
-    out_.push_back(hit);
-    return true;
-  }
-
- private:
-  const Accelerator& accelerator_;
-  const std::vector<bool>* is_opaque_;
-  std::uint32_t left_object_;
-  std::vector<RayHit>& out_;
-};
-
 class Stayed final : public ObjectQuery<Stayed> {
  public:
   using ObjectQuery::ObjectQuery;
@@ -242,9 +208,9 @@ class Surrounding final : public ObjectQuery<Surrounding> {
 
 }  // namespace
 
-bool Accelerator::all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
+bool Accelerator::all(const WorldRay& ray, const Opacity* opacity, std::vector<RayHit>& out,
                       RayWorkspace& work) const {
-  All query(*this, ray, work, is_opaque, out);
+  All query(*this, ray, work, opacity, out);
   traverse(query);
   return !query.stopped;
 }

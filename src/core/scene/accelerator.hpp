@@ -40,10 +40,12 @@ class Accelerator {
   /// On what some rays start, and what they have left for good.
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
-  /// Appends every crossing, unsorted; stops early and returns false at the first whose leaf's
-  /// material `is_opaque` says so (if given).
-  bool all(const WorldRay& ray, const std::vector<bool>* is_opaque, std::vector<RayHit>& out,
-           RayWorkspace& work) const;
+  /// Appends every crossing, unsorted; stops early and returns false at the first of an opaque thing, if it
+  /// is told which these are.
+  bool all(const WorldRay& ray, const Opacity* opacity, std::vector<RayHit>& out, RayWorkspace& work) const;
+  /// See PreparedData::ways_to_light(); but for the crossings' order.
+  LightWays ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                          const Opacity& opacity, Packets packets, RayWorkspace& work) const;
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the ray
   /// never leaves counts as left at infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;

@@ -61,18 +61,31 @@ PlainRay<Real> plain_ray(const OutlineLine<Real>& line) {
   return {.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}};
 }
 
+/// Where lines that do not start on a sphere enter and leave it.
 template <class Real>
-FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
+std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
   const double unit = power_of_two_below(sphere.radius);
   const auto chord = SphereChord<Real>::of(plain_ray(line), sphere.place, sphere.radius, unit);
   if (!any(chord.found)) return {};
-  const auto enter = after_start(line, chord.enter.t, chord.enter.error);
-  const auto leave = after_start(line, chord.leave.t, chord.leave.error);
-  return {.found = both(chord.found, either(enter.surely, leave.surely)),
-          .unknown = both(chord.found, either(enter.unknown, leave.unknown)),
-          .entering = enter.surely,
-          .t = enter.surely ? chord.enter.t : chord.leave.t,
-          .error = enter.surely ? chord.enter.error : chord.leave.error};
+  const auto of_end = [&](const typename SphereChord<Real>::End& end, const MaskOf<Real>& entering) {
+    const auto start = after_start(line, end.t, end.error);
+    return FirstCrossing<Real>{.found = both(chord.found, start.surely),
+                               .unknown = both(chord.found, start.unknown),
+                               .entering = entering,
+                               .t = end.t,
+                               .error = end.error};
+  };
+  return {of_end(chord.enter, lanes_of_mask<Real>(~std::uint32_t{0})), of_end(chord.leave, MaskOf<Real>{})};
+}
+
+template <class Real>
+FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
+  const auto [enter, leave] = crossings_of_sphere(sphere, line);
+  return {.found = either(enter.found, leave.found),
+          .unknown = either(enter.unknown, leave.unknown),
+          .entering = enter.found,
+          .t = enter.found ? enter.t : leave.t,
+          .error = enter.found ? enter.error : leave.error};
 }
 
 template <class Real>

@@ -177,4 +177,24 @@ RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, 
   return some & ~traverse_filtered(packet, some, answers);
 }
 
+LightWays Accelerator::ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                                     const Opacity& opacity, Packets packets, RayWorkspace& work) const {
+  for_each_ray(some, [&](std::size_t i) { work.on_ways[i].clear(); });
+  LightWays ways;
+  if (pay_together(rays, some, packets)) {
+    RayPacket packet(rays, starts, some);
+    LightOfEach answers{{*this, rays, work}, opacity, work.on_ways};
+    ways.blocked = some & ~traverse_filtered(packet, some, answers);
+  } else {
+    for_each_ray(some, [&](std::size_t i) {
+      const WorldRay ray = rays.ray(i);
+      const bool is_blocked = any(ray, work) && !all(ray, &opacity, work.on_ways[i], work);
+      ways.blocked |= static_cast<RayMask>(is_blocked) << i;
+    });
+  }
+  for_each_ray(some & ~ways.blocked,
+               [&](std::size_t i) { ways.filtered |= static_cast<RayMask>(!work.on_ways[i].empty()) << i; });
+  return ways;
+}
+
 }  // namespace crt::core

@@ -7,7 +7,9 @@
 #include <limits>
 #include <span>
 #include <utility>
+#include <vector>
 
+#include "core/scene/all_crossings.hpp"
 #include "core/scene/first_crossing.hpp"
 #include "core/scene/nearest_and_any.hpp"
 #include "core/scene/outlined_rays.hpp"
@@ -17,6 +19,7 @@ namespace crt::core {
 /// What some rays of a batch ask, and find: the nearest crossing.
 struct NearestOfEach {
   static constexpr bool any_will_do = false;
+  static constexpr bool gathers = false;
 
   const Accelerator& accelerator;
   const RayBatch& rays;
@@ -34,6 +37,7 @@ struct NearestOfEach {
 /// The same: whether there is any.
 struct AnyOfEach {
   static constexpr bool any_will_do = true;
+  static constexpr bool gathers = false;
 
   const Accelerator& accelerator;
   const RayBatch& rays;
@@ -43,6 +47,20 @@ struct AnyOfEach {
   Any query(std::size_t ray) {
     asked = rays.ray(ray);
     return {accelerator, asked, work};
+  }
+};
+
+/// The same: whether there is anything opaque; and else all that there is, by ray.
+struct LightOfEach : AnyOfEach {
+  static constexpr bool gathers = true;
+
+  const Opacity& opacity;
+  std::span<std::vector<RayHit>, packet_size> found;
+
+  bool is_gathered(std::uint32_t object) const { return !opacity.of_objects[object]; }
+  All all(std::size_t ray) {
+    asked = rays.ray(ray);
+    return {accelerator, asked, work, &opacity, found[ray]};
   }
 };
 
@@ -64,6 +82,9 @@ class PacketTests {
     rays &= ~outlined_.left(outline);
     if (rays == 0) return 0;
     const BoxStarts starts = outlined_.box_starts(outline, outlines, rays);
+    if constexpr (Answers::gathers) {
+      if (answers_.is_gathered(outline.object)) return gather(outline, outlines, rays, starts);
+    }
     const Verdict<RayMask> verdict = outlined_.judge(outline, outlines, rays, starts, any_will_do);
     RayMask open = rays & ~verdict.missed;
     if constexpr (any_will_do) {
@@ -174,6 +195,42 @@ class PacketTests {
       limits = nearer ? reach : limits;
       changed_ |= mask_of(nearer) << first_ray;
     }
+  }
+
+  /// Gathers all crossings with an object, of which not all is opaque.
+  RayMask gather(const Outline& outline, const Outlines& outlines, RayMask rays, const BoxStarts& starts) {
+    RayMask open = rays & ~outlined_.judge(outline, outlines, rays, starts, false).missed;
+    if (outline.kind == Outline::Kind::sphere && outlines.leaf_told(outline) != nothing) {
+      RayPacket::for_each_group(
+          open & outlined_.told(outline, starts), [&](std::size_t group, RayMask asked) {
+            open &= ~(gather_chords(outline, outlines, group, asked) << (group * lane_count));
+          });
+    }
+    for_each_ray(open, [&](std::size_t ray) {
+      All query = answers_.all(ray);
+      query.test(outline.object);
+      if (query.stopped) settle(RayMask{1} << ray);
+    });
+    return changed_;
+  }
+
+  /// Those of lanes with a sphere that they do not start on. Returns which lanes are done.
+  RayMask gather_chords(const Outline& sphere, const Outlines& outlines, std::size_t group, RayMask asked) {
+    const OutlineLine<Lanes>& lines = packet_.groups[group];
+    const auto ends = crossings_of_sphere(sphere, lines);
+    const auto clear = [&](const FirstCrossing<Lanes>& end) {
+      return ~end.unknown & (~end.found | (end.t < lines.certain_to) | (end.t > packet_.limits[group]));
+    };
+    const RayMask done = asked & mask_of(clear(ends[0]) & clear(ends[1]));
+    answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(done));
+    for (const FirstCrossing<Lanes>& end : ends) {
+      const RayMask found = done & mask_of(end.found & (end.t <= packet_.limits[group]));
+      for_each_ray(found, [&](std::size_t lane) {
+        write_first(sphere, outlines, lane_of(end, lane),
+                    answers_.found[group * lane_count + lane].emplace_back());
+      });
+    }
+    return done;
   }
 
   /// The same as test_told() by the sketch of a CSG object.

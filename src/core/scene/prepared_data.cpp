@@ -38,6 +38,17 @@ void unify_coincident(std::vector<RayHit>& crossings) {
   }
 }
 
+Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
+  Opacity opacity;
+  for (const PreparedMaterial& material : materials) opacity.of_materials.push_back(material.opaque);
+  for (const SceneObject& object : scene.objects) {
+    const std::span<const Leaf> leaves = scene.leaves_of(object);
+    opacity.of_objects.push_back(std::all_of(
+        leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return opacity.of_materials[leaf.material]; }));
+  }
+  return opacity;
+}
+
 }  // namespace
 
 /// What depends on the entities and on nothing else in the scene but the precision.
@@ -83,7 +94,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
   leaves_ = accelerator_->compiled().leaves;
   face_surfaces_ = accelerator_->compiled().face_surfaces;
   for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
-  for (const PreparedMaterial& material : materials_) opaque_.push_back(material.opaque);
+  opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ = std::make_unique<PreparedBackground>(scene.background, textures_);
   textures_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
@@ -97,8 +108,8 @@ PreparedData::~PreparedData() = default;
 MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
   use.primitives += bytes_of(geometry_->entities);
-  use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + opaque_.capacity() / CHAR_BIT +
-                  textures_.bytes();
+  use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + textures_.bytes() +
+                  (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
   return use;
 }
 
@@ -129,16 +140,25 @@ PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) cons
   return accelerator_->noted_starts(rays, some);
 }
 
-bool PreparedData::crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
-                             RayWorkspace& work) const {
+LightWays PreparedData::ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                                      RayWorkspace& work, Packets packets) const {
+  const LightWays ways = accelerator_->ways_to_light(rays, starts, some, opacity_, packets, work);
+  for_each_ray(ways.filtered, [&](std::size_t i) { sort(work.on_ways[i]); });
+  return ways;
+}
+
+void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
   out.clear();
-  if (!accelerator_->all(ray, stop_at_opaque ? &opaque_ : nullptr, out, work)) return false;
-  if (accelerator_->objects_share_surfaces()) unify_coincident(out);
+  accelerator_->all(ray, nullptr, out, work);
+  sort(out);
+}
+
+void PreparedData::sort(std::vector<RayHit>& crossings) const {
+  if (accelerator_->objects_share_surfaces()) unify_coincident(crossings);
   // Where two solids touch, one is left before the other is entered.
-  std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
+  std::sort(crossings.begin(), crossings.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.t, a.t_low, a.entering, a.object) < std::tie(b.t, b.t_low, b.entering, b.object);
   });
-  return true;
 }
 
 void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {

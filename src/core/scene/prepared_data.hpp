@@ -1,6 +1,7 @@
 // The inside of a PreparedScene: what the renderer and the ray queries see of it.
 #pragma once
 
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <limits>
@@ -84,10 +85,24 @@ struct RayWorkspace {
   /// written, and those so near that rounding may put a ray which starts there on either side of them.
   std::vector<RayHit> here;
   std::vector<RayHit> near;
+  /// By ray of a packet: what ways_to_light() finds.
+  std::array<std::vector<RayHit>, packet_size> on_ways;
 
   std::uint64_t interval_events() const { return csg.events; }
   /// Questions of the exact tier that only exact arithmetic answered.
   std::uint64_t escalations() const { return leaf_escalations + csg.escalations; }
+};
+
+/// Which things let no light through.
+struct Opacity {
+  std::vector<bool> of_materials;
+  std::vector<bool> of_objects;  ///< of objects of opaque materials alone
+};
+
+/// What is on the ways of a batch's rays to a light.
+struct LightWays {
+  RayMask blocked = 0;   ///< those that something opaque is on
+  RayMask filtered = 0;  ///< of the others those that anything else is on
 };
 
 /// Immutable after prepare(); every member function is safe from any number of threads.
@@ -117,11 +132,14 @@ class PreparedData {
                         RayWorkspace& work) const;
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
+  /// What light meets on its way along such rays. For each that is filtered the crossings, as crossings() has
+  /// them, are in RayWorkspace::on_ways.
+  LightWays ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some, RayWorkspace& work,
+                          Packets packets = Packets::where_they_pay) const;
+
   /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
-  /// others are entered. With `stop_at_opaque`, returns false as soon as one of an opaque
-  /// material is found (the list is then of no use); otherwise true.
-  bool crossings(const WorldRay& ray, bool stop_at_opaque, std::vector<RayHit>& out,
-                 RayWorkspace& work) const;
+  /// others are entered.
+  void crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
   /// Of each solid that holds the start of the ray (just after it, for a ray that starts on a
   /// surface), the crossing at which the ray leaves it, the farthest first: outermost to innermost
@@ -206,11 +224,14 @@ class PreparedData {
  private:
   struct Geometry;
 
+  /// Puts all crossings of a ray into order.
+  void sort(std::vector<RayHit>& crossings) const;
+
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;
   TexturePool textures_;
   std::vector<PreparedMaterial> materials_;
-  std::vector<bool> opaque_;  ///< by material
+  Opacity opacity_;
   std::unique_ptr<const PreparedBackground> background_;
   Features features_;
   // Of the geometry:
