@@ -12,6 +12,7 @@
 #include "core/scene/outlined_rays.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "scene/numbers.hpp"
+#include "scene/placed.hpp"
 #include "scene/same_answers.hpp"
 
 using namespace crt;
@@ -22,30 +23,7 @@ namespace {
 
 constexpr std::uint64_t seed = 20261123;
 
-/// A torus, and what is done to it on the way to the world.
-struct PlacedTorus {
-  Torus torus;
-  std::vector<Transform> steps;
-
-  double size() const { return torus.radius + torus.thickness; }
-  Entity entity() const {
-    Entity entity = torus;
-    for (const Transform& step : steps) entity = entity.transformed(step);
-    return entity;
-  }
-  Vec3 direction_to_world(Vec3 v) const {
-    for (const Transform& step : steps) {
-      v = {glm::dot(step.row_x, v), glm::dot(step.row_y, v), glm::dot(step.row_z, v)};
-    }
-    return v;
-  }
-  Vec3 to_place(Vec3 p) const {
-    for (const Transform& step : steps) {
-      p = Vec3(glm::dot(step.row_x, p), glm::dot(step.row_y, p), glm::dot(step.row_z, p)) + step.translation;
-    }
-    return p;
-  }
-};
+using PlacedTorus = Placed<Torus>;
 
 /// Thin, fat or a spindle; not moved, moved, turned, or scaled unevenly.
 PlacedTorus some_torus(Numbers& numbers, double scale) {
@@ -55,24 +33,17 @@ PlacedTorus some_torus(Numbers& numbers, double scale) {
                        : numbers.below(2) == 0 ? numbers.within(0.1, 1)
                                                : numbers.size(1, 30);
   const Vec3 axis = numbers.below(3) == 0 ? Vec3(0, 1, 0) : numbers.direction();
-  placed.torus = {.center = scale * numbers.point(numbers.below(2) == 0 ? 1 : 1e3),
-                  .axis = axis,
-                  .radius = ring,
-                  .thickness = ring * share};
-  const int kind = numbers.below(4);
-  const Transform moved = translate(scale * numbers.point(numbers.below(2) == 0 ? 1 : 1e3));
-  const Vec3 factors(numbers.size(0.1, 10), numbers.size(0.1, 10), numbers.size(0.1, 10));
-  if (kind > 1) {
-    placed.steps = {kind == 2 ? crt::scale(numbers.size(0.1, 10)) : crt::scale(factors),
-                    rotate(numbers.point(180))};
-  }
-  if (kind > 0) placed.steps.push_back(moved);
+  placed.primitive = {.center = scale * numbers.point(numbers.below(2) == 0 ? 1 : 1e3),
+                      .axis = axis,
+                      .radius = ring,
+                      .thickness = ring * share};
+  placed.steps = some_steps(numbers, scale);
   return placed;
 }
 
 /// Through the torus, along its surface, through its hole, or past it.
 WorldRay ray_near(const PlacedTorus& placed, Numbers& numbers) {
-  const Torus& torus = placed.torus;
+  const Torus& torus = placed.primitive;
   const Vec3 axis = glm::normalize(torus.axis);
   const Vec3 radial = glm::normalize(glm::cross(axis, numbers.direction()));
   const double turn = numbers.within(0, 6.3);
@@ -85,14 +56,7 @@ WorldRay ray_near(const PlacedTorus& placed, Numbers& numbers) {
   if (numbers.below(3) == 0) d = d - glm::dot(d, normal) * normal;
   if (numbers.below(8) == 0) d = numbers.below(2) == 0 ? axis : radial;
   if (!(largest_component(d) > 0)) d = axis;
-  const double away = placed.size() * (numbers.below(4) == 0 ? numbers.within(-1, 1) : numbers.size(1, 1e6));
-  WorldRay ray{.origin = placed.to_place(place - away * d), .direction = placed.direction_to_world(d)};
-  ray.direction /= largest_component(ray.direction);
-  const double size = largest_component(ray.origin - placed.to_place(place));
-  if (numbers.below(8) == 0) ray.direction *= numbers.size(1e-3, 1e3);
-  if (numbers.below(8) == 0) ray.t_min = numbers.within(-1, 2) * size;
-  if (numbers.below(8) == 0) ray.t_max = ray.t_min + numbers.within(0, 2) * size;
-  return ray;
+  return ray_through(placed, place, d, torus.radius + torus.thickness, numbers);
 }
 
 /// From where rays hit something, to anywhere.
@@ -114,7 +78,7 @@ void check_tori(Precision precision, int rounds) {
     Scene scene;
     scene.settings.precision = precision;
     scene.entities = {placed.entity()};
-    const Vec3 center = placed.to_place(placed.torus.center);
+    const Vec3 center = placed.to_place(placed.primitive.center);
     if (numbers.below(2) == 0) {
       scene.entities.emplace_back(Plane{.normal = numbers.direction(), .position = center});
     }
@@ -122,7 +86,7 @@ void check_tori(Precision precision, int rounds) {
     if (numbers.below(4) == 0) scene.entities.push_back(placed.entity());
     for (int i = numbers.below(3); i > 0; --i) {
       PlacedTorus other = placed;
-      other.torus.axis = numbers.direction();
+      other.primitive.axis = numbers.direction();
       scene.entities.push_back(other.entity());
     }
     const PreparedData data(scene);

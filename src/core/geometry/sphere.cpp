@@ -19,7 +19,7 @@ Bounds SphereShape::bounds() const {
 
 bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (ray.start.face == 0) return crossings_from_surface(ray, out);
-  const auto chord = SphereChord<double>::of(ray, center_, radius_, unit_);
+  const auto chord = this->chord<double>(ray);
   if (!chord.found) return false;
   out.push_back({.t = chord.enter.t, .error = chord.enter.error, .root = 0, .entering = true});
   out.push_back({.t = chord.leave.t, .error = chord.leave.error, .root = 1, .entering = false});

@@ -95,6 +95,11 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   bool is_solid() const override { return true; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
+  /// Of rays that do not start on the surface, each an ObjectRay or as many side by side.
+  template <class Real, class Ray>
+  SphereChord<Real> chord(const Ray& ray) const {
+    return SphereChord<Real>::of(ray, center_, radius_, unit_);
+  }
   Vec3 anchor(std::uint32_t) const override { return center_; }
   template <class Real>
   SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,

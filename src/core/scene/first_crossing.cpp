@@ -15,15 +15,23 @@ ObjectRayLanes object_ray(const Placement& placement, const RayLanes& rays) {
 
 /// Of all shapes only the torus has such an outline.
 const TorusShape& shape_of(const OutlineAxis& torus) {
-  return static_cast<const TorusShape&>(*torus.torus->shape);
+  return static_cast<const TorusShape&>(*torus.moved->shape);
 }
 
 template <class Real>
-auto object_ray(const OutlineAxis& torus, const OutlineLine<Real>& line) {
-  return object_ray(*torus.torus->placement, plain_ray(line));
+auto object_ray(const OutlineAxis& object, const OutlineLine<Real>& line) {
+  return object_ray(*object.moved->placement, plain_ray(line));
 }
 
 }  // namespace
+
+template <class Real>
+SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const OutlineLine<Real>& line) {
+  const auto& shape = static_cast<const SphereShape&>(*sphere.moved->shape);
+  return shape.chord<Real>(object_ray(sphere, line));
+}
+template SphereChord<double> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<double>&);
+template SphereChord<Lanes> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<Lanes>&);
 
 template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,

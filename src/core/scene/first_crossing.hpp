@@ -1,6 +1,6 @@
-// Where rays first cross the objects whose outline alone tells it: spheres, boxes, and planes across a
-// coordinate axis, in the standard tier and without a transform; and tori, transformed or not. The same as
-// their shapes say, to the last bit.
+// Where rays first cross the objects whose outline alone tells it: boxes, and planes across a coordinate axis,
+// in the standard tier and without a transform; spheres and tori, transformed or not. The same as their shapes
+// say, to the last bit.
 #pragma once
 
 #include <array>
@@ -61,11 +61,23 @@ PlainRay<Real> plain_ray(const OutlineLine<Real>& line) {
   return {.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}};
 }
 
-/// Where lines that do not start on a sphere enter and leave it.
+/// Of a sphere that is not moved.
 template <class Real>
-std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
+SphereChord<Real> chord_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
   const double unit = power_of_two_below(sphere.radius);
-  const auto chord = SphereChord<Real>::of(plain_ray(line), sphere.place, sphere.radius, unit);
+  return SphereChord<Real>::of(plain_ray(line), sphere.place, sphere.radius, unit);
+}
+
+template <class Real>
+SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const OutlineLine<Real>& line);
+
+/// Where lines that do not start on a sphere enter and leave it, moved or not.
+template <class Real>
+std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, const Outlines& outlines,
+                                                       const OutlineLine<Real>& line) {
+  const auto chord = sphere.kind == Outline::Kind::sphere
+                         ? chord_of_sphere(sphere, line)
+                         : chord_of_moved_sphere(outlines.axis(sphere), line);
   if (!any(chord.found)) return {};
   const auto of_end = [&](const typename SphereChord<Real>::End& end, const MaskOf<Real>& entering) {
     const auto start = after_start(line, end.t, end.error);
@@ -79,8 +91,9 @@ std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, co
 }
 
 template <class Real>
-FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
-  const auto [enter, leave] = crossings_of_sphere(sphere, line);
+FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const Outlines& outlines,
+                                             const OutlineLine<Real>& line) {
+  const auto [enter, leave] = crossings_of_sphere(sphere, outlines, line);
   return {.found = either(enter.found, leave.found),
           .unknown = either(enter.unknown, leave.unknown),
           .entering = enter.found,
@@ -178,7 +191,7 @@ FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const Ou
 template <class Real>
 FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outlines,
                                    const OutlineLine<Real>& line) {
-  if (outline.kind == Outline::Kind::sphere) return first_crossing_of_sphere(outline, line);
+  if (outline.is_sphere()) return first_crossing_of_sphere(outline, outlines, line);
   return first_crossing_of_plane(outline, outlines.axis(outline), line);
 }
 
@@ -236,7 +249,7 @@ FirstCrossing<Real> exit_apart(const Outline& sphere, const Bounds& room, const 
 /// As the general test has it.
 inline void write_first(const Outline& outline, const Outlines& outlines, const FirstCrossing<double>& first,
                         RayHit& hit) {
-  const bool is_second = outline.kind == Outline::Kind::sphere && !first.entering;
+  const bool is_second = outline.is_sphere() && !first.entering;
   const auto face = static_cast<std::uint32_t>(first.face);
   const bool is_box = outline.kind == Outline::Kind::box;
   hit = {.t = first.t,

@@ -133,9 +133,21 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
   switch (surface.kind) {
     case SurfaceKind::sphere:
       outline.radius = surface.sizes[0];
-      if (!has_fair_size(outline.radius) || !place_exactly(surface, *leaf.placement, outline)) break;
-      outline.kind = Outline::Kind::sphere;
-      if (!leaf.exact && leaf.placement->is_identity()) outline.detail = object.first_leaf;
+      if (!has_fair_size(outline.radius)) break;
+      if (place_exactly(surface, *leaf.placement, outline)) {
+        outline.kind = Outline::Kind::sphere;
+      } else {
+        outline.radius = 0;
+      }
+      if (leaf.exact) break;
+      // Moved from the origin rays come to it by the very same numbers as if it had always been there.
+      if (leaf.placement->is_identity() || (outline.radius > 0 && surface.position == Vec3(0))) {
+        outline.detail = object.first_leaf;
+      } else {
+        outline.kind = Outline::Kind::moved_sphere;
+        axis.leaf = object.first_leaf;
+        axis.moved = &leaf;
+      }
       break;
     case SurfaceKind::plane:
       axis.normal = scaled_to_one(surface.direction);
@@ -150,7 +162,7 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
         outline.kind = Outline::Kind::torus;
         if (!leaf.exact) {
           axis.leaf = object.first_leaf;
-          axis.torus = &leaf;
+          axis.moved = &leaf;
         }
       }
       break;

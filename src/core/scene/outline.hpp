@@ -16,7 +16,7 @@ namespace crt::core {
 /// An object as the cheap tests see it. Few objects have an outline: those that scenes have many of and
 /// whose exact test costs much more. Small, as rays come by many of them.
 struct Outline {
-  enum class Kind : std::uint8_t { unknown, sphere, plane, torus, rod, box };
+  enum class Kind : std::uint8_t { unknown, sphere, moved_sphere, plane, torus, rod, box };
 
   Kind kind = Kind::unknown;
   /// The object is somewhere within: only what misses it is sure.
@@ -27,18 +27,21 @@ struct Outline {
   /// transform); of others the number of their OutlineAxis or OutlineBox.
   std::uint32_t detail = nothing;
   Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
-  double radius = 0;    ///< the torus's is that of its ring
+  double radius = 0;    ///< the torus's is that of its ring; 0 if a moved sphere is none in the world
 
-  bool has_axis() const { return kind == Kind::plane || kind == Kind::torus || kind == Kind::rod; }
+  bool has_axis() const { return kind != Kind::unknown && kind != Kind::sphere && kind != Kind::box; }
+  /// Whether there is more than a box to say of a line that it misses or meets it.
+  bool is_judged() const { return kind == Kind::moved_sphere ? radius > 0 : kind != Kind::unknown; }
+  bool is_sphere() const { return kind == Kind::sphere || kind == Kind::moved_sphere; }
 };
 
 /// What more there is to tell of some.
 struct OutlineAxis {
   Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus or the rod
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
-  /// Of a plane across a coordinate axis, and of a torus: as Outline::detail of a sphere.
+  /// Of a plane across a coordinate axis, of a torus and of a moved sphere: as Outline::detail of a sphere.
   std::uint32_t leaf = nothing;
-  const Leaf* torus = nullptr;  ///< that leaf of a torus; the scene owns it
+  const Leaf* moved = nullptr;  ///< that leaf of a torus or sphere, moved or not; the scene owns it
 };
 
 struct CompiledScene;
@@ -60,6 +63,7 @@ struct Outlines {
     switch (outline.kind) {
       case Outline::Kind::sphere:
         return outline.detail;
+      case Outline::Kind::moved_sphere:
       case Outline::Kind::plane:
       case Outline::Kind::torus:
         return axis(outline).leaf;
@@ -304,12 +308,13 @@ auto judge_rod(const Outline& rod, const OutlineAxis& of_rod, const OutlineLine<
                        .met = {}};
 }
 
-/// Whatever it is, if it is known and no box; `last` as of planes.
+/// Whatever it is, if it is judged and no box; `last` as of planes.
 template <class Real>
 auto judge_outline(const Outline& outline, const Outlines& outlines, const OutlineLine<Real>& line,
                    const Real& limit, Real& last) {
   switch (outline.kind) {
     case Outline::Kind::sphere:
+    case Outline::Kind::moved_sphere:
       return judge_sphere(outline, line, limit);
     case Outline::Kind::torus:
       return judge_torus(outline, outlines.axis(outline), line, limit);

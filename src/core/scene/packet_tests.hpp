@@ -200,7 +200,7 @@ class PacketTests {
   /// Gathers all crossings with an object, of which not all is opaque.
   RayMask gather(const Outline& outline, const Outlines& outlines, RayMask rays, const BoxStarts& starts) {
     RayMask open = rays & ~outlined_.judge(outline, outlines, rays, starts, false).missed;
-    if (outline.kind == Outline::Kind::sphere && outlines.leaf_told(outline) != nothing) {
+    if (outline.is_sphere() && outlines.leaf_told(outline) != nothing) {
       RayPacket::for_each_group(
           open & outlined_.told(outline, starts), [&](std::size_t group, RayMask asked) {
             open &= ~(gather_chords(outline, outlines, group, asked) << (group * lane_count));
@@ -217,7 +217,7 @@ class PacketTests {
   /// Those of lanes with a sphere that they do not start on. Returns which lanes are done.
   RayMask gather_chords(const Outline& sphere, const Outlines& outlines, std::size_t group, RayMask asked) {
     const OutlineLine<Lanes>& lines = packet_.groups[group];
-    const auto ends = crossings_of_sphere(sphere, lines);
+    const auto ends = crossings_of_sphere(sphere, outlines, lines);
     const auto clear = [&](const FirstCrossing<Lanes>& end) {
       return ~end.unknown & (~end.found | (end.t < lines.certain_to) | (end.t > packet_.limits[group]));
     };
