@@ -71,26 +71,6 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return stretch.finish(out);
 }
 
-FrustumShape::SideEquation FrustumShape::side_equation(const NearLine& line) const {
-  const Vec3 across = accurate_cross(line.direction, axis_);
-  const Vec3 m = cosine_ * across;
-  const Vec3 p = cosine_ * accurate_cross(line.point, axis_);
-  const double m_length = glm::length(m);
-  const double p_length = glm::length(p);
-  SideEquation side{};
-  side.radius = cosine_ * narrow_radius_ + sine_ * glm::dot(line.point, axis_);
-  side.radius_rate = sine_ * glm::dot(line.direction, axis_);
-  const double s0 = side.radius;
-  const double s1 = side.radius_rate;
-  side.a = (m_length - std::abs(s1)) * (m_length + std::abs(s1));
-  side.b = glm::dot(p, m) - s0 * s1;
-  side.c = (p_length - std::abs(s0)) * (p_length + std::abs(s0));
-  const double passing = cosine_ * cosine_ * std::abs(glm::dot(line.point, across));
-  const double difference = glm::length(s0 * m - s1 * p);
-  side.discriminant = (difference - passing) * (difference + passing);
-  return side;
-}
-
 /// |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
 double FrustumShape::approach(const SideEquation& side, double x) {
   // Through the apex the cone is met as squarely as the angle to its side allows.
@@ -136,11 +116,6 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   return result;
 }
 
-double FrustumShape::distance_from_side(const Vec3& p) const {
-  return cosine_ * (glm::length(accurate_cross(p, axis_)) - narrow_radius_) -
-         sine_ * accurate_dot(p, axis_).value();
-}
-
 Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, double x,
                                      std::uint8_t root) const {
   const double t = line.to_t(x);
@@ -159,10 +134,9 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
 /// Where the line grazes, the discriminant is what is left of large numbers. From halfway between the roots
 /// it is a c with b nearly 0, and c the distance from the side there.
 void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const {
+  if (passes_plainly(line, side)) return;
   constexpr double nearly = 0x1p-20;
   const double middle = -side.b / side.a;
-  const double radius = side.radius + side.radius_rate * middle;
-  if (std::abs(side.discriminant) > nearly * nearly * line.squared_speed * radius * radius) return;
   // Next to a ruling, too, as long as the middle is there.
   const bool is_within =
       middle * middle * line.squared_speed < (height_ + wide_radius_) * (height_ + wide_radius_);
@@ -190,13 +164,7 @@ void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stre
     return s1 > 0 ? stretch.enter(crossing) : stretch.leave(crossing);
   }
 
-  // Both roots by the formulas that add what has one sign, Ray Tracing Gems ch. 7.
-  const double half = std::sqrt(std::max(side.discriminant, 0.0));
-  const double sum = side.b >= 0 ? -(side.b + half) : half - side.b;
-  const double first = sum / side.a;
-  const double second = sum != 0 ? side.c / sum : 0;
-  const double low = std::min(first, second);
-  const double high = std::max(first, second);
+  const auto [low, high] = SideRoots<double>(side);
   if (side.a > 0) {
     // Both roots are on one nappe: the one on which the middle between them is.
     const bool other_nappe = side.a * side.radius < side.b * s1;

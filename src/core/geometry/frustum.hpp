@@ -28,6 +28,17 @@ namespace crt::core {
 /// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
 /// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
 /// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
+/// Where a line, or as many as a Real has lanes, enters a cylinder or cone through its side.
+template <class Real>
+struct FrustumEntry {
+  using Mask = MaskOf<Real>;
+
+  Mask missed{};  ///< it is nowhere inside
+  Mask known{};   ///< it enters there; without both a closer look is needed to tell
+  Real t{};
+  Real error{};  ///< as in Crossing
+};
+
 class FrustumShape : public ShapeOfPoints<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
@@ -36,6 +47,10 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   Bounds bounds() const final;
   std::optional<Spine> spine() const final { return Spine{from_, to_, radii_[0], radii_[1]}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
+  /// The first crossing of rays that start on none of the faces' surfaces, where it is plainly on the side;
+  /// each is an ObjectRay or a PlainRay, or as many side by side.
+  template <class Real, class Ray>
+  FrustumEntry<Real> first_entry(const Ray& ray) const;
   Vec3 anchor(std::uint32_t face) const final {
     return face == side_face ? narrow_ : caps_[face - 1]->position();
   }
@@ -50,23 +65,38 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
  private:
   /// a x^2 + 2 b x + c = 0, and what else is known of the side along a line.
-  struct SideEquation {
-    double a, b, c;
-    double discriminant;
-    double radius, radius_rate;  ///< s0 and s1
+  template <class Real>
+  struct SideEquationOf {
+    Real a, b, c;
+    Real discriminant;
+    Real radius, radius_rate;  ///< s0 and s1
   };
-  SideEquation side_equation(const NearLine& line) const;
+  using SideEquation = SideEquationOf<double>;
+  template <class Real>
+  SideEquationOf<Real> side_equation(const NearLineOf<Real>& line) const;
   static double approach(const SideEquation& side, double x);
+  /// Whether the discriminant is not merely what is left of large numbers.
+  template <class Real>
+  static MaskOf<Real> passes_plainly(const NearLineOf<Real>& line, const SideEquationOf<Real>& side);
   struct Root {
     double x;
     bool entering;
     std::uint8_t number;
   };
   /// Of a point in units, relative to the narrow end.
-  double distance_from_side(const Vec3& p) const;
+  template <class Vector>
+  RealOf<Vector> distance_from_side(const Vector& p) const;
   Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                     const Root& root) const;
   Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
+  /// Both roots of a side equation, by the formulas that add what has one sign (Ray Tracing Gems ch. 7).
+  template <class Real>
+  struct SideRoots {
+    Real low;
+    Real high;
+
+    explicit SideRoots(const SideEquationOf<Real>& side);
+  };
   void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
@@ -97,6 +127,56 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   double cosine_ = 1;
   double sine_ = 0;
 };
+
+template <class Real>
+FrustumShape::SideEquationOf<Real> FrustumShape::side_equation(const NearLineOf<Real>& line) const {
+  const Vec3Of<Real> axis = spread<Real>(axis_);
+  const Vec3Of<Real> across = accurate_cross(line.direction, axis);
+  const Vec3Of<Real> m = spread<Real>(cosine_) * across;
+  const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
+  const auto length = [](const Vec3Of<Real>& v) { return square_root(dot(v, v)); };
+  const Real m_length = length(m);
+  const Real p_length = length(p);
+  SideEquationOf<Real> side{};
+  side.radius = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
+  side.radius_rate = sine_ * dot(line.direction, axis);
+  const Real s0 = side.radius;
+  const Real s1 = side.radius_rate;
+  side.a = (m_length - size_of(s1)) * (m_length + size_of(s1));
+  side.b = dot(p, m) - s0 * s1;
+  side.c = (p_length - size_of(s0)) * (p_length + size_of(s0));
+  const Real passing = cosine_ * cosine_ * size_of(dot(line.point, across));
+  const Real difference = length(s0 * m - s1 * p);
+  side.discriminant = (difference - passing) * (difference + passing);
+  return side;
+}
+
+template <class Real>
+MaskOf<Real> FrustumShape::passes_plainly(const NearLineOf<Real>& line, const SideEquationOf<Real>& side) {
+  constexpr double nearly = 0x1p-20;
+  const Real radius = side.radius + side.radius_rate * (-side.b / side.a);
+  return size_of(side.discriminant) > nearly * nearly * line.squared_speed * radius * radius;
+}
+
+template <class Real>
+FrustumShape::SideRoots<Real>::SideRoots(const SideEquationOf<Real>& side) {
+  const Real half = square_root(max(side.discriminant, Real{}));
+  const Real sum = side.b >= 0.0 ? -(side.b + half) : half - side.b;
+  const Real first = sum / side.a;
+  const Real second = sum != 0.0 ? side.c / sum : Real{};
+  low = min(first, second);
+  high = max(first, second);
+}
+
+template <class Vector>
+RealOf<Vector> FrustumShape::distance_from_side(const Vector& p) const {
+  using Real = RealOf<Vector>;
+  const Vector axis = spread<Real>(axis_);
+  const Vector across = accurate_cross(p, axis);
+  return cosine_ * (square_root(dot(across, across)) - narrow_radius_) -
+         sine_ * accurate_dot(p, axis).value();
+}
+
 // Cylinders and cones are made where the formula is not to be seen.
 extern template class ShapeOfPoints<FrustumShape>;
 

@@ -1,5 +1,6 @@
 #include "core/scene/first_crossing.hpp"
 
+#include "core/geometry/frustum.hpp"
 #include "core/geometry/torus.hpp"
 
 namespace crt::core {
@@ -32,6 +33,22 @@ SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const Outline
 }
 template SphereChord<double> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<double>&);
 template SphereChord<Lanes> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<Lanes>&);
+
+template <class Real>
+FirstCrossing<Real> first_crossing_of_rod(const OutlineAxis& rod, const OutlineLine<Real>& line) {
+  const auto& shape = static_cast<const FrustumShape&>(*rod.moved->shape);
+  const auto entry = rod.moved->placement->is_identity() ? shape.first_entry<Real>(plain_ray(line))
+                                                         : shape.first_entry<Real>(object_ray(rod, line));
+  // What is not plainly after the start may be where the line has entered before.
+  const auto known = both(entry.known, after_start(line, entry.t, entry.error).surely);
+  return {.found = known,
+          .unknown = neither(entry.missed, known),
+          .entering = known,
+          .t = entry.t,
+          .error = entry.error};
+}
+template FirstCrossing<double> first_crossing_of_rod(const OutlineAxis&, const OutlineLine<double>&);
+template FirstCrossing<Lanes> first_crossing_of_rod(const OutlineAxis&, const OutlineLine<Lanes>&);
 
 template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,

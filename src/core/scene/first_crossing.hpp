@@ -1,6 +1,6 @@
-// Where rays first cross the objects whose outline alone tells it: boxes, and planes across a coordinate axis,
-// in the standard tier and without a transform; spheres and tori, transformed or not. The same as their shapes
-// say, to the last bit.
+// Where rays first cross the objects whose outline alone tells it: boxes, and planes across a coordinate
+// axis, in the standard tier and without a transform; spheres, tori, cylinders and cones, transformed or not.
+// The same as their shapes say, to the last bit.
 #pragma once
 
 #include <array>
@@ -177,6 +177,10 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
   return first;
 }
 
+/// Of lines that start on none of a cylinder's or cone's faces.
+template <class Real>
+FirstCrossing<Real> first_crossing_of_rod(const OutlineAxis& rod, const OutlineLine<Real>& line);
+
 /// Of asked lines that do not start on the torus.
 template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
@@ -187,11 +191,12 @@ template <class Real>
 FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked);
 
-/// Of a sphere or plane that Outlines::leaf_told() knows of, and rays that do not start on its surface.
+/// Of a sphere, plane or rod that Outlines::leaf_told() knows of, and rays that do not start on its surfaces.
 template <class Real>
 FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outlines,
                                    const OutlineLine<Real>& line) {
   if (outline.is_sphere()) return first_crossing_of_sphere(outline, outlines, line);
+  if (outline.kind == Outline::Kind::rod) return first_crossing_of_rod(outlines.axis(outline), line);
   return first_crossing_of_plane(outline, outlines.axis(outline), line);
 }
 

@@ -124,12 +124,22 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
     return outline;
   }
   outline.surface = scene.face_surfaces[leaf.first_face].surface;
+  const Surface surface = leaf.shape->surface(0);
+  const bool is_frustum = surface.kind == SurfaceKind::cylinder || surface.kind == SurfaceKind::cone;
   if (place_rod(*leaf.shape, *leaf.placement, outline, axis)) {
     outline.kind = Outline::Kind::rod;
-    return outline;
+  } else {
+    outline.radius = 0;
   }
-  if (leaf.face_count != 1) return outline;
-  const Surface surface = leaf.shape->surface(0);
+  if (is_frustum && !leaf.exact) {
+    outline.kind = Outline::Kind::rod;
+    axis.leaf = object.first_leaf;
+    axis.moved = &leaf;
+    for (std::uint32_t face = 1; face < leaf.face_count; ++face) {
+      axis.caps[face - 1] = scene.face_surfaces[leaf.first_face + face].surface;
+    }
+  }
+  if (leaf.face_count != 1 || outline.kind == Outline::Kind::rod) return outline;
   switch (surface.kind) {
     case SurfaceKind::sphere:
       outline.radius = surface.sizes[0];

@@ -27,11 +27,13 @@ struct Outline {
   /// transform); of others the number of their OutlineAxis or OutlineBox.
   std::uint32_t detail = nothing;
   Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
-  double radius = 0;    ///< the torus's is that of its ring; 0 if a moved sphere is none in the world
+  double radius = 0;    ///< the torus's is that of its ring; 0 of a moved sphere or rod that is not judged
 
   bool has_axis() const { return kind != Kind::unknown && kind != Kind::sphere && kind != Kind::box; }
   /// Whether there is more than a box to say of a line that it misses or meets it.
-  bool is_judged() const { return kind == Kind::moved_sphere ? radius > 0 : kind != Kind::unknown; }
+  bool is_judged() const {
+    return kind == Kind::moved_sphere || kind == Kind::rod ? radius > 0 : kind != Kind::unknown;
+  }
   bool is_sphere() const { return kind == Kind::sphere || kind == Kind::moved_sphere; }
 };
 
@@ -39,9 +41,12 @@ struct Outline {
 struct OutlineAxis {
   Vec3 normal{0, 0, 0};  ///< of the plane, its largest component about 1; the axis of the torus or the rod
   double thickness = 0;  ///< of the torus, and a little more for all roundings on the way to the world
-  /// Of a plane across a coordinate axis, of a torus and of a moved sphere: as Outline::detail of a sphere.
+  /// Of a plane across a coordinate axis, of a torus, a moved sphere, a cylinder and a cone: as
+  /// Outline::detail of a sphere.
   std::uint32_t leaf = nothing;
-  const Leaf* moved = nullptr;  ///< that leaf of a torus or sphere, moved or not; the scene owns it
+  /// Of a cylinder or cone the surfaces of the caps, if it has them.
+  std::array<std::uint32_t, 2> caps = {nothing, nothing};
+  const Leaf* moved = nullptr;  ///< that leaf, but for planes, moved or not; the scene owns it
 };
 
 struct CompiledScene;
@@ -66,6 +71,7 @@ struct Outlines {
       case Outline::Kind::moved_sphere:
       case Outline::Kind::plane:
       case Outline::Kind::torus:
+      case Outline::Kind::rod:
         return axis(outline).leaf;
       case Outline::Kind::box:
         return box(outline).is_told ? box(outline).leaf : nothing;

@@ -62,7 +62,7 @@ class OutlinedRay {
   FirstCrossing<double> first_crossing(const Outline& outline, const Outlines& outlines) const {
     if (outline.kind == Outline::Kind::box) return first_crossing_of_box(outlines.box(outline));
     if (outline.kind == Outline::Kind::torus) return first_crossing_at_torus(outline, outlines);
-    if (outline.surface == start_surface_) return {.unknown = true};
+    if (outline.surface == start_surface_ || starts_on_cap(outline, outlines)) return {.unknown = true};
     return core::first_crossing(outline, outlines, line_);
   }
 
@@ -70,6 +70,12 @@ class OutlinedRay {
   static Judgement judgement(const Verdict<bool>& verdict) {
     if (verdict.missed) return Judgement::missed;
     return verdict.met ? Judgement::met : Judgement::open;
+  }
+
+  bool starts_on_cap(const Outline& outline, const Outlines& outlines) const {
+    if (outline.kind != Outline::Kind::rod || start_surface_ == nothing) return false;
+    const auto& [from, to] = outlines.axis(outline).caps;
+    return start_surface_ == from || start_surface_ == to;
   }
 
   friend struct BoxStarts;
@@ -135,10 +141,15 @@ class OutlinedPacket {
   }
 
   /// Those whose crossings first_crossing() tells, of one that leaf_told() knows of.
-  RayMask told(const Outline& outline, const BoxStarts& starts) const {
+  RayMask told(const Outline& outline, const Outlines& outlines, const BoxStarts& starts) const {
     if (packet_.starts.on_surface == 0) return ~RayMask{0};
     if (outline.kind == Outline::Kind::box) return starts.some == 0 ? ~RayMask{0} : ~starts.open;
-    const RayMask starting = starting_on(outline.surface);
+    RayMask starting = starting_on(outline.surface);
+    if (outline.kind == Outline::Kind::rod) {
+      for (const std::uint32_t cap : outlines.axis(outline).caps) {
+        if (cap != nothing) starting |= starting_on(cap);
+      }
+    }
     return outline.kind == Outline::Kind::torus ? ~starting | packet_.starts.outwards : ~starting;
   }
 

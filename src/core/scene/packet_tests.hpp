@@ -92,7 +92,7 @@ class PacketTests {
       settle(verdict.met);
     }
     if (open != 0 && outlines.leaf_told(outline) != nothing) {
-      const RayMask told = open & outlined_.told(outline, starts);
+      const RayMask told = open & outlined_.told(outline, outlines, starts);
       open &= ~told;
       RayPacket::for_each_group(told, [&](std::size_t group, RayMask asked) {
         open |= test_told(outline, outlines, group, asked, starts) << (group * lane_count);
@@ -202,7 +202,7 @@ class PacketTests {
     RayMask open = rays & ~outlined_.judge(outline, outlines, rays, starts, false).missed;
     if (outline.is_sphere() && outlines.leaf_told(outline) != nothing) {
       RayPacket::for_each_group(
-          open & outlined_.told(outline, starts), [&](std::size_t group, RayMask asked) {
+          open & outlined_.told(outline, outlines, starts), [&](std::size_t group, RayMask asked) {
             open &= ~(gather_chords(outline, outlines, group, asked) << (group * lane_count));
           });
     }
