@@ -19,6 +19,7 @@ struct SurfaceGroup {
   Lanes reflectivity{};     ///< of the materials
   Lanes transparency{};
   RayMask sending_on = 0;  ///< those whose materials do not end paths
+  RayMask like_first = 0;  ///< those on the same side of the same face as the first of them
   Lanes path_length{};     ///< from the camera
   VectorLanes light;       ///< that they send back, as far as it has been added up
 };

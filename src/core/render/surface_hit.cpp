@@ -82,6 +82,7 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
     const PreparedMaterial& material = data.materials()[data.hit_material(first)];
     const LaneMask lanes = faces.like(first) & lanes_with(to_come);
     const AlikeHits alike = {first, material, mask_of(lanes), lanes};
+    if (to_come == seen) group.like_first = alike.rays;
     to_come &= ~alike.rays;
 
     data.object_points(first, rays, t, material.uses_uv, points);

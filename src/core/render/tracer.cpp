@@ -8,7 +8,6 @@
 #include "core/math/vector.hpp"
 #include "core/render/shadow.hpp"
 #include "core/render/surface_hit.hpp"
-#include "core/scene/hit_faces.hpp"
 
 namespace crt::core {
 
@@ -110,8 +109,8 @@ void Tracer::follow() {
   const RayMask seeing_nothing = bringing & ~on_surface;
   on_surface &= bringing;
   if (seeing_nothing != 0) see_background(seeing_nothing);
-  if (identifies_) note_surfaces(on_surface);
   look_up_each(on_surface);
+  if (identifies_) note_surfaces(on_surface);
   add_light(on_surface);
   next_round_->count = 0;
   next_round_->rays.with_starts = 0;
@@ -262,16 +261,16 @@ void Tracer::note_surfaces(RayMask on_surface) {
   };
   RayPacket::for_each_group(on_surface, [&](std::size_t group, RayMask lanes) {
     const std::size_t first = group * lane_count;
-    const std::span<const RayHit, lane_count> hits(&hits_[first], lane_count);
-    const bool alike = lanes == mask_of(HitFaces(hits).like(hits[0]));
+    // Nothing was noted before of rays that come from the camera.
     const bool are_first = round_->paths[first].kind == RayKind::camera;
-    if (lanes != RayPacket::all(lane_count) || !alike || !are_first) {
+    if (surfaces_[group].like_first != RayPacket::group_mask || !are_first) {
       for_each_ray(lanes, [&](std::size_t lane) { note_one(first + lane); });
       return;
     }
     note_one(first);
+    const std::uint64_t identity = round_->samples[first]->identity;
     for (std::size_t ray = first + 1; ray < first + lane_count; ++ray) {
-      round_->samples[ray]->identity = round_->samples[first]->identity;
+      round_->samples[ray]->identity = identity;
     }
   });
 }

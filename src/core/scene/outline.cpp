@@ -93,6 +93,7 @@ Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
     if (!(largest_component(outline.place) < most_sizes * outline.radius)) continue;
     if (smallest.kind != Outline::Kind::unknown && !(outline.radius < smallest.radius)) continue;
     outline.kind = Outline::Kind::sphere;
+    outline.is_judged = true;
     outline.encloses = true;
     outline.surface = scene.face_surfaces[leaf.first_face].surface;
     smallest = outline;
@@ -113,68 +114,92 @@ OutlineBox outline_box(const CompiledScene& scene, std::uint32_t index) {
   return box;
 }
 
+/// A leaf that is an object of its own.
+struct LoneLeaf {
+  const CompiledScene& scene;
+  std::uint32_t index;
+  const Leaf& leaf;
+  Surface surface;  ///< of the first face
+};
+
+/// From then on the axis tells the leaf's crossings.
+void tell(const LoneLeaf& lone, OutlineAxis& axis) {
+  axis.leaf = lone.index;
+  axis.moved = &lone.leaf;
+}
+
+void outline_rod(const LoneLeaf& lone, Outline& outline, OutlineAxis& axis) {
+  outline.is_judged = place_rod(*lone.leaf.shape, *lone.leaf.placement, outline, axis);
+  const bool is_round = lone.surface.kind == SurfaceKind::cylinder || lone.surface.kind == SurfaceKind::cone;
+  const bool is_told = is_round && !lone.leaf.exact;
+  if (!outline.is_judged && !is_told) return;
+  outline.kind = Outline::Kind::rod;
+  if (!is_told) return;
+  tell(lone, axis);
+  for (std::uint32_t face = 1; face < lone.leaf.face_count; ++face) {
+    axis.caps[face - 1] = lone.scene.face_surfaces[lone.leaf.first_face + face].surface;
+  }
+}
+
+void outline_sphere(const LoneLeaf& lone, Outline& outline, OutlineAxis& axis) {
+  const Placement& placement = *lone.leaf.placement;
+  outline.radius = lone.surface.sizes[0];
+  if (!has_fair_size(outline.radius)) return;
+  outline.is_judged = place_exactly(lone.surface, placement, outline);
+  if (outline.is_judged) outline.kind = Outline::Kind::sphere;
+  if (lone.leaf.exact) return;
+  // Moved from the origin rays come to it by the very same numbers as if it had always been there.
+  const bool is_as_if_there = outline.is_judged && lone.surface.position == Vec3(0);
+  if (placement.is_identity() || is_as_if_there) {
+    outline.detail = lone.index;
+  } else {
+    outline.kind = Outline::Kind::moved_sphere;
+    tell(lone, axis);
+  }
+}
+
+void outline_plane(const LoneLeaf& lone, Outline& outline, OutlineAxis& axis) {
+  axis.normal = scaled_to_one(lone.surface.direction);
+  outline.is_judged = place_exactly(lone.surface, *lone.leaf.placement, outline);
+  if (!outline.is_judged) return;
+  outline.kind = Outline::Kind::plane;
+  if (!lone.leaf.exact && lone.leaf.placement->is_identity() && coordinate_axis(axis.normal) >= 0) {
+    axis.leaf = lone.index;
+  }
+}
+
+void outline_torus(const LoneLeaf& lone, Outline& outline, OutlineAxis& axis) {
+  outline.is_judged = place_torus(lone.surface, *lone.leaf.placement, outline, axis) &&
+                      has_fair_size(axis.thickness) && has_fair_size(outline.radius);
+  if (!outline.is_judged) return;
+  outline.kind = Outline::Kind::torus;
+  if (!lone.leaf.exact) tell(lone, axis);
+}
+
 Outline outline_of(const CompiledScene& scene, const SceneObject& object, OutlineAxis& axis) {
-  Outline outline;
   if (object.is_csg()) return outline_of_csg(scene, object);
+  Outline outline;
   const Leaf& leaf = scene.leaves[object.first_leaf];
   if (!leaf.shape->is_solid()) return outline;
   // Of all shapes only the box has six faces.
   if (leaf.face_count == OutlineBox::face_count && leaf.placement->is_identity()) {
     outline.kind = Outline::Kind::box;
+    outline.is_judged = true;
     return outline;
   }
   outline.surface = scene.face_surfaces[leaf.first_face].surface;
-  const Surface surface = leaf.shape->surface(0);
-  const bool is_frustum = surface.kind == SurfaceKind::cylinder || surface.kind == SurfaceKind::cone;
-  if (place_rod(*leaf.shape, *leaf.placement, outline, axis)) {
-    outline.kind = Outline::Kind::rod;
-  } else {
-    outline.radius = 0;
-  }
-  if (is_frustum && !leaf.exact) {
-    outline.kind = Outline::Kind::rod;
-    axis.leaf = object.first_leaf;
-    axis.moved = &leaf;
-    for (std::uint32_t face = 1; face < leaf.face_count; ++face) {
-      axis.caps[face - 1] = scene.face_surfaces[leaf.first_face + face].surface;
-    }
-  }
+  const LoneLeaf lone{scene, object.first_leaf, leaf, leaf.shape->surface(0)};
+  outline_rod(lone, outline, axis);
   if (leaf.face_count != 1 || outline.kind == Outline::Kind::rod) return outline;
-  switch (surface.kind) {
+  switch (lone.surface.kind) {
     case SurfaceKind::sphere:
-      outline.radius = surface.sizes[0];
-      if (!has_fair_size(outline.radius)) break;
-      if (place_exactly(surface, *leaf.placement, outline)) {
-        outline.kind = Outline::Kind::sphere;
-      } else {
-        outline.radius = 0;
-      }
-      if (leaf.exact) break;
-      // Moved from the origin rays come to it by the very same numbers as if it had always been there.
-      if (leaf.placement->is_identity() || (outline.radius > 0 && surface.position == Vec3(0))) {
-        outline.detail = object.first_leaf;
-      } else {
-        outline.kind = Outline::Kind::moved_sphere;
-        axis.leaf = object.first_leaf;
-        axis.moved = &leaf;
-      }
+      outline_sphere(lone, outline, axis);
       break;
     case SurfaceKind::plane:
-      axis.normal = scaled_to_one(surface.direction);
-      if (!place_exactly(surface, *leaf.placement, outline)) break;
-      outline.kind = Outline::Kind::plane;
-      if (!leaf.exact && leaf.placement->is_identity() && coordinate_axis(axis.normal) >= 0)
-        axis.leaf = object.first_leaf;
+      outline_plane(lone, outline, axis);
       break;
     case SurfaceKind::torus:
-      if (place_torus(surface, *leaf.placement, outline, axis) && has_fair_size(axis.thickness) &&
-          has_fair_size(outline.radius)) {
-        outline.kind = Outline::Kind::torus;
-        if (!leaf.exact) {
-          axis.leaf = object.first_leaf;
-          axis.moved = &leaf;
-        }
-      }
+      outline_torus(lone, outline, axis);
       break;
     default:
       break;

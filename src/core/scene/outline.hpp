@@ -19,6 +19,8 @@ struct Outline {
   enum class Kind : std::uint8_t { unknown, sphere, moved_sphere, plane, torus, rod, box };
 
   Kind kind = Kind::unknown;
+  /// Whether there is a cheap test that may say of a line that it misses or meets the object.
+  bool is_judged = false;
   /// The object is somewhere within: only what misses it is sure.
   bool encloses = false;
   std::uint32_t object = nothing;
@@ -27,13 +29,9 @@ struct Outline {
   /// transform); of others the number of their OutlineAxis or OutlineBox.
   std::uint32_t detail = nothing;
   Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
-  double radius = 0;    ///< the torus's is that of its ring; 0 of a moved sphere or rod that is not judged
+  double radius = 0;    ///< the torus's is that of its ring
 
   bool has_axis() const { return kind != Kind::unknown && kind != Kind::sphere && kind != Kind::box; }
-  /// Whether there is more than a box to say of a line that it misses or meets it.
-  bool is_judged() const {
-    return kind == Kind::moved_sphere || kind == Kind::rod ? radius > 0 : kind != Kind::unknown;
-  }
   bool is_sphere() const { return kind == Kind::sphere || kind == Kind::moved_sphere; }
 };
 

@@ -44,7 +44,7 @@ class OutlinedRay {
   Judgement judge(const Outline& outline, const Outlines& outlines, double limit, bool any_will_do,
                   double& last) const {
     if (outline.object == left_object_) return Judgement::missed;
-    if (!outline.is_judged()) return Judgement::open;
+    if (!outline.is_judged) return Judgement::open;
     if (outline.kind == Outline::Kind::box) {
       const OutlineBox& box = outlines.box(outline);
       return is_judged(box, any_will_do) ? judged_box(box, limit) : Judgement::open;
@@ -115,7 +115,7 @@ class OutlinedPacket {
   /// Of rays that have not left the object for good; `any_will_do` as OutlinedRay::judge() has it.
   Verdict<RayMask> judge(const Outline& outline, const Outlines& outlines, RayMask rays,
                          const BoxStarts& starts, bool any_will_do) const {
-    if (!outline.is_judged()) return {};
+    if (!outline.is_judged) return {};
     if (outline.kind == Outline::Kind::box) {
       return judge_boxed(outlines.box(outline), rays, starts, any_will_do);
     }
