@@ -137,11 +137,14 @@ TEST_CASE("things that look alike keep a width where they meet") {
 
 TEST_CASE("what a display clips has no width, and dark colours at a high gamma have more") {
   const DisplayScale scale(2.2);
-  CHECK(linear.half_width(5, 1, false) == 0);
-  CHECK(linear.half_width(0.5, 0.1, false) == doctest::Approx(0.1));
-  CHECK(linear.half_width(0.95, 0.1, false) == doctest::Approx(0.1));
-  CHECK(scale.half_width(0.01, 0.01, false) > 0.1);
-  CHECK(scale.half_width(0.01, 0.01, true) == doctest::Approx(0.01));
+  const Lanes widths = linear.half_widths(Lanes{5, 0.5, 0.95, 1}, Lanes{1, 0.1, 0.1, 0.25});
+  CHECK(widths[0] == 0);
+  CHECK(widths[1] == doctest::Approx(0.1));
+  CHECK(widths[2] == doctest::Approx(0.1));
+  CHECK(widths[3] == 0.25);
+  const Lanes of_gamma = scale.half_widths(lanes_of(0.01), lanes_of(0.01));
+  CHECK(of_gamma[0] == doctest::Approx(std::pow(0.01, 1 / 2.2)));  // down to 0
+  CHECK(of_gamma[3] == doctest::Approx(0.01));                     // alpha has no gamma
 }
 
 TEST_CASE("values beyond all bounds do no harm") {

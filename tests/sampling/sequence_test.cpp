@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <vector>
@@ -88,18 +89,34 @@ TEST_CASE("points lie in the unit cube, and other pixels and seeds have other on
   }
 }
 
-TEST_CASE("a block of points has those that are found one by one") {
+TEST_CASE("four pixels' sequences are those of each") {
+  constexpr std::uint64_t seed = 0x123456789abcdef;
+  const std::array<PixelSequence::Pixel, lane_count> pixels = {
+      {{0, 0}, {70000, 3}, {-2, 8}, {5, 2147483647}}};
+  const auto sequences = PixelSequence::of_each(seed, pixels);
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    const SequencePoint point = sequences[i].point(77);
+    const SequencePoint expected = PixelSequence(seed, pixels[i].x, pixels[i].y).point(77);
+    CHECK(point.pixel_u == expected.pixel_u);
+    CHECK(point.pixel_v == expected.pixel_v);
+    CHECK(point.lens_u == expected.lens_u);
+    CHECK(point.lens_v == expected.lens_v);
+  }
+}
+
+TEST_CASE("points side by side are those that are found one by one") {
   const PixelSequence sequence(1, 2, 3);
-  PixelSequence::Block block;
+  PixelSequence::Window window;
+  constexpr std::uint32_t size = PixelSequence::Window::size;
   for (const bool with_lens : {false, true}) {
-    for (const std::uint32_t begin : {0u, 8u, 16u, 248u, 0xfffffff0u}) {
-      sequence.block(begin, with_lens, block);
+    for (const std::uint32_t first : {0u, 8u, 16u, 21u, 248u, 0xffffffc0u, 0xfffffff0u}) {
+      const std::uint32_t end = first == 8 ? 13 : first == 16 ? 48 : first / size * size + size - 1;
+      sequence.points(first, end, with_lens, window);
       const auto number = [&](std::size_t dimension, std::uint32_t i) {
-        return block.coordinates[dimension][i / lane_count][static_cast<int>(i % lane_count)];
+        return window.coordinates[dimension][i % size / lane_count][static_cast<int>(i % lane_count)];
       };
-      for (std::uint32_t i = 0; i < PixelSequence::Block::size; ++i) {
-        const SequencePoint expected =
-            with_lens ? sequence.point(begin + i) : sequence.pixel_point(begin + i);
+      for (std::uint32_t i = first; i < end; ++i) {
+        const SequencePoint expected = with_lens ? sequence.point(i) : sequence.pixel_point(i);
         CHECK(number(0, i) == expected.pixel_u);
         CHECK(number(1, i) == expected.pixel_v);
         CHECK((!with_lens || number(2, i) == expected.lens_u));

@@ -5,6 +5,7 @@
 #include <numbers>
 
 #include "core/math/lanes.hpp"
+#include "core/math/polynomial.hpp"
 #include "crt/vec.hpp"
 
 namespace crt::core {
@@ -27,17 +28,8 @@ Real quarter_turn(const Real& x, const Real& y) {
       0x1.45f306dc9c883p-3, -0x1.b2995e7b7b5d5p-5, 0x1.04c26be3ad380p-5, -0x1.7483758ba87cep-6,
       0x1.21bb93b5826efp-6, -0x1.da1b83a1805dap-7, 0x1.9127a793e9965p-7, -0x1.5b7cd067a60f4p-7,
       0x1.30f097ca5ef75p-7, -0x1.06a6a9f79c2a9p-7, 0x1.8c4a5c9966effp-8, -0x1.7410d2c7ce990p-9};
-  const Real square = q * q;
-  const Real fourth = square * square;
-  // Two sums that do not wait for each other.
-  Real even = spread<Real>(coefficients[10]);
-  Real odd = spread<Real>(coefficients[11]);
-  for (std::size_t i = 10; i >= 2; i -= 2) {
-    even = fma(even, fourth, spread<Real>(coefficients[i - 2]));
-    odd = fma(odd, fourth, spread<Real>(coefficients[i - 1]));
-  }
   constexpr double eighth = 0.125;
-  const Real turned = q * fma(odd, square, even) + (beyond ? spread<Real>(eighth) : Real{});
+  const Real turned = q * polynomial(coefficients, Real(q * q)) + (beyond ? spread<Real>(eighth) : Real{});
   return y > x ? 2 * eighth - turned : turned;
 }
 

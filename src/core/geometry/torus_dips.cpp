@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/power.hpp"
+
 namespace crt::core {
 
 double TorusLine::level_at_start() const {
@@ -21,7 +23,7 @@ double TorusLine::inflection_error(const Range& concave) const {
   const double size = ring_ + tube_;
   const double passing_error = off_ * (speed + size * std::sqrt(squared_speed_));
   const double largest_passing = passing_ + passing_error;
-  const double inflection = std::cbrt(ring_ * largest_passing * largest_passing / squared_speed_);
+  const double inflection = cube_root(ring_ * largest_passing * largest_passing / squared_speed_);
   const double inflection_off = inflection * std::min(1.0, passing_error / largest_passing);
   const double passing_distance = largest_passing / speed;
   const double square_off =

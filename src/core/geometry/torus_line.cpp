@@ -1,27 +1,11 @@
 #include "core/geometry/torus_line.hpp"
 
 #include <algorithm>
-#include <cmath>
 
+#include "core/math/power.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
-
-namespace {
-
-double cube_root(double x, bool wanted) {
-  return wanted ? std::cbrt(x) : 0;
-}
-/// Lane by lane: the bits are those of the library's function.
-Lanes cube_root(const Lanes& x, const LaneMask& wanted) {
-  Lanes result{};
-  for (int i = 0; i < lane_count; ++i) {
-    if (wanted[i] != 0) result[i] = std::cbrt(x[i]);
-  }
-  return result;
-}
-
-}  // namespace
 
 template <class Real>
 [[gnu::always_inline]] inline auto TorusLineOf<Real>::level(const Real& x) const -> Level {
@@ -92,7 +76,7 @@ auto TorusLineOf<Real>::concave_part(const Range& range) const -> Range {
   constexpr double smallest = 0x1p-300;
   const Mask passes_by = both(passing_distance > smallest,
                               cube < plainly * (passing_distance * passing_distance * passing_distance));
-  const Real inflection = cube_root(cube, without(is_lateral, passes_by));
+  const Real inflection = any(without(is_lateral, passes_by)) ? cube_root(cube) : Real{};
   const Mask bends = inflection > passing_distance;
   const Real square = (inflection - passing_distance) * (inflection + passing_distance) / lateral_speed;
   const Real half = bends ? square_root(square) : Real{};

@@ -7,25 +7,28 @@
 #include <limits>
 #include <span>
 
+#include "core/math/power.hpp"
+
 namespace crt::core {
 
 namespace {
 
 /// In [0, 1]; 0 for what is not a number.
-double clamped(double value) {
-  return value > 0 ? std::min(value, 1.0) : 0.0;
+template <class Real>
+Real clamped(const Real& value) {
+  return value > 0.0 ? min(value, spread<Real>(1)) : Real{};
 }
 
-/// The nearest of 256 levels to a value in [0, 1]; halves go up.
-std::uint8_t nearest_level(double value) {
-  return static_cast<std::uint8_t>(std::floor(value * 255 + 0.5));
+/// The nearest of 256 levels to values in [0, 1]; halves go up.
+Lanes nearest_levels(const Lanes& values) {
+  return floor(values * 255 + 0.5);
 }
 
-/// Whether a channel is past what a display can show. A colour divided by its alpha carries a few
+/// Where a channel is past what a display can show. A colour divided by its alpha carries a few
 /// roundings of floats, which are not meant.
-bool clips(double value) {
+LaneMask clips(const Lanes& values) {
   constexpr double rounding = 0x1p-20;
-  return value > 1 + rounding;
+  return values > 1 + rounding;
 }
 
 constexpr std::array<std::uint8_t, 4> clip_mark = {255, 0, 0, 255};
@@ -39,36 +42,39 @@ std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
   std::vector<std::uint8_t> bytes(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const double alpha = clamped(double{pixels[i + 3]});
-    bool clipped = false;
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      const double covered = double{pixels[i + channel]};
-      const double whole = alpha > 0 ? covered / alpha : 0.0;
-      const double level = clamped(mode == AlphaMode::straight ? whole : covered);
-      bytes[i + channel] = nearest_level(exponent == 1 ? level : std::pow(level, exponent));
-      clipped = clipped || clips(whole);
+    const Lanes covered = {pixels[i], pixels[i + 1], pixels[i + 2], 0};
+    const Lanes whole = alpha > 0 ? covered / alpha : Lanes{};
+    Lanes levels = clamped(mode == AlphaMode::straight ? whole : covered);
+    if (exponent != 1) levels = power(levels, lanes_of(exponent));
+    levels[3] = alpha;
+    levels = nearest_levels(levels);
+    for (int channel = 0; channel < 4; ++channel) {
+      bytes[i + static_cast<std::size_t>(channel)] = static_cast<std::uint8_t>(levels[channel]);
     }
-    bytes[i + 3] = nearest_level(alpha);
-    if (show_clip && clipped)
+    if (show_clip && any(clips(whole)))
       std::copy(clip_mark.begin(), clip_mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i));
   }
   return bytes;
 }
 
 std::vector<float> linear_floats(const Image& image) {
-  constexpr float largest = std::numeric_limits<float>::max();
+  constexpr double largest = std::numeric_limits<float>::max();
   const double gamma = image.display_encoded() ? image.settings().gamma : 1.0;
   const std::span<const float> pixels = image.pixels();
   std::vector<float> floats(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const double alpha = clamped(double{pixels[i + 3]});
-    for (std::size_t channel = 0; channel < 3; ++channel) {
-      float value = pixels[i + channel];
-      if (gamma != 1 && alpha > 0 && value > 0) {
-        value = static_cast<float>(std::min(double{largest}, std::pow(double{value} / alpha, gamma) * alpha));
-      }
-      floats[i + channel] = std::isnan(value) ? 0.0f : std::clamp(value, -largest, largest);
+    Lanes values = {pixels[i], pixels[i + 1], pixels[i + 2], alpha};
+    if (gamma != 1 && alpha > 0) {
+      const Lanes light = alpha * power(max(Lanes{}, values / alpha), lanes_of(gamma));
+      values = values > 0.0 ? light : values;
+      values[3] = alpha;
     }
-    floats[i + 3] = static_cast<float>(alpha);
+    const Lanes numbers = values == values ? values : Lanes{};
+    const FloatLanes in_range = to_floats(clamp(numbers, lanes_of(-largest), lanes_of(largest)));
+    for (int channel = 0; channel < 4; ++channel) {
+      floats[i + static_cast<std::size_t>(channel)] = in_range[channel];
+    }
   }
   return floats;
 }

@@ -21,16 +21,25 @@ using Lanes = double __attribute__((vector_size(32)));
 using LaneMask = decltype(Lanes{} < Lanes{});
 inline constexpr int lane_count = 4;
 
+/// As many whole numbers of 64 bits, of which these may be the bits.
+using WordLanes = std::uint64_t __attribute__((vector_size(32)));
+
 /// As many floats, and integers of their size.
 using FloatLanes = float __attribute__((vector_size(16)));
 using IntLanes = std::int32_t __attribute__((vector_size(16)));
+
+// Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
 
 /// Each rounded to the nearest float.
 inline FloatLanes to_floats(const Lanes& a) {
   return __builtin_convertvector(a, FloatLanes);
 }
 inline Lanes to_doubles(const FloatLanes& a) {
+#ifdef __AVX__
+  return _mm256_cvtps_pd(a);
+#else
   return __builtin_convertvector(a, Lanes);
+#endif
 }
 
 inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
@@ -44,8 +53,6 @@ inline FloatLanes max(const FloatLanes& a, const FloatLanes& b) {
 inline Lanes lanes_of(double value) {
   return Lanes{value, value, value, value};
 }
-
-// Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
 
 /// Whether a comparison is true in all lanes, or in any.
 inline bool all(const LaneMask& mask) {

@@ -25,7 +25,6 @@ constexpr std::uint64_t low_product(std::uint64_t number, std::uint32_t factor) 
   return (number & 0xffffffffu) * factor;
 }
 /// The same of four numbers side by side.
-using WordLanes = std::uint64_t __attribute__((vector_size(32)));
 inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
 #ifdef __AVX2__
   return reinterpret_cast<WordLanes>(

@@ -28,14 +28,14 @@ class PassRays {
     std::size_t count = 0;
     while (count < packet_size) {
       if (next_ == end_) {
-        if (pixels_.empty()) break;
+        if (pixel_ == pixels_.size()) break;
         begin_pixel();
       }
-      const bool makes_group = next_ % lane_count == 0 && end_ - next_ >= lane_count;
-      if (makes_group && count % lane_count == 0) {
-        place_group(places, count / lane_count);
-        next_ += lane_count;
-        count += lane_count;
+      const std::size_t groups = std::min<std::size_t>(end_ - next_, packet_size - count) / lane_count;
+      if (groups > 0 && next_ % lane_count == 0 && count % lane_count == 0) {
+        const std::uint32_t placed = place_groups(places, count / lane_count, groups);
+        next_ += placed;
+        count += placed;
       } else {
         place_one(places, count);
         ++next_;
@@ -47,27 +47,46 @@ class PassRays {
 
  private:
   void begin_pixel() {
-    const PixelPlace& pixel = pixels_.front();
+    const PixelPlace& pixel = pixels_[pixel_];
     x_ = pixel.x;
     y_ = pixel.y;
-    sequence_ = PixelSequence(seed_, pixel.x, pixel.y);
-    block_begin_ = none;
-    pixels_ = pixels_.subspan(1);
+    const std::size_t of_four = pixel_ % lane_count;
+    if (of_four == 0) find_sequences();
+    sequence_ = sequences_[of_four];
+    window_begin_ = none;
+    ++pixel_;
     next_ = begin_;
   }
 
-  /// As many as there are lanes.
-  void place_group(RayPlaces& places, std::size_t group) {
-    const std::uint32_t in_block = next_ % PixelSequence::Block::size;
-    if (next_ - in_block != block_begin_) {
-      block_begin_ = next_ - in_block;
-      sequence_.block(block_begin_, with_lens_, block_);
+  /// Those of the next four pixels.
+  void find_sequences() {
+    std::array<PixelSequence::Pixel, lane_count> pixels;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      const PixelPlace& pixel = pixels_[std::min(pixel_ + i, pixels_.size() - 1)];
+      pixels[i] = {pixel.x, pixel.y};
     }
-    const auto numbers = [&](std::size_t dimension) {
-      return block_.coordinates[dimension][in_block / lane_count];
-    };
-    places.picture[group] = {x_ + filter_(numbers(0)), y_ + filter_(numbers(1))};
-    if (with_lens_) places.lens[group] = camera_.lens_points(numbers(2), numbers(3));
+    sequences_ = PixelSequence::of_each(seed_, pixels);
+  }
+
+  /// The next of the pixel, up to so many groups. Returns how many rays they are.
+  std::uint32_t place_groups(RayPlaces& places, std::size_t first, std::size_t groups) {
+    constexpr std::uint32_t size = PixelSequence::Window::size;
+    const std::uint32_t begin = next_ % size;
+    if (next_ - begin != window_begin_) {
+      window_begin_ = next_ - begin;
+      window_end_ = std::min(end_, window_begin_ + size);
+      sequence_.points(next_, window_end_, with_lens_, window_);
+    }
+    const std::size_t count = std::min(groups, std::size_t{window_end_ - next_} / lane_count);
+    const std::size_t from = begin / lane_count;
+    const auto& [pixel_u, pixel_v, lens_u, lens_v] = window_.coordinates;
+    for (std::size_t i = 0; i < count; ++i) {
+      places.picture[first + i] = {x_ + filter_(pixel_u[from + i]), y_ + filter_(pixel_v[from + i])};
+    }
+    for (std::size_t i = 0; with_lens_ && i < count; ++i) {
+      places.lens[first + i] = camera_.lens_points(lens_u[from + i], lens_v[from + i]);
+    }
+    return static_cast<std::uint32_t>(count * lane_count);
   }
 
   void place_one(RayPlaces& places, std::size_t ray) const {
@@ -84,21 +103,28 @@ class PassRays {
   std::uint64_t seed_;
   std::uint32_t begin_;
   std::uint32_t end_;
-  std::span<const PixelPlace> pixels_;  ///< that come after this one
+  std::span<const PixelPlace> pixels_;
+  std::size_t pixel_ = 0;  ///< that comes after this one
   double x_ = 0;
   double y_ = 0;
-  PixelSequence sequence_{0, 0, 0};
-  std::uint32_t next_;  ///< sample of the pixel
+  std::array<PixelSequence, lane_count> sequences_;  ///< of this pixel and its neighbours in the span
+  PixelSequence sequence_;                           ///< of this pixel
+  std::uint32_t next_;                               ///< sample of the pixel
+  // Points of this pixel that have been found:
   static constexpr std::uint32_t none = ~0u;
-  std::uint32_t block_begin_ = none;
-  PixelSequence::Block block_;  ///< of this pixel, from there on
+  std::uint32_t window_begin_ = none;
+  std::uint32_t window_end_ = 0;
+  PixelSequence::Window window_;
 };
 
 /// Hands on what samples of passes bring, step by step.
 class PassSums {
  public:
   PassSums(std::span<const PixelPlace> pixels, const SampleRange& range)
-      : pixel_(pixels.data()), is_first_range_(range.begin == 0) {
+      : pixels_(pixels),
+        samples_per_pixel_(static_cast<std::size_t>(range.end - range.begin)),
+        is_first_range_(range.begin == 0),
+        pixel_(pixels.data()) {
     std::size_t step = 0;
     for (std::int64_t count = range.begin; count < range.end; count += steps_[step++].size) {
       const std::int64_t size = samples_of_next_step(count);
@@ -108,32 +134,34 @@ class PassSums {
     missing_ = steps_[0].size;
   }
 
-  void add(const PacketTracer::Traced& traced) {
+  void add(std::span<const Tracer::Sample> samples) {
     const PixelPlace* pixel = pixel_;
     const Step* step = &steps_[step_];
     std::int64_t missing = missing_;
     Lanes sum = sum_;
     SeenSamples seen = seen_;
-    const auto sample_count = static_cast<std::int64_t>(traced.samples.size());
-    for (std::int64_t done = 0; done < sample_count;) {
-      const Tracer::Sample* const samples = &traced.samples[static_cast<std::size_t>(done)];
+    const Tracer::Sample* const end = samples.data() + samples.size();
+    for (const Tracer::Sample* sample = samples.data(); sample != end;) {
       const bool begins_pixel = step == steps_.data() && missing == step->size;
-      if (begins_pixel) seen = SeenSamples(*pixel->samples, samples->identity);
-      const std::int64_t count = std::min(sample_count - done, missing);
-      for (std::int64_t i = 0; i < count; ++i) {
-        sum += samples[i].channels;
-        seen.add(samples[i].channels, samples[i].dropped, samples[i].identity);
+      if (begins_pixel) seen = SeenSamples(*pixel->samples, sample->identity);
+      if (step->size == 1) {
+        do {
+          seen.add(sample->channels, sample->dropped, sample->identity);
+          pixel->samples->add_step(step->place, sample->channels);
+          ++step;
+        } while (++sample != end && step->size == 1);
+      } else {
+        const Tracer::Sample* const until = sample + std::min(end - sample, missing);
+        missing -= until - sample;
+        do {
+          seen.add(sample->channels, sample->dropped, sample->identity);
+          sum += sample->channels;
+        } while (++sample != until);
+        if (missing > 0) break;
+        pixel->samples->add_step(step->place, sum);
+        sum = Lanes{};
+        ++step;
       }
-      if (!traced.first_hits.empty() && pixel->first_hits != nullptr) {
-        const auto hits = traced.first_hits.subspan(static_cast<std::size_t>(done));
-        for (std::int64_t i = 0; i < count; ++i) pixel->first_hits->add(hits[static_cast<std::size_t>(i)]);
-      }
-      done += count;
-      missing -= count;
-      if (missing > 0) break;
-      pixel->samples->add_step(step->place, sum);
-      sum = Lanes{};
-      ++step;
       if (step->size == none) {
         pixel->samples->add_seen(seen, is_first_range_);
         ++pixel;
@@ -148,6 +176,13 @@ class PassSums {
     seen_ = seen;
   }
 
+  void add(std::span<const FirstHit> hits) {
+    for (const FirstHit& hit : hits) {
+      const PixelPlace& pixel = pixels_[hits_added_++ / samples_per_pixel_];
+      if (pixel.first_hits != nullptr) pixel.first_hits->add(hit);
+    }
+  }
+
  private:
   struct Step {
     std::int64_t size = 0;
@@ -155,13 +190,17 @@ class PassSums {
   };
   static constexpr std::int64_t none = 0;
 
-  const PixelPlace* pixel_;  ///< whose samples come next
+  std::span<const PixelPlace> pixels_;
+  std::size_t samples_per_pixel_;
   bool is_first_range_;
   std::array<Step, most_steps + 1> steps_;  ///< of every pixel; none at their end
-  std::size_t step_ = 0;                    ///< that comes next, or of which there is a part
-  std::int64_t missing_ = 0;                ///< of its samples
-  Lanes sum_{};                             ///< of the others
-  SeenSamples seen_;                        ///< of this pixel
+  // Whose samples come next:
+  const PixelPlace* pixel_;
+  std::size_t step_ = 0;      ///< that comes next, or of which there is a part
+  std::int64_t missing_ = 0;  ///< of its samples
+  Lanes sum_{};               ///< of the others
+  SeenSamples seen_;          ///< of this pixel
+  std::size_t hits_added_ = 0;
 };
 
 }  // namespace
@@ -174,7 +213,11 @@ void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const 
   PassRays rays(frame, pixels, range);
   PassSums sums(pixels, range);
   RayPlaces places;
-  while (const std::size_t count = rays.next(places)) sums.add(packets.trace(places, count));
+  while (const std::size_t count = rays.next(places)) {
+    const PacketTracer::Traced traced = packets.trace(places, count);
+    sums.add(traced.samples);
+    sums.add(traced.first_hits);
+  }
   if (frame.features().lens) {
     stats.lens_samples += pixels.size() * static_cast<std::uint64_t>(range.end - range.begin);
   }

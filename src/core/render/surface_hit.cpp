@@ -1,8 +1,9 @@
 #include "core/render/surface_hit.hpp"
 
 #include <bit>
-#include <cmath>
+#include <numbers>
 
+#include "core/math/power.hpp"
 #include "core/scene/hit_faces.hpp"
 #include "core/shading/bump.hpp"
 
@@ -27,11 +28,6 @@ Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial&
   const Vec3 height_gradient =
       material.description->bump_height * leaf.placement->covector_to_world(luminance.gradient);
   return tilted_normal(leaf.placement->normal_to_world(point.normal), height_gradient);
-}
-
-/// exp(-absorption * length), also where the length is infinite.
-double left_of(double absorption, double length) {
-  return absorption > 0 ? std::exp(-absorption * length) : 1;
 }
 
 /// Rays of a group that hit the same face of the same leaf, from the same side.
@@ -115,7 +111,10 @@ CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, co
 
 Rgb transmittance(const PreparedMaterial& medium, double length) {
   const Color& absorption = medium.description->absorption;
-  return {left_of(absorption.r, length), left_of(absorption.g, length), left_of(absorption.b, length)};
+  const Lanes by_channel = {absorption.r, absorption.g, absorption.b, 0};
+  // Of a channel without absorption everything is left, be the way infinite.
+  const Lanes left = by_channel > 0.0 ? exponential2<Lanes>(-std::numbers::log2e * by_channel * length) : 1.0;
+  return {left[0], left[1], left[2]};
 }
 
 }  // namespace crt::core

@@ -259,19 +259,25 @@ void Tracer::note_surfaces(RayMask on_surface) {
   const auto note_one = [&](std::size_t ray) {
     note(*round_->samples[ray], met(data_, hits_[ray], round_->paths[ray].kind));
   };
+  // Nothing was noted before of rays that come from the camera, and most groups meet what others do.
+  std::uint32_t leaf = nothing;
+  bool entering = false;
+  std::uint64_t identity = 0;
   RayPacket::for_each_group(on_surface, [&](std::size_t group, RayMask lanes) {
     const std::size_t first = group * lane_count;
-    // Nothing was noted before of rays that come from the camera.
     const bool are_first = round_->paths[first].kind == RayKind::camera;
     if (surfaces_[group].like_first != RayPacket::group_mask || !are_first) {
       for_each_ray(lanes, [&](std::size_t lane) { note_one(first + lane); });
       return;
     }
-    note_one(first);
-    const std::uint64_t identity = round_->samples[first]->identity;
-    for (std::size_t ray = first + 1; ray < first + lane_count; ++ray) {
-      round_->samples[ray]->identity = identity;
+    const RayHit& hit = hits_[first];
+    if (hit.leaf != leaf || hit.entering != entering) {
+      note_one(first);
+      leaf = hit.leaf;
+      entering = hit.entering;
+      identity = round_->samples[first]->identity;
     }
+    for (std::size_t ray = first; ray < first + lane_count; ++ray) round_->samples[ray]->identity = identity;
   });
 }
 

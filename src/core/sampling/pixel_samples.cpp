@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <cmath>
 #include <cstring>
 #include <limits>
+
+#include "core/math/power.hpp"
 
 namespace crt::core {
 
@@ -23,19 +24,21 @@ constexpr double overlooked_samples = 2;
 /// What is taken for the contrast, on a display, of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
 
+constexpr int alpha_channel = pixel_channels - 1;
+
 }  // namespace
 
-double DisplayScale::shown(double value) const {
-  const double clamped = std::clamp(value, 0.0, 1.0);
-  return exponent_ == 1 ? clamped : std::pow(clamped, exponent_);
+Lanes DisplayScale::shown(const Lanes& values) const {
+  const Lanes clamped = clamp(values, Lanes{}, lanes_of(1));
+  if (exponent_ == 1) return clamped;
+  Lanes shown = power(clamped, lanes_of(exponent_));
+  shown[alpha_channel] = clamped[alpha_channel];
+  return shown;
 }
 
-double DisplayScale::half_width(double value, double half_width, bool is_alpha) const {
-  const double low = std::clamp(value - half_width, 0.0, 1.0);
-  const double high = std::clamp(value + half_width, 0.0, 1.0);
-  const double middle = std::clamp(value, 0.0, 1.0);
-  if (is_alpha || exponent_ == 1) return std::max(high - middle, middle - low);
-  return std::max(shown(high) - shown(middle), shown(middle) - shown(low));
+Lanes DisplayScale::half_widths(const Lanes& values, const Lanes& half_widths) const {
+  const Lanes middle = shown(values);
+  return max(shown(values + half_widths) - middle, middle - shown(values - half_widths));
 }
 
 Lanes PixelSamples::mean(std::int64_t count) const {
@@ -109,12 +112,9 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
       max(student_95[blocks - 2] * sqrt(variance), overlooked_share * (to_doubles(high) - to_doubles(low)));
 
   double widest = edge_ || mixed_ ? overlooked_share * least_contrast_of_edges : 0;
-  for (int i = 0; i < pixel_channels; ++i) {
-    const bool is_alpha = i == pixel_channels - 1;
-    const double shown = scale.half_width(means[i], half_widths[i], is_alpha);
-    if (!(shown <= widest)) widest = shown;
-  }
-  return widest <= 1 ? widest : 1;
+  const Lanes shown = scale.half_widths(means, half_widths);
+  for (int i = 0; i < pixel_channels; ++i) widest = std::max(widest, shown[i]);
+  return widest;
 }
 
 }  // namespace crt::core

@@ -57,17 +57,18 @@ class SeenSamples {
   std::uint64_t differing_ = 0;  ///< bits in which others differ from it
 };
 
-/// What a viewer sees of a channel.
+/// What a viewer sees of red, green, blue and alpha.
 class DisplayScale {
  public:
   explicit DisplayScale(double gamma) : exponent_(1 / gamma) {}
 
-  /// From 0 to 1.
-  double shown(double value) const;
-  /// The farthest that anything within `half_width` of a colour (or alpha) is from it on a display.
-  double half_width(double value, double half_width, bool is_alpha) const;
+  /// The farthest that anything within `half_widths` of the values is from them on a display, by channel.
+  Lanes half_widths(const Lanes& values, const Lanes& half_widths) const;
 
  private:
+  /// From 0 to 1.
+  Lanes shown(const Lanes& values) const;
+
   double exponent_;
 };
 

@@ -123,11 +123,17 @@ constexpr std::array<Digit, index_bits / digit_bits> digits() {
 
 inline constexpr std::array<Digit, index_bits / digit_bits> digit_table = digits();
 
+/// So many points are kept side by side.
+inline constexpr std::uint32_t points_of_window = 64;
+
 /// What the lowest bits of the indices of such points turn over, by dimension.
-constexpr std::array<std::array<std::uint32_t, points_at_once>, sequence_dimensions> low_bits() {
-  std::array<std::array<std::uint32_t, points_at_once>, sequence_dimensions> result{};
-  for (std::size_t i = 0; i < points_at_once; ++i) {
-    for (std::size_t d = 0; d < sequence_dimensions; ++d) result[d][i] = digit_table[0][i][d];
+constexpr std::array<std::array<std::uint32_t, points_of_window>, sequence_dimensions> low_bits() {
+  constexpr std::uint32_t of_digit = (1u << digit_bits) - 1;
+  std::array<std::array<std::uint32_t, points_of_window>, sequence_dimensions> result{};
+  for (std::size_t i = 0; i < points_of_window; ++i) {
+    const Column& low = digit_table[0][i & of_digit];
+    const Column& high = digit_table[1][i >> digit_bits];
+    for (std::size_t d = 0; d < sequence_dimensions; ++d) result[d][i] = low[d] ^ high[d];
   }
   return result;
 }
@@ -153,9 +159,34 @@ constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
 /// The sequence of one pixel.
 class PixelSequence {
  public:
+  /// That of no pixel.
+  PixelSequence() = default;
   PixelSequence(std::uint64_t seed, int x, int y)
       : seeds_(philox4x32_10({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, use},
-                             {static_cast<std::uint32_t>(seed), static_cast<std::uint32_t>(seed >> 32)})) {}
+                             key_of(seed))) {}
+
+  /// Those of four pixels at once.
+  struct Pixel {
+    int x = 0;
+    int y = 0;
+  };
+  static std::array<PixelSequence, lane_count> of_each(std::uint64_t seed,
+                                                       const std::array<Pixel, lane_count>& pixels) {
+    WordLanes x;
+    WordLanes y;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      x[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].x);
+      y[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].y);
+    }
+    const auto words = philox_rounds<WordLanes>({x, y, WordLanes{}, WordLanes{} + use}, key_of(seed));
+    std::array<PixelSequence, lane_count> sequences;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      for (std::size_t d = 0; d < sequence_dimensions; ++d) {
+        sequences[i].seeds_[d] = static_cast<std::uint32_t>(words[d][static_cast<int>(i)]);
+      }
+    }
+    return sequences;
+  }
 
   /// Any 2^k points that follow each other from a multiple of 2^k on are spread evenly: on the pixel every
   /// rectangle of area 2^-k that comes of halving its sides holds one of them, and so does, in every
@@ -171,16 +202,16 @@ class PixelSequence {
     return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
-  /// Points side by side, by dimension; a group of them is as many as there are lanes.
-  struct Block {
-    static constexpr std::uint32_t size = sequence_detail::points_at_once;
-    static constexpr std::size_t group_count = size / lane_count;
-    std::array<std::array<Lanes, group_count>, sequence_dimensions> coordinates{};
+  /// The points from a multiple of their number on, side by side, by dimension; a group of them is as many as
+  /// there are lanes.
+  struct Window {
+    static constexpr std::uint32_t size = sequence_detail::points_of_window;
+    std::array<std::array<Lanes, size / lane_count>, sequence_dimensions> coordinates;
   };
-  /// The same for as many points as make a block, from a multiple of their number on; without the lens only
-  /// their places on the pixel.
-  void block(std::uint32_t first, bool with_lens, Block& points) const {
-    with_lens ? fill_block<sequence_dimensions>(first, points) : fill_block<2>(first, points);
+  /// Puts the points from `first` to before `end`, and some before and after them, to their places in a
+  /// window that they are all of; without the lens only their places on the pixel.
+  void points(std::uint32_t first, std::uint32_t end, bool with_lens, Window& window) const {
+    with_lens ? fill<sequence_dimensions>(first, end, window) : fill<2>(first, end, window);
   }
 
  private:
@@ -209,29 +240,34 @@ class PixelSequence {
   }
 
   template <std::size_t dimensions>
-  void fill_block(std::uint32_t first, Block& points) const {
-    const auto high_bits = bits_of<dimensions>(first);
-    for (std::size_t d = 0; d < dimensions; ++d) fill(points.coordinates[d], d, high_bits[d]);
+  void fill(std::uint32_t first, std::uint32_t end, Window& window) const {
+    const std::uint32_t begin = first / Window::size * Window::size;
+    const auto high_bits = bits_of<dimensions>(begin);
+    for (std::size_t d = 0; d < dimensions; ++d) {
+      fill(window.coordinates[d], d, high_bits[d], first - begin, end - begin);
+    }
   }
-  void fill(std::array<Lanes, Block::group_count>& coordinates, std::size_t dimension,
-            std::uint32_t high_bits) const {
+  void fill(std::array<Lanes, Window::size / lane_count>& coordinates, std::size_t dimension,
+            std::uint32_t high_bits, std::uint32_t first, std::uint32_t end) const {
     using namespace sequence_detail;
-    BitLanes bits;
-    std::memcpy(&bits, low_bit_table[dimension].data(), sizeof bits);
-    bits = reversed(scrambled_upwards(bits ^ high_bits, seeds_[dimension]));
-    // Processors turn only signed numbers into doubles side by side: from -1/2 to 1/2, exactly.
-    constexpr std::uint32_t middle = 0x80000000u;
-    const auto from_middle =
-        __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
-    const DoubleLanes fractions = 0x1p-32 * from_middle + 0.5;
-    static_assert(sizeof fractions == sizeof coordinates);
-    std::memcpy(coordinates.data(), &fractions, sizeof fractions);
+    const std::uint32_t seed = seeds_[dimension];
+    for (std::uint32_t i = first / points_at_once * points_at_once; i < end; i += points_at_once) {
+      BitLanes bits;
+      std::memcpy(&bits, &low_bit_table[dimension][i], sizeof bits);
+      bits = reversed(scrambled_upwards(bits ^ high_bits, seed));
+      // Processors turn only signed numbers into doubles side by side: from -1/2 to 1/2, exactly.
+      constexpr std::uint32_t middle = 0x80000000u;
+      const auto from_middle =
+          __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
+      const DoubleLanes fractions = 0x1p-32 * from_middle + 0.5;
+      std::memcpy(&coordinates[i / lane_count], &fractions, sizeof fractions);
+    }
   }
 
   /// Apart from what else random numbers are drawn for at a pixel.
   static constexpr std::uint32_t use = 0x5e9ce001;
 
-  PhiloxCounter seeds_;
+  PhiloxCounter seeds_{};
 };
 
 }  // namespace crt::core

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "core/math/power.hpp"
 #include "core/shading/rgb.hpp"
 
 namespace crt::core {
@@ -15,9 +16,11 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
   const std::span<float> values = linear->pixels();
   for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
     const double alpha = values[pixel + 3];
-    for (std::size_t channel = 0; channel < 3 && alpha > 0; ++channel) {
-      const double straight = std::max(0.0, values[pixel + channel] / alpha);
-      values[pixel + channel] = static_cast<float>(std::pow(straight, gamma) * alpha);
+    if (!(alpha > 0)) continue;
+    const Lanes shown = {values[pixel], values[pixel + 1], values[pixel + 2], 0};
+    const Lanes light = alpha * power(max(Lanes{}, shown / alpha), lanes_of(gamma));
+    for (int channel = 0; channel < 3; ++channel) {
+      values[pixel + static_cast<std::size_t>(channel)] = static_cast<float>(light[channel]);
     }
   }
   linear->set_display_encoded(false);
