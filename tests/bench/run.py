@@ -16,7 +16,7 @@ import time
 from collections.abc import Callable
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from povray import catalogue, measure, trade_scenes  # noqa: E402
+from povray import catalogue, measure, threads, trade_scenes  # noqa: E402
 from povray.programs import Failed, Size  # noqa: E402
 from report import machine, page, tables, trade_tables  # noqa: E402
 from trade import honesty  # noqa: E402
@@ -48,6 +48,7 @@ class Bench:
         return {
             **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
             **{f"povray-bsp/{name}": (lambda name=name: self.povray(name, tree=2)) for name in bsp},
+            **{f"threads/{name}": (lambda name=name: self.threads(name)) for name in scenes},
             **{f"trade/{name}": (lambda name=name: self.trade(name)) for name in self.trade_scenes()},
             **{f"honesty/{name}": (lambda name=name: self.honesty(name)) for name in self.honesty_classes()},
             **{name: (lambda name=name: self.own(name)) for name in OWN_PARTS},
@@ -55,13 +56,18 @@ class Bench:
             "python": self.python,
         }
 
-    def povray(self, name: str, tree: int = 1) -> dict:
+    def plan(self, longest: float, patience: float = 100, tree: int = 1) -> measure.Plan:
         quick = self.options.quick
-        plan = measure.Plan(
+        return measure.Plan(
             crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
             rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
-            longest=4 if quick else 60, patience=10 if quick else 100, say=self.say, tree=tree)
-        return measure.measure(name, catalogue.SCENES[name](), plan)
+            longest=longest, patience=10 if quick else patience, say=self.say, tree=tree)
+
+    def povray(self, name: str, tree: int = 1) -> dict:
+        return measure.measure(name, catalogue.SCENES[name](), self.plan(4 if self.options.quick else 60, tree=tree))
+
+    def threads(self, name: str) -> dict:
+        return threads.measure(name, catalogue.SCENES[name](), self.plan(1 if self.options.quick else 3, patience=30))
 
     def trade_scenes(self) -> tuple[str, ...]:
         return trade_scenes.QUICK if self.options.quick else tuple(trade_scenes.SCENES)
@@ -107,7 +113,7 @@ class Bench:
     def programs(self, part: str) -> str:
         """Tells one build of what the part measures from another."""
         digest = hashlib.sha256()
-        if part.startswith("povray"):
+        if part.startswith(("povray", "threads/")):
             files = ["bin/crt"]
         elif part.startswith("trade/"):
             files = ["lib/libcrt.so"]

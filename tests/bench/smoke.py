@@ -4,6 +4,7 @@ Checks the script of each (but the large ones), and renders one of each kind, ti
 where there is POV-Ray, and honesty, if its program is told.
 """
 
+import dataclasses
 import json
 import os
 import pathlib
@@ -11,9 +12,9 @@ import shutil
 import sys
 
 sys.path.insert(0, str(pathlib.Path(__file__).resolve().parent))
-from povray import catalogue, measure, trade_scenes  # noqa: E402
+from povray import catalogue, measure, threads, trade_scenes  # noqa: E402
 from povray.programs import Size, run  # noqa: E402
-from report import trade_plots, trade_tables  # noqa: E402
+from report import tables, trade_plots, trade_tables  # noqa: E402
 from trade import honesty, ladders  # noqa: E402
 from trade import measure as trade_measure  # noqa: E402
 
@@ -38,6 +39,8 @@ def check_catalogue(crt: pathlib.Path, folder: pathlib.Path) -> None:
         program.trace(plan.size, 1, picture)
         if json.loads(picture.with_suffix(".json").read_text())["rays"]["shadow"] == 0:
             raise SystemExit(f"{name}: no surface is lit")
+    plan = dataclasses.replace(plan, size=Size(64, 48), threads=(1, 2))
+    print(tables.threads_table({"threads/glass": threads.measure("glass", catalogue.SCENES["glass"](), plan)}))
 
 
 def check_trade(library: pathlib.Path, folder: pathlib.Path) -> dict:

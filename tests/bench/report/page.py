@@ -35,7 +35,7 @@ def write(folder: pathlib.Path, results: dict, machine: str) -> None:
 def write_speed(folder: pathlib.Path, results: dict, machine: str) -> None:
     texts = {"povray": with_plot("How many times as long POV-Ray traces, for each scene", "speed.svg",
                                  tables.povray_table(results)),
-             "povray, BSP tree": tables.bsp_table(results), "embree": tables.embree_table(results),
+             "povray, BSP tree": tables.bsp_table(results), "threads": tables.threads_table(results), "embree": tables.embree_table(results),
              "curves": with_plot("Nanoseconds a ray against the number of solids", "speed_curves.svg",
                                  tables.curves_table(results))}
     if not any(texts.values()):

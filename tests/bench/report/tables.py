@@ -68,6 +68,27 @@ def povray_summary(scenes: dict, threads: list[str]) -> str:
     return "\n".join(lines)
 
 
+# ---- threads ------------------------------------------------------------------------------------
+
+
+def threads_table(results: dict) -> str:
+    scenes = {part.removeprefix("threads/"): result for part, result in results.items() if part.startswith("threads/")}
+    if not scenes:
+        return ""
+    count = next(iter(scenes.values()))["threads"]
+    head = ["scene", "1 thread", f"{count} processes at once, each", f"{count} threads", "gain", "gain there is"]
+    gains = {name: result["alone"] / result["together"] for name, result in scenes.items()}
+    limits = {name: count * result["alone"] / result["at_once"] for name, result in scenes.items()}
+    rows = [[f"`{name}`", *(rounded(result[times]) for times in ("alone", "at_once", "together")),
+             f"**{gains[name]:.2f}**", f"{limits[name]:.2f}"] for name, result in scenes.items()]
+    shares = [gains[name] / limits[name] for name in scenes]
+    least = min(gains, key=gains.get)
+    rounds = [result["rounds"] for result in scenes.values()]
+    return (f"{table(head, rows)}\n\nSeconds of tracing, the least of {min(rounds)} to {max(rounds)} rounds. The median of"
+            f" the gains is {statistics.median(gains.values()):.2f}, the least {gains[least]:.2f} (`{least}`); of the gain that"
+            f" there is they are {min(shares):.0%} to {max(shares):.0%}, in the median {statistics.median(shares):.0%}.")
+
+
 # ---- ray queries and Embree ---------------------------------------------------------------------
 
 
@@ -131,4 +152,4 @@ def curves_table(results: dict) -> str:
 
 
 def all_tables(results: dict) -> str:
-    return "\n\n".join(filter(None, (make(results) for make in (povray_table, bsp_table, embree_table, curves_table))))
+    return "\n\n".join(filter(None, (make(results) for make in (povray_table, bsp_table, threads_table, embree_table, curves_table))))
