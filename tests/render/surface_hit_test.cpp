@@ -4,7 +4,9 @@
 #include <doctest/doctest.h>
 
 #include <array>
+#include <cmath>
 #include <glm/geometric.hpp>
+#include <limits>
 #include <vector>
 
 #include "core/shading/bump.hpp"
@@ -136,4 +138,20 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
       });
     }
   }
+}
+
+TEST_CASE("what a way through a medium leaves of light is right at all lengths") {
+  const auto left = [](const Color& absorption, double length) {
+    TexturePool textures(1);
+    const PreparedMaterial medium(Material{.absorption = absorption}, textures);
+    return transmittance(medium, length);
+  };
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const Rgb some = left({0.5, 3, 1e-3}, 0.75);
+  CHECK(some.x == doctest::Approx(std::exp(-0.375)).epsilon(1e-15));
+  CHECK(some.y == doctest::Approx(std::exp(-2.25)).epsilon(1e-15));
+  CHECK(some.z == doctest::Approx(std::exp(-0.75e-3)).epsilon(1e-15));
+  CHECK(left({1e100, 0, 1}, 0) == Rgb(1));
+  CHECK(left({1e100, 0, 1}, infinity) == Rgb(0, 1, 0));
+  CHECK(left({1e100, 1e-300, 0}, 1e308) == Rgb(0, 0, 1));
 }

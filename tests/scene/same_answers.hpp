@@ -90,4 +90,23 @@ void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work, std::
   }
 }
 
+/// The same of so many packets of rays that some_ray() makes, and of those that go on from what they hit,
+/// many of them to where others start.
+template <class SomeRay>
+void check_bounces(const PreparedData& data, Numbers& numbers, int packets, const SomeRay& some_ray, int& met,
+                   bool rough_errors = false) {
+  RayWorkspace work;
+  for (int i = 0; i < packets; ++i) {
+    std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+    for (WorldRay& ray : rays) ray = some_ray();
+    for (int bounce = 0; bounce < 3; ++bounce) {
+      check_first_crossings(data, rays, work, met, rough_errors);
+      go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
+        const Vec3 to = some_ray().origin;
+        if (numbers.below(2) == 0) ray.direction = to - ray.origin;
+      });
+    }
+  }
+}
+
 }  // namespace crt::test

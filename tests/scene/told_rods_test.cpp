@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 #include <utility>
-#include <vector>
 
 #include "core/geometry/frustum.hpp"
 #include "core/scene/prepared_data.hpp"
@@ -62,7 +61,6 @@ WorldRay ray_near(const PlacedCone& placed, Numbers& numbers) {
 
 void check_cones(Precision precision, int rounds) {
   Numbers numbers(seed);
-  RayWorkspace work;
   int met = 0;
   for (int round = 0; round < rounds; ++round) {
     const PlacedCone placed = some_cone(numbers, numbers.size(1e-9, 1e9));
@@ -80,17 +78,8 @@ void check_cones(Precision precision, int rounds) {
     if (numbers.below(2) == 0) scene.entities.push_back(next.entity());
     if (numbers.below(4) == 0) scene.entities.push_back(placed.entity());
     const PreparedData data(scene);
-    for (int i = 0; i < 50; ++i) {
-      std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
-      for (WorldRay& ray : rays) ray = ray_near(placed, numbers);
-      for (int bounce = 0; bounce < 3; ++bounce) {
-        check_first_crossings(data, rays, work, met);
-        go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
-          const Vec3 to = ray_near(placed, numbers).origin;
-          if (numbers.below(2) == 0) ray.direction = to - ray.origin;
-        });
-      }
-    }
+    check_bounces(
+        data, numbers, 50, [&] { return ray_near(placed, numbers); }, met);
   }
   CHECK(met > 200 * rounds);
 }

@@ -2,10 +2,8 @@
 // (scene/first_crossing.hpp) against their shapes.
 #include <doctest/doctest.h>
 
-#include <array>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "core/scene/outlined_rays.hpp"
 #include "core/scene/prepared_data.hpp"
@@ -47,7 +45,6 @@ WorldRay ray_near(const PlacedSphere& placed, Numbers& numbers) {
 
 void check_spheres(Precision precision, int rounds) {
   Numbers numbers(seed);
-  RayWorkspace work;
   int met = 0;
   for (int round = 0; round < rounds; ++round) {
     const double scale = numbers.size(1e-30, 1e30);
@@ -66,17 +63,8 @@ void check_spheres(Precision precision, int rounds) {
       scene.entities.push_back(other.entity());
     }
     const PreparedData data(scene);
-    for (int i = 0; i < 50; ++i) {
-      std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
-      for (WorldRay& ray : rays) ray = ray_near(placed, numbers);
-      for (int bounce = 0; bounce < 3; ++bounce) {
-        check_first_crossings(data, rays, work, met);
-        go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
-          const Vec3 to = ray_near(placed, numbers).origin;
-          if (numbers.below(2) == 0) ray.direction = to - ray.origin;
-        });
-      }
-    }
+    check_bounces(
+        data, numbers, 50, [&] { return ray_near(placed, numbers); }, met);
   }
   CHECK(met > 200 * rounds);
 }

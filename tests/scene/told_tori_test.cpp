@@ -6,7 +6,6 @@
 #include <cmath>
 #include <cstdint>
 #include <glm/geometric.hpp>
-#include <vector>
 
 #include "core/geometry/torus_dips.hpp"
 #include "core/scene/outlined_rays.hpp"
@@ -59,18 +58,8 @@ WorldRay ray_near(const PlacedTorus& placed, Numbers& numbers) {
   return ray_through(placed, place, d, torus.radius + torus.thickness, numbers);
 }
 
-/// From where rays hit something, to anywhere.
-void go_on_anywhere(const PreparedData& data, const PlacedTorus& placed, Numbers& numbers, RayWorkspace& work,
-                    std::vector<WorldRay>& rays) {
-  go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
-    const Vec3 to = ray_near(placed, numbers).origin;
-    if (numbers.below(2) == 0) ray.direction = to - ray.origin;
-  });
-}
-
 void check_tori(Precision precision, int rounds) {
   Numbers numbers(seed);
-  RayWorkspace work;
   int met = 0;
   for (int round = 0; round < rounds; ++round) {
     const double scale = numbers.size(1e-9, 1e9);
@@ -90,14 +79,8 @@ void check_tori(Precision precision, int rounds) {
       scene.entities.push_back(other.entity());
     }
     const PreparedData data(scene);
-    for (int i = 0; i < 100; ++i) {
-      std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
-      for (WorldRay& ray : rays) ray = ray_near(placed, numbers);
-      for (int bounce = 0; bounce < 3; ++bounce) {
-        check_first_crossings(data, rays, work, met, true);
-        go_on_anywhere(data, placed, numbers, work, rays);
-      }
-    }
+    check_bounces(
+        data, numbers, 100, [&] { return ray_near(placed, numbers); }, met, true);
   }
   CHECK(met > 300 * rounds);
 }

@@ -70,8 +70,9 @@ std::vector<float> linear_floats(const Image& image) {
       values = values > 0.0 ? light : values;
       values[3] = alpha;
     }
-    const Lanes numbers = values == values ? values : Lanes{};
-    const FloatLanes in_range = to_floats(clamp(numbers, lanes_of(-largest), lanes_of(largest)));
+    const LaneMask are_numbers = either(values > 0.0, values <= 0.0);
+    values = are_numbers ? clamp(values, lanes_of(-largest), lanes_of(largest)) : Lanes{};
+    const FloatLanes in_range = to_floats(values);
     for (int channel = 0; channel < 4; ++channel) {
       floats[i + static_cast<std::size_t>(channel)] = in_range[channel];
     }

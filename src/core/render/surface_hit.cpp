@@ -113,7 +113,8 @@ Rgb transmittance(const PreparedMaterial& medium, double length) {
   const Color& absorption = medium.description->absorption;
   const Lanes by_channel = {absorption.r, absorption.g, absorption.b, 0};
   // Of a channel without absorption everything is left, be the way infinite.
-  const Lanes left = by_channel > 0.0 ? exponential2<Lanes>(-std::numbers::log2e * by_channel * length) : 1.0;
+  const Lanes left =
+      by_channel > 0.0 ? exponential2<Lanes>(-std::numbers::log2e * (by_channel * length)) : 1.0;
   return {left[0], left[1], left[2]};
 }
 
