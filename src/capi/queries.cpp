@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <cstring>
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <type_traits>
@@ -79,6 +80,9 @@ class Rays {
     for (std::size_t begin = first; begin < last; begin += piece_size) {
       const std::size_t count = std::min(piece_size, last - begin);
       for (std::size_t i = 0; i < count; ++i) std::memcpy(&rays[i], places_[begin + i], sizeof(Ray));
+      // The next ones come from memory meanwhile.
+      const std::size_t next = std::min(piece_size, last - begin - count);
+      for (std::size_t i = 0; i < next; ++i) __builtin_prefetch(places_[begin + count + i]);
       ask(begin, std::span<const Ray>(rays).first(count));
     }
   }
@@ -147,6 +151,7 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
           std::array<std::optional<crt::Hit>, piece_size> found;
           std::array<crt_hit, piece_size> told;
           questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
+            for (std::size_t i = 0; i < piece.size(); ++i) __builtin_prefetch(answers[begin + i], 1);
             queries.intersect(piece, found);
             // Step by step: a copy of what was just written waits until it is there.
             std::transform(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(piece.size()),
@@ -165,17 +170,20 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     require(prepared, "prepared");
     const Rays questions(rays, ray_stride, count);
     if (count > 0) require(occluded, "occluded");
-    questions.validate_all(prepared->value);
-    crt::query_in_parallel(prepared->value, count,
-                           [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-                             std::array<bool, piece_size> found{};
-                             questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-                               queries.occluded(piece, found);
-                               for (std::size_t i = 0; i < piece.size(); ++i) {
-                                 occluded[begin + i] = found[i] ? 1 : 0;
-                               }
+    // The answers wait until no ray can be wrong any more: so all rays are gone through once alone.
+    const auto answers = std::make_unique_for_overwrite<bool[]>(count);
+    try {
+      crt::query_in_parallel(prepared->value, count,
+                             [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+                               questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
+                                 queries.occluded(piece, std::span(&answers[begin], piece.size()));
+                               });
                              });
-                           });
+    } catch (const crt::Error&) {
+      questions.validate_all(prepared->value);  // which of them is the first
+      throw;
+    }
+    std::transform(answers.get(), answers.get() + count, occluded, [](bool hit) { return hit ? 1 : 0; });
   });
 }
 

@@ -259,25 +259,28 @@ void Tracer::note_surfaces(RayMask on_surface) {
   const auto note_one = [&](std::size_t ray) {
     note(*round_->samples[ray], met(data_, hits_[ray], round_->paths[ray].kind));
   };
-  // Nothing was noted before of rays that come from the camera, and most groups meet what others do.
+  // Either all rays of a round come from the camera or none does. If they do, nothing was noted of their
+  // samples before, these follow each other, and most groups meet what others do.
+  const bool are_first = round_->paths[0].kind == RayKind::camera;
+  Sample* const first_samples = round_->samples[0];
   std::uint32_t leaf = nothing;
   bool entering = false;
   std::uint64_t identity = 0;
   RayPacket::for_each_group(on_surface, [&](std::size_t group, RayMask lanes) {
     const std::size_t first = group * lane_count;
-    const bool are_first = round_->paths[first].kind == RayKind::camera;
-    if (surfaces_[group].like_first != RayPacket::group_mask || !are_first) {
+    if (!are_first || surfaces_[group].like_first != RayPacket::group_mask) {
       for_each_ray(lanes, [&](std::size_t lane) { note_one(first + lane); });
       return;
     }
     const RayHit& hit = hits_[first];
+    Sample* const samples = first_samples + first;
     if (hit.leaf != leaf || hit.entering != entering) {
       note_one(first);
       leaf = hit.leaf;
       entering = hit.entering;
-      identity = round_->samples[first]->identity;
+      identity = samples->identity;
     }
-    for (std::size_t ray = first; ray < first + lane_count; ++ray) round_->samples[ray]->identity = identity;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) samples[lane].identity = identity;
   });
 }
 

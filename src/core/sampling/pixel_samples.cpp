@@ -38,7 +38,11 @@ Lanes DisplayScale::shown(const Lanes& values) const {
 
 Lanes DisplayScale::half_widths(const Lanes& values, const Lanes& half_widths) const {
   const Lanes middle = shown(values);
-  return max(shown(values + half_widths) - middle, middle - shown(values - half_widths));
+  const Lanes least = values - half_widths;
+  const Lanes below = middle - shown(least);
+  // A scale that rises ever less: with as much room below nothing above is farther away.
+  if (exponent_ <= 1 && all(least >= 0.0)) return below;
+  return max(shown(values + half_widths) - middle, below);
 }
 
 Lanes PixelSamples::mean(std::int64_t count) const {
@@ -90,14 +94,15 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
   if (blocks < 2) return 1;
   const Channels low = has_notes_ ? min(low_, low_around_) : low_;
   const Channels high = has_notes_ ? max(high_, high_around_) : high_;
-  const Lanes means = mean(count);
+  Lanes sum{};
+  for (std::size_t b = 0; b < blocks; ++b) sum += to_doubles(blocks_[b]);
+  const Lanes middle = sum / static_cast<double>(blocks);
+  for (std::size_t b = blocks; b < block_count; ++b) sum += to_doubles(blocks_[b]);
+  const Lanes means = sum / static_cast<double>(count);
   // A sample that is no number is neither low nor high, but leaves the largest mean there is.
   const bool sees_one_colour = all_equal(low, high) && all(means <= 2 * to_doubles(high));
   if (!edge_ && !mixed_ && sees_one_colour) return 0;
 
-  Lanes middle{};
-  for (std::size_t b = 0; b < blocks; ++b) middle += to_doubles(blocks_[b]);
-  middle /= static_cast<double>(blocks);
   Lanes squares{};
   for (std::size_t b = 0; b < blocks; ++b) {
     const Lanes distance = to_doubles(blocks_[b]) - middle;

@@ -161,7 +161,8 @@ void Accelerator::traverse(Kind& query) const {
     query.test(outline.object);
   }
   if (query.limit() <= query.ray().t_min) return;
-  visit_boxes(query.ray(), query.limit(), [&](std::uint32_t box) {
+  constexpr bool from_near = false;
+  visit_boxes<from_near>(query.ray(), query.limit(), [&](std::uint32_t box) {
     query.test(bounded_.list[box].object);
     return query.limit();
   });

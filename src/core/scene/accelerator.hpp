@@ -89,7 +89,7 @@ class Accelerator {
   template <class Kind>
   void traverse(Kind& query) const;
   /// The boxes of those that have an end, as EmbreeTree::traverse() has it.
-  template <class Visit>
+  template <bool FromNear, class Visit>
   void visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const;
   template <bool FromNear, class Visit>
   void visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const;
@@ -137,13 +137,13 @@ class Accelerator {
   bool objects_share_surfaces_ = false;
 };
 
-template <class Visit>
+template <bool FromNear, class Visit>
 void Accelerator::visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const {
   if (!tree_) return;
   if (has_box_row() && BoxRow::takes(ray)) {
     box_row_.traverse(ray, limit, visit);
   } else {
-    tree_->traverse(ray.origin, ray.direction, ray.t_min, limit, visit);
+    tree_->traverse(ray.origin, ray.direction, ray.t_min, limit, FromNear, visit);
   }
 }
 

@@ -28,6 +28,12 @@ inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& 
   RTCIntersectArguments arguments = arguments_with(context);
   rtcIntersect1(scene, &ray_hit, &arguments);
 }
+inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  RTCOccludedArguments arguments;
+  rtcInitOccludedArguments(&arguments);
+  arguments.context = &context;
+  rtcOccluded1(scene, &ray, &arguments);
+}
 
 /// Of rays that go nearly the same way.
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid, RTCRayHit8& ray_hits) {
@@ -52,6 +58,9 @@ inline void init_context(EmbreeContext& context) {
 
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, RTCRayHit& ray_hit) {
   rtcIntersect1(scene, &context, &ray_hit);
+}
+inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray) {
+  rtcOccluded1(scene, &context, &ray);
 }
 
 /// Of rays that go nearly the same way.

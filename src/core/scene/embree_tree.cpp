@@ -189,17 +189,24 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
   }
 }
 
+/// The same with one ray.
+void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRay& ray) {
+  if (valid[0] != 0) ray.tfar = std::min(ray.tfar, visit_box(context, box));
+}
+
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
+  RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
   if (reinterpret_cast<const AnyTraversal*>(arguments->context)->of_packet) {
-    const unsigned count = arguments->N;
-    RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, count);
-    visit_box(arguments->context, arguments->primID, arguments->valid, rays, count);
-    return;
+    visit_box(arguments->context, arguments->primID, arguments->valid, rays, arguments->N);
+  } else {
+    visit_box(arguments->context, arguments->primID, arguments->valid, *reinterpret_cast<RTCRay*>(rays));
   }
-  if (arguments->valid[0] == 0) return;
-  auto* ray_hit = reinterpret_cast<RTCRayHit*>(arguments->rayhit);
-  const float far_end = visit_box(arguments->context, arguments->primID);
-  ray_hit->ray.tfar = std::min(ray_hit->ray.tfar, far_end);
+}
+
+/// Only single rays ask in that way.
+void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
+  visit_box(arguments->context, arguments->primID, arguments->valid,
+            *reinterpret_cast<RTCRay*>(arguments->ray));
 }
 
 }  // namespace
@@ -253,6 +260,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   rtcSetGeometryUserData(geometry, handles->boxes.data());
   rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
   rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(handles->scene, geometry);
   rtcReleaseGeometry(geometry);
@@ -270,19 +278,19 @@ std::uint64_t EmbreeTree::bytes() const {
 }
 
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
-                          BoxVisitor& visitor) const {
+                          bool from_near, BoxVisitor& visitor) const {
   // A distant origin is moved up to the scene first, where floats are fine enough.
   const LineSpan span = RaySlabs::span(origin, direction, total_);
   const double t_start = std::max(t_min, span.enter);
   const double t_end = std::min(t_max, span.leave);
   if (t_start > t_end) return;
 
-  const double direction_scale = 1 / power_of_two_below(largest_component(direction));
+  const double length = power_of_two_below(largest_component(direction));
   Traversal traversal;
   init_context(traversal.any.context);
   traversal.visitor = &visitor;
   traversal.t_start = t_start;
-  traversal.scale = scale_ / direction_scale;
+  traversal.scale = scale_ * length;
 
   // Axes side by side, and the start as ObjectRay::from_center() has it.
   const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 0}; };
@@ -291,19 +299,26 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   const Lanes place = (fma(lanes_of(t_start), way, offset.hi) + offset.lo) * scale_;
   const Lanes far = lanes_of(farthest_place);
   const FloatLanes place_floats = to_floats(clamp(place, -far, far));
-  const FloatLanes way_floats = to_floats(way * direction_scale);
-  RTCRayHit ray_hit{};
-  ray_hit.ray.org_x = place_floats[0];
-  ray_hit.ray.org_y = place_floats[1];
-  ray_hit.ray.org_z = place_floats[2];
-  ray_hit.ray.dir_x = way_floats[0];
-  ray_hit.ray.dir_y = way_floats[1];
-  ray_hit.ray.dir_z = way_floats[2];
-  ray_hit.ray.tnear = 0;
-  ray_hit.ray.tfar = traversal.far_end(t_end);
-  ray_hit.ray.mask = ~0u;
-  ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
-  embree_intersect(handles_->scene, traversal.any.context, ray_hit);
+  const FloatLanes way_floats = to_floats(way * (1 / length));
+  RTCRayHit ray_hit;
+  RTCRay& ray = ray_hit.ray;
+  ray = {};
+  ray.org_x = place_floats[0];
+  ray.org_y = place_floats[1];
+  ray.org_z = place_floats[2];
+  ray.dir_x = way_floats[0];
+  ray.dir_y = way_floats[1];
+  ray.dir_z = way_floats[2];
+  ray.tnear = 0;
+  ray.tfar = traversal.far_end(t_end);
+  ray.mask = ~0u;
+  if (from_near) {
+    ray_hit.hit = {};
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(handles_->scene, traversal.any.context, ray_hit);
+  } else {
+    embree_occluded(handles_->scene, traversal.any.context, ray);
+  }
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 

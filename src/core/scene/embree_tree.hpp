@@ -42,14 +42,15 @@ class EmbreeTree {
   /// Of memory: Embree's and the boxes.
   std::uint64_t bytes() const;
 
-  /// Visits, roughly from near to far, at least every box that the ray origin + t * direction meets
-  /// at t_min <= t <= t_max. `direction` may have any length.
-  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max, roughly from
+  /// near to far or, which is faster, in any order; then a visitor can stop, but nothing nearer than t_max
+  /// ends the search before. `direction` may have any length.
+  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max, bool from_near,
                 BoxVisitor& visitor) const;
 
   /// The same with visit(box) for a visitor.
   template <class Visit>
-  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max, bool from_near,
                 const Visit& visit) const {
     class Caller final : public BoxVisitor {
      public:
@@ -60,7 +61,7 @@ class EmbreeTree {
       const Visit& call_;
     };
     Caller caller(visit);
-    traverse(origin, direction, t_min, t_max, static_cast<BoxVisitor&>(caller));
+    traverse(origin, direction, t_min, t_max, from_near, static_cast<BoxVisitor&>(caller));
   }
 
   /// The same for those of a packet's rays, up to their limits.
@@ -85,7 +86,6 @@ class EmbreeTree {
   template <class RayHits, std::size_t Count>
   void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                      PacketVisitor& visitor) const;
-  /// The part of each line that is in the box around all boxes; of those lanes.
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

@@ -62,7 +62,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
     }
   }
   if (!is_done()) {
-    visit_boxes(ray, query.limit(), [&](std::uint32_t box) {
+    visit_boxes<!Kind::any_will_do>(ray, query.limit(), [&](std::uint32_t box) {
       test(bounded_.list[box], bounded_);
       return query.limit();
     });
