@@ -891,7 +891,8 @@ typedef struct crt_hit {
 /** The nearest hit of each ray. If any ray is wrong, none is asked, and the message names its index. */
 CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                  crt_hit* hits, size_t hit_stride);
-/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes. */
+/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes. If any ray is
+ * wrong, nothing is written, and the message names its index. */
 CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                 uint8_t* occluded);
 /**

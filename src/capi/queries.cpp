@@ -170,7 +170,8 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     require(prepared, "prepared");
     const Rays questions(rays, ray_stride, count);
     if (count > 0) require(occluded, "occluded");
-    // The answers wait until no ray can be wrong any more: so all rays are gone through once alone.
+    // The answers wait here until no ray has turned out to be wrong: so nobody goes through all of them
+    // before.
     const auto answers = std::make_unique_for_overwrite<bool[]>(count);
     try {
       crt::query_in_parallel(prepared->value, count,

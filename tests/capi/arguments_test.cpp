@@ -337,7 +337,7 @@ TEST_CASE("no rays and no triangles are no trouble") {
   CHECK(out == nullptr);
 }
 
-TEST_CASE("a ray that is none is refused with its index, and no hit is written") {
+TEST_CASE("a ray that is none is refused with its index, and no answer is written") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
   const crt_ray good = {{-0.4, 0, -5}, {0, 0, 1}, 0, infinity};
@@ -351,6 +351,11 @@ TEST_CASE("a ray that is none is refused with its index, and no hit is written")
     CHECK(says("rays[" + std::to_string(count - 3) + "]"));
     CHECK(says("direction"));
     for (const crt_hit& hit : hits) CHECK(hit.t == 42);
+    std::vector<std::uint8_t> occluded(count, 42);
+    CHECK(crt_occluded(prepared.get(), rays.data(), 0, count, occluded.data()) == CRT_ERROR_INVALID_ARGUMENT);
+    CHECK(says("rays[" + std::to_string(count - 3) + "]"));
+    CHECK(says("direction"));
+    for (const std::uint8_t answer : occluded) CHECK(answer == 42);
   }
 }
 

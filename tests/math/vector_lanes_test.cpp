@@ -52,7 +52,9 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
     const Lanes dots = dot(lanes_a, lanes_b);
     const DoubleDoubleLanes accurate = accurate_dot(lanes_a, lanes_b);
     const Lanes largest = largest_component(lanes_a);
-    const DirectionsAndLengths split = directions_and_lengths(lanes_a);
+    VectorLanes directions;
+    Lanes lengths;
+    split(lanes_a, directions, lengths);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const int k = static_cast<int>(lane);
       REQUIRE((lanes_a + lanes_b).lane(lane) == a[lane] + b[lane]);
@@ -68,8 +70,8 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
       REQUIRE(largest[k] == largest_component(a[lane]));
       REQUIRE(unit_vector(lanes_a).lane(lane) == unit_vector(a[lane]));
       const DirectionAndLength expected = direction_and_length(a[lane]);
-      REQUIRE(split.directions.lane(lane) == expected.direction);
-      REQUIRE(split.lengths[k] == expected.length);
+      REQUIRE(directions.lane(lane) == expected.direction);
+      REQUIRE(lengths[k] == expected.length);
     }
   }
 }

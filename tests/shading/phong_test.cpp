@@ -46,7 +46,9 @@ Rgb direct_light(const PhongSurface& surface, const LightSample& light, const Rg
   samples.directions.set(lane, light.direction);
   samples.distances[lane] = light.distance;
   samples.intensities[lane] = light.intensity;
-  return direct_light(surfaces, samples, light_color, samples.intensities > 0.0).lane(lane);
+  VectorLanes seen;
+  direct_light(surfaces, samples, light_color, samples.intensities > 0.0, seen);
+  return seen.lane(lane);
 }
 
 }  // namespace

@@ -33,27 +33,25 @@ struct SphereChord {
 template <class Real>
 template <class Ray>
 SphereChord<Real> SphereChord<Real>::of(const Ray& ray, const Vec3& center, double radius, double unit) {
-  SphereChord chord;
   const auto line = NearLineOf<Real>::at_closest(ray, center, unit);
   const double r = radius / unit;
   const Real a = line.squared_speed;
   const Real closest = line.closest();
   const Vec3Of<Real> nearest = line.at(closest);
   const Real distance = square_root(dot(nearest, nearest));
-  chord.found = distance < r;
-  if (!any(chord.found)) return chord;
+  const auto meets = distance < r;
+  if (!any(meets)) return {};
 
   const Real root = square_root(a * (r + distance) * (r - distance));
   const Real half_chord = root / a;
-  chord.enter.t = line.to_t(closest - half_chord);
-  chord.leave.t = line.to_t(closest + half_chord);
-  chord.found = both(chord.found, chord.enter.t < chord.leave.t);
+  const Real enter = line.to_t(closest - half_chord);
+  const Real leave = line.to_t(closest + half_chord);
   const double reach = 2 * r;
   const Real approach = root / r;
   const Real longest = grazing_error(line, reach, r);
-  chord.enter.error = standard_error(line, chord.enter.t, reach, approach, longest);
-  chord.leave.error = standard_error(line, chord.leave.t, reach, approach, longest);
-  return chord;
+  return {both(meets, enter < leave),
+          {enter, standard_error(line, enter, reach, approach, longest)},
+          {leave, standard_error(line, leave, reach, approach, longest)}};
 }
 
 /// Of lines that start on the surface, where they are on it once more.

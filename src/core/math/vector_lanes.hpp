@@ -141,25 +141,20 @@ inline VectorLanes unit_vector(const VectorLanes& v) {
   return scaled / sqrt(square.hi + square.lo);
 }
 
-struct DirectionsAndLengths {
-  VectorLanes directions;
-  Lanes lengths{};
-};
-
-/// Of four vectors what direction_and_length() says of each.
-inline DirectionsAndLengths directions_and_lengths(const VectorLanes& v) {
+/// Of four vectors what direction_and_length() says of each, to where it stays: GCC copies structs by halves
+/// of these vectors, and who reads a whole one next waits until both have reached the cache.
+inline void split(const VectorLanes& v, VectorLanes& directions, Lanes& lengths) {
   const Lanes squares = dot(v, v);
   if (all((squares > safe_square_min) & (squares < safe_square_max))) {
-    const Lanes lengths = sqrt(squares);
-    return {v / lengths, lengths};
+    lengths = sqrt(squares);
+    directions = v / lengths;
+    return;
   }
-  DirectionsAndLengths result;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const DirectionAndLength one = direction_and_length(v.lane(lane));
-    result.directions.set(lane, one.direction);
-    result.lengths[static_cast<int>(lane)] = one.length;
+    directions.set(lane, one.direction);
+    lengths[static_cast<int>(lane)] = one.length;
   }
-  return result;
 }
 
 }  // namespace crt::core

@@ -32,7 +32,15 @@ void Tracer::finish(std::size_t group, RayMask on_surface) {
   const RayMask bright = on_surface & ~mask_of(is_black(surfaces.light));
   if (bright != 0) {
     const auto colors = by_lane(round_->weights[group] * surfaces.light);
-    for_each_ray(bright, [&](std::size_t lane) { round_->samples[first + lane]->channels += colors[lane]; });
+    const auto add = [&](std::size_t lane) { round_->samples[first + lane]->channels += colors[lane]; };
+    if (bright == RayPacket::group_mask) {  // as most are; a loop over lanes ends where nobody expects it
+      add(0);
+      add(1);
+      add(2);
+      add(3);
+    } else {
+      for_each_ray(bright, add);
+    }
   }
   const RayMask splitting = on_surface & surfaces.sending_on;
   const RayMask gone_on = splitting != 0 ? send_on(group, splitting) : 0;

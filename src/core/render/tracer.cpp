@@ -174,13 +174,13 @@ RayMask Tracer::taking_light(RayMask on_surface) const {
 
 RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
   RayMask sent = 0;
+  LightSamples& sample = light_sample_;
   RayPacket::for_each_group(surfaces_lit, [&](std::size_t i, RayMask lanes) {
     const SurfaceGroup& surfaces = surfaces_[i];
-    LightSamples sample;
     LaneMask lit = lanes_with(lanes);
     lit &= source.sample(surfaces.position, surfaces.path_length, sample);
     lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
-    lights_[i] = direct_light(surfaces.phong, sample, source.color(), lit);
+    direct_light(surfaces.phong, sample, source.color(), lit, lights_[i]);
     lit &= ~is_black(lights_[i]);
     sent |= mask_of(lit) << (i * lane_count);
     shadow_rays_.lines[i] = {surfaces.position, sample.directions};

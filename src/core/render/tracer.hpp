@@ -173,6 +173,7 @@ class Tracer {
   /// Rays from these to a light, and what comes along them if they meet nothing.
   RayBatch shadow_rays_;
   std::array<VectorLanes, packet_size / lane_count> lights_;
+  LightSamples light_sample_;  ///< of a group; a new one for each would be filled with zeros first
 };
 
 }  // namespace crt::core

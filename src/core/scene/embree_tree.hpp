@@ -42,9 +42,9 @@ class EmbreeTree {
   /// Of memory: Embree's and the boxes.
   std::uint64_t bytes() const;
 
-  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max, roughly from
-  /// near to far or, which is faster, in any order; then a visitor can stop, but nothing nearer than t_max
-  /// ends the search before. `direction` may have any length.
+  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max: roughly from
+  /// near to far or, which is faster, in any order, where nothing but a stop spares boxes. `direction` may
+  /// have any length.
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max, bool from_near,
                 BoxVisitor& visitor) const;
 

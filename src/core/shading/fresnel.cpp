@@ -44,7 +44,10 @@ Vec3 direction_of(const Vec3& v) {
   return direction_and_length(v).direction;
 }
 VectorLanes direction_of(const VectorLanes& v) {
-  return directions_and_lengths(v).directions;
+  VectorLanes directions;
+  Lanes lengths;
+  split(v, directions, lengths);
+  return directions;
 }
 
 }  // namespace

@@ -4,8 +4,8 @@
 
 namespace crt::core {
 
-VectorLanes direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
-                         const LaneMask& lit) {
+void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
+                  const LaneMask& lit, VectorLanes& seen) {
   const VectorLanes& normal = surfaces.normal;
   const Lanes cosine = dot(light.directions, normal);
   const LaneMask before = cosine > 0.0;
@@ -19,7 +19,7 @@ VectorLanes direct_light(const PhongSurfaces& surfaces, const LightSamples& ligh
     strength += shines ? highlight : Lanes{};
   }
   strength = before ? strength : Lanes{};
-  return strength * light.intensities * lanes_of(light_color) * surfaces.color;
+  seen = strength * light.intensities * lanes_of(light_color) * surfaces.color;
 }
 
 }  // namespace crt::core

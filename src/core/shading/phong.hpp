@@ -23,9 +23,9 @@ Vec3Of<Real> ambient_light(const Rgb& ambient, const Real& reflectivity) {
   return (1.0 - reflectivity) * spread<Real>(ambient);
 }
 
-/// The diffuse and the specular light of one light that nothing hides; black if it is behind the
+/// The diffuse and the specular light of one light that nothing hides, into `seen`; black if it is behind the
 /// surface. Only lanes of `lit` are asked for, others may hold anything.
-VectorLanes direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
-                         const LaneMask& lit);
+void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
+                  const LaneMask& lit, VectorLanes& seen);
 
 }  // namespace crt::core
