@@ -54,7 +54,7 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
     const Lanes largest = largest_component(lanes_a);
     VectorLanes directions;
     Lanes lengths;
-    split(lanes_a, directions, lengths);
+    directions_and_lengths(lanes_a, directions, lengths);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const int k = static_cast<int>(lane);
       REQUIRE((lanes_a + lanes_b).lane(lane) == a[lane] + b[lane]);

@@ -143,7 +143,7 @@ inline VectorLanes unit_vector(const VectorLanes& v) {
 
 /// Of four vectors what direction_and_length() says of each, to where it stays: GCC copies structs by halves
 /// of these vectors, and who reads a whole one next waits until both have reached the cache.
-inline void split(const VectorLanes& v, VectorLanes& directions, Lanes& lengths) {
+inline void directions_and_lengths(const VectorLanes& v, VectorLanes& directions, Lanes& lengths) {
   const Lanes squares = dot(v, v);
   if (all((squares > safe_square_min) & (squares < safe_square_max))) {
     lengths = sqrt(squares);

@@ -46,7 +46,7 @@ Vec3 direction_of(const Vec3& v) {
 VectorLanes direction_of(const VectorLanes& v) {
   VectorLanes directions;
   Lanes lengths;
-  split(v, directions, lengths);
+  directions_and_lengths(v, directions, lengths);
   return directions;
 }
 

@@ -67,7 +67,7 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
     light.directions = lanes_of(-axis_);
     light.distances = way_in_cylinder(points);
   } else {
-    split(lanes_of(origin_) - points, light.directions, light.distances);
+    directions_and_lengths(lanes_of(origin_) - points, light.directions, light.distances);
   }
   if (kind_ == Kind::spot) light.intensities = cone_share(light.directions);
   if (falloff_ != 0) {
