@@ -36,6 +36,24 @@ struct Hit {
   bool entering = false;  ///< into the solid; for a surface: against its normal
 };
 
+/// From which side a surface is met.
+enum class HitSide : std::uint32_t {
+  none,      ///< there is no hit
+  entering,  ///< into the solid; for a surface: against its normal
+  leaving,
+};
+
+/// A hit as an array of many holds it: 56 bytes, without its position, which is origin + t * direction.
+struct PlainHit {
+  double t =
+      std::numeric_limits<double>::infinity();  ///< infinity: nothing is hit, and all that follows is 0
+  Vec3 normal{0, 0, 0};                         ///< these as in Hit
+  double u = 0;
+  double v = 0;
+  std::uint32_t entity_id = 0;
+  HitSide side = HitSide::none;
+};
+
 /// The nearest hit.
 std::optional<Hit> intersect(const PreparedScene& scene, const Ray& ray);
 
@@ -73,6 +91,7 @@ class RayQueries {
   /// another, such as those through neighbouring pixels, are answered together, and faster than one by one;
   /// the answers are the same. Throws Error (invalid_argument) also where there are fewer places than rays.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
+  void intersect(std::span<const Ray> rays, std::span<PlainHit> hits);
   void occluded(std::span<const Ray> rays, std::span<bool> occluded);
 
   /// Every crossing in order, in place of what `out` holds.

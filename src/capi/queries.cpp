@@ -23,13 +23,23 @@ static_assert(sizeof(crt_hit) == 56 && alignof(crt_hit) == alignof(double));
 static_assert(offsetof(crt_hit, t) == 0 && offsetof(crt_hit, normal) == 8);
 static_assert(offsetof(crt_hit, u) == 32 && offsetof(crt_hit, v) == 40);
 static_assert(offsetof(crt_hit, entity_id) == 48 && offsetof(crt_hit, flags) == 52);
-// So that rays can be copied as a whole.
+// So that rays and hits can be copied as a whole.
 static_assert(sizeof(crt::Ray) == sizeof(crt_ray) && std::is_trivially_copyable_v<crt::Ray>);
 static_assert(std::is_standard_layout_v<crt::Ray> && sizeof(crt::Vec3) == sizeof(crt_ray::origin));
 static_assert(offsetof(crt::Ray, origin) == offsetof(crt_ray, origin));
 static_assert(offsetof(crt::Ray, direction) == offsetof(crt_ray, direction));
 static_assert(offsetof(crt::Ray, t_min) == offsetof(crt_ray, t_min));
 static_assert(offsetof(crt::Ray, t_max) == offsetof(crt_ray, t_max));
+static_assert(sizeof(crt::PlainHit) == sizeof(crt_hit) && std::is_trivially_copyable_v<crt::PlainHit>);
+static_assert(std::is_standard_layout_v<crt::PlainHit>);
+static_assert(offsetof(crt::PlainHit, t) == offsetof(crt_hit, t));
+static_assert(offsetof(crt::PlainHit, normal) == offsetof(crt_hit, normal));
+static_assert(offsetof(crt::PlainHit, u) == offsetof(crt_hit, u));
+static_assert(offsetof(crt::PlainHit, v) == offsetof(crt_hit, v));
+static_assert(offsetof(crt::PlainHit, entity_id) == offsetof(crt_hit, entity_id));
+static_assert(offsetof(crt::PlainHit, side) == offsetof(crt_hit, flags));
+static_assert(static_cast<int>(crt::HitSide::entering) == CRT_HIT_ENTERING);
+static_assert(static_cast<int>(crt::HitSide::leaving) == CRT_HIT_BACKFACE);
 
 namespace crt::capi {
 
@@ -117,19 +127,13 @@ class Rays {
   std::size_t count_;
 };
 
-crt_hit to_hit(const std::optional<Hit>& hit) {
-  crt_hit out{};
-  if (!hit) {
-    out.t = std::numeric_limits<double>::infinity();
-    return out;
-  }
-  out.t = hit->t;
-  for (int axis = 0; axis < 3; ++axis) out.normal[axis] = hit->normal[axis];
-  out.u = hit->u;
-  out.v = hit->v;
-  out.entity_id = hit->entity_id;
-  out.flags = hit->entering ? CRT_HIT_ENTERING : CRT_HIT_BACKFACE;
-  return out;
+crt_hit to_hit(const Hit& hit) {
+  return {.t = hit.t,
+          .normal = {hit.normal.x, hit.normal.y, hit.normal.z},
+          .u = hit.u,
+          .v = hit.v,
+          .entity_id = hit.entity_id,
+          .flags = hit.entering ? CRT_HIT_ENTERING : CRT_HIT_BACKFACE};
 }
 
 }  // namespace
@@ -146,21 +150,18 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
     const Places<std::byte> answers(reinterpret_cast<std::byte*>(hits), hit_stride, sizeof(crt_hit), count,
                                     "hits");
     questions.validate_all(prepared->value);
-    crt::query_in_parallel(
-        prepared->value, count, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-          std::array<std::optional<crt::Hit>, piece_size> found;
-          std::array<crt_hit, piece_size> told;
-          questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-            for (std::size_t i = 0; i < piece.size(); ++i) __builtin_prefetch(answers[begin + i], 1);
-            queries.intersect(piece, found);
-            // Step by step: a copy of what was just written waits until it is there.
-            std::transform(found.begin(), found.begin() + static_cast<std::ptrdiff_t>(piece.size()),
-                           told.begin(), to_hit);
-            for (std::size_t i = 0; i < piece.size(); ++i) {
-              std::memcpy(answers[begin + i], &told[i], sizeof(crt_hit));
-            }
-          });
-        });
+    crt::query_in_parallel(prepared->value, count,
+                           [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+                             std::array<crt::PlainHit, piece_size> found;
+                             questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
+                               for (std::size_t i = 0; i < piece.size(); ++i)
+                                 __builtin_prefetch(answers[begin + i], 1);
+                               queries.intersect(piece, found);
+                               for (std::size_t i = 0; i < piece.size(); ++i) {
+                                 std::memcpy(answers[begin + i], &found[i], sizeof(crt_hit));
+                               }
+                             });
+                           });
   });
 }
 

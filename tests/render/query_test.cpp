@@ -23,6 +23,34 @@ PreparedScene two_balls() {
   return prepare(scene);
 }
 
+/// Small things of several kinds side by side, some behind others.
+PreparedScene many_kinds() {
+  Scene scene;
+  std::mt19937_64 random(5);
+  std::uniform_real_distribution<double> real(-1, 1);
+  for (std::uint32_t i = 0; i < 120; ++i) {
+    const Vec3 center = {1.5 * real(random), 1.5 * real(random), 5 + real(random)};
+    const double size = 0.1 + 0.05 * real(random);
+    const Entity ball = Sphere{.center = center, .radius = size};
+    const Entity box = Box{.corner_a = center - Vec3(size), .corner_b = center + Vec3(size)};
+    const std::array<Entity, 4> kinds = {
+        ball, box, csg_difference(box, std::array{ball.transformed(translate({0, 0, -size}))}),
+        ball.transformed(scale({1, 0.5, 1}))};
+    scene.entities.push_back(kinds[i % 7 < 4 ? i % 7 : 0].with_id(i));
+  }
+  return prepare(scene);
+}
+
+bool same(const PlainHit& plain, const std::optional<Hit>& hit) {
+  if (!hit) {
+    return plain.t == std::numeric_limits<double>::infinity() && plain.normal == Vec3(0) && plain.u == 0 &&
+           plain.v == 0 && plain.entity_id == 0 && plain.side == HitSide::none;
+  }
+  return plain.t == hit->t && plain.normal == hit->normal && plain.u == hit->u && plain.v == hit->v &&
+         plain.entity_id == hit->entity_id &&
+         plain.side == (hit->entering ? HitSide::entering : HitSide::leaving);
+}
+
 std::string rejected(const Ray& ray) {
   const PreparedScene scene = two_balls();
   std::string argument;
@@ -135,9 +163,15 @@ TEST_CASE("the first ray of many that is refused is told") {
   }
 }
 
-TEST_CASE("many rays at once find what each finds, however long they are") {
-  const PreparedScene scene = two_balls();
-  RayQueries queries(scene);
+TEST_CASE("many rays at once find what each finds, however long they are and whatever they meet") {
+  std::optional<PreparedScene> scene;
+  SUBCASE("two balls") {
+    scene = two_balls();
+  }
+  SUBCASE("many kinds of things") {
+    scene = many_kinds();
+  }
+  RayQueries queries(*scene);
   std::mt19937_64 random(3);
   std::uniform_real_distribution<double> real(-1, 1);
   const std::array<double, 8> lengths = {1, 1, 1, 1e-308, 5e-324, 1e307, 1e-160, 7e20};
@@ -153,18 +187,24 @@ TEST_CASE("many rays at once find what each finds, however long they are") {
     }
     std::vector<std::optional<Hit>> hits(rays.size());
     std::array<bool, 40> hidden{};
+    std::vector<PlainHit> plain(rays.size());
     queries.intersect(rays, hits);
+    queries.intersect(rays, plain);
     queries.occluded(rays, hidden);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::optional<Hit> alone = queries.intersect(rays[i]);
       REQUIRE(alone.has_value() == hits[i].has_value());
       REQUIRE(queries.occluded(rays[i]) == hidden[i]);
+      REQUIRE(same(plain[i], alone));
       if (!alone) continue;
       ++met;
       REQUIRE(alone->t == hits[i]->t);
       REQUIRE(alone->position == hits[i]->position);
       REQUIRE(alone->normal == hits[i]->normal);
+      REQUIRE(alone->u == hits[i]->u);
+      REQUIRE(alone->v == hits[i]->v);
       REQUIRE(alone->entity_id == hits[i]->entity_id);
+      REQUIRE(alone->entering == hits[i]->entering);
     }
   }
   CHECK(met > 2000);

@@ -41,6 +41,8 @@ struct Leaf {
   std::uint32_t face_count = 0;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
+  /// Its shape is a SphereShape, neither complemented nor placed anywhere else.
+  bool plain_sphere = false;
 };
 
 struct CsgNode {

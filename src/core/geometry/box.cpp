@@ -85,20 +85,19 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> BoxShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face,
-                                          bool with_uv) const {
+void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face, bool with_uv,
+                           SurfacePointOf<Real>& point) const {
   using Vector = Vec3Of<Real>;
   const PlaneFace& plane = faces_[face];
   const Vector size = spread<Real>(upper_ - lower_);
   const Vector within = clamp(offset, spread<Real>(Vec3(0)), size);
-  SurfacePointOf<Real> result{.position = min(spread<Real>(upper_), spread<Real>(lower_) + within),
-                              .normal = spread<Real>(plane.unit_normal())};
-  result.position[plane.axis()] = spread<Real>(plane.position()[plane.axis()]);
-  if (!with_uv) return result;
+  point.position = min(spread<Real>(upper_), spread<Real>(lower_) + within);
+  point.position[plane.axis()] = spread<Real>(plane.position()[plane.axis()]);
+  point.normal = spread<Real>(plane.unit_normal());
+  if (!with_uv) return;
   const Vector share = within / size;
-  result.u = plane.axis() == 0 ? share.z : share.x;
-  result.v = plane.axis() == 1 ? share.z : share.y;
-  return result;
+  point.u = plane.axis() == 0 ? share.z : share.x;
+  point.v = plane.axis() == 1 ? share.z : share.y;
 }
 
 void validate(const Box& box) {

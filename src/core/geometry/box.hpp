@@ -25,8 +25,8 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return lower_; }
   template <class Real>
-  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
-                                  std::uint32_t face, bool with_uv) const;
+  void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
+                   bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return 6; }
   Surface surface(std::uint32_t face) const override { return faces_[face].surface(); }
   std::size_t bytes() const override { return sizeof *this; }

@@ -33,12 +33,11 @@ bool DiscShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> DiscShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
-                                           bool with_uv) const {
+void DiscShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                            SurfacePointOf<Real>& point) const {
   const Vec3Of<Real> relative = face_.onto_plane(offset);
-  SurfacePointOf<Real> result = face_.surface_point(relative);
-  if (with_uv) set_polar(relative, frame_, radius_, result);
-  return result;
+  face_.write_point(relative, point);
+  if (with_uv) set_polar(relative, frame_, radius_, point);
 }
 
 void validate(const Disc& disc) {

@@ -20,8 +20,8 @@ class DiscShape final : public ShapeOfPoints<DiscShape> {
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }
   template <class Real>
-  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
-                                  std::uint32_t face, bool with_uv) const;
+  void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
+                   bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t) const override { return face_.surface(); }
   std::size_t bytes() const override { return sizeof *this; }

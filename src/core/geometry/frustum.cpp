@@ -199,7 +199,8 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
 }
 
 template <class Real>
-FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset) {
+FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset,
+                                         SurfacePointOf<Real>& point) {
   using Vector = Vec3Of<Real>;
   const Vector axis = spread<Real>(frustum.axis_);
   const Vector p = spread<Real>(1 / frustum.unit_) * offset;
@@ -222,26 +223,22 @@ FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3
 }
 
 template <class Real>
-SurfacePointOf<Real> FrustumShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
-                                              std::uint32_t face, bool with_uv) const {
-  if (face != side_face) return cap_point<Real>(offset, face - 1, with_uv);
-  const SidePoint<Real> side(*this, offset);
-  SurfacePointOf<Real> result = side.point;
-  if (!with_uv) return result;
-  result.u =
-      turn(dot(side.radial, spread<Real>(frame_.zero)), dot(side.radial, spread<Real>(frame_.quarter)));
-  result.v = narrow_ == from_ ? side.share : 1 - side.share;
-  return result;
+void FrustumShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face,
+                               bool with_uv, SurfacePointOf<Real>& point) const {
+  if (face != side_face) return write_cap_point(offset, face - 1, with_uv, point);
+  const SidePoint<Real> side(*this, offset, point);
+  if (!with_uv) return;
+  point.u = turn(dot(side.radial, spread<Real>(frame_.zero)), dot(side.radial, spread<Real>(frame_.quarter)));
+  point.v = narrow_ == from_ ? side.share : 1 - side.share;
 }
 
 template <class Real>
-SurfacePointOf<Real> FrustumShape::cap_point(const Vec3Of<Real>& offset, std::size_t end,
-                                             bool with_uv) const {
+void FrustumShape::write_cap_point(const Vec3Of<Real>& offset, std::size_t end, bool with_uv,
+                                   SurfacePointOf<Real>& point) const {
   const PlaneFace& cap = *caps_[end];
   const Vec3Of<Real> relative = cap.onto_plane(offset);
-  SurfacePointOf<Real> result = cap.surface_point(relative);
-  if (with_uv) set_polar(relative, frame_, radii_[end], result);
-  return result;
+  cap.write_point(relative, point);
+  if (with_uv) set_polar(relative, frame_, radii_[end], point);
 }
 
 template class ShapeOfPoints<FrustumShape>;

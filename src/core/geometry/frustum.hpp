@@ -55,8 +55,8 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     return face == side_face ? narrow_ : caps_[face - 1]->position();
   }
   template <class Real>
-  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
-                                  std::uint32_t face, bool with_uv) const;
+  void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
+                   bool with_uv, SurfacePointOf<Real>& point) const;
   std::uint32_t face_count() const final { return caps_[1] ? 3 : 2; }
   Surface surface(std::uint32_t face) const final;
   std::size_t bytes() const override { return sizeof *this; }
@@ -105,13 +105,14 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   struct SidePoint {
     Vec3Of<Real> radial;  ///< from the axis, of length 1
     Real share;           ///< of the height
-    SurfacePointOf<Real> point;
 
-    SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset);
+    /// Writes its position and normal, too.
+    SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset, SurfacePointOf<Real>& point);
   };
   /// What is on a cap at `offset` from its middle, or next to it.
   template <class Real>
-  SurfacePointOf<Real> cap_point(const Vec3Of<Real>& offset, std::size_t end, bool with_uv) const;
+  void write_cap_point(const Vec3Of<Real>& offset, std::size_t end, bool with_uv,
+                       SurfacePointOf<Real>& point) const;
 
   Vec3 from_;
   Vec3 to_;

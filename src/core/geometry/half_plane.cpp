@@ -38,14 +38,13 @@ bool HalfPlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> HalfPlaneShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
-                                                std::uint32_t, bool with_uv) const {
+void HalfPlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                                 SurfacePointOf<Real>& point) const {
   const Vec3Of<Real> relative = face_.onto_plane(offset);
-  SurfacePointOf<Real> result = face_.surface_point(relative);
-  if (!with_uv) return result;
-  result.u = max(Real{}, dot(relative, spread<Real>(inward_)));
-  result.v = dot(relative, spread<Real>(glm::cross(face_.unit_normal(), inward_)));
-  return result;
+  face_.write_point(relative, point);
+  if (!with_uv) return;
+  point.u = max(Real{}, dot(relative, spread<Real>(inward_)));
+  point.v = dot(relative, spread<Real>(glm::cross(face_.unit_normal(), inward_)));
 }
 
 void validate(const HalfPlane& half_plane) {

@@ -17,8 +17,10 @@ struct PlainRay {
     return {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y), fma(t, direction.z, origin.z)};
   }
 
-  Vec3Of<Real> from_center(const Vec3& center, const Real& t, const Real& t_low = Real{}) const {
-    const auto component = [&](const Real& from, const Real& along, double place) {
+  /// Of one center, or of a VectorLanes with one for each lane.
+  template <class Center>
+  Vec3Of<Real> from_center(const Center& center, const Real& t, const Real& t_low = Real{}) const {
+    const auto component = [&](const Real& from, const Real& along, const auto& place) {
       const auto offset = two_sum(from, spread<Real>(-place));
       return fma(t, along, offset.hi) + (offset.lo + t_low * along);
     };

@@ -32,14 +32,13 @@ bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> PlaneShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
-                                            bool with_uv) const {
+void PlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                             SurfacePointOf<Real>& point) const {
   const Vec3Of<Real> relative = face_.onto_plane(offset);
-  SurfacePointOf<Real> result = face_.surface_point(relative);
-  if (!with_uv) return result;
-  result.u = dot(relative, spread<Real>(axes_.u));
-  result.v = dot(relative, spread<Real>(axes_.v));
-  return result;
+  face_.write_point(relative, point);
+  if (!with_uv) return;
+  point.u = dot(relative, spread<Real>(axes_.u));
+  point.v = dot(relative, spread<Real>(axes_.v));
 }
 
 void validate(const Plane& plane) {

@@ -98,10 +98,10 @@ class PlaneFace {
   /// What is at such a point, without u and v. Where the plane is across a coordinate axis it is exactly on
   /// it.
   template <class Vector>
-  auto surface_point(const Vector& relative) const {
+  void write_point(const Vector& relative, SurfacePointOf<RealOf<Vector>>& point) const {
     using Real = RealOf<Vector>;
-    return SurfacePointOf<Real>{.position = spread<Real>(position_) + relative,
-                                .normal = spread<Real>(unit_normal_)};
+    point.position = spread<Real>(position_) + relative;
+    point.normal = spread<Real>(unit_normal_);
   }
 
   const Vec3& position() const { return position_; }

@@ -124,17 +124,20 @@ class Shape {
 };
 
 /// A shape with one formula for one point and for lanes:
-/// SurfacePointOf<Real> Derived::point_near<Real>(offset, direction, face, with_uv).
+/// void Derived::write_point<Real>(offset, direction, face, with_uv, point), to where it stays: a copy of
+/// what has just been written waits until that has reached the cache.
 template <class Derived>
 class ShapeOfPoints : public Shape {
  public:
   SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                         bool with_uv) const final {
-    return derived().template point_near<double>(offset, direction, face, with_uv);
+    SurfacePoint point;
+    derived().template write_point<double>(offset, direction, face, with_uv, point);
+    return point;
   }
   void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face, bool with_uv,
                  SurfacePointLanes& points) const final {
-    points = derived().template point_near<Lanes>(offsets, directions, face, with_uv);
+    derived().template write_point<Lanes>(offsets, directions, face, with_uv, points);
   }
 
  private:

@@ -39,16 +39,40 @@ bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out
   return stretch.finish(out);
 }
 
+namespace {
+
+/// On a sphere, or on one for each lane; next to where a line of that direction crosses it, which is at
+/// `offset` from the center.
 template <class Real>
-SurfacePointOf<Real> SphereShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
-                                             std::uint32_t, bool with_uv) const {
+inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius, const Vec3Of<Real>& offset,
+                               const Vec3Of<Real>& direction, bool with_uv, SurfacePointOf<Real>& point) {
   const auto is_apart = largest_component(offset) > 0.0;
   const Vec3Of<Real> n = unit_vector(chosen(is_apart, offset, -direction));
-  SurfacePointOf<Real> result{.position = spread<Real>(center_) + spread<Real>(radius_) * n, .normal = n};
-  if (!with_uv) return result;
-  result.u = turn(n.z, n.x);
-  result.v = rise(square_root(n.x * n.x + n.z * n.z), n.y);
-  return result;
+  point.position = center + radius * n;
+  point.normal = n;
+  if (!with_uv) return;
+  point.u = turn(n.z, n.x);
+  point.v = rise(square_root(n.x * n.x + n.z * n.z), n.y);
+}
+
+}  // namespace
+
+template <class Real>
+void SphereShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t,
+                              bool with_uv, SurfacePointOf<Real>& point) const {
+  write_sphere_point<Real>(spread<Real>(center_), spread<Real>(radius_), offset, direction, with_uv, point);
+}
+
+void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
+                                 const RayLanes& rays, const Lanes& t, bool with_uv,
+                                 SurfacePointLanes& points) {
+  const auto row = [&](std::size_t lane) {
+    const SphereShape& sphere = *spheres[lane];
+    return Lanes{sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_};
+  };
+  const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});
+  const VectorLanes center = {x, y, z};
+  write_sphere_point<Lanes>(center, radius, rays.from_center(center, t), rays.direction, with_uv, points);
 }
 
 Surface SphereShape::surface(std::uint32_t) const {

@@ -9,7 +9,10 @@
 // Tests: tests/geometry/sphere_test.cpp
 #pragma once
 
+#include <array>
+
 #include "core/geometry/near_line.hpp"
+#include "core/geometry/plain_ray.hpp"
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
@@ -100,8 +103,11 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   }
   Vec3 anchor(std::uint32_t) const override { return center_; }
   template <class Real>
-  SurfacePointOf<Real> point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
-                                  std::uint32_t face, bool with_uv) const;
+  void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
+                   bool with_uv, SurfacePointOf<Real>& point) const;
+  /// points_on() of rays each of which crosses a sphere of its own, to the last bit; t is by ray.
+  static void points_on_each(const std::array<const SphereShape*, lane_count>& spheres, const RayLanes& rays,
+                             const Lanes& t, bool with_uv, SurfacePointLanes& points);
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }

@@ -158,19 +158,18 @@ TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Rea
 }
 
 template <class Real>
-SurfacePointOf<Real> TorusShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
-                                            bool with_uv) const {
+void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                             SurfacePointOf<Real>& point) const {
   const TubePlace<Real> place(*this, offset);
   const Vec3Of<Real>& radial = place.radial;
   const Vec3Of<Real> from_ring = place.outward * radial + place.height * spread<Real>(frame_.along);
   const Vec3Of<Real> normal = chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
   const Vec3Of<Real> from_center = spread<Real>(ring_) * radial + spread<Real>(tube_) * normal;
-  SurfacePointOf<Real> result{.position = spread<Real>(center_) + spread<Real>(unit_) * from_center,
-                              .normal = normal};
-  if (!with_uv) return result;
-  result.u = turn(dot(radial, spread<Real>(frame_.zero)), dot(radial, spread<Real>(frame_.quarter)));
-  result.v = turn(place.outward, place.height);
-  return result;
+  point.position = spread<Real>(center_) + spread<Real>(unit_) * from_center;
+  point.normal = normal;
+  if (!with_uv) return;
+  point.u = turn(dot(radial, spread<Real>(frame_.zero)), dot(radial, spread<Real>(frame_.quarter)));
+  point.v = turn(place.outward, place.height);
 }
 
 Surface TorusShape::surface(std::uint32_t) const {

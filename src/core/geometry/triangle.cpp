@@ -135,29 +135,31 @@ bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-SurfacePointOf<Real> TriangleShape::point_near(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
-                                               bool with_uv) const {
+void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                                SurfacePointOf<Real>& point) const {
   using Vector = Vec3Of<Real>;
   const Vector relative = face_.onto_plane(offset);
-  SurfacePointOf<Real> result = face_.surface_point(relative);
+  face_.write_point(relative, point);
   const Bounds box = bounds();
-  result.position = clamp(result.position, spread<Real>(box.lower), spread<Real>(box.upper));
-  if (!with_uv) return result;
+  point.position = clamp(point.position, spread<Real>(box.lower), spread<Real>(box.upper));
+  if (!with_uv) return;
   const Vec3 ab = corners_[1] - corners_[0];
   const Vec3 ac = corners_[2] - corners_[0];
   const double scale = inverse_length_scale(ab);
   const double scale_c = inverse_length_scale(ac);
   const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
   const double squared_area = glm::dot(area, area);
-  if (!(squared_area > 0)) return result;
+  if (!(squared_area > 0)) {
+    point.u = point.v = Real{};
+    return;
+  }
   const Vector across = spread<Real>(area);
   const Vector scaled = spread<Real>(scale) * relative;
   const Real u = dot(accurate_cross(scaled, spread<Real>(ac * scale_c)), across) / squared_area;
   const Real v =
       dot(accurate_cross(spread<Real>(ab * scale), spread<Real>(scale_c) * relative), across) / squared_area;
-  result.u = clamp(u, Real{}, spread<Real>(1));
-  result.v = clamp(v, Real{}, 1 - result.u);
-  return result;
+  point.u = clamp(u, Real{}, spread<Real>(1));
+  point.v = clamp(v, Real{}, 1 - point.u);
 }
 
 bool has_area(const Triangle& triangle) {

@@ -223,6 +223,18 @@ inline Lanes size_of(const Lanes& x) {
 #endif
 }
 
+/// Of four rows the columns.
+inline std::array<Lanes, lane_count> transposed(const std::array<Lanes, lane_count>& rows) {
+  const Lanes even_low = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
+  const Lanes odd_low = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
+  const Lanes even_high = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
+  const Lanes odd_high = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
+  return {__builtin_shufflevector(even_low, even_high, 0, 1, 4, 5),
+          __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5),
+          __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7),
+          __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7)};
+}
+
 /// The same number in a Real, which is a double or lanes.
 template <class Real>
 Real spread(double value) {
@@ -231,6 +243,12 @@ Real spread(double value) {
   } else {
     return lanes_of(value);
   }
+}
+
+/// Numbers that are by lane already.
+template <class Real>
+Lanes spread(const Lanes& values) {
+  return values;
 }
 
 /// A mask for a Real, of bits as mask_of() has them; of one number the first.

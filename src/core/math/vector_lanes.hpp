@@ -48,14 +48,7 @@ inline VectorLanes lanes_of(const Vec3& v) {
 
 /// The vectors one after the other, each with 0 behind its components.
 inline std::array<Lanes, lane_count> by_lane(const VectorLanes& v) {
-  const Lanes even_xy = __builtin_shufflevector(v.x, v.y, 0, 4, 2, 6);
-  const Lanes odd_xy = __builtin_shufflevector(v.x, v.y, 1, 5, 3, 7);
-  const Lanes even_z = __builtin_shufflevector(v.z, Lanes{}, 0, 4, 2, 6);
-  const Lanes odd_z = __builtin_shufflevector(v.z, Lanes{}, 1, 5, 3, 7);
-  return {__builtin_shufflevector(even_xy, even_z, 0, 1, 4, 5),
-          __builtin_shufflevector(odd_xy, odd_z, 0, 1, 4, 5),
-          __builtin_shufflevector(even_xy, even_z, 2, 3, 6, 7),
-          __builtin_shufflevector(odd_xy, odd_z, 2, 3, 6, 7)};
+  return transposed({v.x, v.y, v.z, Lanes{}});
 }
 
 /// The same vector in a Vec3, or in each lane.

@@ -4,6 +4,8 @@
 #include <array>
 #include <bit>
 #include <cmath>
+#include <cstddef>
+#include <cstring>
 #include <limits>
 #include <new>
 
@@ -87,19 +89,14 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  void nearest(std::span<std::optional<Hit>> hits) {
+  /// An answer is an std::optional<Hit> or a PlainHit.
+  template <class Answer>
+  void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
-      RayMask found = 0;
-      for (std::size_t i = 0; i < count; ++i) {
-        if (hits_[first + i].found()) {
-          found |= 1u << i;
-        } else {
-          hits[first + i].reset();
-        }
-      }
-      if (found != 0) describe(first, found, hits.subspan(first, count));
+      describe(first, count);
+      tell(answers.subspan(first, count));
     }
   }
 
@@ -130,22 +127,65 @@ class QueryPacket {
     }
   }
 
-  /// Tells of those of the rays from `first` on that have found something: those on one face side by side.
-  void describe(std::size_t first, RayMask found, std::span<std::optional<Hit>> hits) {
+  /// What `count` rays from `first` on have found: those that are alike side by side.
+  void describe(std::size_t first, std::size_t count) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
+    found_ = 0;
+    for (std::size_t i = 0; i < count; ++i) found_ |= static_cast<RayMask>(group[i].found()) << i;
+    if (found_ == 0) return;
+    for_each_ray(found_, [&](std::size_t lane) {
+      const auto i = static_cast<int>(lane);
+      t_[i] = to_users_t_[first + lane] * group[lane].t;
+      ids_[i] = data_.entity_id(group[lane]);
+      sides_[i] = static_cast<std::uint64_t>(group[lane].entering ? HitSide::entering : HitSide::leaving);
+    });
     const RayLanes& lines = rays_.lines[first / lane_count];
     const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
-    const HitFaces faces(group);
-    for (RayMask to_come = found; to_come != 0;) {
-      const RayHit& hit = group[first_ray(to_come)];
-      const RayMask alike = mask_of(faces.like(hit)) & to_come;
-      to_come &= ~alike;
-      data_.object_points(hit, lines, t, true, points_);
-      data_.take_to_world(hit, points_);
-      for_each_ray(alike, [&](std::size_t lane) {
-        hits[lane] = described(to_users_t_[first + lane] * group[lane].t, lane_of(points_, lane),
-                               data_.entity_id(hit), hit.entering);
-      });
+    const HitFaces faces(data_, group);
+    for (RayMask to_come = found_; to_come != 0;) {
+      const AlikeRays alike = faces.alike(to_come);
+      SurfacePointLanes& points = to_come == found_ ? points_ : others_;
+      faces.object_points(alike, lines, t, true, points);
+      data_.take_to_world(group[first_ray(to_come)], points);
+      to_come &= ~alike.all();
+      if (&points == &points_) continue;
+      const LaneMask lanes = lanes_with(alike.all());
+      points_.position = chosen(lanes, points.position, points_.position);
+      points_.normal = chosen(lanes, points.normal, points_.normal);
+      points_.u = lanes ? points.u : points_.u;
+      points_.v = lanes ? points.v : points_.v;
+    }
+  }
+
+  void tell(std::span<std::optional<Hit>> answers) const {
+    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      const auto i = static_cast<int>(lane);
+      if ((found_ >> lane & 1u) == 0) {
+        answers[lane].reset();
+      } else {
+        answers[lane] = described(t_[i], lane_of(points_, lane), static_cast<std::uint32_t>(ids_[i]),
+                                  sides_[i] == static_cast<std::uint64_t>(HitSide::entering));
+      }
+    }
+  }
+
+  /// By whole vectors.
+  void tell(std::span<PlainHit> answers) const {
+    static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 && offsetof(PlainHit, u) == 32);
+    static_assert(offsetof(PlainHit, v) == 40 && offsetof(PlainHit, entity_id) == 48 &&
+                  offsetof(PlainHit, side) == 52);
+    const LaneMask found = lanes_with(found_);
+    const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
+    const Lanes t = found ? t_ : lanes_of(std::numeric_limits<double>::infinity());
+    const Lanes id_and_side = reinterpret_cast<Lanes>(ids_ | sides_ << 32);
+    const auto heads =
+        transposed({t, told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
+    const auto tails = transposed({told(points_.u), told(points_.v), told(id_and_side), Lanes{}});
+    constexpr std::size_t head = offsetof(PlainHit, u);
+    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
+      std::memcpy(place, &heads[lane], head);
+      std::memcpy(place + head, &tails[lane], sizeof(PlainHit) - head);
     }
   }
 
@@ -155,7 +195,13 @@ class QueryPacket {
   RayBatch rays_;
   std::array<PowerOfTwo, packet_size> to_users_t_;
   std::array<RayHit, packet_size> hits_;
-  SurfacePointLanes points_;  ///< of those that are told of
+  // Of a group of rays, by lane, those that have found something:
+  RayMask found_ = 0;
+  Lanes t_{};  ///< the user's
+  SurfacePointLanes points_;
+  SurfacePointLanes others_;  ///< of hits that are not alike
+  WordLanes ids_{};
+  WordLanes sides_{};
 };
 
 /// Calls ask(packet, answers) for packet after packet.
@@ -241,6 +287,14 @@ class RayQueries::State {
     validate(ray);
     return {scene_.data(), ray, work_};
   }
+  template <class Answer>
+  void intersect(std::span<const Ray> rays, std::span<Answer> answers) {
+    const core::FloatEnvironment ieee;
+    core::answered([&] {
+      core::ask_in_packets(data(), rays, answers, work_,
+                           [](core::QueryPacket& packet, auto some) { packet.nearest(some); });
+    });
+  }
   std::vector<core::RayHit>& found() { return found_; }
   const core::PreparedData& data() const { return scene_.data(); }
   core::RayWorkspace& work() { return work_; }
@@ -268,11 +322,11 @@ bool RayQueries::occluded(const Ray& ray) {
 }
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits) {
-  const core::FloatEnvironment ieee;
-  core::answered([&] {
-    core::ask_in_packets(state_->data(), rays, hits, state_->work(),
-                         [](core::QueryPacket& packet, auto answers) { packet.nearest(answers); });
-  });
+  state_->intersect(rays, hits);
+}
+
+void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) {
+  state_->intersect(rays, hits);
 }
 
 void RayQueries::occluded(std::span<const Ray> rays, std::span<bool> occluded) {

@@ -30,12 +30,13 @@ Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial&
   return tilted_normal(leaf.placement->normal_to_world(point.normal), height_gradient);
 }
 
-/// Rays of a group that hit the same face of the same leaf, from the same side.
+/// Rays of a group that hit one face, or spheres of one material, from the same side.
 struct AlikeHits {
+  std::span<const RayHit, lane_count> hits;
   const RayHit& first;
   const PreparedMaterial& material;
   RayMask rays;
-  LaneMask lanes;  ///< the same
+  LaneMask lanes = lanes_with(rays);
 
   void set(Lanes& values, const Lanes& value) const { values = lanes ? value : values; }
   void set(VectorLanes& values, const VectorLanes& value) const { values = chosen(lanes, value, values); }
@@ -58,8 +59,9 @@ void set_bumped_normals(const PreparedData& data, const AlikeHits& alike, const 
                         SurfaceGroup& group, Workspace& work) {
   const double to_viewer = alike.first.entering ? 1 : -1;
   for_each_ray(alike.rays, [&](std::size_t lane) {
-    const Vec3 normal = to_viewer * bumped_normal(data.leaf(alike.first), alike.first.face, alike.material,
-                                                  lane_of(points, lane), work);
+    const RayHit& hit = alike.hits[lane];
+    const Vec3 normal =
+        to_viewer * bumped_normal(data.leaf(hit), hit.face, alike.material, lane_of(points, lane), work);
     group.phong.normal.set(lane, visible_normal(normal, group.phong.view.lane(lane)));
   });
 }
@@ -71,23 +73,25 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
   const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
   group.phong.view = rays.direction;
   group.sending_on = 0;
-  const HitFaces faces(hits);
+  const HitFaces faces(data, hits);
   SurfacePointLanes& points = work.points;
   for (RayMask to_come = seen; to_come != 0;) {
     const RayHit& first = hits[first_ray(to_come)];
     const PreparedMaterial& material = data.materials()[data.hit_material(first)];
-    const LaneMask lanes = faces.like(first) & lanes_with(to_come);
-    const AlikeHits alike = {first, material, mask_of(lanes), lanes};
-    if (to_come == seen) group.like_first = alike.rays;
+    const AlikeRays rays_alike = faces.alike(to_come);
+    const AlikeHits alike = {hits, first, material, rays_alike.all()};
+    if (to_come == seen) group.like_first = rays_alike.on_face;
     to_come &= ~alike.rays;
 
-    data.object_points(first, rays, t, material.uses_uv, points);
+    const Side side = first.entering ? Side::outside : Side::inside;
+    const StartPoint start = data.start_face(first, side);
+    for_each_ray(rays_alike.on_face, [&](std::size_t lane) { group.starts[lane] = start; });
+    for_each_ray(rays_alike.on_spheres,
+                 [&](std::size_t lane) { group.starts[lane] = data.start_face(hits[lane], side); });
+    faces.object_points(rays_alike, rays, t, material.uses_uv, points);
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
     set_material(alike, colors.color, transparency, group);
-    const StartPoint start = data.start_face(first, first.entering ? Side::outside : Side::inside);
-    for_each_ray(alike.rays, [&](std::size_t lane) { group.starts[lane] = start; });
-
     if (material.bump) set_bumped_normals(data, alike, points, group, work);
     data.take_to_world(first, points);
     alike.set(group.position, points.position);

@@ -4,9 +4,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <span>
+#include <type_traits>
 
 #include "core/math/vector_lanes.hpp"
 #include "core/scene/ray_packet.hpp"
@@ -36,15 +39,21 @@ struct UserRays {
   Lanes t_max;
 
   explicit UserRays(std::span<const Ray, lane_count> rays) {
-    const auto gathered = [&](const auto& number) {
-      return Lanes{number(rays[0]), number(rays[1]), number(rays[2]), number(rays[3])};
+    static_assert(std::is_standard_layout_v<Ray> && sizeof(Ray) == 2 * sizeof(Lanes));
+    const auto half = [&](std::size_t begin) {
+      const auto row = [&](std::size_t lane) {
+        Lanes numbers;
+        std::memcpy(&numbers, reinterpret_cast<const std::byte*>(&rays[lane]) + begin, sizeof numbers);
+        return numbers;
+      };
+      return transposed({row(0), row(1), row(2), row(3)});
     };
-    for (int axis = 0; axis < 3; ++axis) {
-      origin[axis] = gathered([=](const Ray& ray) { return ray.origin[axis]; });
-      direction[axis] = gathered([=](const Ray& ray) { return ray.direction[axis]; });
-    }
-    t_min = gathered([](const Ray& ray) { return ray.t_min; });
-    t_max = gathered([](const Ray& ray) { return ray.t_max; });
+    const auto first = half(0);
+    const auto second = half(sizeof(Lanes));
+    origin = {first[0], first[1], first[2]};
+    direction = {first[3], second[0], second[1]};
+    t_min = second[2];
+    t_max = second[3];
   }
 
   LaneMask plainly_valid() const { return are_plainly_valid<Lanes>(origin, direction, t_min, t_max); }

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "core/geometry/sphere.hpp"
 #include "core/math/float_environment.hpp"
 #include "core/scene/accelerator.hpp"
 #include "core/scene/memory.hpp"
@@ -197,6 +198,32 @@ SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, 
   // A cutter's surface bounds what is left of the solid from the other side.
   if (leaves_[hit.leaf].complemented) point.normal = -point.normal;
   return point;
+}
+
+RayMask PreparedData::on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
+                                      RayMask some) const {
+  const Leaf& like = leaves_[first.leaf];
+  if (!like.plain_sphere) return 0;
+  RayMask result = 0;
+  for_each_ray(some, [&](std::size_t lane) {
+    const Leaf& leaf = leaves_[hits[lane].leaf];
+    const bool is_like =
+        leaf.plain_sphere && leaf.material == like.material && hits[lane].entering == first.entering;
+    result |= static_cast<RayMask>(is_like) << lane;
+  });
+  return result;
+}
+
+void PreparedData::sphere_points(std::span<const RayHit, lane_count> hits, RayMask some,
+                                 const RayLanes& lines, const Lanes& t, bool with_uv,
+                                 SurfacePointLanes& points) const {
+  const std::size_t first = first_ray(some);
+  std::array<const SphereShape*, lane_count> spheres;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const RayHit& hit = hits[(some >> lane & 1u) != 0 ? lane : first];
+    spheres[lane] = static_cast<const SphereShape*>(leaves_[hit.leaf].shape.get());
+  }
+  SphereShape::points_on_each(spheres, lines, t, with_uv, points);
 }
 
 StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {

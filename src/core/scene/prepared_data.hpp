@@ -176,6 +176,13 @@ class PreparedData {
     if (leaf.complemented) points.normal = -points.normal;
   }
 
+  /// Of some rays of a group those that hit spheres of one material from the same side, as `first` does; none
+  /// if that hits anything else, or a sphere that is moved or a cutter.
+  RayMask on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits, RayMask some) const;
+  /// As object_points() of such rays, whose spheres may be different ones.
+  void sphere_points(std::span<const RayHit, lane_count> hits, RayMask some, const RayLanes& lines,
+                     const Lanes& t, bool with_uv, SurfacePointLanes& points) const;
+
   /// Takes those of a hit like `hit` to the world.
   void take_to_world(const RayHit& hit, SurfacePointLanes& points) const {
     const Placement& placement = *leaves_[hit.leaf].placement;
