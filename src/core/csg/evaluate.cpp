@@ -67,6 +67,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
       ray_(ray),
       work_(workspace),
       slabs_(ray.origin, ray.direction, ray.start.t_error),
+      part_{ray.t_min - ray.start.t_error, ray.t_max},
       first_stamp_(++workspace.stamp_) {
   if (!program.paths.empty()) {
     paths_.emplace(program.paths, work_.paths_, first_stamp_);
@@ -82,9 +83,11 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   work_.to_come_.clear();
   for (const std::uint32_t leaf : program.tree.unbounded()) {
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
-    if (!span.empty()) meet(LeafTree::Child::leaf(leaf), span.enter, span.leave);
+    if (!span.empty() && span.leave >= part_.enter && span.enter <= part_.leave) {
+      put_off(LeafTree::Child::leaf(leaf), span.enter);
+    }
   }
-  if (program.tree.has_root()) program.tree.visit(0, slabs_, [&](auto... met) { meet(met...); });
+  if (program.tree.has_root()) put_off(LeafTree::Child::node(0), -std::numeric_limits<double>::infinity());
   open_up_to(farthest_start(ray_));
   while (!work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min) {
     open_what_may_coincide();
@@ -94,8 +97,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   starts_inside_ = root_value();
 }
 
-void CsgEvaluation::meet(LeafTree::Child child, double enter, double leave) {
-  if (leave < ray_.t_min - ray_.start.t_error || enter > ray_.t_max) return;
+void CsgEvaluation::put_off(LeafTree::Child child, double enter) {
   work_.openings_.push_back({enter, child});
   std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_opened_later);
 }
@@ -109,9 +111,27 @@ void CsgEvaluation::open_up_to(double t) {
     if (opening.child.is_leaf()) {
       open_leaf(opening.child.index(), opening.enter);
     } else {
-      program_.tree.visit(opening.child.index(), slabs_, [&](auto... met) { meet(met...); });
+      open_node(opening.child.index(), t);
     }
   }
+}
+
+void CsgEvaluation::open_node(std::uint32_t node, double t) {
+  auto& nodes = work_.to_open_;
+  nodes.push_back(node);
+  do {
+    const std::uint32_t next = nodes.back();
+    nodes.pop_back();
+    program_.tree.visit(next, slabs_, part_, [&](LeafTree::Child child, double enter) {
+      if (enter > t) {
+        put_off(child, enter);
+      } else if (child.is_leaf()) {
+        open_leaf(child.index(), enter);
+      } else {
+        nodes.push_back(child.index());
+      }
+    });
+  } while (!nodes.empty());
 }
 
 bool CsgEvaluation::is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::ToCome& b) const {

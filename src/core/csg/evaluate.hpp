@@ -111,9 +111,10 @@ class CsgWorkspace {
 
   std::uint64_t stamp_ = 0;
   CrossingList leaf_crossings_;
-  std::vector<Opening> openings_;  ///< a heap, the nearest first
-  std::vector<CsgCrossing> met_;   ///< all crossings of this ray so far
-  std::vector<ToCome> to_come_;    ///< a heap, the nearest first
+  std::vector<Opening> openings_;       ///< a heap, the nearest first
+  std::vector<std::uint32_t> to_open_;  ///< nodes of the tree that are next
+  std::vector<CsgCrossing> met_;        ///< all crossings of this ray so far
+  std::vector<ToCome> to_come_;         ///< a heap, the nearest first
   std::vector<const CsgCrossing*> cluster_;
   std::vector<const CsgCrossing*> causes_;
   std::vector<NodeState> nodes_;
@@ -197,9 +198,12 @@ class CsgEvaluation {
   using NodeState = CsgWorkspace::NodeState;
   using SharedState = CsgWorkspace::SharedState;
 
-  void meet(LeafTree::Child child, double enter, double leave);
+  /// What is entered there is opened when it is asked for.
+  void put_off(LeafTree::Child child, double enter);
   /// Opens all boxes that are entered up to t.
   void open_up_to(double t);
+  /// The same of those below a node.
+  void open_node(std::uint32_t node, double t);
   /// Opens boxes until there is a crossing, and all that can coincide with it.
   bool find_crossing();
   void open_what_may_coincide();
@@ -234,6 +238,7 @@ class CsgEvaluation {
   WorldRay ray_;
   CsgWorkspace& work_;
   RaySlabs slabs_;
+  LineSpan part_;  ///< of the line: what is within it may matter
   std::uint64_t first_stamp_;
   std::optional<PathValues> paths_;       ///< of a deep program
   const Placement* placement_ = nullptr;  ///< of object_ray_

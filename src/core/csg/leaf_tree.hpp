@@ -5,6 +5,7 @@
 #pragma once
 
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <span>
 #include <vector>
@@ -16,7 +17,7 @@ namespace crt::core {
 
 class LeafTree {
  public:
-  static constexpr std::size_t width = 4;
+  static constexpr std::size_t width = lane_count;
 
   /// A node of the tree or a leaf of the object.
   class Child {
@@ -49,15 +50,16 @@ class LeafTree {
   }
   bool has_root() const { return !nodes_.empty(); }
 
-  /// Calls meet(child, enter, leave) for what the line comes near below a node.
+  /// Calls meet(child, enter) for what the line comes near below a node, within that part of it.
   template <class Meet>
-  void visit(std::uint32_t node_index, const RaySlabs& slabs, const Meet& meet) const {
+  void visit(std::uint32_t node_index, const RaySlabs& slabs, const LineSpan& part, const Meet& meet) const {
     const Node& node = nodes_[node_index];
-    std::array<double, width> enter;
-    std::array<double, width> leave;
-    slabs.spans(node.lower, node.upper, enter, leave);
-    for (std::size_t i = 0; i < node.count; ++i) {
-      if (enter[i] <= leave[i]) meet(node.children[i], enter[i], leave[i]);
+    const LineSpanLanes spans = slabs.spans(node.lower, node.upper);
+    const LaneMask near =
+        (spans.enter <= spans.leave) & (spans.leave >= part.enter) & (spans.enter <= part.leave);
+    for (std::uint32_t met = mask_of(near) & ((1u << node.count) - 1); met != 0; met &= met - 1) {
+      const int i = std::countr_zero(met);
+      meet(node.children[static_cast<std::size_t>(i)], spans.enter[i]);
     }
   }
 

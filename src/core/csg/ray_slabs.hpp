@@ -6,6 +6,7 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 
 #include "core/csg/outline_line.hpp"
@@ -48,16 +49,17 @@ class RaySlabs {
   }
 
   LineSpan span(const Bounds& box) const {
-    std::array<double, 1> enter;
-    std::array<double, 1> leave;
-    std::array<std::array<double, 1>, 3> lower;
-    std::array<std::array<double, 1>, 3> upper;
-    for (int axis = 0; axis < 3; ++axis) {
-      lower[static_cast<std::size_t>(axis)][0] = box.lower[axis];
-      upper[static_cast<std::size_t>(axis)][0] = box.upper[axis];
-    }
-    spans(lower, upper, enter, leave);
-    return {enter[0], leave[0]};
+    LineSpan span;
+    span_of<double>(by_axis(box.lower), by_axis(box.upper), span.enter, span.leave);
+    return span;
+  }
+
+  /// Of several boxes side by side, by axis.
+  using Corners = std::array<std::array<double, lane_count>, 3>;
+  LineSpanLanes spans(const Corners& lower, const Corners& upper) const {
+    LineSpanLanes spans;
+    span_of<Lanes>(lower, upper, spans.enter, spans.leave);
+    return spans;
   }
 
   /// The spans of lines that have their bit in `some`; origins are what is meant.
@@ -108,55 +110,57 @@ class RaySlabs {
             .leave = std::min(std::min(leave[0], leave[1]), leave[2])};
   }
 
-  /// The spans of several boxes at once, given by axis. The same bits as of each alone.
-  template <std::size_t Count>
-  void spans(const std::array<std::array<double, Count>, 3>& lower,
-             const std::array<std::array<double, Count>, 3>& upper, std::array<double, Count>& enter,
-             std::array<double, Count>& leave) const {
+ private:
+  static std::array<double, 3> by_axis(const Vec3& v) { return {v.x, v.y, v.z}; }
+  static double loaded(double number) { return number; }
+  static Lanes loaded(const std::array<double, lane_count>& numbers) {
+    Lanes lanes;
+    std::memcpy(&lanes, &numbers, sizeof lanes);
+    return lanes;
+  }
+
+  /// Of one box, or of as many as a Real has lanes: the same bits as of each alone.
+  template <class Real, class Corners>
+  void span_of(const Corners& lowers, const Corners& uppers, Real& enter, Real& leave) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    enter.fill(-infinity);
-    leave.fill(infinity);
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const double o = origin_[static_cast<int>(axis)];
-      const double inverse = inverse_[static_cast<int>(axis)];
+    enter = spread<Real>(-infinity);
+    leave = spread<Real>(infinity);
+    for (int axis = 0; axis < 3; ++axis) {
+      const auto i = static_cast<std::size_t>(axis);
+      const Real lower = loaded(lowers[i]);
+      const Real upper = loaded(uppers[i]);
+      const double inverse = inverse_[axis];
       if (std::abs(inverse) > largest_inverse) {
-        clip_steep(static_cast<int>(axis), lower[axis], upper[axis], enter, leave);
+        clip_steep(axis, lower, upper, enter, leave);
         continue;
       }
       const double error = origin_error_ * std::abs(inverse);
-      for (std::size_t i = 0; i < Count; ++i) {
-        const double first = (lower[axis][i] - o) * inverse;
-        const double second = (upper[axis][i] - o) * inverse;
-        const double low = first < second ? first : second;
-        const double high = first < second ? second : first;
-        const double safe_low = low - slack * std::abs(low) - error;
-        const double safe_high = high + slack * std::abs(high) + error;
-        enter[i] = safe_low > enter[i] ? safe_low : enter[i];
-        leave[i] = safe_high < leave[i] ? safe_high : leave[i];
-      }
+      clip((lower - origin_[axis]) * inverse, (upper - origin_[axis]) * inverse, error, enter, leave);
     }
   }
 
- private:
-  template <std::size_t Count>
-  void clip_steep(int axis, const std::array<double, Count>& lower, const std::array<double, Count>& upper,
-                  std::array<double, Count>& enter, std::array<double, Count>& leave) const {
+  /// By where the line meets the planes across an axis, in either order.
+  template <class Real>
+  static void clip(const Real& first, const Real& second, double error, Real& enter, Real& leave) {
+    const Real low = min(first, second);
+    const Real high = max(first, second);
+    const Real safe_low = low - slack * size_of(low) - error;
+    const Real safe_high = high + slack * size_of(high) + error;
+    // What is no number, as infinity less infinity, says nothing.
+    enter = safe_low > enter ? safe_low : enter;
+    leave = safe_high < leave ? safe_high : leave;
+  }
+
+  template <class Real>
+  void clip_steep(int axis, const Real& lower, const Real& upper, Real& enter, Real& leave) const {
     const double o = origin_[axis];
     const double d = direction_[axis];
-    for (std::size_t i = 0; i < Count; ++i) {
-      if (d == 0) {
-        const bool beside = o < lower[i] - origin_slack_ || o > upper[i] + origin_slack_;
-        if (beside) leave[i] = -std::numeric_limits<double>::infinity();
-        continue;
-      }
-      const double first = (lower[i] - o) / d;
-      const double second = (upper[i] - o) / d;
-      const double low = std::min(first, second);
-      const double high = std::max(first, second);
-      const double error = origin_error_ / std::abs(d);
-      enter[i] = std::max(enter[i], low - slack * std::abs(low) - error);
-      leave[i] = std::min(leave[i], high + slack * std::abs(high) + error);
+    if (d == 0) {
+      const auto beside = either(o<lower - origin_slack_, o> upper + origin_slack_);
+      leave = beside ? spread<Real>(-std::numeric_limits<double>::infinity()) : leave;
+      return;
     }
+    clip((lower - o) / d, (upper - o) / d, origin_error_ / std::abs(d), enter, leave);
   }
 
   Vec3 origin_;
