@@ -6,7 +6,6 @@
 #include <array>
 #include <bit>
 #include <functional>
-#include <memory>
 
 #include "core/render/small_things.hpp"
 #include "crt/error.hpp"
@@ -82,8 +81,7 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
   }
 }
 
-void Passes::begin(Tile& tile) const {
-  std::uninitialized_value_construct(tile.samples.begin(), tile.samples.end());
+void Passes::expect_small_things(Tile& tile) const {
   if (small_things_.empty()) return;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
@@ -150,7 +148,6 @@ void Passes::trace(const TaskRunner& run_tasks, const Step& step) {
 }
 
 void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStats& stats) {
-  if (count_ == 0) begin(tile);
   std::array<PixelPlace, most_tile_pixels> pixels;
   std::size_t count = 0;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
@@ -165,6 +162,7 @@ void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStat
   }
   const std::span<const PixelPlace> chosen(pixels.data(), count);
   trace_passes(frame_, chosen, {count_, step.until}, tracer, stats);
+  if (count_ == 0) expect_small_things(tile);
   show(chosen, step.until);
 }
 

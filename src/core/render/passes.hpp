@@ -68,8 +68,8 @@ class Passes {
   /// Of one that is.
   std::size_t index_of(const Place& place) const;
 
-  /// Before its first samples.
-  void begin(Tile& tile) const;
+  /// Where there may be some; after the first samples.
+  void expect_small_things(Tile& tile) const;
   /// Gives pixels of the ranks from `first` to before `last` the samples up to `until`.
   struct Ranks {
     int first = 0;

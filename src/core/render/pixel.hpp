@@ -35,8 +35,9 @@ struct SampleRange {
   std::int64_t end = 0;
 };
 
-/// Adds samples to pixels that have had those before. What a pixel gets is a function of the scene, of its
-/// place and of the range alone, and it makes no difference if a range is cut into several.
+/// Adds samples to pixels that have had those before; with the first ones what is kept of them is
+/// constructed. What a pixel gets is a function of the scene, of its place and of the range alone, and it
+/// makes no difference if a range is cut into several.
 void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range,
                   Tracer& tracer, RenderStats& stats);
 

@@ -1,5 +1,6 @@
 // Samples of pixels pass by pass.
 #include <algorithm>
+#include <memory>
 
 #include "core/render/packet_tracer.hpp"
 #include "core/render/pixel.hpp"
@@ -143,7 +144,10 @@ class PassSums {
     const Tracer::Sample* const end = samples.data() + samples.size();
     for (const Tracer::Sample* sample = samples.data(); sample != end;) {
       const bool begins_pixel = step == steps_.data() && missing == step->size;
-      if (begins_pixel) seen = SeenSamples(*pixel->samples, sample->identity);
+      if (begins_pixel) {
+        if (is_first_range_) std::construct_at(pixel->samples);
+        seen = SeenSamples(*pixel->samples, sample->identity);
+      }
       if (step->size == 1) {
         do {
           seen.add(sample->channels, sample->dropped, sample->identity);

@@ -64,15 +64,16 @@ constexpr Bits reversed(Bits bits) {
 inline BitLanes reversed(const BitLanes& bits) {
   const auto in_both_halves = [](const __m128i& bytes) { return _mm256_broadcastsi128_si256(bytes); };
   const __m256i low_half = _mm256_set1_epi8(0x0f);
-  const __m256i reversed_half =
-      in_both_halves(_mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15));
+  const __m128i of_a_half = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
+  const __m256i to_low_half = in_both_halves(of_a_half);
+  const __m256i to_high_half = in_both_halves(_mm_slli_epi32(of_a_half, 4));
   const __m256i bytes_back =
       in_both_halves(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
   const auto all = reinterpret_cast<__m256i>(bits);
-  const __m256i from_low = _mm256_shuffle_epi8(reversed_half, _mm256_and_si256(all, low_half));
+  const __m256i from_low = _mm256_shuffle_epi8(to_high_half, _mm256_and_si256(all, low_half));
   const __m256i from_high =
-      _mm256_shuffle_epi8(reversed_half, _mm256_and_si256(_mm256_srli_epi32(all, 4), low_half));
-  const __m256i bytes = _mm256_or_si256(_mm256_slli_epi32(from_low, 4), from_high);
+      _mm256_shuffle_epi8(to_low_half, _mm256_and_si256(_mm256_srli_epi32(all, 4), low_half));
+  const __m256i bytes = _mm256_or_si256(from_low, from_high);
   return reinterpret_cast<BitLanes>(_mm256_shuffle_epi8(bytes, bytes_back));
 }
 #endif
@@ -146,12 +147,15 @@ template <class Bits>
 constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
   constexpr std::array<std::uint32_t, 3> even_factors = {0x9e3779baU, 0xbf58476cU, 0x94d049baU};
   bits += seed;
-  for (const std::uint32_t factor : even_factors) {
-    bits ^= bits * factor;
-    bits *= seed << 1 | 1u;
+  bits ^= bits * even_factors[0];
+  // Bits times an odd factor, mixed with themselves times an even one: both products of the bits before, as
+  // the machine need not wait for the first then.
+  for (std::size_t i = 1; i < even_factors.size(); ++i) {
+    const std::uint32_t odd_factor = seed << 1 | 1u;
+    bits = bits * odd_factor ^ bits * (odd_factor * even_factors[i]);
     seed = seed >> 7 | seed << 25;
   }
-  return bits;
+  return bits * (seed << 1 | 1u);
 }
 
 }  // namespace sequence_detail
@@ -259,8 +263,11 @@ class PixelSequence {
       constexpr std::uint32_t middle = 0x80000000u;
       const auto from_middle =
           __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
-      const DoubleLanes fractions = 0x1p-32 * from_middle + 0.5;
-      std::memcpy(&coordinates[i / lane_count], &fractions, sizeof fractions);
+      std::array<Lanes, points_at_once / lane_count> groups;
+      std::memcpy(&groups, &from_middle, sizeof groups);
+      for (std::size_t k = 0; k < groups.size(); ++k) {
+        coordinates[i / lane_count + k] = fma(groups[k], lanes_of(0x1p-32), lanes_of(0.5));
+      }
     }
   }
 
