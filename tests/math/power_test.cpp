@@ -72,6 +72,25 @@ TEST_CASE("powers are as true as their documentation says, and by lanes the same
   }
 }
 
+TEST_CASE("rough powers of what is at most 1 are within 10^-9, and by lanes the same") {
+  std::mt19937_64 engine(5);
+  std::uniform_real_distribution<double> exponents(-1074, 0);
+  std::uniform_real_distribution<double> up_to_one(0, 1);
+  std::uniform_real_distribution<double> of_gammas(-1, 1);
+  for (int i = 0; i < 1000000; ++i) {
+    const double base = i % 2 == 0 ? up_to_one(engine) : std::exp2(exponents(engine));
+    const double exponent = std::pow(10, of_gammas(engine));
+    const long double truth = std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
+    const double found = rough_power(base, exponent);
+    REQUIRE(std::abs(found - truth) <= 1e-9L);
+    REQUIRE(rough_power(lanes_of(base), lanes_of(exponent))[i % lane_count] == found);
+  }
+  for (const double exponent : {0.1, 1 / 2.2, 1.0, 10.0}) {
+    CHECK(rough_power(0.0, exponent) == doctest::Approx(0).epsilon(1e-9));
+    CHECK(rough_power(1.0, exponent) == 1);
+  }
+}
+
 TEST_CASE("cube roots are true to a unit, and by lanes the same") {
   std::mt19937_64 engine(4);
   std::uniform_real_distribution<double> exponents(-1022, 1024);

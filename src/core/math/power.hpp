@@ -1,8 +1,10 @@
 // Powers and exponentials, for one double or for lanes: the same bits with every libm.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <type_traits>
 
@@ -22,13 +24,37 @@ inline constexpr std::uint64_t bits_of_one = 0x3ff0000000000000;
 /// Adding this to a whole number that is not too large puts it into the lowest bits.
 inline constexpr double whole = 0x1.8p52;
 
-}  // namespace power_detail
-
-/// The logarithm to base 2 of x, a normal number above 0, or infinity, which counts as 2^1024. Within 2^-51
-/// of itself.
+/// 2^exponent, of a whole number for which that is a normal number.
 template <class Real>
-Real logarithm2(const Real& x) {
-  using namespace power_detail;
+Real power_of_two(const Real& exponent) {
+  const auto biased = std::bit_cast<BitsOf<Real>>(Real(exponent + (whole + 1023)));
+  return std::bit_cast<Real>(BitsOf<Real>(biased << fraction_bits));
+}
+
+// ln m = 2 artanh(s), of which this is the series: 2 / ((2 n + 1) ln 2).
+inline constexpr std::array<double, 11> logarithm_series = {
+    0x1.71547652b82fep+1, 0x1.ec709dc3a03fdp-1, 0x1.2776c50ef9bfep-1, 0x1.a61762a7aded9p-2,
+    0x1.484b13d7c02a9p-2, 0x1.0c9a84994022dp-2, 0x1.c68f568d31760p-3, 0x1.89f3b1694cffep-3,
+    0x1.5b9ac9b743f0dp-3, 0x1.3703c1f4d0ffep-3, 0x1.1964ec6fc9491p-3};
+
+// That of 2^x, but for its 1: (ln 2)^n / n!.
+inline constexpr std::array<double, 13> exponential_series = {
+    0x1.62e42fefa39efp-1,  0x1.ebfbdff82c58fp-3,  0x1.c6b08d704a0c0p-5,  0x1.3b2ab6fba4e77p-7,
+    0x1.5d87fe78a6731p-10, 0x1.430912f86c787p-13, 0x1.ffcbfc588b0c7p-17, 0x1.62c0223a5c824p-20,
+    0x1.b5253d395e7c4p-24, 0x1.e4cf5158b8ecap-28, 0x1.e8cac7351bb25p-32, 0x1.c3bd650fc2986p-36,
+    0x1.816193166d0f9p-40};
+
+/// The first terms of a series.
+template <std::size_t terms, std::size_t count>
+constexpr std::array<double, terms> first(const std::array<double, count>& series) {
+  std::array<double, terms> result{};
+  std::copy_n(series.begin(), terms, result.begin());
+  return result;
+}
+
+/// logarithm2() by so many terms.
+template <std::size_t terms, class Real>
+Real logarithm2_by(const Real& x) {
   using Bits = BitsOf<Real>;
   // x is m 2^k with m from sqrt(1/2) to sqrt(2).
   constexpr std::uint64_t bits_of_root = 0x3fe6a09e667f3bcd;
@@ -40,37 +66,31 @@ Real logarithm2(const Real& x) {
   constexpr std::uint64_t bits_of_2_52 = 0x4330000000000000;
   const Real k = std::bit_cast<Real>(Bits((exponent >> fraction_bits) | bits_of_2_52)) - (0x1p52 + 1023);
 
-  // ln m = 2 artanh(s), of which this is the series: 2 / ((2 n + 1) ln 2).
-  constexpr std::array<double, 11> coefficients = {
-      0x1.71547652b82fep+1, 0x1.ec709dc3a03fdp-1, 0x1.2776c50ef9bfep-1, 0x1.a61762a7aded9p-2,
-      0x1.484b13d7c02a9p-2, 0x1.0c9a84994022dp-2, 0x1.c68f568d31760p-3, 0x1.89f3b1694cffep-3,
-      0x1.5b9ac9b743f0dp-3, 0x1.3703c1f4d0ffep-3, 0x1.1964ec6fc9491p-3};
+  constexpr std::array<double, terms> coefficients = first<terms>(logarithm_series);
   const Real s = (m - 1.0) / (m + 1.0);
   return fma(s, polynomial(coefficients, Real(s * s)), k);
+}
+
+}  // namespace power_detail
+
+/// The logarithm to base 2 of x, a normal number above 0, or infinity, which counts as 2^1024. Within 2^-51
+/// of itself.
+template <class Real>
+Real logarithm2(const Real& x) {
+  return power_detail::logarithm2_by<power_detail::logarithm_series.size()>(x);
 }
 
 /// 2^e. Within 2^-52 of itself where that is a normal number; infinite from 2^1024 on, and 0 below 2^-1075.
 template <class Real>
 Real exponential2(const Real& e) {
   using namespace power_detail;
-  using Bits = BitsOf<Real>;
   constexpr double largest = 1100;
   const Real within = clamp(e, spread<Real>(-largest), spread<Real>(largest));
   const Real nearest = floor(within + 0.5);
   const Real rest = within - nearest;
-  // The series, but for its 1: (ln 2)^n / n!.
-  constexpr std::array<double, 13> coefficients = {
-      0x1.62e42fefa39efp-1,  0x1.ebfbdff82c58fp-3,  0x1.c6b08d704a0c0p-5,  0x1.3b2ab6fba4e77p-7,
-      0x1.5d87fe78a6731p-10, 0x1.430912f86c787p-13, 0x1.ffcbfc588b0c7p-17, 0x1.62c0223a5c824p-20,
-      0x1.b5253d395e7c4p-24, 0x1.e4cf5158b8ecap-28, 0x1.e8cac7351bb25p-32, 0x1.c3bd650fc2986p-36,
-      0x1.816193166d0f9p-40};
   // In two steps, as 2^nearest alone may be no normal number.
-  const auto power_of_two = [](const Real& exponent) {
-    const auto biased = std::bit_cast<Bits>(Real(exponent + (whole + 1023)));
-    return std::bit_cast<Real>(Bits(biased << fraction_bits));
-  };
   const Real half = floor(0.5 * nearest);
-  const Real sum = fma(rest, polynomial(coefficients, rest), spread<Real>(1));
+  const Real sum = fma(rest, polynomial(exponential_series, rest), spread<Real>(1));
   return sum * power_of_two(half) * power_of_two(nearest - half);
 }
 
@@ -83,6 +103,21 @@ Real power(const Real& base, const Real& exponent) {
   const Real result = exponential2<Real>(exponent * logarithm2<Real>(max(base, spread<Real>(smallest))));
   const Real of_nothing = exponent > 0.0 ? base : spread<Real>(1);
   return base > 0.0 ? result : of_nothing;
+}
+
+/// base to the power of exponent, roughly: base from 0 to 1, exponent from 0.1 to 10. Within 10^-9 of it.
+template <class Real>
+Real rough_power(const Real& base, const Real& exponent) {
+  using namespace power_detail;
+  // Of the logarithm 2 10^-11 is left out, of the exponential 3 10^-10 of itself.
+  constexpr std::size_t logarithm_terms = 6;
+  constexpr std::array<double, 8> coefficients = first<8>(exponential_series);
+  constexpr double smallest = 0x1p-1000;
+  const Real logarithm = logarithm2_by<logarithm_terms, Real>(max(base, spread<Real>(smallest)));
+  const Real e = max(Real(exponent * logarithm), spread<Real>(-1000));
+  const Real nearest = floor(e + 0.5);
+  const Real rest = e - nearest;
+  return fma(rest, polynomial(coefficients, rest), spread<Real>(1)) * power_of_two(nearest);
 }
 
 /// The cube root of x >= 0, a normal number, 0, or infinity. Within 2^-52 of itself; of NaN, NaN.

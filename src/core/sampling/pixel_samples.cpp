@@ -31,7 +31,7 @@ constexpr int alpha_channel = pixel_channels - 1;
 Lanes DisplayScale::shown(const Lanes& values) const {
   const Lanes clamped = clamp(values, Lanes{}, lanes_of(1));
   if (exponent_ == 1) return clamped;
-  Lanes shown = power(clamped, lanes_of(exponent_));
+  Lanes shown = rough_power(clamped, lanes_of(exponent_));
   shown[alpha_channel] = clamped[alpha_channel];
   return shown;
 }

@@ -66,7 +66,7 @@ class DisplayScale {
   Lanes half_widths(const Lanes& values, const Lanes& half_widths) const;
 
  private:
-  /// From 0 to 1.
+  /// From 0 to 1, within 10^-9.
   Lanes shown(const Lanes& values) const;
 
   double exponent_;

@@ -137,9 +137,8 @@ def finest_table(results: dict) -> str:
 
 
 def overhead_table(results: dict) -> str:
-    rows = [[f"`{name}`", str(result["overhead"]["samples"]), rounded(result["overhead"]["grid"]),
-             rounded(result["overhead"]["passes"]), f"**{result['overhead']['ratio']:.3f}**"]
-            for name, result in scenes_of(results).items() if "overhead" in result]
+    rows = [[f"`{name}`", str(at["samples"]), rounded(at["grid"]), rounded(at["passes"]), f"**{at['ratio']:.3f}**"]
+            for name, result in scenes_of(results).items() for at in result.get("overhead", [])]
     return table(["scene", "samples a pixel", "grid, seconds", "passes, seconds", "ratio"], rows) if rows else ""
 
 

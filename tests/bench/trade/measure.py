@@ -22,7 +22,8 @@ HARD_STEPS = 8  # a pixel is hard if rays through it differ by more than so many
 RAYS_TO_JUDGE = 8  # in a row and in a column of a pixel
 SHORT = 4.0  # seconds: what takes longer is rendered once
 LONGEST = 15.0  # seconds: once a family takes longer, its finer settings are left out
-OVERHEAD_SAMPLES = 64  # a pixel, passes against the grid
+OVERHEAD_SAMPLES = (16, 64, 256)  # a pixel, passes against the grid
+OVERHEAD_SAMPLES_QUICK = (16,)
 OVERHEAD_SCENES = ("flat", "hard")
 VANISHING_SHARE = 0.05  # of a pixel
 VANISHING_SEEDS = 8
@@ -118,10 +119,13 @@ def measured_rungs(match: Contest, own: references.Reference, other: references.
     return [measured.row(rung) for rung, measured in rungs.items() if measured.seconds]
 
 
-def overhead(match: Contest) -> dict:
+def overhead(match: Contest) -> list[dict]:
+    return [overhead_at(match, count) for count in (OVERHEAD_SAMPLES_QUICK if match.plan.quick else OVERHEAD_SAMPLES)]
+
+
+def overhead_at(match: Contest, count: int) -> dict:
     """Passes with as many samples in every pixel as the grid, by turns with it. The fastest of each counts: both do the
     same each time, and all that makes it longer is what else the machine does."""
-    count = 16 if match.plan.quick else OVERHEAD_SAMPLES
     side = round(count**0.5)
     passes = {"targeterror": 1e-6, "minsamples": count, "maxsamples": count}
     seconds: dict[str, list[float]] = {"grid": [], "passes": []}
