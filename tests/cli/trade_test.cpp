@@ -37,8 +37,9 @@ constexpr int rmse_column = 3;
 TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to the truth") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
-  const Outcome run = run_crt(folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget",
-                                       "1000", "--error", "200", "--reference-samples", "1024", "--png"});
+  const Outcome run =
+      run_crt(folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget", "1000", "--error",
+                       "200", "--reference-samples", "1024", "--png", "--most-seconds", "1000"});
   CAPTURE(run.err);
   REQUIRE(run.exit_code == 0);
   CHECK(folder.names() ==
