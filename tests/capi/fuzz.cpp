@@ -342,7 +342,10 @@ void Session::use_prepared() {
   options.aovs = input_.below(70);
   int calls = static_cast<int>(input_.below(4));
   options.progress_user = &calls;
-  options.progress = [](double, void* user) { return --*static_cast<int*>(user) == 0 ? 5 : 0; };
+  // A struct that ends before progress_user has none.
+  options.progress = [](double, void* user) {
+    return user != nullptr && --*static_cast<int*>(user) == 0 ? 5 : 0;
+  };
   images_.make([&](crt_image** out) { return crt_render(prepared, &options, out); });
   ask_rays();
 }
