@@ -82,6 +82,16 @@ inline std::uint32_t mask_of(const LaneMask& lanes) {
 #endif
 }
 
+inline std::uint32_t mask_of(const IntLanes& lanes) {
+#ifdef __AVX__
+  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
+#else
+  std::uint32_t mask = 0;
+  for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
+  return mask;
+#endif
+}
+
 /// Those of which the bit is set.
 inline LaneMask lanes_with(std::uint32_t mask) {
   constexpr LaneMask bits = {1, 2, 4, 8};

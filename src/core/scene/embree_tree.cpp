@@ -82,6 +82,14 @@ void put(const Numbers& lanes, Column& column, std::size_t first) {
   std::memcpy(&column[first], &lanes, sizeof lanes);
 }
 
+/// As many of such numbers.
+template <class Numbers, class Number>
+Numbers taken(const Number* column) {
+  Numbers lanes;
+  std::memcpy(&lanes, column, sizeof lanes);
+  return lanes;
+}
+
 /// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
 /// worth starting any for.
 void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
@@ -137,10 +145,11 @@ struct PacketTraversal {
   double scale = 1;
   std::exception_ptr failure;
 
-  float far_end(std::size_t ray) const {
-    const double start = t_start[ray / lane_count][static_cast<int>(ray % lane_count)];
-    const double limit = packet->limit(ray);
-    return limit < start ? -float_infinity : round_up_length((limit - start) * scale);
+  FloatLanes far_ends(std::size_t group) const {
+    const Lanes& start = t_start[group];
+    const Lanes& limit = packet->limits[group];
+    const auto is_over = __builtin_convertvector(limit < start, IntLanes);
+    return is_over ? FloatLanes{} - float_infinity : round_up_length((limit - start) * scale);
   }
 };
 
@@ -167,21 +176,37 @@ void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
   *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
 }
 
+/// Embree calls with a packet, with a part of it that has whole groups, or with a single ray of it.
+bool has_groups(unsigned count) {
+  return count % lane_count == 0;
+}
+
+RayMask mask_of_valid(const int* valid, unsigned count) {
+  if (!has_groups(count)) return valid[0] != 0 ? 1 : 0;
+  RayMask mask = 0;
+  for (unsigned i = 0; i < count; i += lane_count) mask |= mask_of(taken<IntLanes>(valid + i)) << i;
+  return mask;
+}
+
 /// Visits a box with those rays of a packet whose own boxes Embree met.
 void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRayN* rays, unsigned count) {
   auto* traversal = reinterpret_cast<PacketTraversal*>(context);
-  RayMask mask = 0;
-  for (unsigned i = 0; i < count; ++i) mask |= static_cast<RayMask>(valid[i] & 1) << i;
+  const RayMask mask = mask_of_valid(valid, count);
   if (mask == 0) return;
-  // Embree may cut a packet into smaller ones: a ray's number, if it is valid, tells which this is.
+  // A ray's number, if it is valid, tells which part of the packet this is.
   const auto some = static_cast<unsigned>(std::countr_zero(mask));
   const unsigned first = RTCRayN_id(rays, count, some) - some;
   try {
     const RayMask changed = traversal->visitor->visit(box, mask << first) >> first;
-    for_each_ray(changed, [&](std::size_t ray) {
-      const auto i = static_cast<unsigned>(ray);
-      float& far_end = RTCRayN_tfar(rays, count, i);
-      far_end = std::min(far_end, traversal->far_end(first + ray));
+    RayPacket::for_each_group(changed, [&](std::size_t group, RayMask) {
+      const std::size_t ray = group * lane_count;
+      const FloatLanes ends = traversal->far_ends((first + ray) / lane_count);
+      float* far_ends = &RTCRayN_tfar(rays, count, static_cast<unsigned>(ray));
+      if (has_groups(count)) {
+        put(min(taken<FloatLanes>(far_ends), ends), far_ends, 0);
+      } else {
+        *far_ends = std::min(*far_ends, ends[static_cast<int>(first % lane_count)]);
+      }
     });
   } catch (...) {
     traversal->failure = std::current_exception();

@@ -5,6 +5,7 @@
 #include <array>
 #include <bit>
 #include <limits>
+#include <new>
 #include <span>
 #include <utility>
 #include <vector>
@@ -94,8 +95,14 @@ class PacketTests {
     if (open != 0 && outlines.leaf_told(outline) != nothing) {
       const RayMask told = open & outlined_.told(outline, outlines, starts);
       open &= ~told;
+      // All are found before any is taken, so that none waits for what is made of another.
+      std::array<GroupCrossing, RayPacket::group_count> crossings;
       RayPacket::for_each_group(told, [&](std::size_t group, RayMask asked) {
-        open |= test_told(outline, outlines, group, asked, starts) << (group * lane_count);
+        new (&crossings[group].first)
+            FirstCrossing<Lanes>(outlined_.first_crossing(outline, outlines, group, asked, starts));
+      });
+      RayPacket::for_each_group(told, [&](std::size_t group, RayMask asked) {
+        open |= take_told(outline, outlines, group, asked, crossings[group].first) << (group * lane_count);
       });
     }
     if (open == 0) return changed_;  // what follows looks farther away in memory
@@ -126,6 +133,12 @@ class PacketTests {
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
 
+  /// Room for what a group crosses, which is written where it stays, and nothing before.
+  union GroupCrossing {
+    GroupCrossing() {}
+    FirstCrossing<Lanes> first;
+  };
+
   /// Those rays have found what they ask for.
   void settle(RayMask rays) {
     changed_ |= rays;
@@ -150,11 +163,10 @@ class PacketTests {
     if (query.limit() <= query.ray().t_min) going_ &= ~bit;
   }
 
-  /// Those lanes of a group whose crossings with an object the outline alone tells. Returns which of them it
-  /// leaves open nevertheless.
-  RayMask test_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask asked,
-                    const BoxStarts& starts) {
-    const FirstCrossing<Lanes> first = outlined_.first_crossing(outline, outlines, group, asked, starts);
+  /// Takes the crossings of a group's lanes with an object whose outline alone tells them. Returns which
+  /// lanes it leaves open nevertheless.
+  RayMask take_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask asked,
+                    const FirstCrossing<Lanes>& first) {
     const RayMask open = asked & mask_of(first.unknown);
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
     const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
@@ -233,7 +245,7 @@ class PacketTests {
     return done;
   }
 
-  /// The same as test_told() by the sketch of a CSG object.
+  /// The same by the sketch of a CSG object, which it asks itself.
   RayMask test_sketch(std::uint32_t object, const CsgSketch& sketch, std::size_t group, RayMask asked) {
     const CompiledScene& scene = answers_.accelerator.compiled();
     const OutlineLine<Lanes>& lines = packet_.groups[group];
