@@ -49,6 +49,15 @@ struct StartPoint {
   /// How far rounding may have put the start from *other* surfaces that are there too: see is_at_start().
   double t_error = 0;
 
+  /// Takes all but the error from another. Member by member: to copy as a whole what has just been written by
+  /// members waits until they have reached the cache.
+  void set_face(const StartPoint& other) {
+    leaf = other.leaf;
+    face = other.face;
+    surface = other.surface;
+    side = other.side;
+  }
+
   /// Whether both are on one face, to one side of its surface.
   bool is_to_same_side(const StartPoint& other) const {
     return leaf == other.leaf && face == other.face && side == other.side;

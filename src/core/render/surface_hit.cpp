@@ -85,9 +85,9 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
 
     const Side side = first.entering ? Side::outside : Side::inside;
     const StartPoint start = data.start_face(first, side);
-    for_each_ray(rays_alike.on_face, [&](std::size_t lane) { group.starts[lane] = start; });
+    for_each_ray(rays_alike.on_face, [&](std::size_t lane) { group.starts[lane].set_face(start); });
     for_each_ray(rays_alike.on_spheres,
-                 [&](std::size_t lane) { group.starts[lane] = data.start_face(hits[lane], side); });
+                 [&](std::size_t lane) { group.starts[lane].set_face(data.start_face(hits[lane], side)); });
     faces.object_points(rays_alike, rays, t, material.uses_uv, points);
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
@@ -101,15 +101,12 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
   group.start_errors = start_rounding * largest_component(rays.at(t));
 }
 
-CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
-                               RenderStats& stats) {
+CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
+                                RenderStats& stats) {
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
-  Color color = material.color;
-  if (material.pattern) {
-    ++stats.pattern_lookups;
-    const bool with_uv = material.pattern->uses_uv();
-    color = material.pattern->color(data.object_point(ray, crossing, with_uv));
-  }
+  ++stats.pattern_lookups;
+  const bool with_uv = material.pattern->uses_uv();
+  const Color color = material.pattern->color(data.object_point(ray, crossing, with_uv));
   return {.transparency = material.transparency(color.a), .color = rgb(color)};
 }
 

@@ -16,8 +16,14 @@ struct CrossingFilter {
   double transparency = 0;
   Rgb color{0, 0, 0};
 };
-CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
-                               RenderStats& stats);
+CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
+                                RenderStats& stats);
+inline CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
+                                      RenderStats& stats) {
+  const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
+  if (material.pattern) return patterned_filter(data, ray, crossing, stats);
+  return {.transparency = material.transparency(material.color.a), .color = rgb(material.color)};
+}
 
 /// The share of light that is left after a way through a medium (Beer-Lambert).
 Rgb transmittance(const PreparedMaterial& medium, double length);
