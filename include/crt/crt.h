@@ -891,6 +891,15 @@ typedef struct crt_hit {
 /** The nearest hit of each ray. If any ray is wrong, none is asked, and the message names its index. */
 CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                  crt_hit* hits, size_t hit_stride);
+/**
+ * How far the nearest hit of each ray is, and of which entity: the same as crt_intersect() tells, in less
+ * time, as nobody asks what the surface is like there. If any ray is wrong, nothing is written, and the
+ * message names its index.
+ * @param distances   gets `count` numbers, in units of |direction|; INFINITY for a miss
+ * @param entity_ids  gets as many, 0 for a miss; NULL if nobody asks
+ */
+CRT_API crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
+                                 double* distances, uint32_t* entity_ids);
 /** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes. If any ray is
  * wrong, nothing is written, and the message names its index. */
 CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,

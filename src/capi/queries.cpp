@@ -113,6 +113,21 @@ class Rays {
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
+  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been looked at: its
+  /// answers must wait until this returns without having thrown. So nobody goes through all rays before.
+  template <class Ask>
+  void answer(const PreparedScene& scene, const Ask& ask) const {
+    try {
+      query_in_parallel(scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
+        for_pieces(first, last,
+                   [&](std::size_t begin, std::span<const Ray> rays) { ask(queries, begin, rays); });
+      });
+    } catch (const Error&) {
+      validate_all(scene);  // which of them is the first
+      throw;
+    }
+  }
+
  private:
   [[noreturn]] void throw_error_of(std::size_t index) const {
     try {
@@ -165,26 +180,36 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
   });
 }
 
+crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
+                         double* distances, uint32_t* entity_ids) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    const Rays questions(rays, ray_stride, count);
+    if (count > 0) require(distances, "distances");
+    const auto t = std::make_unique_for_overwrite<double[]>(count);
+    const auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(entity_ids != nullptr ? count : 0);
+    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
+      std::array<crt::HitDistance, piece_size> found;
+      queries.intersect(piece, found);
+      for (std::size_t i = 0; i < piece.size(); ++i) t[begin + i] = found[i].t;
+      if (entity_ids == nullptr) return;
+      for (std::size_t i = 0; i < piece.size(); ++i) ids[begin + i] = found[i].entity_id;
+    });
+    std::copy_n(t.get(), count, distances);
+    if (entity_ids != nullptr) std::copy_n(ids.get(), count, entity_ids);
+  });
+}
+
 crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                         uint8_t* occluded) {
   return guarded([&] {
     require(prepared, "prepared");
     const Rays questions(rays, ray_stride, count);
     if (count > 0) require(occluded, "occluded");
-    // The answers wait here until no ray has turned out to be wrong: so nobody goes through all of them
-    // before.
     const auto answers = std::make_unique_for_overwrite<bool[]>(count);
-    try {
-      crt::query_in_parallel(prepared->value, count,
-                             [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-                               questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-                                 queries.occluded(piece, std::span(&answers[begin], piece.size()));
-                               });
-                             });
-    } catch (const crt::Error&) {
-      questions.validate_all(prepared->value);  // which of them is the first
-      throw;
-    }
+    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
+      queries.occluded(piece, std::span(&answers[begin], piece.size()));
+    });
     std::transform(answers.get(), answers.get() + count, occluded, [](bool hit) { return hit ? 1 : 0; });
   });
 }

@@ -63,6 +63,8 @@ class Comparison {
         flow == Flow::coherent ? camera_rays(side_) : scattered_rays(side_ * side_);
     answers_.resize(rays.size());
     hits_.resize(rays.size());
+    distances_.resize(rays.size());
+    ids_.resize(rays.size());
     hidden_.resize(rays.size());
     std::vector<Contender> contenders = embree(rays, flow);
     for (Contender& own : ours(rays, flow)) contenders.push_back(std::move(own));
@@ -104,6 +106,10 @@ class Comparison {
     std::vector<Contender> result = {
         {"nearest: CRT, batch (C)",
          [&] { require(crt_intersect(in_c_.get(), rays.data(), 0, rays.size(), hits_.data(), 0)); }},
+        {"nearest: CRT, distances (C)",
+         [&] {
+           require(crt_distances(in_c_.get(), rays.data(), 0, rays.size(), distances_.data(), ids_.data()));
+         }},
         {"nearest: CRT, one by one (C++)", [&] { one_by_one(rays); }},
         {"any: CRT, batch (C)",
          [&] { require(crt_occluded(in_c_.get(), rays.data(), 0, rays.size(), hidden_.data())); }},
@@ -129,20 +135,24 @@ class Comparison {
 
   /// Those that compute in double must find the same.
   void check(const std::vector<Contender>& contenders, Flow flow) {
+    const auto t_of = [&](std::string_view name, std::size_t ray) {
+      if (name == "nearest: CRT, batch (C)") return hits_[ray].t;
+      return name == "nearest: CRT, distances (C)" ? distances_[ray] : answers_[ray].t;
+    };
     const auto sum = [&](const char* name) {
       for (const Contender& contender : contenders) {
         if (contender.name == name) contender.work();
       }
       double total = 0;
       for (std::size_t i = 0; i < answers_.size(); ++i) {
-        const double t =
-            std::string_view(name).find("(C)") == std::string_view::npos ? answers_[i].t : hits_[i].t;
+        const double t = t_of(name, i);
         if (t < std::numeric_limits<double>::infinity()) total += 1 + t;
       }
       return total;
     };
     const double expected = sum("nearest: CRT, one by one (C++)");
-    for (const char* name : {"nearest: CRT, batch (C)", "nearest: Embree, double callback, one by one",
+    for (const char* name : {"nearest: CRT, batch (C)", "nearest: CRT, distances (C)",
+                             "nearest: Embree, double callback, one by one",
                              "nearest: Embree, double callback, packets of 16"}) {
       // A ray that grazes a sphere may go either way.
       constexpr double grazing_share = 1e-4;
@@ -165,6 +175,8 @@ class Comparison {
   PreparedInC in_c_{prepared_in_c(balls_)};
   std::vector<Answer> answers_;
   std::vector<crt_hit> hits_;
+  std::vector<double> distances_;
+  std::vector<std::uint32_t> ids_;
   std::vector<std::uint8_t> hidden_;
 };
 

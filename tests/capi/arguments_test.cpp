@@ -137,6 +137,9 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"prepared", [&] { return crt_intersect(nullptr, &ray, 0, 1, &hit, 0); }},
       {"rays", [&] { return crt_intersect(prepared.get(), nullptr, 0, 1, &hit, 0); }},
       {"hits", [&] { return crt_intersect(prepared.get(), &ray, 0, 1, nullptr, 0); }},
+      {"prepared", [&] { return crt_distances(nullptr, &ray, 0, 1, &number, nullptr); }},
+      {"rays", [&] { return crt_distances(prepared.get(), nullptr, 0, 1, &number, nullptr); }},
+      {"distances", [&] { return crt_distances(prepared.get(), &ray, 0, 1, nullptr, nullptr); }},
       {"rays", [&] { return crt_occluded(prepared.get(), nullptr, 0, 1, &byte); }},
       {"occluded", [&] { return crt_occluded(prepared.get(), &ray, 0, 1, nullptr); }},
       {"ray", [&] { return crt_crossings(prepared.get(), nullptr, &hit, 1, &count); }},
@@ -299,6 +302,7 @@ TEST_CASE("counts and strides that no memory has are refused before anything is 
   crt_hit hit = {};
   hit.t = 42;
   std::uint8_t byte = 9;
+  double number = 42;
   float pixel[4] = {0, 0, 0, 1};
   crt_image* image = nullptr;
   constexpr std::size_t most = std::numeric_limits<std::size_t>::max();
@@ -308,6 +312,8 @@ TEST_CASE("counts and strides that no memory has are refused before anything is 
       {"rays", [&] { return crt_intersect(prepared.get(), &ray, most, 2, &hit, 0); }},
       {"rays", [&] { return crt_intersect(prepared.get(), &ray, 8, 1, &hit, 0); }},
       {"hits", [&] { return crt_intersect(prepared.get(), &ray, 0, 1, &hit, 55); }},
+      {"rays", [&] { return crt_distances(prepared.get(), &ray, 63, 1, &number, nullptr); }},
+      {"rays", [&] { return crt_distances(prepared.get(), &ray, 0, most, &number, nullptr); }},
       {"rays", [&] { return crt_occluded(prepared.get(), &ray, 63, 1, &byte); }},
       {"width", [&] { return crt_image_create(0, 1, pixel, 0, &image); }},
       {"height", [&] { return crt_image_create(1, 0, pixel, 0, &image); }},
@@ -320,6 +326,7 @@ TEST_CASE("counts and strides that no memory has are refused before anything is 
       {"index", [&] { return crt_scene_get_light(scene.get(), most, nullptr); }},
   });
   CHECK(hit.t == 42);
+  CHECK(number == 42);
   CHECK(byte == 9);
   CHECK(image == nullptr);
 }
@@ -328,6 +335,7 @@ TEST_CASE("no rays and no triangles are no trouble") {
   const SceneHandle scene = new_scene();
   const PreparedHandle prepared = prepare(scene.get());
   CHECK(crt_intersect(prepared.get(), nullptr, 0, 0, nullptr, 0) == CRT_OK);
+  CHECK(crt_distances(prepared.get(), nullptr, 0, 0, nullptr, nullptr) == CRT_OK);
   CHECK(crt_occluded(prepared.get(), nullptr, 0, 0, nullptr) == CRT_OK);
   crt_entity* out = nullptr;
   const double corner = 0;
@@ -356,6 +364,14 @@ TEST_CASE("a ray that is none is refused with its index, and no answer is writte
     CHECK(says("rays[" + std::to_string(count - 3) + "]"));
     CHECK(says("direction"));
     for (const std::uint8_t answer : occluded) CHECK(answer == 42);
+    std::vector<double> distances(count, 42);
+    std::vector<std::uint32_t> ids(count, 42);
+    CHECK(crt_distances(prepared.get(), rays.data(), 0, count, distances.data(), ids.data()) ==
+          CRT_ERROR_INVALID_ARGUMENT);
+    CHECK(says("rays[" + std::to_string(count - 3) + "]"));
+    CHECK(says("direction"));
+    for (const double distance : distances) CHECK(distance == 42);
+    for (const std::uint32_t id : ids) CHECK(id == 42);
   }
 }
 

@@ -319,10 +319,14 @@ void Session::ask_rays() {
   std::array<std::uint8_t, 3> occluded{};
   const crt_status first = crt_intersect(prepared, rays.data(), 0, 3, hits.data(), 0);
   const crt_status second = crt_occluded(prepared, rays.data(), 0, 3, occluded.data());
-  require(first == second);
+  std::array<double, 3> distances{};
+  std::array<std::uint32_t, 3> ids{};
+  const crt_status third = crt_distances(prepared, rays.data(), 0, 3, distances.data(), ids.data());
+  require(first == second && first == third);
   for (std::size_t i = 0; first == CRT_OK && i < 3; ++i) {
     const bool hit = hits[i].t < std::numeric_limits<double>::infinity();
     require(hit == (occluded[i] != 0));
+    require(distances[i] == hits[i].t && ids[i] == hits[i].entity_id);
     require(!hit || (hits[i].t > rays[i].t_min && hits[i].t < rays[i].t_max));
     std::size_t count = 0;
     crt_hit crossing{};

@@ -39,12 +39,20 @@ TEST_CASE("a batch gives what single rays give, and occlusion and crossings agre
   std::vector<std::uint8_t> occluded(rays.size(), 7);
   REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), hits.data(), 0) == CRT_OK);
   REQUIRE(crt_occluded(prepared.get(), rays.data(), 0, rays.size(), occluded.data()) == CRT_OK);
+  std::vector<double> distances(rays.size(), 7);
+  std::vector<std::uint32_t> ids(rays.size(), 7);
+  REQUIRE(crt_distances(prepared.get(), rays.data(), 0, rays.size(), distances.data(), ids.data()) == CRT_OK);
   std::size_t found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     crt_hit single;
     REQUIRE(crt_intersect(prepared.get(), &rays[i], 0, 1, &single, 0) == CRT_OK);
     REQUIRE(same(single, hits[i]));
     REQUIRE(occluded[i] == (hits[i].t < infinity ? 1 : 0));
+    REQUIRE(distances[i] == hits[i].t);
+    REQUIRE(ids[i] == hits[i].entity_id);
+    double distance = 7;
+    REQUIRE(crt_distances(prepared.get(), &rays[i], 0, 1, &distance, nullptr) == CRT_OK);
+    REQUIRE(distance == hits[i].t);
     crt_hit crossings[16];
     std::size_t count = 99;
     REQUIRE(crt_crossings(prepared.get(), &rays[i], crossings, 16, &count) == CRT_OK);

@@ -26,6 +26,14 @@ class Answers(unittest.TestCase):
         np.testing.assert_allclose(middle["normal"], (0, 0, -1), atol=1e-15)
         self.assertEqual(middle["flags"], crt.ENTERING)
 
+    def test_how_far_it_is(self):
+        rays = parallel_rays(301)
+        hits = prepared.intersect(rays)
+        distances, ids = prepared.distances(rays)
+        self.assertEqual((distances.dtype, ids.dtype), (np.float64, np.uint32))
+        np.testing.assert_array_equal(distances, hits["t"])
+        np.testing.assert_array_equal(ids, hits["entity_id"])
+
     def test_what_is_hit_at_all(self):
         rays = parallel_rays(301)
         occluded = prepared.occluded(rays)
@@ -91,6 +99,7 @@ class Memory(unittest.TestCase):
     def test_no_rays(self):
         self.assertEqual(prepared.intersect(crt.rays(0)).shape, (0,))
         self.assertEqual(prepared.occluded(crt.rays((4, 0))).shape, (4, 0))
+        self.assertEqual([a.shape for a in prepared.distances(crt.rays((4, 0)))], [(4, 0), (4, 0)])
 
     def test_another_dtype_is_refused_rather_than_copied(self):
         for wrong in (

@@ -51,6 +51,10 @@ bool same(const PlainHit& plain, const std::optional<Hit>& hit) {
          plain.side == (hit->entering ? HitSide::entering : HitSide::leaving);
 }
 
+bool same(const HitDistance& distance, const PlainHit& hit) {
+  return distance.t == hit.t && distance.entity_id == hit.entity_id && distance.side == hit.side;
+}
+
 std::string rejected(const Ray& ray) {
   const PreparedScene scene = two_balls();
   std::string argument;
@@ -190,12 +194,15 @@ TEST_CASE("many rays at once find what each finds, however long they are and wha
     std::vector<PlainHit> plain(rays.size());
     queries.intersect(rays, hits);
     queries.intersect(rays, plain);
+    std::vector<HitDistance> distances(rays.size());
+    queries.intersect(rays, distances);
     queries.occluded(rays, hidden);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::optional<Hit> alone = queries.intersect(rays[i]);
       REQUIRE(alone.has_value() == hits[i].has_value());
       REQUIRE(queries.occluded(rays[i]) == hidden[i]);
       REQUIRE(same(plain[i], alone));
+      REQUIRE(same(distances[i], plain[i]));
       if (!alone) continue;
       ++met;
       REQUIRE(alone->t == hits[i]->t);

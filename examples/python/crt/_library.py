@@ -107,6 +107,7 @@ STATUS_FUNCTIONS = {
     "crt_image_settings": "pp",
     "crt_image_with_settings": "ppp",
     "crt_intersect": "ppzzpz",
+    "crt_distances": "ppzzpp",
     "crt_occluded": "ppzzp",
     "crt_crossings": "pppzp",
 }

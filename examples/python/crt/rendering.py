@@ -98,6 +98,21 @@ class Prepared(Handle):
         )
         return out
 
+    def distances(self, rays: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """How far each ray's nearest hit is (infinity for a miss), and of which entity: faster than intersect()."""
+        questions = Batch(rays, RAY, "rays")
+        out = np.empty(questions.shape, np.float64)
+        ids = np.empty(questions.shape, np.uint32)
+        library.crt_distances(
+            self._handle,
+            questions.address,
+            questions.stride,
+            questions.count,
+            out.ctypes.data,
+            ids.ctypes.data,
+        )
+        return out, ids
+
     def occluded(self, rays: NDArray[Any]) -> NDArray[Any]:
         """Whether each ray hits anything at all."""
         questions = Batch(rays, RAY, "rays")

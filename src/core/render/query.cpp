@@ -8,6 +8,7 @@
 #include <cstring>
 #include <limits>
 #include <new>
+#include <type_traits>
 
 #include "core/math/float_environment.hpp"
 #include "core/render/users_rays.hpp"
@@ -89,13 +90,14 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  /// An answer is an std::optional<Hit> or a PlainHit.
+  /// An answer is an std::optional<Hit>, a PlainHit or a HitDistance.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
-      describe(first, count);
+      find_distances(first, count);
+      if constexpr (!std::is_same_v<Answer, HitDistance>) find_points(first);
       tell(answers.subspan(first, count));
     }
   }
@@ -127,18 +129,23 @@ class QueryPacket {
     }
   }
 
-  /// What `count` rays from `first` on have found: those that are alike side by side.
-  void describe(std::size_t first, std::size_t count) {
+  /// How far `count` rays from `first` on are from what they have found, and what that is.
+  void find_distances(std::size_t first, std::size_t count) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     found_ = 0;
     for (std::size_t i = 0; i < count; ++i) found_ |= static_cast<RayMask>(group[i].found()) << i;
-    if (found_ == 0) return;
     for_each_ray(found_, [&](std::size_t lane) {
       const auto i = static_cast<int>(lane);
       t_[i] = to_users_t_[first + lane] * group[lane].t;
       ids_[i] = data_.entity_id(group[lane]);
       sides_[i] = static_cast<std::uint64_t>(group[lane].entering ? HitSide::entering : HitSide::leaving);
     });
+  }
+
+  /// Where that is, of hits that are alike side by side.
+  void find_points(std::size_t first) {
+    if (found_ == 0) return;
+    const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     const RayLanes& lines = rays_.lines[first / lane_count];
     const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
     const HitFaces faces(data_, group);
@@ -186,6 +193,17 @@ class QueryPacket {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
       std::memcpy(place, &heads[lane], head);
       std::memcpy(place + head, &tails[lane], sizeof(PlainHit) - head);
+    }
+  }
+
+  void tell(std::span<HitDistance> answers) const {
+    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      const auto i = static_cast<int>(lane);
+      answers[lane] = {};
+      if ((found_ >> lane & 1u) == 0) continue;
+      answers[lane] = {.t = t_[i],
+                       .entity_id = static_cast<std::uint32_t>(ids_[i]),
+                       .side = static_cast<HitSide>(sides_[i])};
     }
   }
 
@@ -326,6 +344,10 @@ void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hi
 }
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) {
+  state_->intersect(rays, hits);
+}
+
+void RayQueries::intersect(std::span<const Ray> rays, std::span<HitDistance> hits) {
   state_->intersect(rays, hits);
 }
 

@@ -274,6 +274,10 @@ TEST_CASE("asking rays") {
     return crt_occluded(prepared.get(), rays, 0, 3, occluded);
   });
   check_every_failure([&] {
+    double distances[3];
+    return crt_distances(prepared.get(), rays, 0, 3, distances, nullptr);
+  });
+  check_every_failure([&] {
     crt_hit hits[4];
     std::size_t count = 0;
     return crt_crossings(prepared.get(), &rays[1], hits, 4, &count);
