@@ -100,7 +100,7 @@ std::array<Real, 3> way_to(const OutlineLine<Real>& line, const Vec3& place) {
 /// the bound on the error of an exact test's t is of that size as well: the chord's ends are compared by
 /// their squares, with four times as much added.
 template <class Real>
-auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Real& limit) {
+auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Real& limit, bool any_will_do) {
   using namespace outline_detail;
   const std::array<Real, 3> way = way_to(line, sphere.place);
   const Real squared_way = dot(way, way);
@@ -120,11 +120,11 @@ auto judge_sphere(const Outline& sphere, const OutlineLine<Real>& line, const Re
   const auto from = [&](const Real& t) { return (closest - t) - slack * (reach + size_of(t)); };
   const auto up_to = [&](const Real& t) { return (t - closest) - slack * (reach + size_of(t)); };
 
-  const Real to_end = up_to(line.certain_to);
-  const auto before_end = either(to_end > 0.0, to_end * to_end * line.squared_speed < room - error);
   using Mask = decltype(room < error);
   const Mask missed = either(longest < 0.0, beyond_chord(from(limit)), beyond_chord(up_to(line.begin)));
-  if (sphere.encloses) return Verdict<Mask>{.missed = missed, .met = {}};
+  if (sphere.encloses || !any_will_do) return Verdict<Mask>{.missed = missed, .met = {}};
+  const Real to_end = up_to(line.certain_to);
+  const auto before_end = either(to_end > 0.0, to_end * to_end * line.squared_speed < room - error);
   return Verdict<Mask>{.missed = missed,
                        .met = both(both(room > error, beyond_chord(from(line.certain_from))), before_end)};
 }
@@ -312,14 +312,15 @@ auto judge_rod(const Outline& rod, const OutlineAxis& of_rod, const OutlineLine<
                        .met = {}};
 }
 
-/// Whatever it is, if it is judged and no box; `last` as of planes.
+/// Whatever it is, if it is judged and no box; `last` as of planes. A sphere is not told to be met unless
+/// `any_will_do`, as nothing else asks for it.
 template <class Real>
 auto judge_outline(const Outline& outline, const Outlines& outlines, const OutlineLine<Real>& line,
-                   const Real& limit, Real& last) {
+                   const Real& limit, bool any_will_do, Real& last) {
   switch (outline.kind) {
     case Outline::Kind::sphere:
     case Outline::Kind::moved_sphere:
-      return judge_sphere(outline, line, limit);
+      return judge_sphere(outline, line, limit, any_will_do);
     case Outline::Kind::torus:
       return judge_torus(outline, outlines.axis(outline), line, limit);
     case Outline::Kind::rod:

@@ -55,7 +55,7 @@ class OutlinedRay {
                             leaves_torus(outline, outlines.axis(outline), line_);
       return has_left ? Judgement::missed : Judgement::open;
     }
-    return judgement(judge_outline(outline, outlines, line_, limit, last));
+    return judgement(judge_outline(outline, outlines, line_, limit, any_will_do, last));
   }
 
   /// Of one that leaf_told() knows of.
@@ -120,14 +120,15 @@ class OutlinedPacket {
       return judge_boxed(outlines.box(outline), rays, starts, any_will_do);
     }
     std::array<Lanes, RayPacket::group_count> last;
-    return judge(outline, outlines, rays, last);
+    return judge(outline, outlines, rays, any_will_do, last);
   }
 
   /// Whatever it is, if it is known and no box; `last` as OutlinedRay::judge() has it.
-  Verdict<RayMask> judge(const Outline& outline, const Outlines& outlines, RayMask rays,
+  Verdict<RayMask> judge(const Outline& outline, const Outlines& outlines, RayMask rays, bool any_will_do,
                          std::array<Lanes, RayPacket::group_count>& last) const {
     Verdict<RayMask> verdict = judge_groups(rays, [&](std::size_t group) {
-      return judge_outline(outline, outlines, packet_.groups[group], packet_.limits[group], last[group]);
+      return judge_outline(outline, outlines, packet_.groups[group], packet_.limits[group], any_will_do,
+                           last[group]);
     });
     if ((rays & packet_.starts.on_surface) != 0) {
       const RayMask open = starting_on(outline.surface);

@@ -119,7 +119,8 @@ class PacketTests {
   /// A plane that is met bounds what else matters.
   void limit_by(const Outline& plane, const Outlines& outlines) {
     std::array<Lanes, RayPacket::group_count> last;
-    const RayMask met = outlined_.judge(plane, outlines, going_ & ~outlined_.left(plane), last).met;
+    const RayMask met =
+        outlined_.judge(plane, outlines, going_ & ~outlined_.left(plane), any_will_do, last).met;
     RayPacket::for_each_group(met, [&](std::size_t group, RayMask lanes) {
       // As a hit there would have it.
       const OutlineLine<Lanes>& lines = packet_.groups[group];
