@@ -4,8 +4,6 @@
 #include <array>
 #include <atomic>
 #include <bit>
-#include <cmath>
-#include <cstring>
 #include <exception>
 #include <limits>
 #include <string>
@@ -19,6 +17,7 @@
 #include "core/geometry/object_ray.hpp"
 #include "core/math/vector.hpp"
 #include "core/scene/embree_compat.hpp"
+#include "core/scene/embree_floats.hpp"
 #include "crt/error.hpp"
 
 namespace crt::core {
@@ -39,56 +38,6 @@ constexpr double place_margin = 2 * start_rounding;
 /// In the same units: Embree takes no ray that starts farther away. None that does so where it should enter
 /// the box around all meets anything, but rounding may put it there.
 constexpr double farthest_place = 0x1p60;
-
-float round_up(double value) {
-  const auto nearest = static_cast<float>(value);
-  if (!(static_cast<double>(nearest) < value)) return nearest;
-  // As std::nextafter() has it, which is a call.
-  const auto bits = std::bit_cast<std::uint32_t>(nearest);
-  if (nearest > 0) return std::bit_cast<float>(bits + 1);
-  return nearest < 0 ? std::bit_cast<float>(bits - 1) : std::numeric_limits<float>::denorm_min();
-}
-
-float round_down(double value) {
-  return -round_up(-value);
-}
-
-/// Embree passes by what is met just where a ray ends, so no way is shorter.
-constexpr float shortest_way = std::numeric_limits<float>::min();
-
-float round_up_length(double length) {
-  return std::max(round_up(length), shortest_way);
-}
-
-/// The same of each, if it is not negative.
-FloatLanes round_up_length(const Lanes& length) {
-  const FloatLanes nearest = to_floats(length);
-  // -1 where it is true.
-  const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
-  const auto rounded_up = reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
-  return max(rounded_up, FloatLanes{} + shortest_way);
-}
-
-/// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts rays by the
-/// sign that it has: one that goes downwards by next to nothing would cost others their boxes.
-FloatLanes direction_floats(const Lanes& component) {
-  constexpr double least = 0x1p-59;  // Embree's is 1e-18
-  return to_floats(size_of(component) > least ? component : Lanes{});
-}
-
-/// Into a column of numbers by ray, from one on.
-template <class Numbers, class Column>
-void put(const Numbers& lanes, Column& column, std::size_t first) {
-  std::memcpy(&column[first], &lanes, sizeof lanes);
-}
-
-/// As many of such numbers.
-template <class Numbers, class Number>
-Numbers taken(const Number* column) {
-  Numbers lanes;
-  std::memcpy(&lanes, column, sizeof lanes);
-  return lanes;
-}
 
 /// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
 /// worth starting any for.
@@ -184,7 +133,7 @@ bool has_groups(unsigned count) {
 RayMask mask_of_valid(const int* valid, unsigned count) {
   if (!has_groups(count)) return valid[0] != 0 ? 1 : 0;
   RayMask mask = 0;
-  for (unsigned i = 0; i < count; i += lane_count) mask |= mask_of(taken<IntLanes>(valid + i)) << i;
+  for (unsigned i = 0; i < count; i += lane_count) mask |= mask_of(lanes_at<IntLanes>(valid + i)) << i;
   return mask;
 }
 
@@ -203,7 +152,7 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
       const FloatLanes ends = traversal->far_ends((first + ray) / lane_count);
       float* far_ends = &RTCRayN_tfar(rays, count, static_cast<unsigned>(ray));
       if (has_groups(count)) {
-        put(min(taken<FloatLanes>(far_ends), ends), far_ends, 0);
+        put_lanes(min(lanes_at<FloatLanes>(far_ends), ends), far_ends, 0);
       } else {
         *far_ends = std::min(*far_ends, ends[static_cast<int>(first % lane_count)]);
       }
@@ -374,7 +323,7 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
     const std::size_t group = (first_ray + first) / lane_count;
     const RayMask lanes = RayPacket::lanes(rays, group);
     if (lanes == 0) {
-      put(IntLanes{}, valid, first);
+      put_lanes(IntLanes{}, valid, first);
       continue;
     }
     const OutlineLine<Lanes>& lines = packet.groups[group];
@@ -392,14 +341,14 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
       const Lanes at = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
       place[axis] = max(min(at, lanes_of(farthest_place)), lanes_of(-farthest_place));
     }
-    put(__builtin_convertvector(lanes_with(meeting), IntLanes), valid, first);
-    put(to_floats(place[0]), to_trace.org_x, first);
-    put(to_floats(place[1]), to_trace.org_y, first);
-    put(to_floats(place[2]), to_trace.org_z, first);
-    put(direction_floats(lines.direction[0]), to_trace.dir_x, first);
-    put(direction_floats(lines.direction[1]), to_trace.dir_y, first);
-    put(direction_floats(lines.direction[2]), to_trace.dir_z, first);
-    put(round_up_length((end - start) * scale_), to_trace.tfar, first);
+    put_lanes(__builtin_convertvector(lanes_with(meeting), IntLanes), valid, first);
+    put_lanes(to_floats(place[0]), to_trace.org_x, first);
+    put_lanes(to_floats(place[1]), to_trace.org_y, first);
+    put_lanes(to_floats(place[2]), to_trace.org_z, first);
+    put_lanes(direction_floats(lines.direction[0]), to_trace.dir_x, first);
+    put_lanes(direction_floats(lines.direction[1]), to_trace.dir_y, first);
+    put_lanes(direction_floats(lines.direction[2]), to_trace.dir_z, first);
+    put_lanes(round_up_length((end - start) * scale_), to_trace.tfar, first);
   }
   if (!some) return;
   for (std::size_t ray = 0; ray < Count; ++ray) {

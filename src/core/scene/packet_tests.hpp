@@ -136,7 +136,7 @@ class PacketTests {
 
   /// Room for what a group crosses, which is written where it stays, and nothing before.
   union GroupCrossing {
-    GroupCrossing() {}
+    GroupCrossing() {}  // NOLINT(modernize-use-equals-default): that would be deleted
     FirstCrossing<Lanes> first;
   };
 

@@ -1,0 +1,65 @@
+// Doubles as the floats that Embree takes: rounded to the side on which nothing is lost.
+#pragma once
+
+#include <algorithm>
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+
+#include "core/math/lanes.hpp"
+
+namespace crt::core {
+
+inline float round_up(double value) {
+  const auto nearest = static_cast<float>(value);
+  if (!(static_cast<double>(nearest) < value)) return nearest;
+  // As std::nextafter() has it, which is a call.
+  const auto bits = std::bit_cast<std::uint32_t>(nearest);
+  if (nearest > 0) return std::bit_cast<float>(bits + 1);
+  return nearest < 0 ? std::bit_cast<float>(bits - 1) : std::numeric_limits<float>::denorm_min();
+}
+
+inline float round_down(double value) {
+  return -round_up(-value);
+}
+
+/// Embree passes by what is met just where a ray ends, so no way is shorter.
+inline constexpr float shortest_way = std::numeric_limits<float>::min();
+
+inline float round_up_length(double length) {
+  return std::max(round_up(length), shortest_way);
+}
+
+/// The same of each, if it is not negative.
+inline FloatLanes round_up_length(const Lanes& length) {
+  const FloatLanes nearest = to_floats(length);
+  // -1 where it is true.
+  const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
+  const auto rounded_up = reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
+  return max(rounded_up, FloatLanes{} + shortest_way);
+}
+
+/// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts rays by the
+/// sign that it has: one that goes downwards by next to nothing would cost others their boxes.
+inline FloatLanes direction_floats(const Lanes& component) {
+  constexpr double least = 0x1p-59;  // Embree's is 1e-18
+  return to_floats(size_of(component) > least ? component : Lanes{});
+}
+
+/// Into a column of numbers by ray, from one on.
+template <class Numbers, class Column>
+void put_lanes(const Numbers& lanes, Column& column, std::size_t first) {
+  std::memcpy(&column[first], &lanes, sizeof lanes);
+}
+
+/// As many of such numbers.
+template <class Numbers, class Number>
+Numbers lanes_at(const Number* column) {
+  Numbers lanes;
+  std::memcpy(&lanes, column, sizeof lanes);
+  return lanes;
+}
+
+}  // namespace crt::core
