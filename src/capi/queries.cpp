@@ -63,6 +63,12 @@ class Places {
 
   Byte* operator[](std::size_t index) const { return first_ + index * stride_; }
 
+  /// Whether they are an array of a T as large as they are.
+  template <class T>
+  bool are_array_of() const {
+    return stride_ == sizeof(T) && reinterpret_cast<std::uintptr_t>(first_) % alignof(T) == 0;
+  }
+
  private:
   Byte* first_;
   std::size_t stride_;
@@ -74,8 +80,8 @@ Ray to_ray(const std::byte* place) {
   return ray;
 }
 
-/// Rays that are copied out of the caller's memory at a time.
-constexpr std::size_t piece_size = 64;
+/// Rays that are asked, and if need be copied out of the caller's memory, at a time.
+constexpr std::size_t piece_size = 256;
 
 class Rays {
  public:
@@ -86,14 +92,16 @@ class Rays {
   /// Calls ask(begin, rays) for piece after piece of the rays first ... last - 1.
   template <class Ask>
   void for_pieces(std::size_t first, std::size_t last, const Ask& ask) const {
-    std::array<Ray, piece_size> rays;
+    const bool in_place = places_.are_array_of<Ray>();
+    std::array<Ray, piece_size> copies;
     for (std::size_t begin = first; begin < last; begin += piece_size) {
       const std::size_t count = std::min(piece_size, last - begin);
-      for (std::size_t i = 0; i < count; ++i) std::memcpy(&rays[i], places_[begin + i], sizeof(Ray));
-      // The next ones come from memory meanwhile.
-      const std::size_t next = std::min(piece_size, last - begin - count);
-      for (std::size_t i = 0; i < next; ++i) __builtin_prefetch(places_[begin + count + i]);
-      ask(begin, std::span<const Ray>(rays).first(count));
+      if (in_place) {
+        ask(begin, std::span(reinterpret_cast<const Ray*>(places_[begin]), count));
+        continue;
+      }
+      for (std::size_t i = 0; i < count; ++i) std::memcpy(&copies[i], places_[begin + i], sizeof(Ray));
+      ask(begin, std::span<const Ray>(copies).first(count));
     }
   }
 
@@ -169,8 +177,11 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
                            [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
                              std::array<crt::PlainHit, piece_size> found;
                              questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-                               for (std::size_t i = 0; i < piece.size(); ++i)
-                                 __builtin_prefetch(answers[begin + i], 1);
+                               if (answers.are_array_of<crt::PlainHit>()) {
+                                 auto* place = reinterpret_cast<crt::PlainHit*>(answers[begin]);
+                                 queries.intersect(piece, std::span(place, piece.size()));
+                                 return;
+                               }
                                queries.intersect(piece, found);
                                for (std::size_t i = 0; i < piece.size(); ++i) {
                                  std::memcpy(answers[begin + i], &found[i], sizeof(crt_hit));

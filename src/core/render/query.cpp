@@ -79,11 +79,15 @@ class QueryPacket {
  public:
   QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {}
 
-  void take(std::span<const Ray> rays) {
+  /// `next` are to be taken after them: they come from memory meanwhile.
+  void take(std::span<const Ray> rays, std::span<const Ray> next) {
     count_ = rays.size();
     rays_.with_starts = 0;
     std::size_t done = 0;
     for (; done + lane_count <= count_; done += lane_count) {
+      // As many as are taken: all at once would be more than can be on their way.
+      const std::size_t end = std::min(next.size(), done + lane_count);
+      for (std::size_t i = done; i < end; ++i) __builtin_prefetch(&next[i]);
       const auto group = rays.subspan(done).first<lane_count>();
       if (!take_group(group, done)) take_each(group, done);
     }
@@ -94,6 +98,7 @@ class QueryPacket {
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
+    if constexpr (!std::is_same_v<Answer, HitDistance>) data_.expect_points(hits_, all());
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
       find_distances(first, count);
@@ -232,7 +237,7 @@ void ask_in_packets(const PreparedData& data, std::span<const Ray> rays, std::sp
   QueryPacket packet(data, work);
   for (std::size_t first = 0; first < rays.size(); first += packet_size) {
     const std::size_t count = std::min(packet_size, rays.size() - first);
-    packet.take(rays.subspan(first, count));
+    packet.take(rays.subspan(first, count), rays.subspan(first + count));
     ask(packet, answers.subspan(first, count));
   }
 }

@@ -97,6 +97,7 @@ void Tracer::follow() {
   const std::size_t count = round_->count;
   tick(static_cast<unsigned>(count));
   data_.intersect_each(round_->rays, RayPacket::all(count), hits_, work_.rays);
+  data_.expect_points(hits_, RayPacket::all(count));
 
   // Of most rays there is nothing more to see than that.
   const bool absorbs = frame_.features().absorption;

@@ -162,7 +162,6 @@ void Accelerator::nearest_each(const RayBatch& rays, RayMask some, std::span<Ray
   } else {
     for_each_ray(open, [&](std::size_t i) { hits[i] = nearest_elsewhere(rays.ray(i), work); });
   }
-  expect_surface_points(hits, some);
 }
 
 RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,

@@ -127,6 +127,10 @@ void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<
   accelerator_->nearest_each(rays, some, hits, packets, work);
 }
 
+void PreparedData::expect_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
+  accelerator_->expect_surface_points(hits, some);
+}
+
 RayMask PreparedData::occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
                                     Packets packets) const {
   return accelerator_->any_each(rays, noted_starts(rays, some), some, packets, work);

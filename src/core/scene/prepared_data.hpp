@@ -124,6 +124,8 @@ class PreparedData {
   /// use after it. Hits of other rays stay as they are.
   void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                       RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
+  /// Lets memory fetch beforehand what it takes to tell of such hits; of some of them.
+  void expect_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
                         Packets packets = Packets::where_they_pay) const;
 
