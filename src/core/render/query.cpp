@@ -120,17 +120,17 @@ class QueryPacket {
     const UserRays users(rays);
     Lanes factors;
     if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors)) return false;
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      to_users_t_[first + lane] = PowerOfTwo::of_factor(factors[static_cast<int>(lane)]);
-    }
+    to_users_t_[first / lane_count] = factors;
     return true;
   }
   void take_each(std::span<const Ray> rays, std::size_t first) {
     for (std::size_t i = 0; i < rays.size(); ++i) {
       validate(rays[i]);
+      const std::size_t index = first + i;
       WorldRay ray;
-      to_users_t_[first + i] = follow(rays[i], ray);
-      rays_.set(first + i, ray);
+      powers_[index] = follow(rays[i], ray);
+      to_users_t_[index / lane_count][static_cast<int>(index % lane_count)] = powers_[index].factor();
+      rays_.set(index, ray);
     }
   }
 
@@ -139,12 +139,18 @@ class QueryPacket {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     found_ = 0;
     for (std::size_t i = 0; i < count; ++i) found_ |= static_cast<RayMask>(group[i].found()) << i;
-    for_each_ray(found_, [&](std::size_t lane) {
-      const auto i = static_cast<int>(lane);
-      t_[i] = to_users_t_[first + lane] * group[lane].t;
-      ids_[i] = data_.entity_id(group[lane]);
-      sides_[i] = static_cast<std::uint64_t>(group[lane].entering ? HitSide::entering : HitSide::leaving);
+    const Lanes& factors = to_users_t_[first / lane_count];
+    t_ = factors * Lanes{group[0].t, group[1].t, group[2].t, group[3].t};
+    for_each_ray(found_ & mask_of(factors == 0.0), [&](std::size_t lane) {
+      t_[static_cast<int>(lane)] = powers_[first + lane] * group[lane].t;
     });
+    ids_and_sides_ = WordLanes{id_and_side(group[0]), id_and_side(group[1]), id_and_side(group[2]),
+                               id_and_side(group[3])};
+  }
+  std::uint64_t id_and_side(const RayHit& hit) const {
+    if (!hit.found()) return 0;
+    const HitSide side = hit.entering ? HitSide::entering : HitSide::leaving;
+    return data_.entity_id(hit) | static_cast<std::uint64_t>(side) << 32;
   }
 
   /// Where that is, of hits that are alike side by side.
@@ -175,8 +181,9 @@ class QueryPacket {
       if ((found_ >> lane & 1u) == 0) {
         answers[lane].reset();
       } else {
-        answers[lane] = described(t_[i], lane_of(points_, lane), static_cast<std::uint32_t>(ids_[i]),
-                                  sides_[i] == static_cast<std::uint64_t>(HitSide::entering));
+        const auto id = static_cast<std::uint32_t>(ids_and_sides_[i]);
+        const auto side = static_cast<HitSide>(ids_and_sides_[i] >> 32);
+        answers[lane] = described(t_[i], lane_of(points_, lane), id, side == HitSide::entering);
       }
     }
   }
@@ -188,11 +195,9 @@ class QueryPacket {
                   offsetof(PlainHit, side) == 52);
     const LaneMask found = lanes_with(found_);
     const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
-    const Lanes t = found ? t_ : lanes_of(std::numeric_limits<double>::infinity());
-    const Lanes id_and_side = reinterpret_cast<Lanes>(ids_ | sides_ << 32);
     const auto heads =
-        transposed({t, told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
-    const auto tails = transposed({told(points_.u), told(points_.v), told(id_and_side), Lanes{}});
+        transposed({told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
+    const auto tails = transposed({told(points_.u), told(points_.v), told_ids_and_sides(), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
@@ -202,29 +207,41 @@ class QueryPacket {
   }
 
   void tell(std::span<HitDistance> answers) const {
-    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
-      const auto i = static_cast<int>(lane);
-      answers[lane] = {};
-      if ((found_ >> lane & 1u) == 0) continue;
-      answers[lane] = {.t = t_[i],
-                       .entity_id = static_cast<std::uint32_t>(ids_[i]),
-                       .side = static_cast<HitSide>(sides_[i])};
+    static_assert(sizeof(HitDistance) == 16 && offsetof(HitDistance, entity_id) == 8 &&
+                  offsetof(HitDistance, side) == 12);
+    const Lanes t = told_t();
+    const Lanes ids_and_sides = told_ids_and_sides();
+    const std::array<Lanes, 2> pairs = {__builtin_shufflevector(t, ids_and_sides, 0, 4, 1, 5),
+                                        __builtin_shufflevector(t, ids_and_sides, 2, 6, 3, 7)};
+    auto* place = reinterpret_cast<std::byte*>(answers.data());
+    if (answers.size() == lane_count) {
+      std::memcpy(place, pairs.data(), sizeof pairs);
+    } else {
+      std::memcpy(place, pairs.data(), answers.size_bytes());
     }
+  }
+
+  Lanes told_t() const {
+    return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity());
+  }
+  Lanes told_ids_and_sides() const {
+    return lanes_with(found_) ? reinterpret_cast<Lanes>(ids_and_sides_) : Lanes{};
   }
 
   const PreparedData& data_;
   RayWorkspace& work_;
   std::size_t count_ = 0;
   RayBatch rays_;
-  std::array<PowerOfTwo, packet_size> to_users_t_;
+  /// Turns a t of the rays into the user's; 0 for those that no such number does it for but their power.
+  std::array<Lanes, packet_size / lane_count> to_users_t_{};
+  std::array<PowerOfTwo, packet_size> powers_;
   std::array<RayHit, packet_size> hits_;
   // Of a group of rays, by lane, those that have found something:
   RayMask found_ = 0;
   Lanes t_{};  ///< the user's
   SurfacePointLanes points_;
   SurfacePointLanes others_;  ///< of hits that are not alike
-  WordLanes ids_{};
-  WordLanes sides_{};
+  WordLanes ids_and_sides_{};
 };
 
 /// Calls ask(packet, answers) for packet after packet.

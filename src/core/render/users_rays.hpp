@@ -71,12 +71,8 @@ class PowerOfTwo {
     }
   }
 
-  /// One that is a normal number.
-  static PowerOfTwo of_factor(double factor) {
-    PowerOfTwo power;
-    power.factor_ = factor;
-    return power;
-  }
+  /// The number, if it is a normal one; else 0.
+  double factor() const { return factor_; }
 
   double operator*(double value) const {
     return factor_ != 0 ? factor_ * value : std::scalbn(value, exponent_);
