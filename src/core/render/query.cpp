@@ -144,8 +144,8 @@ class QueryPacket {
     for_each_ray(found_ & mask_of(factors == 0.0), [&](std::size_t lane) {
       t_[static_cast<int>(lane)] = powers_[first + lane] * group[lane].t;
     });
-    ids_and_sides_ = WordLanes{id_and_side(group[0]), id_and_side(group[1]), id_and_side(group[2]),
-                               id_and_side(group[3])};
+    ids_and_sides_ =
+        WordLanes{id_and_side(group[0]), id_and_side(group[1]), id_and_side(group[2]), id_and_side(group[3])};
   }
   std::uint64_t id_and_side(const RayHit& hit) const {
     if (!hit.found()) return 0;
@@ -221,9 +221,7 @@ class QueryPacket {
     }
   }
 
-  Lanes told_t() const {
-    return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity());
-  }
+  Lanes told_t() const { return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity()); }
   Lanes told_ids_and_sides() const {
     return lanes_with(found_) ? reinterpret_cast<Lanes>(ids_and_sides_) : Lanes{};
   }
