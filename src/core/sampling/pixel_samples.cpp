@@ -21,6 +21,8 @@ constexpr std::array<double, 7> student_95 = {12.7062, 4.30265, 3.18245, 2.77645
 
 /// Of what is seen in and around a pixel, N samples may overlook this divided by N: see docs/trade.md.
 constexpr double overlooked_samples = 2;
+/// The same where the pixel itself shows one thing: of what its neighbours alone have seen.
+constexpr double overlooked_samples_of_neighbours = 1;
 /// What is taken for the contrast, on a display, of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
 
@@ -112,11 +114,13 @@ double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) c
   // The variance of a block's sum to that of the mean of as many blocks as there are.
   const Lanes variance = squares / (static_cast<double>(blocks - 1) *
                                     static_cast<double>(std::int64_t{1} << exponent) * samples);
-  const double overlooked_share = overlooked_samples / samples;
-  const Lanes half_widths =
-      max(student_95[blocks - 2] * sqrt(variance), overlooked_share * (to_doubles(high) - to_doubles(low)));
+  const double overlooked_here = overlooked_samples / samples;
+  const double overlooked_around = mixed_ ? overlooked_here : overlooked_samples_of_neighbours / samples;
+  const Lanes overlooked = max(overlooked_here * (to_doubles(high_) - to_doubles(low_)),
+                               overlooked_around * (to_doubles(high) - to_doubles(low)));
+  const Lanes half_widths = max(student_95[blocks - 2] * sqrt(variance), overlooked);
 
-  double widest = edge_ || mixed_ ? overlooked_share * least_contrast_of_edges : 0;
+  double widest = edge_ || mixed_ ? overlooked_around * least_contrast_of_edges : 0;
   const Lanes shown = scale.half_widths(means, half_widths);
   for (int i = 0; i < pixel_channels; ++i) widest = std::max(widest, shown[i]);
   return widest;
