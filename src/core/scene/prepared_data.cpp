@@ -59,6 +59,7 @@ struct PreparedData::Geometry {
   std::vector<SharedMaterial> materials;
   bool has_csg;
   Accelerator accelerator;
+  std::vector<std::uint32_t> entity_ids;  ///< of leaves: users' queries ask for nothing else there
 
   Geometry(const Scene& scene, CompiledScene compiled)
       : precision(scene.settings.precision),
@@ -67,6 +68,8 @@ struct PreparedData::Geometry {
         accelerator(std::move(compiled), materials) {
     entities.reserve(scene.entities.size());
     for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
+    entity_ids.reserve(accelerator.compiled().leaves.size());
+    for (const Leaf& leaf : accelerator.compiled().leaves) entity_ids.push_back(leaf.entity_id);
   }
 
   bool is_of(const Scene& scene) const {
@@ -94,6 +97,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
   accelerator_ = &geometry_->accelerator;
   leaves_ = accelerator_->compiled().leaves;
   face_surfaces_ = accelerator_->compiled().face_surfaces;
+  entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ = std::make_unique<PreparedBackground>(scene.background, textures_);
@@ -108,7 +112,7 @@ PreparedData::~PreparedData() = default;
 
 MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
-  use.primitives += bytes_of(geometry_->entities);
+  use.primitives += bytes_of(geometry_->entities) + bytes_of(geometry_->entity_ids);
   use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + textures_.bytes() +
                   (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
   return use;

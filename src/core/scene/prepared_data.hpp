@@ -197,7 +197,7 @@ class PreparedData {
   std::uint32_t hit_material(const RayHit& hit) const { return leaves_[hit.leaf].material; }
 
   /// The user's number of what a hit is of.
-  std::uint32_t entity_id(const RayHit& hit) const { return leaves_[hit.leaf].entity_id; }
+  std::uint32_t entity_id(const RayHit& hit) const { return entity_ids_[hit.leaf]; }
 
   /// Whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const { return leaves_[hit.leaf].of_solid; }
@@ -247,6 +247,7 @@ class PreparedData {
   const Accelerator* accelerator_ = nullptr;
   std::span<const Leaf> leaves_;
   std::span<const FaceSurface> face_surfaces_;
+  std::span<const std::uint32_t> entity_ids_;  ///< of leaves, close together
   double prepare_seconds_ = 0;
 };
 
