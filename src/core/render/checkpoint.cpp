@@ -16,7 +16,7 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::string_view magic = "CRT checkpoint 2 of " CRT_VERSION "\n";
+constexpr std::string_view magic = "CRT checkpoint 3 of " CRT_VERSION "\n";
 
 /// So many samples on each side tell one scene from another, if the picture has as many pixels.
 constexpr int probes_a_side = 32;
