@@ -303,13 +303,13 @@ void Passes::find_half_widths(const Tile& tile, const Settling& how, const TileP
   const SampleCount count_of_some(how.count + 1);
   for (std::size_t i = 0; i < pixels.count; i += lane_count) {
     const std::size_t count = std::min<std::size_t>(pixels.count - i, lane_count);
-    std::array<MeanInterval, lane_count> intervals;
-    for (std::size_t k = 0; k < count; ++k) {
+    const auto interval = [&](std::size_t k) {
+      if (k >= count) return MeanInterval{};
       const std::size_t index = pixels.indices[i + k];
       const bool has_more = how.eighths > 0 && how.count_of(place_of(tile, index)) > how.count;
-      intervals[k] = tile.samples[index].interval(has_more ? count_of_some : count_of_most);
-    }
-    const Lanes of_four = scale_.half_widths(intervals);
+      return tile.samples[index].interval(has_more ? count_of_some : count_of_most);
+    };
+    const Lanes of_four = scale_.half_widths({interval(0), interval(1), interval(2), interval(3)});
     for (std::size_t k = 0; k < count; ++k) half_widths[i + k] = of_four[static_cast<int>(k)];
   }
 }

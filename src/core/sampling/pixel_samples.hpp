@@ -72,7 +72,7 @@ class DisplayScale {
 
   /// Half of the widths of intervals on a display: the farthest that anything in them is from the mean, in
   /// the worst channel. (Four at once take little longer than one.)
-  Lanes half_widths(const std::array<MeanInterval, lane_count>& intervals) const;
+  [[gnu::flatten]] Lanes half_widths(const std::array<MeanInterval, lane_count>& intervals) const;
 
  private:
   /// Of a channel, from 0 to 1, within 10^-9.
