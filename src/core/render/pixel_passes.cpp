@@ -23,7 +23,7 @@ class PassRays {
         end_(static_cast<std::uint32_t>(range.end)),
         pixels_(pixels),
         next_(end_),
-        first_window_begin_(end_ - begin_ < lane_count ? none : begin_ / window_size * window_size),
+        first_window_begin_(are_few(end_ - begin_) ? begin_ / window_size * window_size : none),
         first_window_end_(std::min(end_, begin_ / window_size * window_size + window_size)) {}
 
   /// The next of them. Returns how many; at the end none.
@@ -49,12 +49,16 @@ class PassRays {
   }
 
  private:
+  /// So few points of a pixel that those of several are found faster together; of single ones none are kept.
+  static bool are_few(std::uint32_t samples) { return samples >= lane_count && samples <= packet_size; }
+
   void begin_pixel() {
     const PixelPlace& pixel = pixels_[pixel_];
     x_ = pixel.x;
     y_ = pixel.y;
     of_four_ = pixel_ % lane_count;
     if (of_four_ == 0) find_sequences();
+    window_ = &windows_[first_window_begin_ == none ? 0 : of_four_];
     window_begin_ = first_window_begin_;
     window_end_ = first_window_end_;
     ++pixel_;
@@ -81,11 +85,11 @@ class PassRays {
     if (next_ - begin != window_begin_) {
       window_begin_ = next_ - begin;
       window_end_ = std::min(end_, window_begin_ + window_size);
-      sequences_[of_four_].points(next_, window_end_, with_lens_, windows_[of_four_]);
+      sequences_[of_four_].points(next_, window_end_, with_lens_, *window_);
     }
     const std::size_t count = std::min(groups, std::size_t{window_end_ - next_} / lane_count);
     const std::size_t from = begin / lane_count;
-    const auto& [pixel_u, pixel_v, lens_u, lens_v] = windows_[of_four_].coordinates;
+    const auto& [pixel_u, pixel_v, lens_u, lens_v] = window_->coordinates;
     for (std::size_t i = 0; i < count; ++i) {
       places.picture[first + i] = {x_ + filter_(pixel_u[from + i]), y_ + filter_(pixel_v[from + i])};
     }
@@ -117,14 +121,15 @@ class PassRays {
   std::array<PixelSequence, lane_count> sequences_;  ///< of this pixel and its neighbours in the span
   std::size_t of_four_ = 0;                          ///< which of them is this one's
   std::uint32_t next_;                               ///< sample of the pixel
-  // Points of these pixels that have been found, of this one up to another place:
+  // Points that have been found, if they are few the first ones of all these pixels:
   static constexpr std::uint32_t none = ~0u;
   static constexpr std::uint32_t window_size = PixelSequence::Window::size;
-  std::uint32_t first_window_begin_;  ///< none where points come one by one
+  std::uint32_t first_window_begin_;  ///< none where they are not few
   std::uint32_t first_window_end_;
   std::uint32_t window_begin_ = none;
   std::uint32_t window_end_ = 0;
   std::array<PixelSequence::Window, lane_count> windows_;
+  PixelSequence::Window* window_ = windows_.data();  ///< of this pixel
 };
 
 /// Hands on what samples of passes bring, step by step.
