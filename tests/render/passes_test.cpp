@@ -37,6 +37,20 @@ bool same_part(const Image& part, int left, int top, const Image& whole) {
   return true;
 }
 
+/// The same of what is known of the pixels in a part of a picture that is so wide.
+bool same_part(const core::PixelMeasures& part, const Region& region, const core::PixelMeasures& whole,
+               int width) {
+  for (int y = 0; y < region.height; ++y) {
+    for (int x = 0; x < region.width; ++x) {
+      const auto here = static_cast<std::size_t>(y * region.width + x);
+      const auto there = static_cast<std::size_t>((region.y + y) * width + region.x + x);
+      if (part.samples[here] != whole.samples[there]) return false;
+      if (part.half_widths[here] != whole.half_widths[there]) return false;
+    }
+  }
+  return true;
+}
+
 /// A clock that is one second further each time one looks.
 core::PassClock::Seconds ticking_clock() {
   return [now = 0.0]() mutable { return now++; };
@@ -69,14 +83,37 @@ TEST_CASE("pass by pass, every part of a picture is as in the whole, to its samp
   for (const Region& region : {Region{0, 0, 37, 1}, Region{5, 3, 1, 1}, Region{11, 7, 20, 9},
                                Region{36, 0, 1, 26}, Region{0, 25, 37, 1}, Region{3, 9, 17, 16}}) {
     CHECK(same_part(render(scene, {.region = region}), region.x, region.y, whole));
-    const core::PixelMeasures part = measures_of(scene, {.region = region});
-    for (int y = 0; y < region.height; ++y) {
-      for (int x = 0; x < region.width; ++x) {
-        const auto here = static_cast<std::size_t>(y * region.width + x);
-        const auto there = static_cast<std::size_t>((region.y + y) * 37 + region.x + x);
-        CHECK(part.samples[here] == all.samples[there]);
-        CHECK(part.half_widths[here] == all.half_widths[there]);
-      }
+    CHECK(same_part(measures_of(scene, {.region = region}), region, all, 37));
+  }
+}
+
+TEST_CASE("pass by pass, it makes no difference where the tiles meet that threads work on") {
+  constexpr int size = 44;
+  for (const double target : {2.0 / 255, 1e-6}) {
+    Scene description = disc_scene(size);
+    description.settings.target_error = target;
+    description.settings.max_samples = target < 1e-3 ? 16 : 64;  // the first samples may be the last
+    const PreparedScene scene = prepare(description);
+    const Image whole = render(scene);
+    const core::PixelMeasures all = measures_of(scene);
+    for (int corner = 0; corner < 18; ++corner) {
+      const Region region{corner, corner, 26, 26};
+      CHECK(same_part(render(scene, {.region = region}), corner, corner, whole));
+      CHECK(same_part(measures_of(scene, {.region = region}), region, all, size));
+    }
+  }
+}
+
+TEST_CASE("a pixel goes on for what is seen beside it in another tile") {
+  // The edge of a white wall goes between the pixels 15 and 16, which none of their samples can see.
+  Scene scene = disc_scene(32);
+  scene.camera.projection = Projection::orthographic;
+  scene.entities = {Box{.corner_a = {0, -9, 0}, .corner_b = {9, 9, 1}, .material = inert()}};
+  const core::PixelMeasures measures = measures_of(prepare(scene));
+  for (int y = 0; y < 32; ++y) {
+    for (int x = 0; x < 32; ++x) {
+      const auto samples = measures.samples[static_cast<std::size_t>(32 * y + x)];
+      CHECK((samples > 16) == (x == 15 || x == 16));
     }
   }
 }

@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -64,6 +65,10 @@ PixelSamples sampled(const PixelSequence& sequence, std::int64_t end, const Func
 
 const DisplayScale linear(1);
 
+double half_width(const PixelSamples& pixel, std::int64_t count) {
+  return linear.half_widths({pixel.interval(SampleCount(count))})[0];
+}
+
 }  // namespace
 
 TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
@@ -72,12 +77,12 @@ TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
   for (int pass = 0; pass < 40; ++pass) {
     add_step(pixel, count, [](std::int64_t) { return OneSample{Lanes{0.1, 0.2, 1.0 / 3, 1}}; });
     count += samples_of_next_step(count);
-    const auto mean = pixel.mean(count);
+    const auto mean = pixel.mean(SampleCount(count));
     CHECK(static_cast<float>(mean[0]) == 0.1f);
     CHECK(static_cast<float>(mean[1]) == 0.2f);
     CHECK(static_cast<float>(mean[2]) == static_cast<float>(1.0 / 3));
     CHECK(mean[3] == 1);
-    CHECK(pixel.half_width(count, linear) < (count == 1 ? 1.1 : 1e-6));
+    CHECK(half_width(pixel, count) < (count == 1 ? 1.1 : 1e-6));
   }
 }
 
@@ -90,7 +95,8 @@ TEST_CASE("the mean is that of all samples, whatever the pass") {
     double sum = 0;
     for (std::int64_t i = 0; i < count; ++i) sum += wave(sequence.point(static_cast<std::uint32_t>(i)));
     const PixelSamples pixel = sampled(sequence, count, wave);
-    CHECK(pixel.mean(count)[1] == doctest::Approx(sum / static_cast<double>(count)).epsilon(1e-6));
+    CHECK(pixel.mean(SampleCount(count))[1] ==
+          doctest::Approx(sum / static_cast<double>(count)).epsilon(1e-6));
     CHECK(pixel.dropped(count) == doctest::Approx(0.25));
   }
 }
@@ -101,15 +107,15 @@ TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its
   const auto halves = [](const SequencePoint& p) { return p.pixel_u < 0.5 ? 0.2 : 0.8; };
   const auto plain = [](const SequencePoint&) { return 0.2; };
   PixelSamples pixel = sampled(sequence, 64, halves);
-  CHECK(pixel.half_width(64, linear) == doctest::Approx(2 * 0.6 / 64));
+  CHECK(half_width(pixel, 64) == doctest::Approx(2 * 0.6 / 64));
 
   PixelSamples quiet = sampled(sequence, 16, plain);
-  CHECK(quiet.half_width(16, linear) < 1e-6);
+  CHECK(half_width(quiet, 16) < 1e-6);
   take_note(quiet, quiet);
-  CHECK(quiet.half_width(16, linear) < 1e-6);
+  CHECK(half_width(quiet, 16) < 1e-6);
   // What it has not seen itself may reach in by half as much.
   take_note(quiet, sampled(sequence, 16, halves));
-  CHECK(quiet.half_width(16, linear) == doctest::Approx(0.6 / 16));
+  CHECK(half_width(quiet, 16) == doctest::Approx(0.6 / 16));
 }
 
 TEST_CASE("what neighbours show counts more where a pixel shows several things itself") {
@@ -122,7 +128,7 @@ TEST_CASE("what neighbours show counts more where a pixel shows several things i
     PixelSamples pixel;
     for (std::int64_t i = 0; i < 8; ++i) add_step(pixel, i, of_thing(0.5, i == 7 ? last_identity : 1));
     take_note(pixel, neighbour);
-    return pixel.half_width(8, linear);
+    return half_width(pixel, 8);
   };
   CHECK(width_of(1) == doctest::Approx(0.4 / 8));
   CHECK(width_of(2) == doctest::Approx(2 * 0.4 / 8));
@@ -134,7 +140,7 @@ TEST_CASE("a pixel with a sample that is no number claims nothing") {
     const double value = i == 3 ? std::numeric_limits<double>::quiet_NaN() : 0.5;
     add_step(pixel, i, [&](std::int64_t) { return OneSample{Lanes{value, value, value, 1}}; });
   }
-  CHECK(pixel.half_width(8, linear) == 1);
+  CHECK(half_width(pixel, 8) == 1);
 }
 
 TEST_CASE("things that look alike keep a width where they meet") {
@@ -142,26 +148,54 @@ TEST_CASE("things that look alike keep a width where they meet") {
   const auto other = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 2}; };
   PixelSamples pixel;
   for (std::int64_t i = 0; i < 8; ++i) add_step(pixel, i, one);
-  CHECK(pixel.half_width(8, linear) == 0);
+  CHECK(half_width(pixel, 8) == 0);
   PixelSamples mixed = pixel;
   add_step(mixed, 8, other);
-  CHECK(mixed.half_width(9, linear) > 0.01);
+  CHECK(half_width(mixed, 9) > 0.01);
   PixelSamples neighbour;
   for (std::int64_t i = 0; i < 8; ++i) add_step(neighbour, i, other);
   take_note(pixel, neighbour);
-  CHECK(pixel.half_width(8, linear) > 0.01);
+  CHECK(half_width(pixel, 8) > 0.01);
 }
 
 TEST_CASE("what a display clips has no width, and dark colours at a high gamma have more") {
   const DisplayScale scale(2.2);
-  const Lanes widths = linear.half_widths(Lanes{5, 0.5, 0.95, 1}, Lanes{1, 0.1, 0.1, 0.25});
+  const auto of_channel = [](int channel, double mean, double half_width) {
+    MeanInterval interval;
+    interval.mean[channel] = mean;
+    interval.half_width[channel] = half_width;
+    return interval;
+  };
+  const Lanes widths = linear.half_widths(
+      {of_channel(0, 5, 1), of_channel(1, 0.5, 0.1), of_channel(2, 0.95, 0.1), of_channel(3, 1, 0.25)});
   CHECK(widths[0] == 0);
   CHECK(widths[1] == doctest::Approx(0.1));
   CHECK(widths[2] == doctest::Approx(0.1));
   CHECK(widths[3] == 0.25);
-  const Lanes of_gamma = scale.half_widths(lanes_of(0.01), lanes_of(0.01));
+  const Lanes of_gamma = scale.half_widths({of_channel(0, 0.01, 0.01), of_channel(3, 0.01, 0.01)});
   CHECK(of_gamma[0] == doctest::Approx(std::pow(0.01, 1 / 2.2)));  // down to 0
-  CHECK(of_gamma[3] == doctest::Approx(0.01));                     // alpha has no gamma
+  CHECK(of_gamma[1] == doctest::Approx(0.01));                     // alpha has no gamma
+  CHECK(of_gamma[2] == 0);
+}
+
+TEST_CASE("a width on a display is that of the worst channel, whatever pixels are looked at beside it") {
+  const MeanInterval dark{.mean = {0.01, 0.5, 0.2, 1}, .half_width = {0.01, 0.01, 0.3, 0}};
+  const MeanInterval bright{.mean = {2, 0.9, 0.7, 1}, .half_width = {0.5, 0.2, 0.01, 0}, .least_shown = 0.2};
+  const MeanInterval none{};
+  const MeanInterval known{.least_shown = 0.5};
+  for (const double gamma : {0.5, 1.0, 2.2}) {
+    const DisplayScale scale(gamma);
+    const auto alone = [&](const MeanInterval& interval) { return scale.half_widths({interval})[0]; };
+    const Lanes together = scale.half_widths({dark, none, bright, known});
+    CHECK(together[0] == alone(dark));
+    CHECK(together[1] == 0);
+    CHECK(together[2] == alone(bright));
+    CHECK(together[3] == 0.5);
+    const auto shown = [&](double value) { return std::pow(std::clamp(value, 0.0, 1.0), 1 / gamma); };
+    const double blue = std::max(shown(0.5) - shown(0.2), shown(0.2) - shown(0));
+    const double red = std::max(shown(0.02) - shown(0.01), shown(0.01) - shown(0));
+    CHECK(alone(dark) == doctest::Approx(std::max(red, blue)).epsilon(1e-6));
+  }
 }
 
 TEST_CASE("values beyond all bounds do no harm") {
@@ -171,9 +205,9 @@ TEST_CASE("values beyond all bounds do no harm") {
     for (std::int64_t i = 0; i < 8; ++i) {
       add_step(pixel, i, [&](std::int64_t) { return OneSample{Lanes{1e300, -1e300, last, 1}}; });
     }
-    CHECK(std::isfinite(pixel.mean(8)[0]));
-    CHECK(pixel.half_width(8, linear) >= 0);
-    CHECK(pixel.half_width(8, linear) <= 1);
+    CHECK(std::isfinite(pixel.mean(SampleCount(8))[0]));
+    CHECK(half_width(pixel, 8) >= 0);
+    CHECK(half_width(pixel, 8) <= 1);
   }
 }
 
@@ -192,14 +226,13 @@ TEST_CASE("at the stopping point the truth lies within the half-width in 95 of 1
       };
       std::int64_t count = 16;
       PixelSamples pixel = sampled(sequence, count, edge);
-      while (pixel.half_width(count, linear) > target && count < 1024)
-        pixel = sampled(sequence, count *= 2, edge);
+      while (half_width(pixel, count) > target && count < 1024) pixel = sampled(sequence, count *= 2, edge);
       constexpr int grid = 200;
       double truth = 0;
       for (int k = 0; k < grid * grid; ++k)
         truth += edge({.pixel_u = (k % grid + 0.5) / grid, .pixel_v = (k / grid + 0.5) / grid});
       truth /= grid * grid;
-      if (std::abs(pixel.mean(count)[0] - truth) <= pixel.half_width(count, linear) + 0.0002) ++within;
+      if (std::abs(pixel.mean(SampleCount(count))[0] - truth) <= half_width(pixel, count) + 0.0002) ++within;
     }
     CHECK(within >= 0.95 * pixels);
   }

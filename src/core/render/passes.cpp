@@ -1,14 +1,12 @@
 #include "core/render/passes.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <bit>
-#include <functional>
+#include <cstring>
+#include <memory>
 
 #include "core/render/small_things.hpp"
-#include "crt/error.hpp"
 
 namespace crt::core {
 
@@ -20,8 +18,6 @@ constexpr double finest_error = 0.25 / 255;
 /// Of what is left to be done at most, how much a doubling is taken for that may not be the last, and a pass.
 constexpr double share_of_doubling = 0.5;
 constexpr double share_of_pass = share_of_doubling / passes_per_step;
-
-constexpr std::size_t most_tile_pixels = std::size_t{Tiles::side} * Tiles::side;
 
 /// How far notes of what is seen are passed on, in pixels. Out of focus things fade over many pixels, of
 /// which each has few samples that hit them: more pixels together see what one overlooks.
@@ -35,6 +31,20 @@ Region widened(const Region& region, int margin, const Region& limits) {
   const int right = std::min(region.x + region.width + margin, limits.x + limits.width);
   const int bottom = std::min(region.y + region.height + margin, limits.y + limits.height);
   return {left, top, right - left, bottom - top};
+}
+
+/// Calls use(y, begin, end) for what each row of an area has outside of a tile that is partly in it.
+template <class Use>
+void for_each_beyond(const Region& area, const Region& tile, const Use& use) {
+  const int right = area.x + area.width;
+  for (int y = area.y; y < area.y + area.height; ++y) {
+    if (y < tile.y || y >= tile.y + tile.height) {
+      use(y, area.x, right);
+      continue;
+    }
+    if (area.x < tile.x) use(y, area.x, tile.x);
+    if (right > tile.x + tile.width) use(y, tile.x + tile.width, right);
+  }
 }
 
 }  // namespace
@@ -69,14 +79,15 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
   if (with_first_hits) measures_.first_hits.resize(pixels);
   tiles_.resize(grid_.count());
   active_.resize(tiles_.size());
-  std::size_t stored = 0;
   for (std::size_t i = 0; i < tiles_.size(); ++i) {
     Tile& tile = tiles_[i];
     tile.region = grid_.tile(i);
-    tile.samples = store_.part(stored, pixel_count(tile.region));
-    stored += tile.samples.size();
-    tile.places.resize(tile.samples.size());
-    for (std::size_t k = 0; k < tile.places.size(); ++k) tile.places[k] = static_cast<std::uint8_t>(k);
+    tile.places.resize(pixel_count(tile.region));
+    const int width = tile.region.width;
+    for (int k = 0; k < static_cast<int>(tile.places.size()); ++k) {
+      tile.places[static_cast<std::size_t>(k)] =
+          static_cast<std::uint8_t>(k / width * Tiles::side + k % width);
+    }
     active_[i] = i;
   }
 }
@@ -141,14 +152,20 @@ void Passes::trace(const TaskRunner& run_tasks, const Step& step) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
     Tracer tracer(frame_, work, progress);
     tracer.identify();
-    trace_tile(tiles_[active_[index]], step, tracer, work.stats);
+    trace_tile(tiles_[active_[index]], step, tracer, work);
   });
   eighths_ = step.ranks.last % passes_per_step;
   if (eighths_ == 0) count_ = step.until;
 }
 
-void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStats& stats) {
-  std::array<PixelPlace, most_tile_pixels> pixels;
+void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace& work) {
+  if (count_ == 0 && decides_at_once(step)) {
+    work.pixel_samples.resize(Tiles::most_pixels);
+    tile.samples = std::span(work.pixel_samples).first(tile.places.size());
+  } else if (count_ == 0) {
+    tile.samples = store_.take(tile.places.size());
+  }
+  std::array<PixelPlace, Tiles::most_pixels> pixels;
   std::size_t count = 0;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
@@ -161,183 +178,179 @@ void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStat
     }
   }
   const std::span<const PixelPlace> chosen(pixels.data(), count);
-  trace_passes(frame_, chosen, {count_, step.until}, tracer, stats);
+  trace_passes(frame_, chosen, {count_, step.until}, tracer, work.stats);
   if (count_ == 0) expect_small_things(tile);
-  show(chosen, step.until);
+  show(tile.region, chosen, SampleCount(step.until));
+  const bool ends_step = step.ranks.last == passes_per_step;
+  if (!ends_step || step.until != frame_.settings().min_samples) return;
+  keep_notes_within(tile.region, reach_, tile.samples);
+  if (decides_at_once(step)) decide_inside(tile, step.until, work);
+}
+
+void Passes::decide_inside(Tile& tile, std::int64_t count, Workspace& work) {
+  tile.rim = TileRim(tile.region, reach_).notes(tile.samples);
+  settle_tile(tile, {.count = count, .at_end = is_end(count, 0), .part = TilePart::inside}, work);
+  const std::span<PixelSamples> kept = store_.take(tile.samples.size());
+  std::uninitialized_copy(tile.samples.begin(), tile.samples.end(), kept.begin());
+  tile.samples = kept;
 }
 
 Passes::Place Passes::place_of(const Tile& tile, std::size_t index) {
   const int place = tile.places[index];
-  return {tile.region.x + place % tile.region.width, tile.region.y + place / tile.region.width};
+  return {tile.region.x + place % Tiles::side, tile.region.y + place / Tiles::side};
 }
 
 bool Passes::is_in_region(const Place& place) const {
-  return place.x >= region_.x && place.x < region_.x + region_.width && place.y >= region_.y &&
-         place.y < region_.y + region_.height;
+  return is_in(region_, place.x, place.y);
 }
 
 std::size_t Passes::index_of(const Place& place) const {
   return index_in(region_, place.x, place.y);
 }
 
-void Passes::show(std::span<const PixelPlace> pixels, std::int64_t count) {
-  std::array<PlacedPixel, most_tile_pixels> shown;
+void Passes::show(const Region& tile, std::span<const PixelPlace> pixels, const SampleCount& count) {
+  const bool is_whole = pixels.size() == pixel_count(tile) && is_in(region_, tile.x, tile.y) &&
+                        is_in(region_, tile.x + tile.width - 1, tile.y + tile.height - 1);
+  if (!is_whole) {
+    show_some(pixels, count);
+    return;
+  }
+  std::array<float, pixel_channels * Tiles::most_pixels> shown;
+  float* next = shown.data();
+  for (const PixelPlace& pixel : pixels) {
+    const FloatLanes mean = finite_floats(pixel.samples->mean(count));
+    std::memcpy(next, &mean, sizeof mean);
+    next += pixel_channels;
+  }
+  canvas_.put(tile, std::span(shown.data(), next));
+}
+
+void Passes::show_some(std::span<const PixelPlace> pixels, const SampleCount& count) {
+  std::array<PlacedPixel, Tiles::most_pixels> shown;
   std::size_t shown_count = 0;
   for (const PixelPlace& pixel : pixels) {
     if (!is_in_region({pixel.x, pixel.y})) continue;
-    const Lanes mean = pixel.samples->mean(count);
+    const FloatLanes mean = finite_floats(pixel.samples->mean(count));
     PlacedPixel& out = shown[shown_count++];
     out.x = pixel.x;
     out.y = pixel.y;
-    for (int c = 0; c < pixel_channels; ++c) out.values[static_cast<std::size_t>(c)] = finite_float(mean[c]);
+    std::memcpy(out.values.data(), &mean, sizeof mean);
   }
   canvas_.put(std::span(shown).first(shown_count));
 }
 
 void Passes::exchange_notes(const TaskRunner& run_tasks) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& /*work*/, Progress& /*progress*/) {
-    keep_notes(tiles_[active_[index]]);
+    keep_notes_from_beyond(tiles_[active_[index]]);
   });
 }
 
-void Passes::look_around(const Region& window, std::span<PixelSamples::Notes> notes) const {
-  std::size_t index = 0;
-  for (int y = window.y; y < window.y + window.height; ++y) {
-    for (int x = window.x; x < window.x + window.width;) {
-      const Tile& tile = tiles_[grid_.index(x, y)];
-      const int end = std::min(window.x + window.width, tile.region.x + tile.region.width);
-      const PixelSamples* samples = &tile.samples[index_in(tile.region, x, y)];
-      for (; x < end; ++x) notes[index++] = (samples++)->notes();
-    }
+void Passes::keep_notes_from_beyond(Tile& tile) const {
+  using Notes = PixelSamples::Notes;
+  constexpr std::size_t widest = Tiles::side + 2 * reach_of_notes_with_lens;
+  std::array<Notes, widest * widest> seen;  // in the window, around the tile
+  const Region window = widened(tile.region, reach_, worked_on_);
+  const auto seen_at = [&](int x, int y) { return &seen[index_in(window, x, y)]; };
+  for_each_beyond(window, tile.region,
+                  [&](int y, int begin, int end) { look_at(y, begin, end, seen_at(begin, y)); });
+  const TileRim rim(tile.region, reach_);
+  for (std::size_t i = 0; i < tile.places.size(); ++i) {
+    const Place place = place_of(tile, i);
+    if (!rim.has(place.x, place.y) || !is_in_region(place)) continue;
+    PixelSamples& samples = tile.samples[i];
+    const Region around = widened({place.x, place.y, 1, 1}, reach_, worked_on_);
+    for_each_beyond(around, tile.region, [&](int y, int begin, int end) {
+      for (const Notes* notes = seen_at(begin, y); begin < end; ++begin) samples.keep(*notes++);
+    });
   }
 }
 
-void Passes::keep_notes(Tile& tile) {
-  // A square's notes are those of its rows, and these those of the pixels in them.
-  using Notes = PixelSamples::Notes;
-  constexpr std::size_t widest = Tiles::side + 2 * reach_of_notes_with_lens;
-  std::array<Notes, widest * widest> seen;
-  std::array<Notes, widest * Tiles::side> of_rows;
-  const Region window = widened(tile.region, reach_, worked_on_);
-  const auto width = static_cast<std::size_t>(tile.region.width);
-  const auto first_column = static_cast<std::size_t>(tile.region.x - window.x);
-  const auto first_row = static_cast<std::size_t>(tile.region.y - window.y);
-  look_around(window, seen);
-  // Those of `count` places, `stride` apart, as far from `place` as notes reach.
-  const auto around = [this](const Notes* row, std::size_t stride, std::size_t place, std::size_t count) {
-    const auto reach = static_cast<std::size_t>(reach_);
-    const std::size_t last = std::min(place + reach, count - 1);
-    std::size_t next = place - std::min(place, reach);
-    Notes notes = row[next * stride];
-    while (++next <= last) notes.take(row[next * stride]);
-    return notes;
-  };
-  const auto window_width = static_cast<std::size_t>(window.width);
-  const auto window_height = static_cast<std::size_t>(window.height);
-  for (std::size_t y = 0; y < window_height; ++y) {
-    for (std::size_t x = 0; x < width; ++x) {
-      of_rows[y * width + x] = around(&seen[y * window_width], 1, first_column + x, window_width);
+void Passes::look_at(int y, int begin, int end, PixelSamples::Notes* notes) const {
+  for (int x = begin; x < end;) {
+    const Tile& tile = tiles_[grid_.index(x, y)];
+    const int end_in_tile = std::min(end, tile.region.x + tile.region.width);
+    if (!tile.rim.empty()) {
+      const auto first = static_cast<std::ptrdiff_t>(TileRim(tile.region, reach_).index(x, y));
+      notes = std::copy_n(tile.rim.begin() + first, end_in_tile - x, notes);
+      x = end_in_tile;
     }
-  }
-  for (std::size_t i = 0; i < tile.samples.size(); ++i) {
-    if (!is_in_region(place_of(tile, i))) continue;
-    tile.samples[i].keep(around(&of_rows[i % width], width, first_row + i / width, window_height));
+    while (x < end_in_tile) *notes++ = tile.samples[index_in(tile.region, x++, y)].notes();
   }
 }
 
 void Passes::settle(const TaskRunner& run_tasks, bool at_end) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
-    settle_tile(tiles_[active_[index]], at_end, work);
+    Tile& tile = tiles_[active_[index]];
+    const TilePart part = tile.rim.empty() ? TilePart::whole : TilePart::rim;
+    settle_tile(tile, {count_, eighths_, at_end, part}, work);
+    tile.rim = {};
   });
   std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
 }
 
-void Passes::settle_tile(Tile& tile, bool at_end, Workspace& work) {
-  std::size_t kept = 0;
+void Passes::choose(const Tile& tile, TilePart part, TilePixels& chosen) const {
+  const TileRim rim(tile.region, reach_);
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
-    if (!is_in_region(place)) continue;
-    const std::int64_t count = count_ + (rank_of_pixel(place.x, place.y) < eighths_ ? 1 : 0);
-    const double half_width = tile.samples[i].half_width(count, scale_);
-    const bool is_good = half_width <= target_ && tile.samples[i].has_seen_enough(count);
-    if (!is_good && !at_end) {
-      tile.samples[kept] = tile.samples[i];
-      tile.places[kept++] = tile.places[i];
-      continue;
+    const bool is_in_part = part == TilePart::whole || rim.has(place.x, place.y) == (part == TilePart::rim);
+    if (is_in_part && is_in_region(place)) chosen.indices[chosen.count++] = static_cast<std::uint8_t>(i);
+  }
+}
+
+void Passes::find_half_widths(const Tile& tile, const Settling& how, const TilePixels& pixels,
+                              std::span<double> half_widths) const {
+  const SampleCount count_of_most(how.count);
+  const SampleCount count_of_some(how.count + 1);
+  for (std::size_t i = 0; i < pixels.count; i += lane_count) {
+    const std::size_t count = std::min<std::size_t>(pixels.count - i, lane_count);
+    const auto interval = [&](std::size_t k) {
+      if (k >= count) return MeanInterval{};
+      const std::size_t index = pixels.indices[i + k];
+      const bool has_more = how.eighths > 0 && how.count_of(place_of(tile, index)) > how.count;
+      return tile.samples[index].interval(has_more ? count_of_some : count_of_most);
+    };
+    const Lanes of_four = scale_.half_widths({interval(0), interval(1), interval(2), interval(3)});
+    for (std::size_t k = 0; k < count; ++k) half_widths[i + k] = of_four[static_cast<int>(k)];
+  }
+}
+
+void Passes::settle_tile(Tile& tile, const Settling& how, Workspace& work) {
+  TilePixels chosen;
+  choose(tile, how.part, chosen);
+  std::array<double, Tiles::most_pixels> half_widths;
+  find_half_widths(tile, how, chosen, half_widths);
+  std::size_t kept = 0;
+  std::size_t next = 0;
+  for (std::size_t i = 0; i < tile.places.size(); ++i) {
+    if (next < chosen.count && chosen.indices[next] == i) {
+      const double half_width = half_widths[next++];
+      const std::int64_t count = how.count_of(place_of(tile, i));
+      const bool is_good = half_width <= target_ && tile.samples[i].has_seen_enough(count);
+      if (is_good || how.at_end) {
+        take_leave(tile, i, count, half_width, work);
+        continue;
+      }
+    } else if (how.part == TilePart::whole || !is_in_region(place_of(tile, i))) {
+      continue;  // the margin is there for the first samples alone
     }
-    const std::size_t pixel = index_of(place);
-    measures_.samples[pixel] = static_cast<std::uint32_t>(count);
-    measures_.half_widths[pixel] = static_cast<float>(half_width);
-    if (!measures_.first_hits.empty()) measures_.first_hits[pixel].divide(count);
-    work.cutoff.add(tile.samples[i].dropped(count));
-    ++work.stats.pixels;
-    if (half_width > target_) ++work.stats.pixels_unresolved;
+    tile.samples[kept] = tile.samples[i];
+    tile.places[kept++] = tile.places[i];
   }
   tile.samples = tile.samples.first(kept);
   tile.places.resize(kept);
 }
 
-void Passes::store_tile(const Tile& tile, StateWriter& out) {
-  out.put(static_cast<std::uint16_t>(tile.places.size()));
-  out.put_all(std::span<const std::uint8_t>(tile.places));
-  for (const PixelSamples& samples : tile.samples) out.put_all(std::span<const std::byte>(samples.stored()));
-}
-
-void Passes::restore_tile(Tile& tile, StateReader& in) {
-  const std::size_t count = in.get<std::uint16_t>();
-  const std::size_t most = tile.places.size();
-  if (count > most) in.fail();
-  tile.places.resize(count);
-  in.get_all(std::span<std::uint8_t>(tile.places));
-  // Each pixel once, in its order, and in the tile.
-  const bool in_order =
-      std::adjacent_find(tile.places.begin(), tile.places.end(), std::greater_equal<>()) == tile.places.end();
-  if (!in_order || (count > 0 && tile.places.back() >= most)) in.fail();
-  tile.samples = tile.samples.first(count);
-  PixelSamples::Stored bytes;
-  for (PixelSamples& samples : tile.samples) {
-    in.get_all(std::span<std::byte>(bytes));
-    samples = PixelSamples::restored(bytes);
-  }
-}
-
-void Passes::store(StateWriter& out) const {
-  out.put(count_);
-  out.put(eighths_);
-  out.put_all(std::span<const std::uint32_t>(measures_.samples));
-  out.put_all(std::span<const float>(measures_.half_widths));
-  for (const FirstHit& hit : measures_.first_hits) {
-    for (const Vec3& v : {hit.normal, hit.color}) {
-      for (int axis = 0; axis < 3; ++axis) out.put(v[axis]);
-    }
-  }
-  for (const Tile& tile : tiles_) store_tile(tile, out);
-}
-
-void Passes::restore(StateReader& in) {
-  const auto count = in.get<std::int64_t>();
-  const int eighths = in.get<int>();
-  const bool is_pass = count >= 1 && count <= frame_.settings().max_samples && eighths >= 0 &&
-                       eighths < passes_per_step && (eighths == 0 || count < samples_before_doubling) &&
-                       samples_after(passes_until(count)).samples == count;
-  if (!is_pass) in.fail();
-  if (passes_until(count) + eighths > passes_until(most_samples_) + more_eighths_) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("the checkpoint is of {} passes, which is more than the {} that are asked for",
-                            passes_until(count) + eighths, passes_until(most_samples_) + more_eighths_),
-                "checkpoint");
-  }
-  count_ = count;
-  eighths_ = eighths;
-  in.get_all(std::span<std::uint32_t>(measures_.samples));
-  in.get_all(std::span<float>(measures_.half_widths));
-  for (FirstHit& hit : measures_.first_hits) {
-    for (Vec3* v : {&hit.normal, &hit.color}) {
-      for (int axis = 0; axis < 3; ++axis) (*v)[axis] = in.get<double>();
-    }
-  }
-  for (Tile& tile : tiles_) restore_tile(tile, in);
-  std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
+void Passes::take_leave(const Tile& tile, std::size_t index, std::int64_t count, double half_width,
+                        Workspace& work) {
+  const Place place = place_of(tile, index);
+  const std::size_t pixel = index_of(place);
+  measures_.samples[pixel] = static_cast<std::uint32_t>(count);
+  measures_.half_widths[pixel] = static_cast<float>(half_width);
+  if (!measures_.first_hits.empty()) measures_.first_hits[pixel].divide(count);
+  const double dropped = tile.samples[index].dropped(count);
+  if (dropped != 0) work.cutoff.add(dropped);
+  ++work.stats.pixels;
+  if (half_width > target_) ++work.stats.pixels_unresolved;
 }
 
 }  // namespace crt::core

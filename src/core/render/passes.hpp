@@ -5,8 +5,13 @@
 // as well, but only in their first min_samples samples, which all pixels get. So a decision depends on the
 // samples of the pixel and on the first ones of its neighbours alone, and a part of the picture is rendered
 // like the whole if its margin, a pixel or two wide, gets the first samples too.
+//
+// Where the first step brings all of min_samples, and nobody wants the picture before that, a tile's pixels
+// are decided on as soon as they are traced, while they are in the processor's caches: all but those on its
+// rim, which have neighbours in other tiles. Only these and those that go on are kept.
 #pragma once
 
+#include <array>
 #include <functional>
 #include <vector>
 
@@ -16,6 +21,7 @@
 #include "core/render/pixel.hpp"
 #include "core/render/pixel_measures.hpp"
 #include "core/render/pixel_store.hpp"
+#include "core/render/tile_notes.hpp"
 #include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 
@@ -54,8 +60,10 @@ class Passes {
   /// The pixels of a tile that are still worked on.
   struct Tile {
     Region region;
-    std::span<PixelSamples> samples;
-    std::vector<std::uint8_t> places;  ///< in the tile, row by row
+    std::span<PixelSamples> samples;   ///< from the first ones on
+    std::vector<std::uint8_t> places;  ///< in a whole tile, row by row
+    /// Of what was seen on the rim, if the tile was decided on before the others told what they saw.
+    std::vector<PixelSamples::Notes> rim;
   };
   struct Place {
     int x = 0;
@@ -63,7 +71,7 @@ class Passes {
   };
   static Place place_of(const Tile& tile, std::size_t index);
   static void store_tile(const Tile& tile, StateWriter& out);
-  static void restore_tile(Tile& tile, StateReader& in);
+  void restore_tile(Tile& tile, StateReader& in);
   bool is_in_region(const Place& place) const;
   /// Of one that is.
   std::size_t index_of(const Place& place) const;
@@ -80,24 +88,55 @@ class Passes {
     Ranks ranks;
   };
   bool goes_by_pass() const { return by_clock_ || pause_; }
-  bool is_complete() const { return count_ == most_samples_ && eighths_ == more_eighths_; }
+  bool is_end(std::int64_t count, int eighths) const {
+    return count == most_samples_ && eighths == more_eighths_;
+  }
+  bool is_complete() const { return is_end(count_, eighths_); }
   Step next_step() const;
   std::uint64_t samples_of(const Step& step) const;
   void trace(const TaskRunner& run_tasks, const Step& step);
-  void trace_tile(Tile& tile, const Step& step, Tracer& tracer, RenderStats& stats);
-  void show(std::span<const PixelPlace> pixels, std::int64_t count);
+  void trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace& work);
+  /// Whether a tile's pixels are decided on as soon as the step has been traced.
+  bool decides_at_once(const Step& step) const {
+    return count_ == 0 && step.until == frame_.settings().min_samples && !pause_;
+  }
+  /// Takes leave of pixels inside a tile that are good enough, and finds a place for the others.
+  void decide_inside(Tile& tile, std::int64_t count, Workspace& work);
+  void show(const Region& tile, std::span<const PixelPlace> pixels, const SampleCount& count);
+  void show_some(std::span<const PixelPlace> pixels, const SampleCount& count);
   /// What comes after each sample of all that are left.
   void decide(const TaskRunner& run_tasks);
   /// Whether it is the time to ask which pixels are good enough.
   bool is_doubled() const;
-  /// Tells the pixels what their neighbours have seen; while all pixels are still there.
+  /// Tells the pixels what neighbours in other tiles have seen.
   void exchange_notes(const TaskRunner& run_tasks);
-  void keep_notes(Tile& tile);
-  /// What is seen in each pixel of a window, row by row.
-  void look_around(const Region& window, std::span<PixelSamples::Notes> notes) const;
+  void keep_notes_from_beyond(Tile& tile) const;
+  /// What was seen, after the first samples of all, in pixels of a row of a tile, from one on to another.
+  void look_at(int y, int begin, int end, PixelSamples::Notes* notes) const;
   /// Takes leave of the pixels that are good enough, at the end of all.
   void settle(const TaskRunner& run_tasks, bool at_end);
-  void settle_tile(Tile& tile, bool at_end, Workspace& work);
+  enum class TilePart : std::uint8_t { whole, inside, rim };
+  struct Settling {
+    std::int64_t count = 0;
+    int eighths = 0;
+    bool at_end = false;
+    TilePart part = TilePart::whole;
+
+    std::int64_t count_of(const Place& place) const {
+      return count + (rank_of_pixel(place.x, place.y) < eighths ? 1 : 0);
+    }
+  };
+  void settle_tile(Tile& tile, const Settling& how, Workspace& work);
+  /// Those of a tile's pixels that are in the region and in the part, by index.
+  struct TilePixels {
+    std::size_t count = 0;
+    std::array<std::uint8_t, Tiles::most_pixels> indices;
+  };
+  void choose(const Tile& tile, TilePart part, TilePixels& chosen) const;
+  void find_half_widths(const Tile& tile, const Settling& how, const TilePixels& pixels,
+                        std::span<double> half_widths) const;
+  void take_leave(const Tile& tile, std::size_t index, std::int64_t count, double half_width,
+                  Workspace& work);
 
   const Frame& frame_;
   Region region_;

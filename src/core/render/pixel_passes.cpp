@@ -22,7 +22,9 @@ class PassRays {
         begin_(static_cast<std::uint32_t>(range.begin)),
         end_(static_cast<std::uint32_t>(range.end)),
         pixels_(pixels),
-        next_(end_) {}
+        next_(end_),
+        first_window_begin_(are_few(end_ - begin_) ? begin_ / window_size * window_size : none),
+        first_window_end_(std::min(end_, begin_ / window_size * window_size + window_size)) {}
 
   /// The next of them. Returns how many; at the end none.
   std::size_t next(RayPlaces& places) {
@@ -47,19 +49,23 @@ class PassRays {
   }
 
  private:
+  /// So few points of a pixel that those of several are found faster together; of single ones none are kept.
+  static bool are_few(std::uint32_t samples) { return samples >= lane_count && samples <= packet_size; }
+
   void begin_pixel() {
     const PixelPlace& pixel = pixels_[pixel_];
     x_ = pixel.x;
     y_ = pixel.y;
-    const std::size_t of_four = pixel_ % lane_count;
-    if (of_four == 0) find_sequences();
-    sequence_ = sequences_[of_four];
-    window_begin_ = none;
+    of_four_ = pixel_ % lane_count;
+    if (of_four_ == 0) find_sequences();
+    window_ = &windows_[first_window_begin_ == none ? 0 : of_four_];
+    window_begin_ = first_window_begin_;
+    window_end_ = first_window_end_;
     ++pixel_;
     next_ = begin_;
   }
 
-  /// Those of the next four pixels.
+  /// Those of the next four pixels, and the first points of each, which are found faster by many.
   void find_sequences() {
     std::array<PixelSequence::Pixel, lane_count> pixels;
     for (std::size_t i = 0; i < lane_count; ++i) {
@@ -67,20 +73,23 @@ class PassRays {
       pixels[i] = {pixel.x, pixel.y};
     }
     sequences_ = PixelSequence::of_each(seed_, pixels);
+    if (first_window_begin_ == none) return;
+    for (std::size_t i = 0; i < lane_count; ++i) {
+      sequences_[i].points(begin_, first_window_end_, with_lens_, windows_[i]);
+    }
   }
 
   /// The next of the pixel, up to so many groups. Returns how many rays they are.
   std::uint32_t place_groups(RayPlaces& places, std::size_t first, std::size_t groups) {
-    constexpr std::uint32_t size = PixelSequence::Window::size;
-    const std::uint32_t begin = next_ % size;
+    const std::uint32_t begin = next_ % window_size;
     if (next_ - begin != window_begin_) {
       window_begin_ = next_ - begin;
-      window_end_ = std::min(end_, window_begin_ + size);
-      sequence_.points(next_, window_end_, with_lens_, window_);
+      window_end_ = std::min(end_, window_begin_ + window_size);
+      sequences_[of_four_].points(next_, window_end_, with_lens_, *window_);
     }
     const std::size_t count = std::min(groups, std::size_t{window_end_ - next_} / lane_count);
     const std::size_t from = begin / lane_count;
-    const auto& [pixel_u, pixel_v, lens_u, lens_v] = window_.coordinates;
+    const auto& [pixel_u, pixel_v, lens_u, lens_v] = window_->coordinates;
     for (std::size_t i = 0; i < count; ++i) {
       places.picture[first + i] = {x_ + filter_(pixel_u[from + i]), y_ + filter_(pixel_v[from + i])};
     }
@@ -91,7 +100,8 @@ class PassRays {
   }
 
   void place_one(RayPlaces& places, std::size_t ray) const {
-    const SequencePoint point = with_lens_ ? sequence_.point(next_) : sequence_.pixel_point(next_);
+    const PixelSequence& sequence = sequences_[of_four_];
+    const SequencePoint point = with_lens_ ? sequence.point(next_) : sequence.pixel_point(next_);
     const std::size_t group = ray / lane_count;
     const std::size_t lane = ray % lane_count;
     set_lane(places.picture[group], lane, {x_ + filter_(point.pixel_u), y_ + filter_(point.pixel_v)});
@@ -109,13 +119,17 @@ class PassRays {
   double x_ = 0;
   double y_ = 0;
   std::array<PixelSequence, lane_count> sequences_;  ///< of this pixel and its neighbours in the span
-  PixelSequence sequence_;                           ///< of this pixel
+  std::size_t of_four_ = 0;                          ///< which of them is this one's
   std::uint32_t next_;                               ///< sample of the pixel
-  // Points of this pixel that have been found:
+  // Points that have been found, if they are few the first ones of all these pixels:
   static constexpr std::uint32_t none = ~0u;
+  static constexpr std::uint32_t window_size = PixelSequence::Window::size;
+  std::uint32_t first_window_begin_;  ///< none where they are not few
+  std::uint32_t first_window_end_;
   std::uint32_t window_begin_ = none;
   std::uint32_t window_end_ = 0;
-  PixelSequence::Window window_;
+  std::array<PixelSequence::Window, lane_count> windows_;
+  PixelSequence::Window* window_ = windows_.data();  ///< of this pixel
 };
 
 /// Hands on what samples of passes bring, step by step.
@@ -145,7 +159,7 @@ class PassSums {
     for (const Tracer::Sample* sample = samples.data(); sample != end;) {
       const bool begins_pixel = step == steps_.data() && missing == step->size;
       if (begins_pixel) {
-        if (is_first_range_) std::construct_at(pixel->samples);
+        if (is_first_range_) std::construct_at(pixel->samples, blank_);
         seen = SeenSamples(*pixel->samples, sample->identity);
       }
       if (step->size == 1) {
@@ -197,6 +211,7 @@ class PassSums {
   std::span<const PixelPlace> pixels_;
   std::size_t samples_per_pixel_;
   bool is_first_range_;
+  const PixelSamples blank_;                ///< to be copied, which is faster than to be made
   std::array<Step, most_steps + 1> steps_;  ///< of every pixel; none at their end
   // Whose samples come next:
   const PixelPlace* pixel_;

@@ -1,6 +1,7 @@
 // Memory for what is kept of all pixels' samples.
 #pragma once
 
+#include <atomic>
 #include <cstddef>
 #include <cstdlib>
 #include <memory>
@@ -11,15 +12,15 @@
 namespace crt::core {
 
 /// In large pages where the system has them: to be given small ones takes as long as a few rays through each
-/// pixel. Nothing is written there, so that each thread may be given the pages that it needs.
+/// pixel. Nothing is written there, so that what is never taken costs nothing.
 class PixelStore {
  public:
-  /// Throws std::bad_alloc.
+  /// For so many pixels together. Throws std::bad_alloc.
   explicit PixelStore(std::size_t count);
 
-  /// The samples of `count` pixels, which are to be constructed.
-  std::span<PixelSamples> part(std::size_t first, std::size_t count) {
-    return {samples_.get() + first, count};
+  /// The samples of `count` pixels that nobody else has, which are to be constructed. From any thread.
+  std::span<PixelSamples> take(std::size_t count) {
+    return {samples_.get() + taken_.fetch_add(count, std::memory_order_relaxed), count};
   }
 
  private:
@@ -27,6 +28,7 @@ class PixelStore {
     void operator()(PixelSamples* memory) const { std::free(memory); }
   };
   std::unique_ptr<PixelSamples, Free> samples_;
+  std::atomic<std::size_t> taken_ = 0;
 };
 
 }  // namespace crt::core

@@ -12,6 +12,11 @@ inline std::size_t pixel_count(const Region& region) {
   return static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
 }
 
+/// Whether the pixel at (x, y) of the picture is one of them.
+inline bool is_in(const Region& region, int x, int y) {
+  return x >= region.x && x < region.x + region.width && y >= region.y && y < region.y + region.height;
+}
+
 /// Which of a region's pixels, row by row from the top, is that at (x, y) of the picture.
 inline std::size_t index_in(const Region& region, int x, int y) {
   return static_cast<std::size_t>(y - region.y) * static_cast<std::size_t>(region.width) +
@@ -23,6 +28,7 @@ class Tiles {
   /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
   /// to the end.
   static constexpr int side = 16;
+  static constexpr std::size_t most_pixels = std::size_t{side} * side;
 
   explicit Tiles(const Region& region)
       : region_(region),

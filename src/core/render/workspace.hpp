@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/render/media.hpp"
+#include "core/sampling/pixel_samples.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/shading/rgb.hpp"
 
@@ -110,6 +111,8 @@ struct Workspace {
   std::vector<Medium> surrounding;
   CrossingList scratch;
   SurfacePointLanes points;  ///< that are being looked up
+  /// Of a tile's pixels, as long as they need not be kept.
+  std::vector<PixelSamples> pixel_samples;
 };
 
 /// The workspaces of a render: as many as there ever are tasks running at once.

@@ -30,27 +30,56 @@ constexpr int alpha_channel = pixel_channels - 1;
 
 }  // namespace
 
-Lanes DisplayScale::shown(const Lanes& values) const {
+Lanes DisplayScale::shown(const Lanes& values, int channel) const {
   const Lanes clamped = clamp(values, Lanes{}, lanes_of(1));
-  if (exponent_ == 1) return clamped;
-  Lanes shown = rough_power(clamped, lanes_of(exponent_));
-  shown[alpha_channel] = clamped[alpha_channel];
-  return shown;
+  const bool is_linear = exponent_ == 1 || channel == alpha_channel;
+  return is_linear ? clamped : rough_power(clamped, lanes_of(exponent_));
 }
 
-Lanes DisplayScale::half_widths(const Lanes& values, const Lanes& half_widths) const {
-  const Lanes middle = shown(values);
-  const Lanes least = values - half_widths;
-  const Lanes below = middle - shown(least);
+Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& intervals) const {
+  const auto& [a, b, c, d] = intervals;
+  Lanes widest = {a.least_shown, b.least_shown, c.least_shown, d.least_shown};
+  const auto has_width = [](const MeanInterval& interval) { return any(interval.half_width != 0.0); };
+  if (std::none_of(intervals.begin(), intervals.end(), has_width)) return widest;
+
+  const std::array<Lanes, pixel_channels> means = transposed({a.mean, b.mean, c.mean, d.mean});
+  const std::array<Lanes, pixel_channels> half_widths =
+      transposed({a.half_width, b.half_width, c.half_width, d.half_width});
   // A scale that rises ever less: with as much room below nothing above is farther away.
-  if (exponent_ <= 1 && all(least >= 0.0)) return below;
-  return max(shown(values + half_widths) - middle, below);
+  LaneMask is_below = lanes_with(exponent_ <= 1 ? (1u << lane_count) - 1 : 0);
+  for (std::size_t i = 0; i < means.size(); ++i) is_below &= means[i] - half_widths[i] >= 0.0;
+  for (int channel = 0; channel < pixel_channels; ++channel) {
+    const Lanes& mean = means[static_cast<std::size_t>(channel)];
+    const Lanes& half_width = half_widths[static_cast<std::size_t>(channel)];
+    const Lanes middle = shown(mean, channel);
+    Lanes farthest = middle - shown(mean - half_width, channel);
+    if (!all(is_below)) {
+      const Lanes above = shown(mean + half_width, channel) - middle;
+      farthest = is_below ? farthest : max(above, farthest);
+    }
+    widest = max(widest, farthest);
+  }
+  return widest;
 }
 
-Lanes PixelSamples::mean(std::int64_t count) const {
+SampleCount::SampleCount(std::int64_t count)
+    : value_(count),
+      blocks_(static_cast<std::size_t>(count >> PixelSamples::block_exponent(count))),
+      samples_(count),
+      full_blocks_(static_cast<std::int64_t>(blocks_)),
+      overlooked_share_(overlooked_samples / static_cast<double>(count)),
+      overlooked_share_of_neighbours_(overlooked_samples_of_neighbours / static_cast<double>(count)) {
+  if (blocks_ < 2) return;
+  // The variance of a block's sum to that of the mean of as many blocks as there are.
+  const auto block_size = static_cast<double>(std::int64_t{1} << PixelSamples::block_exponent(count));
+  variance_divisor_ = static_cast<double>(blocks_ - 1) * block_size * static_cast<double>(count);
+  student_ = student_95[blocks_ - 2];
+}
+
+Lanes PixelSamples::mean(const SampleCount& count) const {
   Lanes sum{};
   for (const Channels& block : blocks_) sum += to_doubles(block);
-  return sum / static_cast<double>(count);
+  return count.samples_.divide(sum);
 }
 
 template <class Self, class Use>
@@ -90,40 +119,36 @@ PixelSamples PixelSamples::restored(const Stored& bytes) {
   return result;
 }
 
-double PixelSamples::half_width(std::int64_t count, const DisplayScale& scale) const {
-  const int exponent = block_exponent(count);
-  const auto blocks = static_cast<std::size_t>(count >> exponent);
-  if (blocks < 2) return 1;
+template <std::size_t full_blocks>
+MeanInterval PixelSamples::interval(const SampleCount& count) const {
+  const std::size_t blocks = full_blocks > 0 ? full_blocks : count.blocks_;
+  if (blocks < 2) return {.least_shown = 1};
   const Channels low = has_notes_ ? min(low_, low_around_) : low_;
   const Channels high = has_notes_ ? max(high_, high_around_) : high_;
   Lanes sum{};
   for (std::size_t b = 0; b < blocks; ++b) sum += to_doubles(blocks_[b]);
-  const Lanes middle = sum / static_cast<double>(blocks);
+  const Lanes middle = count.full_blocks_.divide(sum);
   for (std::size_t b = blocks; b < block_count; ++b) sum += to_doubles(blocks_[b]);
-  const Lanes means = sum / static_cast<double>(count);
+  const Lanes means = count.samples_.divide(sum);
   // A sample that is no number is neither low nor high, but leaves the largest mean there is.
   const bool sees_one_colour = all_equal(low, high) && all(means <= 2 * to_doubles(high));
-  if (!edge_ && !mixed_ && sees_one_colour) return 0;
+  if (!edge_ && !mixed_ && sees_one_colour) return {};
 
   Lanes squares{};
   for (std::size_t b = 0; b < blocks; ++b) {
     const Lanes distance = to_doubles(blocks_[b]) - middle;
     squares += distance * distance;
   }
-  const double samples = static_cast<double>(count);
-  // The variance of a block's sum to that of the mean of as many blocks as there are.
-  const Lanes variance = squares / (static_cast<double>(blocks - 1) *
-                                    static_cast<double>(std::int64_t{1} << exponent) * samples);
-  const double overlooked_here = overlooked_samples / samples;
-  const double overlooked_around = mixed_ ? overlooked_here : overlooked_samples_of_neighbours / samples;
-  const Lanes overlooked = max(overlooked_here * (to_doubles(high_) - to_doubles(low_)),
+  const Lanes variance = squares / count.variance_divisor_;
+  const double overlooked_around = mixed_ ? count.overlooked_share_ : count.overlooked_share_of_neighbours_;
+  const Lanes overlooked = max(count.overlooked_share_ * (to_doubles(high_) - to_doubles(low_)),
                                overlooked_around * (to_doubles(high) - to_doubles(low)));
-  const Lanes half_widths = max(student_95[blocks - 2] * sqrt(variance), overlooked);
-
-  double widest = edge_ || mixed_ ? overlooked_around * least_contrast_of_edges : 0;
-  const Lanes shown = scale.half_widths(means, half_widths);
-  for (int i = 0; i < pixel_channels; ++i) widest = std::max(widest, shown[i]);
-  return widest;
+  return {.mean = means,
+          .half_width = max(count.student_ * sqrt(variance), overlooked),
+          .least_shown = edge_ || mixed_ ? overlooked_around * least_contrast_of_edges : 0};
 }
+
+template MeanInterval PixelSamples::interval<0>(const SampleCount& count) const;
+template MeanInterval PixelSamples::interval<PixelSamples::block_count>(const SampleCount& count) const;
 
 }  // namespace crt::core

@@ -57,19 +57,64 @@ class SeenSamples {
   std::uint64_t differing_ = 0;  ///< bits in which others differ from it
 };
 
+/// What is claimed to hold the true mean of a pixel: each channel is within its half-width of the mean.
+struct MeanInterval {
+  Lanes mean{};
+  Lanes half_width{};
+  /// Half of the interval's width on a display, whatever the other numbers say: at least that.
+  double least_shown = 0;
+};
+
 /// What a viewer sees of red, green, blue and alpha.
 class DisplayScale {
  public:
   explicit DisplayScale(double gamma) : exponent_(1 / gamma) {}
 
-  /// The farthest that anything within `half_widths` of the values is from them on a display, by channel.
-  Lanes half_widths(const Lanes& values, const Lanes& half_widths) const;
+  /// Half of the widths of intervals on a display: the farthest that anything in them is from the mean, in
+  /// the worst channel. (Four at once take little longer than one.)
+  [[gnu::flatten]] Lanes half_widths(const std::array<MeanInterval, lane_count>& intervals) const;
 
  private:
-  /// From 0 to 1, within 10^-9.
-  Lanes shown(const Lanes& values) const;
+  /// Of a channel, from 0 to 1, within 10^-9.
+  Lanes shown(const Lanes& values, int channel) const;
 
   double exponent_;
+};
+
+/// What follows from how many samples a pixel has, at least one: found once for many pixels.
+class SampleCount {
+ public:
+  explicit SampleCount(std::int64_t count);
+
+  std::int64_t value() const { return value_; }
+
+ private:
+  friend class PixelSamples;
+
+  /// Division by a whole number. By a power of two that is multiplication, with the same bits and sooner.
+  class Divisor {
+   public:
+    explicit Divisor(std::int64_t number)
+        : number_(static_cast<double>(number)),
+          reciprocal_(std::has_single_bit(static_cast<std::uint64_t>(number)) ? 1 / number_ : 0) {}
+
+    Lanes divide(const Lanes& values) const {
+      return reciprocal_ != 0 ? values * reciprocal_ : values / number_;
+    }
+
+   private:
+    double number_;
+    double reciprocal_;  ///< 0 if it is not exact
+  };
+
+  std::int64_t value_;
+  std::size_t blocks_;  ///< that are full
+  Divisor samples_;
+  Divisor full_blocks_;
+  double variance_divisor_ = 1;  ///< of the squares of blocks' distances from their mean
+  double student_ = 0;
+  double overlooked_share_;
+  double overlooked_share_of_neighbours_;
 };
 
 class PixelSamples {
@@ -86,10 +131,11 @@ class PixelSamples {
   /// Adds what the samples of some steps show, the very first ones or further ones.
   void add_seen(const SeenSamples& seen, bool are_first);
 
-  /// The mean of `count` samples.
-  Lanes mean(std::int64_t count) const;
+  Lanes mean(const SampleCount& count) const;
   /// The mean share of light that was cut off.
-  double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
+  double dropped(std::int64_t count) const {
+    return dropped_ == 0 ? 0 : dropped_ / static_cast<double>(count);
+  }
 
   /// What is seen in one or several pixels.
   struct Notes {
@@ -108,11 +154,11 @@ class PixelSamples {
     }
   };
   Notes notes() const { return {low_, high_, identity_, identity_, mixed_}; }
-  /// Those of this pixel and its neighbours: what is seen there may reach in here.
+  /// Those of neighbours, in one or several portions: what is seen there may reach in here.
   void keep(const Notes& notes) {
-    low_around_ = notes.low;
-    high_around_ = notes.high;
-    edge_ = notes.mixed || notes.least_identity != notes.greatest_identity;
+    low_around_ = has_notes_ ? min(low_around_, notes.low) : notes.low;
+    high_around_ = has_notes_ ? max(high_around_, notes.high) : notes.high;
+    edge_ = edge_ || notes.mixed || notes.least_identity != identity_ || notes.greatest_identity != identity_;
     has_notes_ = true;
   }
 
@@ -130,12 +176,14 @@ class PixelSamples {
   Stored stored() const;
   static PixelSamples restored(const Stored& bytes);
 
-  /// Half of the width of the interval that holds the true mean, in display units, the worst channel's. Of
-  /// one sample nothing is known, and it is 1.
-  double half_width(std::int64_t count, const DisplayScale& scale) const;
+  /// Of one sample nothing is known.
+  MeanInterval interval(const SampleCount& count) const {
+    return count.blocks_ == block_count ? interval<block_count>(count) : interval<0>(count);
+  }
 
  private:
   friend class SeenSamples;
+  friend class SampleCount;
   static constexpr std::size_t block_count = 8;
   /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33 of 100.
   static constexpr std::int64_t enough_samples = 64;
@@ -144,6 +192,9 @@ class PixelSamples {
   /// With `count` samples, at least 1, a block has two to the power of this.
   static int block_exponent(std::int64_t count);
   void merge_blocks();
+  /// The same with so many full blocks; 0 for any number.
+  template <std::size_t full_blocks>
+  MeanInterval interval(const SampleCount& count) const;
   /// Calls use(member) for all that are numbers, in one order.
   template <class Self, class Use>
   static void for_each_number(Self& self, const Use& use);
