@@ -118,20 +118,21 @@ TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its
   CHECK(half_width(quiet, 16) == doctest::Approx(0.6 / 16));
 }
 
-TEST_CASE("what neighbours show counts more where a pixel shows several things itself") {
+TEST_CASE("what neighbours show counts more where a pixel shows several things itself or is out of focus") {
   const auto of_thing = [](double value, std::uint64_t identity) {
     return [=](std::int64_t) { return OneSample{Lanes{value, value, value, 1}, identity}; };
   };
   PixelSamples neighbour;
   add_step(neighbour, 0, of_thing(0.9, 1));
-  const auto width_of = [&](std::uint64_t last_identity) {
+  const auto width_of = [&](std::uint64_t last_identity, bool with_lens) {
     PixelSamples pixel;
     for (std::int64_t i = 0; i < 8; ++i) add_step(pixel, i, of_thing(0.5, i == 7 ? last_identity : 1));
     take_note(pixel, neighbour);
-    return half_width(pixel, 8);
+    return linear.half_widths({pixel.interval(SampleCount(8, with_lens))})[0];
   };
-  CHECK(width_of(1) == doctest::Approx(0.4 / 8));
-  CHECK(width_of(2) == doctest::Approx(2 * 0.4 / 8));
+  CHECK(width_of(1, false) == doctest::Approx(0.4 / 8));
+  CHECK(width_of(2, false) == doctest::Approx(2 * 0.4 / 8));
+  CHECK(width_of(1, true) == doctest::Approx(2 * 0.4 / 8));
 }
 
 TEST_CASE("a pixel with a sample that is no number claims nothing") {

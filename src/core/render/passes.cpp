@@ -299,8 +299,9 @@ void Passes::choose(const Tile& tile, TilePart part, TilePixels& chosen) const {
 
 void Passes::find_half_widths(const Tile& tile, const Settling& how, const TilePixels& pixels,
                               std::span<double> half_widths) const {
-  const SampleCount count_of_most(how.count);
-  const SampleCount count_of_some(how.count + 1);
+  const bool with_lens = frame_.features().lens;
+  const SampleCount count_of_most(how.count, with_lens);
+  const SampleCount count_of_some(how.count + 1, with_lens);
   for (std::size_t i = 0; i < pixels.count; i += lane_count) {
     const std::size_t count = std::min<std::size_t>(pixels.count - i, lane_count);
     const auto interval = [&](std::size_t k) {

@@ -21,7 +21,7 @@ constexpr std::array<double, 7> student_95 = {12.7062, 4.30265, 3.18245, 2.77645
 
 /// Of what is seen in and around a pixel, N samples may overlook this divided by N: see docs/trade.md.
 constexpr double overlooked_samples = 2;
-/// The same where the pixel itself shows one thing: of what its neighbours alone have seen.
+/// The same where the pixel itself shows one thing, in focus: of what its neighbours alone have seen.
 constexpr double overlooked_samples_of_neighbours = 1;
 /// What is taken for the contrast, on a display, of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
@@ -62,13 +62,14 @@ Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& inte
   return widest;
 }
 
-SampleCount::SampleCount(std::int64_t count)
+SampleCount::SampleCount(std::int64_t count, bool with_lens)
     : value_(count),
       blocks_(static_cast<std::size_t>(count >> PixelSamples::block_exponent(count))),
       samples_(count),
       full_blocks_(static_cast<std::int64_t>(blocks_)),
       overlooked_share_(overlooked_samples / static_cast<double>(count)),
-      overlooked_share_of_neighbours_(overlooked_samples_of_neighbours / static_cast<double>(count)) {
+      overlooked_share_of_neighbours_(
+          with_lens ? overlooked_share_ : overlooked_samples_of_neighbours / static_cast<double>(count)) {
   if (blocks_ < 2) return;
   // The variance of a block's sum to that of the mean of as many blocks as there are.
   const auto block_size = static_cast<double>(std::int64_t{1} << PixelSamples::block_exponent(count));

@@ -84,7 +84,9 @@ class DisplayScale {
 /// What follows from how many samples a pixel has, at least one: found once for many pixels.
 class SampleCount {
  public:
-  explicit SampleCount(std::int64_t count);
+  /// Out of focus things fade over many pixels, each of which has few samples that hit them: what the
+  /// neighbours alone have seen counts as much there as what the pixel has.
+  explicit SampleCount(std::int64_t count, bool with_lens = false);
 
   std::int64_t value() const { return value_; }
 
