@@ -52,13 +52,11 @@ class AovTile {
   void put(const Region& region, Image& image) const;
 
  private:
-  static constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
-
   Aovs aovs_;
   Region tile_;
-  std::array<FirstHit, most_pixels> first_hits_;
-  std::array<FirstPlace, most_pixels> first_places_;
-  std::array<PixelMeasure, most_pixels> measures_;
+  std::array<FirstHit, Tiles::most_pixels> first_hits_;
+  std::array<FirstPlace, Tiles::most_pixels> first_places_;
+  std::array<PixelMeasure, Tiles::most_pixels> measures_;
 };
 
 }  // namespace crt::core

@@ -159,7 +159,7 @@ void Passes::trace(const TaskRunner& run_tasks, const Step& step) {
 }
 
 void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace& work) {
-  if (count_ == 0 && decides_at_once(step)) {
+  if (decides_at_once(step)) {
     work.pixel_samples.resize(Tiles::most_pixels);
     tile.samples = std::span(work.pixel_samples).first(tile.places.size());
   } else if (count_ == 0) {

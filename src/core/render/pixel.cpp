@@ -21,7 +21,7 @@ struct TilePlace {
   int y = 0;
 };
 constexpr auto tile_places = [] {
-  std::array<TilePlace, std::size_t{Tiles::side} * Tiles::side> places;
+  std::array<TilePlace, Tiles::most_pixels> places;
   for (unsigned i = 0; i < places.size(); ++i) {
     for (unsigned bit = 0; i >> 2 * bit != 0; ++bit) {
       places[i].x |= static_cast<int>((i >> 2 * bit & 1u) << bit);

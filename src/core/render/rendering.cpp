@@ -94,11 +94,10 @@ void Rendering::render_tile(const Frame& frame, const Region& tile, Workspace& w
 
 void Rendering::trace_tile(const Frame& frame, const Region& tile, Tracer& tracer,
                            std::span<FirstHit> first_hits, Workspace& work) {
-  constexpr std::size_t most_pixels = std::size_t{Tiles::side} * Tiles::side;
-  std::array<PixelMean, most_pixels> storage;
+  std::array<PixelMean, Tiles::most_pixels> storage;
   const std::span<PixelMean> means = std::span(storage).first(pixel_count(tile));
   trace_pixels(frame, tile, tracer, means, first_hits, work.stats);
-  std::array<float, pixel_channels * most_pixels> pixels;
+  std::array<float, pixel_channels * Tiles::most_pixels> pixels;
   float* next = pixels.data();
   for (const PixelMean& mean : means) {
     const FloatLanes channels = finite_floats(mean.channels);

@@ -63,8 +63,7 @@ Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& inte
 }
 
 SampleCount::SampleCount(std::int64_t count, bool with_lens)
-    : value_(count),
-      blocks_(static_cast<std::size_t>(count >> PixelSamples::block_exponent(count))),
+    : blocks_(static_cast<std::size_t>(count >> PixelSamples::block_exponent(count))),
       samples_(count),
       full_blocks_(static_cast<std::int64_t>(blocks_)),
       overlooked_share_(overlooked_samples / static_cast<double>(count)),

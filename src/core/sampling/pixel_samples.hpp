@@ -88,8 +88,6 @@ class SampleCount {
   /// neighbours alone have seen counts as much there as what the pixel has.
   explicit SampleCount(std::int64_t count, bool with_lens = false);
 
-  std::int64_t value() const { return value_; }
-
  private:
   friend class PixelSamples;
 
@@ -109,7 +107,6 @@ class SampleCount {
     double reciprocal_;  ///< 0 if it is not exact
   };
 
-  std::int64_t value_;
   std::size_t blocks_;  ///< that are full
   Divisor samples_;
   Divisor full_blocks_;
@@ -135,9 +132,7 @@ class PixelSamples {
 
   Lanes mean(const SampleCount& count) const;
   /// The mean share of light that was cut off.
-  double dropped(std::int64_t count) const {
-    return dropped_ == 0 ? 0 : dropped_ / static_cast<double>(count);
-  }
+  double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
 
   /// What is seen in one or several pixels.
   struct Notes {
