@@ -81,7 +81,7 @@ Ray to_ray(const std::byte* place) {
 }
 
 /// Rays that are asked, and if need be copied out of the caller's memory, at a time.
-constexpr std::size_t piece_size = 256;
+constexpr std::size_t piece_size = 512;
 
 class Rays {
  public:
@@ -92,14 +92,16 @@ class Rays {
   /// Calls ask(begin, rays) for piece after piece of the rays first ... last - 1.
   template <class Ask>
   void for_pieces(std::size_t first, std::size_t last, const Ask& ask) const {
-    const bool in_place = places_.are_array_of<Ray>();
+    if (places_.are_array_of<Ray>()) {
+      for (std::size_t begin = first; begin < last; begin += piece_size) {
+        const std::size_t count = std::min(piece_size, last - begin);
+        ask(begin, std::span(reinterpret_cast<const Ray*>(places_[begin]), count));
+      }
+      return;
+    }
     std::array<Ray, piece_size> copies;
     for (std::size_t begin = first; begin < last; begin += piece_size) {
       const std::size_t count = std::min(piece_size, last - begin);
-      if (in_place) {
-        ask(begin, std::span(reinterpret_cast<const Ray*>(places_[begin]), count));
-        continue;
-      }
       for (std::size_t i = 0; i < count; ++i) std::memcpy(&copies[i], places_[begin + i], sizeof(Ray));
       ask(begin, std::span<const Ray>(copies).first(count));
     }
@@ -121,15 +123,13 @@ class Rays {
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
-  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been looked at: its
-  /// answers must wait until this returns without having thrown. So nobody goes through all rays before.
+  /// Lets the rays first ... last - 1 be asked by ask(queries, first, last), some before others have been
+  /// looked at: the answers must wait until this returns without having thrown. So nobody goes through all
+  /// rays before.
   template <class Ask>
   void answer(const PreparedScene& scene, const Ask& ask) const {
     try {
-      query_in_parallel(scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
-        for_pieces(first, last,
-                   [&](std::size_t begin, std::span<const Ray> rays) { ask(queries, begin, rays); });
-      });
+      query_in_parallel(scene, count_, ask);
     } catch (const Error&) {
       validate_all(scene);  // which of them is the first
       throw;
@@ -199,12 +199,11 @@ crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray
     if (count > 0) require(distances, "distances");
     const auto t = std::make_unique_for_overwrite<double[]>(count);
     const auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(entity_ids != nullptr ? count : 0);
-    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
-      std::array<crt::HitDistance, piece_size> found;
-      queries.intersect(piece, found);
-      for (std::size_t i = 0; i < piece.size(); ++i) t[begin + i] = found[i].t;
-      if (entity_ids == nullptr) return;
-      for (std::size_t i = 0; i < piece.size(); ++i) ids[begin + i] = found[i].entity_id;
+    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+      questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
+        const std::size_t asked_ids = entity_ids != nullptr ? piece.size() : 0;
+        queries.distances(piece, std::span(&t[begin], piece.size()), std::span(ids.get() + begin, asked_ids));
+      });
     });
     std::copy_n(t.get(), count, distances);
     if (entity_ids != nullptr) std::copy_n(ids.get(), count, entity_ids);
@@ -218,8 +217,10 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     const Rays questions(rays, ray_stride, count);
     if (count > 0) require(occluded, "occluded");
     const auto answers = std::make_unique_for_overwrite<bool[]>(count);
-    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
-      queries.occluded(piece, std::span(&answers[begin], piece.size()));
+    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
+      questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
+        queries.occluded(piece, std::span(&answers[begin], piece.size()));
+      });
     });
     std::transform(answers.get(), answers.get() + count, occluded, [](bool hit) { return hit ? 1 : 0; });
   });

@@ -51,10 +51,6 @@ bool same(const PlainHit& plain, const std::optional<Hit>& hit) {
          plain.side == (hit->entering ? HitSide::entering : HitSide::leaving);
 }
 
-bool same(const HitDistance& distance, const PlainHit& hit) {
-  return distance.t == hit.t && distance.entity_id == hit.entity_id && distance.side == hit.side;
-}
-
 std::string rejected(const Ray& ray) {
   const PreparedScene scene = two_balls();
   std::string argument;
@@ -194,15 +190,20 @@ TEST_CASE("many rays at once find what each finds, however long they are and wha
     std::vector<PlainHit> plain(rays.size());
     queries.intersect(rays, hits);
     queries.intersect(rays, plain);
-    std::vector<HitDistance> distances(rays.size());
-    queries.intersect(rays, distances);
+    std::vector<double> distances(rays.size());
+    std::vector<double> only_distances(rays.size());
+    std::vector<std::uint32_t> ids(rays.size());
+    queries.distances(rays, distances, ids);
+    queries.distances(rays, only_distances);
+    REQUIRE(only_distances == distances);
     queries.occluded(rays, hidden);
     for (std::size_t i = 0; i < rays.size(); ++i) {
       const std::optional<Hit> alone = queries.intersect(rays[i]);
       REQUIRE(alone.has_value() == hits[i].has_value());
       REQUIRE(queries.occluded(rays[i]) == hidden[i]);
       REQUIRE(same(plain[i], alone));
-      REQUIRE(same(distances[i], plain[i]));
+      REQUIRE(distances[i] == plain[i].t);
+      REQUIRE(ids[i] == plain[i].entity_id);
       if (!alone) continue;
       ++met;
       REQUIRE(alone->t == hits[i]->t);

@@ -3,6 +3,7 @@
 
 #include <array>
 
+#include "core/geometry/plain_ray.hpp"
 #include "core/math/lanes.hpp"
 #include "crt/vec.hpp"
 
@@ -22,6 +23,13 @@ struct OutlineLine {
   Real certain_from;            ///< crossings behind it and before certain_to count
   Real certain_to;              ///< finite
 };
+
+template <class Real>
+PlainRay<Real> plain_ray(const OutlineLine<Real>& line) {
+  const auto& o = line.origin;
+  const auto& d = line.direction;
+  return {.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}};
+}
 
 template <class Mask>
 struct Verdict {

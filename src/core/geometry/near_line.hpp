@@ -20,34 +20,46 @@ struct NearLineOf {
   Vec3Of<Real> direction;  ///< its largest component is in [1, 2)
   Real squared_speed;      ///< direction . direction
 
-  /// The line with `point` where the ray is at t = 0.
-  template <class Ray>
-  static NearLineOf at_origin(const Ray& ray, const Vec3& center, double unit) {
+  /// The line with `point` where the ray is at t = 0. Center and unit may be by lane.
+  template <class Ray, class Center, class Unit>
+  static NearLineOf at_origin(const Ray& ray, const Center& center, const Unit& unit) {
     NearLineOf line(ray, unit);
     line.move_to(ray, center, Real{});
     return line;
   }
 
   /// The line with `point` (nearly) where the ray comes closest to the centre.
-  template <class Ray>
-  static NearLineOf at_closest(const Ray& ray, const Vec3& center, double unit) {
+  template <class Ray, class Center, class Unit>
+  static NearLineOf at_closest(const Ray& ray, const Center& center, const Unit& unit) {
+    Real rest;
+    return at_closest(ray, center, unit, rest);
+  }
+  /// The same, and its closest().
+  template <class Ray, class Center, class Unit>
+  static NearLineOf at_closest(const Ray& ray, const Center& center, const Unit& unit, Real& rest) {
     NearLineOf line = at_origin(ray, center, unit);
-    line.move_to(ray, center, line.to_t(line.closest()));
-    // One step leaves an error of one rounding of the way. From beyond 1 / u sizes that is still
-    // far: a second step, which t alone could not hold, brings it near.
-    constexpr double near = 4;
-    const Real rest = line.closest();
-    const auto is_far = size_of(rest) > near;
-    if (any(is_far)) {
-      const Real step = rest * line.unit_ * line.direction_scale_;
-      line.move_to(ray, center, line.shift_, is_far ? step : Real{});
-    }
+    rest = line.move_to_closest(ray, center, line.to_t(line.closest()));
     return line;
   }
 
+  /// Moves `point` to where the ray is (nearly) closest to the centre, at about t. Returns closest().
+  template <class Ray, class Center>
+  Real move_to_closest(const Ray& ray, const Center& center, const Real& t) {
+    move_to(ray, center, t);
+    // One step leaves an error of one rounding of the way. From beyond 1 / u sizes that is still
+    // far: a second step, which t alone could not hold, brings it near.
+    constexpr double near = 4;
+    const Real rest = closest();
+    const auto is_far = size_of(rest) > near;
+    if (!any(is_far)) return rest;
+    const Real step = rest * unit_ * direction_scale_;
+    move_to(ray, center, shift_, is_far ? step : Real{});
+    return closest();
+  }
+
   /// Moves `point` to where the ray is at t + t_low.
-  template <class Ray>
-  void move_to(const Ray& ray, const Vec3& center, const Real& t, const Real& t_low = Real{}) {
+  template <class Ray, class Center>
+  void move_to(const Ray& ray, const Center& center, const Real& t, const Real& t_low = Real{}) {
     shift_ = t;
     shift_low_ = t_low;
     point = inverse_unit_ * ray.from_center(center, t, t_low);
@@ -71,14 +83,15 @@ struct NearLineOf {
   Real closest() const { return -dot(point, direction) / squared_speed; }
 
  private:
-  template <class Ray>
-  NearLineOf(const Ray& ray, double unit) : unit_(unit), inverse_unit_(spread<Real>(1 / unit)) {
-    direction_scale_ = 1.0 / power_of_two_below(largest_component(ray.direction));
+  template <class Ray, class Unit>
+  NearLineOf(const Ray& ray, const Unit& unit)
+      : unit_(spread<Real>(unit)), inverse_unit_(spread<Real>(inverse_of_power(unit))) {
+    direction_scale_ = inverse_of_power(power_of_two_below(largest_component(ray.direction)));
     direction = direction_scale_ * ray.direction;
     squared_speed = dot(direction, direction);
   }
 
-  double unit_;
+  Real unit_;
   Real inverse_unit_;
   Real direction_scale_;
   Real shift_;
@@ -107,8 +120,8 @@ Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& re
 
 /// How far apart two roots next to a grazing ray can be moved by the rounding that standard_error
 /// allows, on a surface of the given radius of curvature.
-template <class Real, class Reach>
-Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, double radius) {
+template <class Real, class Reach, class Radius>
+Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, const Radius& radius) {
   constexpr double roundings = 8;
   return square_root(2 * roundings * unit_roundoff * reach * radius / line.squared_speed);
 }

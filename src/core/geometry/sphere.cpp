@@ -21,8 +21,9 @@ bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (ray.start.face == 0) return crossings_from_surface(ray, out);
   const auto chord = this->chord<double>(ray);
   if (!chord.found) return false;
-  out.push_back({.t = chord.enter.t, .error = chord.enter.error, .root = 0, .entering = true});
-  out.push_back({.t = chord.leave.t, .error = chord.leave.error, .root = 1, .entering = false});
+  const auto error = [&](double end) { return chord.error_of(end); };
+  out.push_back({.t = chord.enter, .error = error(chord.enter), .root = 0, .entering = true});
+  out.push_back({.t = chord.leave, .error = error(chord.leave), .root = 1, .entering = false});
   return false;
 }
 

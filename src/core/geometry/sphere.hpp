@@ -20,41 +20,51 @@ namespace crt::core {
 /// Where a line, or as many as a Real has lanes, enters and leaves a sphere.
 template <class Real>
 struct SphereChord {
-  struct End {
-    Real t{};
-    Real error{};  ///< as in Crossing
-  };
   decltype(Real{} < Real{}) found{};  ///< else the ends mean nothing
-  End enter;
-  End leave;
+  Real enter{};                       ///< t there
+  Real leave{};
+  Real error{};  ///< of both, but for rounding them
 
-  /// Of a line that does not start on the surface. `unit` is the sphere's (see below).
-  template <class Ray>
-  static SphereChord of(const Ray& ray, const Vec3& center, double radius, double unit);
+  /// Of one end, as in Crossing.
+  Real error_of(const Real& end) const { return rounding_of(end) + error; }
+
+  /// Of a line that does not start on the surface. `unit` is the sphere's (see below). All that tells of the
+  /// sphere may be by lane.
+  template <class Ray, class Center, class Size>
+  static SphereChord of(const Ray& ray, const Center& center, const Size& radius, const Size& unit) {
+    Real closest;
+    const auto line = NearLineOf<Real>::at_closest(ray, center, unit, closest);
+    return on(line, closest, radius * inverse_of_power(unit));
+  }
+  /// The same of the line near the sphere, its closest() and the radius in its units.
+  template <class Size>
+  static SphereChord on(const NearLineOf<Real>& line, const Real& closest, const Size& r);
 };
 
 template <class Real>
-template <class Ray>
-SphereChord<Real> SphereChord<Real>::of(const Ray& ray, const Vec3& center, double radius, double unit) {
-  const auto line = NearLineOf<Real>::at_closest(ray, center, unit);
-  const double r = radius / unit;
+template <class Size>
+SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real& closest, const Size& r) {
   const Real a = line.squared_speed;
-  const Real closest = line.closest();
   const Vec3Of<Real> nearest = line.at(closest);
   const Real distance = square_root(dot(nearest, nearest));
   const auto meets = distance < r;
   if (!any(meets)) return {};
 
-  const Real root = square_root(a * (r + distance) * (r - distance));
+  const Real squared_root = a * (r + distance) * (r - distance);
+  const Real root = square_root(squared_root);
   const Real half_chord = root / a;
   const Real enter = line.to_t(closest - half_chord);
   const Real leave = line.to_t(closest + half_chord);
-  const double reach = 2 * r;
-  const Real approach = root / r;
-  const Real longest = grazing_error(line, reach, r);
-  return {both(meets, enter < leave),
-          {enter, standard_error(line, enter, reach, approach, longest)},
-          {leave, standard_error(line, leave, reach, approach, longest)}};
+  // As standard_error() has it, for |n . d| = root / r; and next to nothing comes near the grazing error.
+  const Size reach = 2.0 * r;
+  const Size across = standard_error_across(reach) * r;
+  Real along = across / root;
+  constexpr double flattest = 0x1p-40;
+  if (any(both(meets, squared_root <= flattest * r * r * a))) {
+    const Real longest = grazing_error(line, reach, r);
+    along = across < longest * root ? along : longest;
+  }
+  return {both(meets, enter < leave), enter, leave, line.to_t_length(along)};
 }
 
 /// Of lines that start on the surface, where they are on it once more.

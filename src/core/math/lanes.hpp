@@ -98,6 +98,11 @@ inline LaneMask lanes_with(std::uint32_t mask) {
   return (bits & static_cast<std::int64_t>(mask)) != 0;
 }
 
+inline IntLanes int_lanes_with(std::uint32_t mask) {
+  constexpr IntLanes bits = {1, 2, 4, 8};
+  return (bits & static_cast<std::int32_t>(mask)) != 0;
+}
+
 /// Which of eight numbers in a row are that one, as bits.
 inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
 #ifdef __AVX2__
@@ -280,6 +285,10 @@ inline Lanes power_of_two_below(const Lanes& x) {
   constexpr std::int64_t smallest = 0x0010000000000000;
   const LaneMask bits = reinterpret_cast<LaneMask>(x) & exponent_bits;
   return reinterpret_cast<Lanes>(bits > smallest ? bits : LaneMask{} + smallest);
+}
+inline Lanes inverse_of_power(const Lanes& x) {
+  constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;
+  return reinterpret_cast<Lanes>(inverse_of_one - reinterpret_cast<WordLanes>(x));
 }
 inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
   const Lanes product = c * d;

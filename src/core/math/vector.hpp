@@ -39,6 +39,12 @@ inline double power_of_two_below(double x) {
   return std::bit_cast<double>(std::max(std::bit_cast<std::uint64_t>(x) & exponent_bits, smallest));
 }
 
+/// 1 / x of a power of two of which that is a normal number: without a quotient, which takes long.
+inline double inverse_of_power(double x) {
+  constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;  // the bits of 1 twice
+  return std::bit_cast<double>(inverse_of_one - std::bit_cast<std::uint64_t>(x));
+}
+
 /// a b - c d to about one rounding of the result, however much cancels.
 /// Source: Jeannerod, Louvet, Muller, Further analysis of Kahan's algorithm, 2013.
 inline double difference_of_products(double a, double b, double c, double d) {

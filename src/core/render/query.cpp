@@ -8,7 +8,6 @@
 #include <cstring>
 #include <limits>
 #include <new>
-#include <type_traits>
 
 #include "core/math/float_environment.hpp"
 #include "core/render/users_rays.hpp"
@@ -74,6 +73,17 @@ class Query {
   PowerOfTwo to_users_t_;
 };
 
+/// Where distances are told, and of what, if anybody asks.
+struct Distances {
+  std::span<double> t;
+  std::span<std::uint32_t> ids;
+
+  std::size_t size() const { return t.size(); }
+  Distances subspan(std::size_t first, std::size_t count) const {
+    return {t.subspan(first, count), ids.empty() ? ids : ids.subspan(first, count)};
+  }
+};
+
 /// Up to packet_size queries at a time, asked together if they go nearly the same way.
 class QueryPacket {
  public:
@@ -94,15 +104,34 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  /// An answer is an std::optional<Hit>, a PlainHit or a HitDistance.
+  /// An answer is an std::optional<Hit> or a PlainHit.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
-    if constexpr (!std::is_same_v<Answer, HitDistance>) data_.expect_points(hits_, all());
+    data_.expect_points(hits_, all());
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
       find_distances(first, count);
-      if constexpr (!std::is_same_v<Answer, HitDistance>) find_points(first);
+      find_sides(first);
+      find_points(first);
+      tell(answers.subspan(first, count));
+    }
+  }
+
+  /// Answers are columns.
+  void nearest(const Distances& answers) {
+    FirstLeaves leaves;
+    const bool are_told = data_.first_leaves(rays_, all(), leaves);
+    if (!are_told) data_.intersect_each(rays_, all(), hits_, work_);
+    for (std::size_t first = 0; first < count_; first += lane_count) {
+      const std::size_t group = first / lane_count;
+      const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
+      if (are_told) {
+        set_distances(group, leaves.t[group], RayPacket::lanes(leaves.found, group),
+                      [&](std::size_t lane) { return leaves.leaves[first + lane]; });
+      } else {
+        find_distances(first, count);
+      }
       tell(answers.subspan(first, count));
     }
   }
@@ -137,20 +166,32 @@ class QueryPacket {
   /// How far `count` rays from `first` on are from what they have found, and what that is.
   void find_distances(std::size_t first, std::size_t count) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
-    found_ = 0;
-    for (std::size_t i = 0; i < count; ++i) found_ |= static_cast<RayMask>(group[i].found()) << i;
-    const Lanes& factors = to_users_t_[first / lane_count];
-    t_ = factors * Lanes{group[0].t, group[1].t, group[2].t, group[3].t};
-    for_each_ray(found_ & mask_of(factors == 0.0), [&](std::size_t lane) {
-      t_[static_cast<int>(lane)] = powers_[first + lane] * group[lane].t;
-    });
-    ids_and_sides_ =
-        WordLanes{id_and_side(group[0]), id_and_side(group[1]), id_and_side(group[2]), id_and_side(group[3])};
+    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    // What has found nothing is nowhere.
+    const RayMask found = mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
+    set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
   }
-  std::uint64_t id_and_side(const RayHit& hit) const {
-    if (!hit.found()) return 0;
-    const HitSide side = hit.entering ? HitSide::entering : HitSide::leaving;
-    return data_.entity_id(hit) | static_cast<std::uint64_t>(side) << 32;
+  /// The same of the crossings of a group with leaf_of(lane), at the followed rays' t.
+  template <class LeafOf>
+  void set_distances(std::size_t group, const Lanes& t, RayMask found, const LeafOf& leaf_of) {
+    found_ = found;
+    if (found == 0) return;
+    const Lanes& factors = to_users_t_[group];
+    t_ = factors * t;
+    for_each_ray(found & mask_of(factors == 0.0), [&](std::size_t lane) {
+      const auto i = static_cast<int>(lane);
+      t_[i] = powers_[group * lane_count + lane] * t[i];
+    });
+    const auto id = [&](std::size_t lane) {
+      return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));
+    };
+    ids_ = IntLanes{id(0), id(1), id(2), id(3)};
+  }
+  void find_sides(std::size_t first) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const HitSide side = hits_[first + lane].entering ? HitSide::entering : HitSide::leaving;
+      sides_[static_cast<int>(lane)] = static_cast<std::int32_t>(side);
+    }
   }
 
   /// Where that is, of hits that are alike side by side.
@@ -181,9 +222,9 @@ class QueryPacket {
       if ((found_ >> lane & 1u) == 0) {
         answers[lane].reset();
       } else {
-        const auto id = static_cast<std::uint32_t>(ids_and_sides_[i]);
-        const auto side = static_cast<HitSide>(ids_and_sides_[i] >> 32);
-        answers[lane] = described(t_[i], lane_of(points_, lane), id, side == HitSide::entering);
+        const bool entering = sides_[i] == static_cast<std::int32_t>(HitSide::entering);
+        answers[lane] =
+            described(t_[i], lane_of(points_, lane), static_cast<std::uint32_t>(ids_[i]), entering);
       }
     }
   }
@@ -197,7 +238,11 @@ class QueryPacket {
     const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
     const auto heads =
         transposed({told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
-    const auto tails = transposed({told(points_.u), told(points_.v), told_ids_and_sides(), Lanes{}});
+    // Each with its side behind it.
+    using Pairs = std::int32_t __attribute__((vector_size(32)));
+    const Pairs ids_and_sides = __builtin_shufflevector(ids_, sides_, 0, 4, 1, 5, 2, 6, 3, 7);
+    const auto tails =
+        transposed({told(points_.u), told(points_.v), told(reinterpret_cast<Lanes>(ids_and_sides)), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
@@ -206,25 +251,19 @@ class QueryPacket {
     }
   }
 
-  void tell(std::span<HitDistance> answers) const {
-    static_assert(sizeof(HitDistance) == 16 && offsetof(HitDistance, entity_id) == 8 &&
-                  offsetof(HitDistance, side) == 12);
+  void tell(const Distances& answers) const {
     const Lanes t = told_t();
-    const Lanes ids_and_sides = told_ids_and_sides();
-    const std::array<Lanes, 2> pairs = {__builtin_shufflevector(t, ids_and_sides, 0, 4, 1, 5),
-                                        __builtin_shufflevector(t, ids_and_sides, 2, 6, 3, 7)};
-    auto* place = reinterpret_cast<std::byte*>(answers.data());
+    const IntLanes ids = ids_ & int_lanes_with(found_);
     if (answers.size() == lane_count) {
-      std::memcpy(place, pairs.data(), sizeof pairs);
+      std::memcpy(answers.t.data(), &t, sizeof t);
+      if (!answers.ids.empty()) std::memcpy(answers.ids.data(), &ids, sizeof ids);
     } else {
-      std::memcpy(place, pairs.data(), answers.size_bytes());
+      std::memcpy(answers.t.data(), &t, answers.t.size_bytes());
+      std::memcpy(answers.ids.data(), &ids, answers.ids.size_bytes());
     }
   }
 
   Lanes told_t() const { return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity()); }
-  Lanes told_ids_and_sides() const {
-    return lanes_with(found_) ? reinterpret_cast<Lanes>(ids_and_sides_) : Lanes{};
-  }
 
   const PreparedData& data_;
   RayWorkspace& work_;
@@ -239,16 +278,21 @@ class QueryPacket {
   Lanes t_{};  ///< the user's
   SurfacePointLanes points_;
   SurfacePointLanes others_;  ///< of hits that are not alike
-  WordLanes ids_and_sides_{};
+  IntLanes ids_{};
+  IntLanes sides_{};
 };
 
+/// Throws if there are fewer places than rays.
+void check_places(std::size_t places, std::span<const Ray> rays) {
+  if (places >= rays.size()) return;
+  throw Error(ErrorCode::invalid_argument, "there are fewer places for answers than rays", "rays");
+}
+
 /// Calls ask(packet, answers) for packet after packet.
-template <class Answer, class Ask>
-void ask_in_packets(const PreparedData& data, std::span<const Ray> rays, std::span<Answer> answers,
+template <class Answers, class Ask>
+void ask_in_packets(const PreparedData& data, std::span<const Ray> rays, const Answers& answers,
                     RayWorkspace& work, const Ask& ask) {
-  if (answers.size() < rays.size()) {
-    throw Error(ErrorCode::invalid_argument, "there are fewer places for answers than rays", "rays");
-  }
+  check_places(answers.size(), rays);
   QueryPacket packet(data, work);
   for (std::size_t first = 0; first < rays.size(); first += packet_size) {
     const std::size_t count = std::min(packet_size, rays.size() - first);
@@ -325,8 +369,9 @@ class RayQueries::State {
     validate(ray);
     return {scene_.data(), ray, work_};
   }
-  template <class Answer>
-  void intersect(std::span<const Ray> rays, std::span<Answer> answers) {
+  /// Into the places of std::optional<Hit>, PlainHit, or Distances.
+  template <class Answers>
+  void intersect(std::span<const Ray> rays, const Answers& answers) {
     const core::FloatEnvironment ieee;
     core::answered([&] {
       core::ask_in_packets(data(), rays, answers, work_,
@@ -367,8 +412,10 @@ void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) 
   state_->intersect(rays, hits);
 }
 
-void RayQueries::intersect(std::span<const Ray> rays, std::span<HitDistance> hits) {
-  state_->intersect(rays, hits);
+void RayQueries::distances(std::span<const Ray> rays, std::span<double> distances,
+                           std::span<std::uint32_t> entity_ids) {
+  if (!entity_ids.empty()) core::check_places(entity_ids.size(), rays);
+  state_->intersect(rays, core::Distances{distances, entity_ids});
 }
 
 void RayQueries::occluded(std::span<const Ray> rays, std::span<bool> occluded) {

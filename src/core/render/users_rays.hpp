@@ -118,7 +118,7 @@ inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lan
   const Lanes extent = largest_component(users.direction);
   const Lanes lengthen = power_of_two_below(extent);
   if (!all((extent >= 1 / longest) & (lengthen <= longest))) return false;
-  to_users_t = 1.0 / lengthen;
+  to_users_t = inverse_of_power(lengthen);
   rays.lines[group] = {users.origin, to_users_t * users.direction};
   rays.t_min[group] = lengthen * max(users.t_min, lanes_of(-largest));
   rays.t_max[group] = lengthen * min(users.t_max, lanes_of(largest));

@@ -37,7 +37,7 @@ bool any_surface_is_shared(const CompiledScene& scene) {
 
 /// More than what boxes grow by for Embree, and more than the roundings of places.
 double margin_of(const Bounds& total) {
-  constexpr double of_extent = 0x1p-20;
+  constexpr double of_extent = 0x1p-17;
   constexpr double of_place = 0x1p-40;
   const Vec3 extents = total.upper / 2.0 - total.lower / 2.0;
   return of_extent * largest_component(extents) + of_place * total.farthest();
@@ -58,6 +58,19 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
     }
   });
   return enclosed;
+}
+
+/// The balls that some objects are; none if one is something else.
+std::vector<Ball> balls_of(const Outlines& outlines) {
+  std::vector<Ball> balls;
+  if (outlines.list.size() <= BoxRow::most_boxes) return balls;
+  const auto is_ball = [](const Outline& outline) {
+    return outline.kind == Outline::Kind::sphere && outline.detail != nothing;
+  };
+  if (!std::all_of(outlines.list.begin(), outlines.list.end(), is_ball)) return balls;
+  balls.reserve(outlines.list.size());
+  for (const Outline& outline : outlines.list) balls.push_back({outline.place, outline.radius});
+  return balls;
 }
 
 }  // namespace
@@ -87,7 +100,7 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
   std::vector<Bounds> boxes;
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
-  tree_ = std::make_unique<EmbreeTree>(boxes, total);
+  tree_ = std::make_unique<EmbreeTree>(boxes, total, balls_of(bounded_));
   if (boxes.size() > BoxRow::most_boxes) return;
   for (Bounds& box : boxes) box = box.grown(margin_);
   box_row_ = BoxRow(boxes);

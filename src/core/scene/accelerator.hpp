@@ -34,6 +34,8 @@ class Accelerator {
   /// use after it. Hits of other rays stay as they are.
   void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits, Packets packets,
                     RayWorkspace& work) const;
+  /// See PreparedData::first_leaves().
+  bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
   /// Which of the rays; `starts` says what these start on.
   RayMask any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
                    RayWorkspace& work) const;
@@ -95,6 +97,10 @@ class Accelerator {
   void visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const;
   /// Whether there are so few boxes that all of them are looked at.
   bool has_box_row() const { return bounded_.list.size() <= BoxRow::most_boxes; }
+  /// Whether floats can tell what rays cross first.
+  bool knows_balls() const { return tree_ && !has_box_row() && tree_->knows_balls(); }
+  /// Whether that is all there is.
+  bool has_only_balls() const { return unbounded_.list.empty() && knows_balls(); }
   /// Whether some rays are to be followed as a packet.
   bool pay_together(const RayBatch& rays, RayMask some, Packets packets) const;
   template <class Kind>
@@ -106,6 +112,10 @@ class Accelerator {
   Bounds room_of(std::uint32_t object) const { return compiled_.objects[object].bounds.grown(margin_); }
   /// nearest_each() for rays whose hits are empty, as a packet.
   void nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
+                        RayWorkspace& work) const;
+  /// The same by floats first, where has_only_balls(), for rays that start in free space; also for hits that
+  /// hold something. Returns of which rays it is known; the hits of the others stay as they are.
+  RayMask nearest_balls(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                         RayWorkspace& work) const;
   RayHit nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const;
   /// Takes those of a batch's rays that start into solids which keep apart to where they leave these: what

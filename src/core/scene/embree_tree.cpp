@@ -4,6 +4,7 @@
 #include <array>
 #include <atomic>
 #include <bit>
+#include <cstring>
 #include <exception>
 #include <limits>
 #include <string>
@@ -16,6 +17,7 @@
 #include "core/csg/ray_slabs.hpp"
 #include "core/geometry/object_ray.hpp"
 #include "core/math/vector.hpp"
+#include "core/scene/ball_search.hpp"
 #include "core/scene/embree_compat.hpp"
 #include "core/scene/embree_floats.hpp"
 #include "crt/error.hpp"
@@ -26,10 +28,15 @@ namespace {
 
 constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
-/// How much boxes grow, in units in which the whole scene's half extent is between 1/2 and 1.
-/// A ray's origin and direction are rounded to floats for Embree: 2^-25 an axis for the origin
-/// (below 1 in magnitude) and 2^-25 for each unit of the way, at most 2 sqrt(3) long.
-constexpr double box_margin = 0x1p-22;
+/// How much boxes grow by, in units in which the whole scene's half extent is between 1/2 and 1: as much as
+/// roundings may put a ray next to where it is, u = 2^-24 being a float's.
+///
+/// Embree gets the ray's start o and direction d as floats, which moves its points by u and, for each unit of
+/// the way, by u again: rays start within 2 of the middle, so that is 9 u. It finds where they meet the plane
+/// x = l at l r - o r, with r = 1 / d known to 4 u (a processor's estimate, and a step of Newton's method):
+/// another 2 u for the product and 5 u of |l - o| < 3. RTC_SCENE_FLAG_ROBUST, which would spare the latter,
+/// makes no difference to boxes of users (Embree 3.13).
+constexpr double box_margin = 0x1p-19;  // 32 u
 
 /// And by more than rays' starts may be off what they are on, relative to their coordinates: beside a scene
 /// that is far from the origin that is no small part of it.
@@ -69,8 +76,10 @@ void check(RTCDevice device) {
 
 /// What the callbacks get of Embree: the context is the first member, so that the two have one address.
 struct AnyTraversal {
+  enum class Kind { of_ray, of_packet, among_balls };
+
   EmbreeContext context;
-  bool of_packet = false;
+  Kind kind = Kind::of_ray;
 };
 
 /// A ray on its way.
@@ -87,18 +96,30 @@ struct Traversal {
 
 /// A packet's likewise.
 struct PacketTraversal {
-  AnyTraversal any{.context = {}, .of_packet = true};
+  AnyTraversal any{.context = {}, .kind = AnyTraversal::Kind::of_packet};
   PacketVisitor* visitor = nullptr;
   const RayPacket* packet = nullptr;
-  std::array<Lanes, RayPacket::group_count> t_start;
+  std::array<Lanes, RayPacket::group_count> t_start{};
   double scale = 1;
-  std::exception_ptr failure;
+  std::exception_ptr failure{};
 
   FloatLanes far_ends(std::size_t group) const {
     const Lanes& start = t_start[group];
     const Lanes& limit = packet->limits[group];
     const auto is_over = __builtin_convertvector(limit < start, IntLanes);
     return is_over ? FloatLanes{} - float_infinity : round_up_length((limit - start) * scale);
+  }
+};
+
+/// A packet's whose rays are looked for by floats alone.
+struct BallTraversal {
+  AnyTraversal any;
+  std::size_t first_ray;  ///< of the packet, that the search has as its first
+  BallSearch search;
+
+  explicit BallTraversal(std::size_t first) : first_ray(first) {
+    init_context(any.context);
+    any.kind = AnyTraversal::Kind::among_balls;
   }
 };
 
@@ -121,8 +142,14 @@ bool count_memory(void* embree_bytes, ssize_t bytes, bool /*done*/) {
   return true;
 }
 
+/// What Embree's geometry is of.
+struct Things {
+  std::vector<RTCBounds> boxes;  ///< until Embree has built its tree
+  std::vector<FloatBall> balls;
+};
+
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  *arguments->bounds_o = static_cast<const RTCBounds*>(arguments->geometryUserPtr)[arguments->primID];
+  *arguments->bounds_o = static_cast<const Things*>(arguments->geometryUserPtr)->boxes[arguments->primID];
 }
 
 /// Embree calls with a packet, with a part of it that has whole groups, or with a single ray of it.
@@ -168,12 +195,56 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
   if (valid[0] != 0) ray.tfar = std::min(ray.tfar, visit_box(context, box));
 }
 
+/// Rays of a packet come to a ball.
+void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) {
+  auto& [any, first_ray, search] = *reinterpret_cast<BallTraversal*>(arguments.context);
+  const unsigned count = arguments.N;
+  const FloatBall& ball = static_cast<const Things*>(arguments.geometryUserPtr)->balls[arguments.primID];
+  const auto meet_octets = [&](auto& of_part) {
+    for (std::size_t first = 0; first < std::size(of_part.tfar); first += octet_size) {
+      const FloatRays octet{
+          .origin = {&of_part.org_x[first], &of_part.org_y[first], &of_part.org_z[first]},
+          .direction = {&of_part.dir_x[first], &of_part.dir_y[first], &of_part.dir_z[first]},
+          .end = &of_part.tfar[first]};
+      search.meet(ball, arguments.primID, first, octet_at<OctetMask>(arguments.valid + first), octet);
+    }
+  };
+  if (count == packet_size) return meet_octets(*reinterpret_cast<RTCRay16*>(rays));
+  if (count == octet_size) return meet_octets(*reinterpret_cast<RTCRay8*>(rays));
+  for (unsigned i = 0; i < count; ++i) {
+    if (arguments.valid[i] == 0) continue;
+    // One ray among others that are not looked at.
+    const std::size_t ray = RTCRayN_id(rays, count, i) - first_ray;
+    const std::size_t first = ray - ray % octet_size;
+    std::array<std::array<float, octet_size>, 7> columns;
+    const auto column = [&](std::size_t index, float value) {
+      columns[index].fill(value);
+      return columns[index].data();
+    };
+    const FloatRays octet{
+        .origin = {column(0, RTCRayN_org_x(rays, count, i)), column(1, RTCRayN_org_y(rays, count, i)),
+                   column(2, RTCRayN_org_z(rays, count, i))},
+        .direction = {column(3, RTCRayN_dir_x(rays, count, i)), column(4, RTCRayN_dir_y(rays, count, i)),
+                      column(5, RTCRayN_dir_z(rays, count, i))},
+        .end = column(6, RTCRayN_tfar(rays, count, i))};
+    OctetMask only{};
+    only[ray % octet_size] = -1;
+    search.meet(ball, arguments.primID, first, only, octet);
+    RTCRayN_tfar(rays, count, i) = columns[6][ray % octet_size];
+  }
+}
+
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
+  using Kind = AnyTraversal::Kind;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
-  if (reinterpret_cast<const AnyTraversal*>(arguments->context)->of_packet) {
-    visit_box(arguments->context, arguments->primID, arguments->valid, rays, arguments->N);
-  } else {
-    visit_box(arguments->context, arguments->primID, arguments->valid, *reinterpret_cast<RTCRay*>(rays));
+  switch (reinterpret_cast<const AnyTraversal*>(arguments->context)->kind) {
+    case Kind::among_balls:
+      return visit_ball(*arguments, rays);
+    case Kind::of_packet:
+      return visit_box(arguments->context, arguments->primID, arguments->valid, rays, arguments->N);
+    case Kind::of_ray:
+      return visit_box(arguments->context, arguments->primID, arguments->valid,
+                       *reinterpret_cast<RTCRay*>(rays));
   }
 }
 
@@ -183,13 +254,30 @@ void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
             *reinterpret_cast<RTCRay*>(arguments->ray));
 }
 
+/// None if most of them are so small that floats hardly know them.
+std::vector<FloatBall> float_balls(std::span<const Ball> balls, const Vec3& center, double scale) {
+  constexpr double smallest = 0x1p-12;
+  const auto is_small = [&](const Ball& ball) { return ball.radius * scale < smallest; };
+  const auto small_balls = std::count_if(balls.begin(), balls.end(), is_small);
+  std::vector<FloatBall> floats;
+  if (static_cast<std::size_t>(small_balls) > balls.size() / 8) return floats;
+  floats.reserve(balls.size());
+  const auto to_float = [](double value) { return static_cast<float>(value); };
+  for (const Ball& ball : balls) {
+    const Vec3 place = (ball.center - center) * scale;
+    floats.push_back(
+        {{to_float(place.x), to_float(place.y), to_float(place.z)}, to_float(ball.radius * scale)});
+  }
+  return floats;
+}
+
 }  // namespace
 
 struct EmbreeTree::Handles {
   std::atomic<std::int64_t> embree_bytes = 0;
   RTCDevice device = nullptr;
   RTCScene scene = nullptr;
-  std::vector<RTCBounds> boxes;
+  Things things;
   bool takes_sixteen = false;  ///< rays at once, without taking them one by one
 
   ~Handles() {
@@ -198,7 +286,7 @@ struct EmbreeTree::Handles {
   }
 };
 
-EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
@@ -217,7 +305,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
 #endif
   if (handles->device == nullptr) fail(rtcGetDeviceError(nullptr));
   rtcSetDeviceMemoryMonitorFunction(handles->device, count_memory, &handles->embree_bytes);
-  handles->boxes.reserve(boxes.size());
+  std::vector<RTCBounds>& floats = handles->things.boxes;
+  floats.reserve(boxes.size());
   for (const Bounds& box : boxes) {
     const auto lower = [&](int axis) {
       return round_down((box.lower[axis] - center_[axis]) * scale_ - margin);
@@ -225,13 +314,12 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
     const auto upper = [&](int axis) {
       return round_up((box.upper[axis] - center_[axis]) * scale_ + margin);
     };
-    handles->boxes.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
+    floats.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
   }
   handles->scene = rtcNewScene(handles->device);
-  rtcSetSceneFlags(handles->scene, RTC_SCENE_FLAG_ROBUST);
   RTCGeometry geometry = rtcNewGeometry(handles->device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
-  rtcSetGeometryUserData(geometry, handles->boxes.data());
+  rtcSetGeometryUserData(geometry, &handles->things);
   rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
   rtcSetGeometryIntersectFunction(geometry, intersect_callback);
   rtcSetGeometryOccludedFunction(geometry, occluded_callback);
@@ -240,6 +328,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
   rtcReleaseGeometry(geometry);
   build(handles->scene, boxes.size());
   check(handles->device);
+  floats = {};
+  handles->things.balls = float_balls(balls, center_, scale_);
   handles->takes_sixteen =
       rtcGetDeviceProperty(handles->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   handles_ = std::move(handles);
@@ -248,7 +338,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total) {
 EmbreeTree::~EmbreeTree() = default;
 
 std::uint64_t EmbreeTree::bytes() const {
-  return static_cast<std::uint64_t>(handles_->embree_bytes) + handles_->boxes.capacity() * sizeof(RTCBounds);
+  return static_cast<std::uint64_t>(handles_->embree_bytes) +
+         handles_->things.balls.capacity() * sizeof(FloatBall);
 }
 
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
@@ -298,69 +389,169 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
 
 void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
   if (handles_->takes_sixteen) {
-    traverse_part<RTCRayHit16, packet_size>(packet, rays, 0, visitor);
+    traverse_part<RTCRayHit16>(packet, rays, 0, visitor);
     return;
   }
-  constexpr std::size_t half = packet_size / 2;
-  traverse_part<RTCRayHit8, half>(packet, rays, 0, visitor);
-  traverse_part<RTCRayHit8, half>(packet, rays, half, visitor);
+  traverse_part<RTCRayHit8>(packet, rays, 0, visitor);
+  traverse_part<RTCRayHit8>(packet, rays, packet_size / 2, visitor);
 }
 
-template <class RayHits, std::size_t Count>
+bool EmbreeTree::knows_balls() const {
+  return !handles_->things.balls.empty();
+}
+
+FirstBalls EmbreeTree::first_balls(const RayBatch& rays, const RayBatch::Numbers& limits,
+                                   RayMask some) const {
+  FirstBalls known;
+  if (handles_->takes_sixteen) {
+    find_first_balls<RTCRayHit16>(rays, limits, some, 0, known);
+  } else {
+    find_first_balls<RTCRayHit8>(rays, limits, some, 0, known);
+    find_first_balls<RTCRayHit8>(rays, limits, some, packet_size / 2, known);
+  }
+  return known;
+}
+
+/// Where Embree's rays of a group start, and end.
+struct EmbreeTree::Entry {
+  Lanes start;        ///< t there
+  Lanes end;          ///< and t where they end
+  VectorLanes place;  ///< where they start, in Embree's units
+  RayMask coming;     ///< those that come to the box around all
+  RayMask near;       ///< among balls: that start where BallSearch takes them
+};
+
+/// Some rays of a packet as Embree takes them.
+template <class RayHits>
+struct EmbreeTree::Part {
+  static constexpr std::size_t count = sizeof(RayHits::ray.tfar) / sizeof(float);
+
+  std::size_t first_ray;  ///< of the packet
+  RayHits ray_hits;
+  alignas(64) std::array<int, count> valid{};
+  RayBatch::Numbers t_start;  ///< t where Embree's rays start, by the packet's groups
+  RayMask followed = 0;       ///< of the packet
+
+  explicit Part(std::size_t first) : first_ray(first) {}
+
+  /// put(group, lanes) of each group that is in the part.
+  template <class Put>
+  void fill(RayMask rays, const Put& put) {
+    for (std::size_t first = 0; first < count; first += lane_count) {
+      const std::size_t group = (first_ray + first) / lane_count;
+      const RayMask lanes = RayPacket::lanes(rays, group);
+      if (lanes != 0) put(group, lanes);
+    }
+    if (followed == 0) return;
+    for (std::size_t ray = 0; ray < count; ++ray) {
+      ray_hits.ray.tnear[ray] = 0;
+      ray_hits.ray.time[ray] = 0;
+      ray_hits.ray.mask[ray] = ~0u;
+      ray_hits.ray.id[ray] = static_cast<unsigned>(first_ray + ray);
+      ray_hits.ray.flags[ray] = 0;
+      ray_hits.hit.geomID[ray] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+
+  /// Some lanes of a group.
+  void put(std::size_t group, RayMask lanes, const Entry& entry, const VectorLanes& direction, double scale) {
+    const std::size_t first = group * lane_count - first_ray;
+    auto& to_trace = ray_hits.ray;
+    followed |= lanes << (group * lane_count);
+    t_start[group] = entry.start;
+    put_lanes(int_lanes_with(lanes), valid, first);
+    put_lanes(to_floats(entry.place.x), to_trace.org_x, first);
+    put_lanes(to_floats(entry.place.y), to_trace.org_y, first);
+    put_lanes(to_floats(entry.place.z), to_trace.org_z, first);
+    put_lanes(direction_floats(direction.x), to_trace.dir_x, first);
+    put_lanes(direction_floats(direction.y), to_trace.dir_y, first);
+    put_lanes(direction_floats(direction.z), to_trace.dir_z, first);
+    put_lanes(round_up_length((entry.end - entry.start) * scale), to_trace.tfar, first);
+  }
+};
+
+inline void EmbreeTree::enter(const OutlineLine<Lanes>& lines, const Lanes& limits, RayMask lanes,
+                              Entry& entry) const {
+  const LineSpanLanes inside = RaySlabs::spans(lines, total_, lanes);
+  entry.start = max(lines.begin, inside.enter);
+  entry.end = min(limits, inside.leave);
+  const VectorLanes place = plain_ray(lines).from_center(center_, entry.start);
+  const Lanes far = lanes_of(farthest_place);
+  for (int axis = 0; axis < 3; ++axis) entry.place[axis] = clamp(place[axis] * scale_, -far, far);
+  entry.coming = lanes & mask_of(entry.start <= entry.end);
+}
+
+template <class RayHits>
 void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                                PacketVisitor& visitor) const {
-  PacketTraversal traversal;
-  init_context(traversal.any.context);
-  traversal.visitor = &visitor;
-  traversal.packet = &packet;
-  traversal.scale = scale_;
-
-  RayHits ray_hits;
-  auto& to_trace = ray_hits.ray;
-  alignas(64) std::array<int, Count> valid;
-  bool some = false;
-  for (std::size_t first = 0; first < Count; first += lane_count) {
-    const std::size_t group = (first_ray + first) / lane_count;
-    const RayMask lanes = RayPacket::lanes(rays, group);
-    if (lanes == 0) {
-      put_lanes(IntLanes{}, valid, first);
-      continue;
-    }
+  Part<RayHits> part(first_ray);
+  part.fill(rays, [&](std::size_t group, RayMask lanes) {
     const OutlineLine<Lanes>& lines = packet.groups[group];
-    const LineSpanLanes inside = RaySlabs::spans(lines, total_, lanes);
-    const Lanes start = max(lines.begin, inside.enter);
-    const Lanes end = min(packet.limits[group], inside.leave);
-    const RayMask meeting = lanes & mask_of(start <= end);
-    some = some || meeting != 0;
-    traversal.t_start[group] = start;
-    // As ObjectRay::from_center() has it.
-    std::array<Lanes, 3> place;
-    for (std::size_t axis = 0; axis < 3; ++axis) {
-      const DoubleDoubleLanes offset =
-          two_sum(lines.origin[axis], lanes_of(-center_[static_cast<int>(axis)]));
-      const Lanes at = (fma(start, lines.direction[axis], offset.hi) + offset.lo) * scale_;
-      place[axis] = max(min(at, lanes_of(farthest_place)), lanes_of(-farthest_place));
-    }
-    put_lanes(__builtin_convertvector(lanes_with(meeting), IntLanes), valid, first);
-    put_lanes(to_floats(place[0]), to_trace.org_x, first);
-    put_lanes(to_floats(place[1]), to_trace.org_y, first);
-    put_lanes(to_floats(place[2]), to_trace.org_z, first);
-    put_lanes(direction_floats(lines.direction[0]), to_trace.dir_x, first);
-    put_lanes(direction_floats(lines.direction[1]), to_trace.dir_y, first);
-    put_lanes(direction_floats(lines.direction[2]), to_trace.dir_z, first);
-    put_lanes(round_up_length((end - start) * scale_), to_trace.tfar, first);
-  }
-  if (!some) return;
-  for (std::size_t ray = 0; ray < Count; ++ray) {
-    to_trace.tnear[ray] = 0;
-    to_trace.time[ray] = 0;
-    to_trace.mask[ray] = ~0u;
-    to_trace.id[ray] = static_cast<unsigned>(first_ray + ray);
-    to_trace.flags[ray] = 0;
-    ray_hits.hit.geomID[ray] = RTC_INVALID_GEOMETRY_ID;
-  }
-  embree_intersect(handles_->scene, traversal.any.context, valid.data(), ray_hits);
+    Entry entry;
+    enter(lines, packet.limits[group], lanes, entry);
+    part.put(group, entry.coming, entry, plain_ray(lines).direction, scale_);
+  });
+  if (part.followed == 0) return;
+  PacketTraversal traversal{.visitor = &visitor, .packet = &packet, .t_start = part.t_start, .scale = scale_};
+  init_context(traversal.any.context);
+  embree_intersect(handles_->scene, traversal.any.context, part.valid.data(), part.ray_hits);
   if (traversal.failure) std::rethrow_exception(traversal.failure);
+}
+
+/// Rays that start near enough are not moved to the box around all.
+inline void EmbreeTree::enter_among_balls(const RayBatch& rays, const RayBatch::Numbers& limits,
+                                          std::size_t group, RayMask lanes, Entry& entry) const {
+  const RayLanes& lines = rays.lines[group];
+  const Lanes& begin = rays.t_min[group];
+  for (int axis = 0; axis < 3; ++axis) {
+    entry.place[axis] = (lines.origin[axis] - center_[axis] + begin * lines.direction[axis]) * scale_;
+  }
+  entry.near = lanes & mask_of(BallSearch::is_near(entry.place, begin * scale_));
+  if (entry.near == lanes) {
+    entry.start = begin;
+    entry.end = min(limits[group], begin + BallSearch::farthest * (1 / scale_));
+    entry.coming = lanes & mask_of(begin <= entry.end);
+    return;
+  }
+  OutlineLine<Lanes> line;
+  line.origin = {lines.origin.x, lines.origin.y, lines.origin.z};
+  line.direction = {lines.direction.x, lines.direction.y, lines.direction.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
+  line.begin = begin;
+  enter(line, limits[group], lanes, entry);
+  entry.near = lanes & mask_of(BallSearch::is_near(entry.place, entry.start * scale_));
+}
+
+template <class RayHits>
+void EmbreeTree::find_first_balls(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some,
+                                  std::size_t first_ray, FirstBalls& known) const {
+  Part<RayHits> part(first_ray);
+  BallTraversal traversal(first_ray);
+  BallSearch& search = traversal.search;
+  part.fill(some, [&](std::size_t group, RayMask lanes) {
+    const VectorLanes& direction = rays.lines[group].direction;
+    Entry entry;
+    enter_among_balls(rays, limits, group, lanes, entry);
+    known.missing |= (lanes & ~entry.coming) << (group * lane_count);
+    const Lanes squared_speed = dot(direction, direction);
+    search.set_squared_speeds(group * lane_count - first_ray, to_floats(squared_speed));
+    const LaneMask is_plain = BallSearch::is_plain(squared_speed) & (rays.start_errors[group] == 0.0);
+    part.put(group, entry.coming & entry.near & mask_of(is_plain), entry, direction, scale_);
+  });
+  if (part.followed == 0) return;
+  embree_intersect(handles_->scene, traversal.any.context, part.valid.data(), part.ray_hits);
+
+  const auto& ends = part.ray_hits.ray.tfar;
+  const BallSearch::Outcome outcome = search.outcome(ends);
+  const RayMask known_rays = part.followed & outcome.known << first_ray;
+  const RayMask meeting = outcome.meeting << first_ray;
+  known.meeting |= known_rays & meeting;
+  known.missing |= known_rays & ~meeting;
+  std::memcpy(&known.boxes[first_ray], search.first().data(), part.count * sizeof(std::uint32_t));
+  for (std::size_t first = 0; first < part.count; first += lane_count) {
+    const std::size_t group = (first_ray + first) / lane_count;
+    known.to[group] = part.t_start[group] + to_doubles(lanes_at<FloatLanes>(&ends[first])) * (1 / scale_);
+  }
 }
 
 }  // namespace crt::core

@@ -28,13 +28,29 @@ class PacketVisitor {
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
 };
 
+/// A ball that is all there is in its box.
+struct Ball {
+  Vec3 center;
+  double radius;
+};
+
+/// What floats tell of rays among balls. Of those that are in neither mask nothing is known.
+struct FirstBalls {
+  RayMask meeting = 0;  ///< cross a ball, if they go on as far as that, and nothing else before
+  RayMask missing = 0;  ///< cross nothing
+  // Of those that meet a ball:
+  std::array<std::uint32_t, packet_size> boxes;  ///< its box
+  std::array<Lanes, RayBatch::group_count> to;   ///< up to this t there is nothing else
+};
+
 /// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved
 /// and scaled by a power of two to around 1, and grown by more than all roundings on the way: it
 /// decides nothing, it only spares tests. The scene's own size and place never matter.
 class EmbreeTree {
  public:
-  /// All boxes must be finite; `total` is the box around them.
-  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total);
+  /// All boxes must be finite; `total` is the box around them. `balls` are what is in the boxes, if there is
+  /// a ball in each; else none.
+  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls);
   ~EmbreeTree();
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
@@ -80,12 +96,27 @@ class EmbreeTree {
     traverse(packet, rays, static_cast<PacketVisitor&>(caller));
   }
 
+  /// Whether first_balls() may be asked: all boxes hold balls, most of them large enough for floats.
+  bool knows_balls() const;
+  /// Which balls some rays cross first, up to their limits. They must start on none.
+  FirstBalls first_balls(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some) const;
+
  private:
   struct Handles;
+  struct Entry;
+  template <class RayHits>
+  struct Part;
 
-  template <class RayHits, std::size_t Count>
+  /// Those of a group's rays that are asked for.
+  void enter(const OutlineLine<Lanes>& lines, const Lanes& limits, RayMask lanes, Entry& entry) const;
+  void enter_among_balls(const RayBatch& rays, const RayBatch::Numbers& limits, std::size_t group,
+                         RayMask lanes, Entry& entry) const;
+  template <class RayHits>
   void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                      PacketVisitor& visitor) const;
+  template <class RayHits>
+  void find_first_balls(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some,
+                        std::size_t first_ray, FirstBalls& known) const;
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

@@ -54,13 +54,6 @@ auto after_start(const OutlineLine<Real>& line, const Real& t, const Real& error
                           .unknown = both(after, neither(clear, way <= line.start_error))};
 }
 
-template <class Real>
-PlainRay<Real> plain_ray(const OutlineLine<Real>& line) {
-  const auto& o = line.origin;
-  const auto& d = line.direction;
-  return {.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}};
-}
-
 /// Of a sphere that is not moved.
 template <class Real>
 SphereChord<Real> chord_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
@@ -79,13 +72,14 @@ std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, co
                          ? chord_of_sphere(sphere, line)
                          : chord_of_moved_sphere(outlines.axis(sphere), line);
   if (!any(chord.found)) return {};
-  const auto of_end = [&](const typename SphereChord<Real>::End& end, const MaskOf<Real>& entering) {
-    const auto start = after_start(line, end.t, end.error);
+  const auto of_end = [&](const Real& t, const MaskOf<Real>& entering) {
+    const Real error = chord.error_of(t);
+    const auto start = after_start(line, t, error);
     return FirstCrossing<Real>{.found = both(chord.found, start.surely),
                                .unknown = both(chord.found, start.unknown),
                                .entering = entering,
-                               .t = end.t,
-                               .error = end.error};
+                               .t = t,
+                               .error = error};
   };
   return {of_end(chord.enter, lanes_of_mask<Real>(~std::uint32_t{0})), of_end(chord.leave, MaskOf<Real>{})};
 }
@@ -217,8 +211,8 @@ FirstCrossing<Real> crossing_of_change(const CsgSketch& sketch, std::uint32_t le
   const CsgSketch::Sphere& sphere = *sketch.sphere(leaf);
   const double unit = power_of_two_below(sphere.radius);
   const auto chord = SphereChord<Real>::of(plain_ray(line), sphere.center, sphere.radius, unit);
-  const auto& end = into_leaf ? chord.enter : chord.leave;
-  return {.found = chord.found, .t = end.t, .error = end.error};
+  const Real& t = into_leaf ? chord.enter : chord.leave;
+  return {.found = chord.found, .t = t, .error = chord.error_of(t)};
 }
 
 /// Whether a line is within a box at t.

@@ -20,8 +20,14 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, Answers
       tests.test(outline, unbounded_, tests.going());
     }
   }
-  if (tests.going() != 0) {
-    visit_boxes<!Answers::any_will_do>(packet, tests.going(), [&](std::uint32_t box, RayMask rays) {
+  RayMask open = tests.going();
+  if constexpr (!Answers::any_will_do) {
+    if (open != 0 && knows_balls() && packet.starts.on_surface == 0) {
+      open &= ~tests.take_balls(tree_->first_balls(answers.rays, packet.limits, open), bounded_);
+    }
+  }
+  if (open != 0) {
+    visit_boxes<!Answers::any_will_do>(packet, open, [&](std::uint32_t box, RayMask rays) {
       return tests.test(bounded_.list[box], bounded_, rays);
     });
   }
@@ -136,6 +142,48 @@ RayMask Accelerator::leave_apart(const RayBatch& rays, RayMask some, std::span<R
   return done;
 }
 
+bool Accelerator::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
+  if (!has_only_balls() || (some & rays.with_starts) != 0 || !go_together(rays, some)) return false;
+  const FirstBalls balls = tree_->first_balls(rays, rays.t_max, some);
+  const BallCrossings crossings(balls, bounded_, rays);
+  if ((some & ~balls.missing & ~crossings.known()) != 0) return false;
+  RayPacket::for_each_group(crossings.known(), [&](std::size_t group, RayMask lanes) {
+    const Lanes& t = crossings.t(group);
+    first.found |= (lanes & mask_of(t < rays.t_max[group])) << (group * lane_count);
+    first.t[group] = t;
+    for (std::size_t i = group * lane_count; i < (group + 1) * lane_count; ++i) {
+      first.leaves[i] = crossings.leaf(i);
+    }
+  });
+  first.entering = crossings.entering();
+  return true;
+}
+
+RayMask Accelerator::nearest_balls(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
+                                   RayWorkspace& work) const {
+  const FirstBalls balls = tree_->first_balls(rays, rays.t_max, some);
+  const BallCrossings crossings(balls, bounded_, rays);
+  const RayMask known = balls.missing | crossings.known();
+  for (std::size_t group = 0; group < RayBatch::group_count; ++group) {
+    const std::size_t first = group * lane_count;
+    const RayMask lanes = RayPacket::lanes(known, group);
+    RayMask found = RayPacket::lanes(crossings.known(), group);
+    if (found == 0) {
+      for_each_ray(lanes, [&](std::size_t lane) { hits[first + lane] = {}; });
+      continue;
+    }
+    found &= mask_of(crossings.t(group) < rays.t_max[group]);
+    if (lanes == RayPacket::group_mask) {
+      crossings.write(group, found, hits.subspan(first).first<lane_count>());
+    } else {
+      for_each_ray(lanes & ~found, [&](std::size_t lane) { hits[first + lane] = {}; });
+      for_each_ray(found, [&](std::size_t lane) { crossings.write(first + lane, hits[first + lane]); });
+    }
+  }
+  work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
+  return known;
+}
+
 void Accelerator::nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                                    RayWorkspace& work) const {
   const PacketStarts starts = noted_starts(rays, some);
@@ -155,6 +203,9 @@ bool Accelerator::pay_together(const RayBatch& rays, RayMask some, Packets packe
 
 void Accelerator::nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                                Packets packets, RayWorkspace& work) const {
+  if (has_only_balls() && (some & rays.with_starts) == 0 && pay_together(rays, some, packets)) {
+    some &= ~nearest_balls(rays, some, hits, work);
+  }
   for_each_ray(some, [&](std::size_t i) { hits[i] = {}; });
   const RayMask open = some & ~leave_apart(rays, some, hits, work);
   if (pay_together(rays, open, packets)) {

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "core/scene/all_crossings.hpp"
+#include "core/scene/ball_crossings.hpp"
 #include "core/scene/first_crossing.hpp"
 #include "core/scene/nearest_and_any.hpp"
 #include "core/scene/outlined_rays.hpp"
@@ -116,6 +117,21 @@ class PacketTests {
     return changed_;
   }
 
+  /// Takes the balls that rays cross first, as far as floats tell which. Returns of which rays that is known.
+  RayMask take_balls(const FirstBalls& balls, const Outlines& outlines) {
+    const BallCrossings crossings(balls, outlines, answers_.rays);
+    RayPacket::for_each_group(crossings.known(), [&](std::size_t group, RayMask known) {
+      const std::size_t first = group * lane_count;
+      const Lanes& t = crossings.t(group);
+      take_best(
+          group, t, crossings.reach(group), known & mask_of(t <= packet_.limits[group]),
+          [&](std::size_t lane) { return crossings.object(first + lane); },
+          [&](std::size_t lane, RayHit& hit) { crossings.write(first + lane, hit); });
+    });
+    answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
+    return balls.missing | crossings.known();
+  }
+
   /// A plane that is met bounds what else matters.
   void limit_by(const Outline& plane, const Outlines& outlines) {
     std::array<Lanes, RayPacket::group_count> last;
@@ -193,21 +209,29 @@ class PacketTests {
         ask(first_ray + lane, [&](Any& query) { query.take(hit); });
       });
     } else {
-      Lanes& limits = packet_.limits[group];
-      found &= mask_of(first.t < answers_.rays.t_max[group]);
       const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
-      RayMask best = 0;
-      for_each_ray(found, [&](std::size_t lane) {
-        const auto i = static_cast<int>(lane);
-        const bool is_best = Nearest::take(answers_.hits[first_ray + lane], first.t[i], 0, object, reach[i],
-                                           [&](RayHit& hit) { write(lane, hit); });
-        best |= static_cast<RayMask>(is_best) << lane;
-      });
-      // After the rays' starts, so that they go on.
-      const LaneMask nearer = both(lanes_with(best), reach < limits);
-      limits = nearer ? reach : limits;
-      changed_ |= mask_of(nearer) << first_ray;
+      take_best(
+          group, first.t, reach, found, [object](std::size_t) { return object; }, write);
     }
+  }
+
+  /// The same of nearest crossings, each of object_of(lane) and with company up to `reach`, if there is any.
+  template <class ObjectOf, class Write>
+  void take_best(std::size_t group, const Lanes& t, const Lanes& reach, RayMask found,
+                 const ObjectOf& object_of, const Write& write) {
+    Lanes& limits = packet_.limits[group];
+    const std::size_t first_ray = group * lane_count;
+    RayMask best = 0;
+    for_each_ray(found & mask_of(t < answers_.rays.t_max[group]), [&](std::size_t lane) {
+      const auto i = static_cast<int>(lane);
+      const bool is_best = Nearest::take(answers_.hits[first_ray + lane], t[i], 0, object_of(lane), reach[i],
+                                         [&](RayHit& hit) { write(lane, hit); });
+      best |= static_cast<RayMask>(is_best) << lane;
+    });
+    // After the rays' starts, so that they go on.
+    const LaneMask nearer = both(lanes_with(best), reach < limits);
+    limits = nearer ? reach : limits;
+    changed_ |= mask_of(nearer) << first_ray;
   }
 
   /// Gathers all crossings with an object, of which not all is opaque.

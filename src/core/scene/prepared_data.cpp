@@ -126,6 +126,10 @@ bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
   return accelerator_->any(ray, work);
 }
 
+bool PreparedData::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
+  return accelerator_->first_leaves(rays, some, first);
+}
+
 void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                                   RayWorkspace& work, Packets packets) const {
   accelerator_->nearest_each(rays, some, hits, packets, work);

@@ -93,6 +93,14 @@ struct RayWorkspace {
   std::uint64_t escalations() const { return leaf_escalations + csg.escalations; }
 };
 
+/// The nearest crossings of a batch's rays, without what else a hit tells.
+struct FirstLeaves {
+  RayMask found = 0;     ///< of the others nothing here means anything
+  RayMask entering = 0;  ///< as RayHit has it
+  RayBatch::Numbers t;
+  std::array<std::uint32_t, packet_size> leaves;
+};
+
 /// Which things let no light through.
 struct Opacity {
   std::vector<bool> of_materials;
@@ -124,6 +132,9 @@ class PreparedData {
   /// use after it. Hits of other rays stay as they are.
   void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                       RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
+  /// How far the nearest crossings of some of a batch are, and of which leaves; if that can be told in less
+  /// time. Else false.
+  bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
   /// Lets memory fetch beforehand what it takes to tell of such hits; of some of them.
   void expect_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
@@ -198,6 +209,11 @@ class PreparedData {
 
   /// The user's number of what a hit is of.
   std::uint32_t entity_id(const RayHit& hit) const { return entity_ids_[hit.leaf]; }
+
+  /// The same of its leaf; of none any, if there are entities. Without a branch.
+  std::uint32_t entity_id_or_any(std::uint32_t leaf) const {
+    return entity_ids_[leaf < entity_ids_.size() ? leaf : 0];
+  }
 
   /// Whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const { return leaves_[hit.leaf].of_solid; }

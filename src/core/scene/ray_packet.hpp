@@ -48,12 +48,16 @@ struct PacketStarts {
 /// Up to packet_size rays by component. A mask that comes with them says which of them there are; the others
 /// may hold anything.
 struct RayBatch {
-  std::array<RayLanes, packet_size / lane_count> lines;
-  std::array<Lanes, packet_size / lane_count> t_min{};
-  std::array<Lanes, packet_size / lane_count> t_max;         ///< infinity unless it is set
-  std::array<Lanes, packet_size / lane_count> start_errors;  ///< StartPoint::t_error
-  std::array<Lanes, packet_size / lane_count> end_errors{};  ///< as in WorldRay
-  RayMask with_starts = 0;                                   ///< the others start in free space
+  static constexpr std::size_t group_count = packet_size / lane_count;
+  /// One for each ray.
+  using Numbers = std::array<Lanes, group_count>;
+
+  std::array<RayLanes, group_count> lines;
+  Numbers t_min{};
+  Numbers t_max;            ///< infinity unless it is set
+  Numbers start_errors;     ///< StartPoint::t_error
+  Numbers end_errors{};     ///< as in WorldRay
+  RayMask with_starts = 0;  ///< the others start in free space
   std::array<StartPoint, packet_size> starts;
 
   RayBatch() { t_max.fill(lanes_of(std::numeric_limits<double>::infinity())); }
