@@ -1,0 +1,241 @@
+// Queries of several rays, answered together.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <span>
+
+#include "core/render/users_rays.hpp"
+#include "core/scene/hit_faces.hpp"
+#include "core/scene/prepared_data.hpp"
+#include "crt/query.hpp"
+
+namespace crt::core {
+
+/// At the user's t; where that is in the world a HitPoint says or a SurfacePoint.
+template <class Point>
+Hit described(double t, const Point& point, std::uint32_t entity_id, bool entering) {
+  return {.t = t,
+          .position = point.position,
+          .normal = point.normal,
+          .u = point.u,
+          .v = point.v,
+          .entity_id = entity_id,
+          .entering = entering};
+}
+
+/// Where distances are told, and of what, if anybody asks.
+struct Distances {
+  std::span<double> t;
+  std::span<std::uint32_t> ids;
+
+  std::size_t size() const { return t.size(); }
+  Distances subspan(std::size_t first, std::size_t count) const {
+    return {t.subspan(first, count), ids.empty() ? ids : ids.subspan(first, count)};
+  }
+};
+
+/// Up to packet_size queries at a time, asked together if they go nearly the same way.
+class QueryPacket {
+ public:
+  QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {}
+
+  /// `next` are to be taken after them: they come from memory meanwhile.
+  void take(std::span<const Ray> rays, std::span<const Ray> next) {
+    count_ = rays.size();
+    rays_.with_starts = 0;
+    std::size_t done = 0;
+    for (; done + lane_count <= count_; done += lane_count) {
+      // As many as are taken: all at once would be more than can be on their way.
+      const std::size_t end = std::min(next.size(), done + lane_count);
+      for (std::size_t i = done; i < end; ++i) __builtin_prefetch(&next[i]);
+      const auto group = rays.subspan(done).first<lane_count>();
+      if (!take_group(group, done)) take_each(group, done);
+    }
+    take_each(rays.subspan(done), done);
+  }
+
+  /// An answer is an std::optional<Hit> or a PlainHit.
+  template <class Answer>
+  void nearest(std::span<Answer> answers) {
+    data_.intersect_each(rays_, all(), hits_, work_);
+    data_.expect_points(hits_, all());
+    for (std::size_t first = 0; first < count_; first += lane_count) {
+      const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
+      find_distances(first, count);
+      find_sides(first);
+      find_points(first);
+      tell(answers.subspan(first, count));
+    }
+  }
+
+  /// Answers are columns.
+  void nearest(const Distances& answers) {
+    FirstLeaves leaves;
+    const bool are_told = data_.first_leaves(rays_, all(), leaves);
+    if (!are_told) data_.intersect_each(rays_, all(), hits_, work_);
+    for (std::size_t first = 0; first < count_; first += lane_count) {
+      const std::size_t group = first / lane_count;
+      const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
+      if (are_told) {
+        set_distances(group, leaves.t[group], RayPacket::lanes(leaves.found, group),
+                      [&](std::size_t lane) { return leaves.leaves[first + lane]; });
+      } else {
+        find_distances(first, count);
+      }
+      tell(answers.subspan(first, count));
+    }
+  }
+
+  void occluded(std::span<bool> occluded) {
+    const RayMask found = data_.occluded_each(rays_, all(), work_);
+    for (std::size_t i = 0; i < count_; ++i) occluded[i] = (found >> i & 1u) != 0;
+  }
+
+ private:
+  RayMask all() const { return RayPacket::all(count_); }
+
+  /// Those from `first` on side by side; false if that does not do for some.
+  bool take_group(std::span<const Ray, lane_count> rays, std::size_t first) {
+    const UserRays users(rays);
+    Lanes factors;
+    if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors)) return false;
+    to_users_t_[first / lane_count] = factors;
+    return true;
+  }
+  void take_each(std::span<const Ray> rays, std::size_t first) {
+    for (std::size_t i = 0; i < rays.size(); ++i) {
+      validate(rays[i]);
+      const std::size_t index = first + i;
+      WorldRay ray;
+      powers_[index] = follow(rays[i], ray);
+      to_users_t_[index / lane_count][static_cast<int>(index % lane_count)] = powers_[index].factor();
+      rays_.set(index, ray);
+    }
+  }
+
+  /// How far `count` rays from `first` on are from what they have found, and what that is.
+  void find_distances(std::size_t first, std::size_t count) {
+    const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
+    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    // What has found nothing is nowhere.
+    const RayMask found = mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
+    set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
+  }
+  /// The same of the crossings of a group with leaf_of(lane), at the followed rays' t.
+  template <class LeafOf>
+  void set_distances(std::size_t group, const Lanes& t, RayMask found, const LeafOf& leaf_of) {
+    found_ = found;
+    if (found == 0) return;
+    const Lanes& factors = to_users_t_[group];
+    t_ = factors * t;
+    for_each_ray(found & mask_of(factors == 0.0), [&](std::size_t lane) {
+      const auto i = static_cast<int>(lane);
+      t_[i] = powers_[group * lane_count + lane] * t[i];
+    });
+    const auto id = [&](std::size_t lane) {
+      return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));
+    };
+    ids_ = IntLanes{id(0), id(1), id(2), id(3)};
+  }
+  void find_sides(std::size_t first) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      const HitSide side = hits_[first + lane].entering ? HitSide::entering : HitSide::leaving;
+      sides_[static_cast<int>(lane)] = static_cast<std::int32_t>(side);
+    }
+  }
+
+  /// Where that is, of hits that are alike side by side.
+  void find_points(std::size_t first) {
+    if (found_ == 0) return;
+    const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
+    const RayLanes& lines = rays_.lines[first / lane_count];
+    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    const HitFaces faces(data_, group);
+    for (RayMask to_come = found_; to_come != 0;) {
+      const AlikeRays alike = faces.alike(to_come);
+      SurfacePointLanes& points = to_come == found_ ? points_ : others_;
+      faces.object_points(alike, lines, t, true, points);
+      data_.take_to_world(group[first_ray(to_come)], points);
+      to_come &= ~alike.all();
+      if (&points == &points_) continue;
+      const LaneMask lanes = lanes_with(alike.all());
+      points_.position = chosen(lanes, points.position, points_.position);
+      points_.normal = chosen(lanes, points.normal, points_.normal);
+      points_.u = lanes ? points.u : points_.u;
+      points_.v = lanes ? points.v : points_.v;
+    }
+  }
+
+  void tell(std::span<std::optional<Hit>> answers) const {
+    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      const auto i = static_cast<int>(lane);
+      if ((found_ >> lane & 1u) == 0) {
+        answers[lane].reset();
+      } else {
+        const bool entering = sides_[i] == static_cast<std::int32_t>(HitSide::entering);
+        answers[lane] =
+            described(t_[i], lane_of(points_, lane), static_cast<std::uint32_t>(ids_[i]), entering);
+      }
+    }
+  }
+
+  /// By whole vectors.
+  void tell(std::span<PlainHit> answers) const {
+    static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 && offsetof(PlainHit, u) == 32);
+    static_assert(offsetof(PlainHit, v) == 40 && offsetof(PlainHit, entity_id) == 48 &&
+                  offsetof(PlainHit, side) == 52);
+    const LaneMask found = lanes_with(found_);
+    const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
+    const auto heads =
+        transposed({told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
+    // Each with its side behind it.
+    using Pairs = std::int32_t __attribute__((vector_size(32)));
+    const Pairs ids_and_sides = __builtin_shufflevector(ids_, sides_, 0, 4, 1, 5, 2, 6, 3, 7);
+    const auto tails =
+        transposed({told(points_.u), told(points_.v), told(reinterpret_cast<Lanes>(ids_and_sides)), Lanes{}});
+    constexpr std::size_t head = offsetof(PlainHit, u);
+    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
+      std::memcpy(place, &heads[lane], head);
+      std::memcpy(place + head, &tails[lane], sizeof(PlainHit) - head);
+    }
+  }
+
+  void tell(const Distances& answers) const {
+    const Lanes t = told_t();
+    const IntLanes ids = ids_ & int_lanes_with(found_);
+    if (answers.size() == lane_count) {
+      std::memcpy(answers.t.data(), &t, sizeof t);
+      if (!answers.ids.empty()) std::memcpy(answers.ids.data(), &ids, sizeof ids);
+    } else {
+      std::memcpy(answers.t.data(), &t, answers.t.size_bytes());
+      std::memcpy(answers.ids.data(), &ids, answers.ids.size_bytes());
+    }
+  }
+
+  Lanes told_t() const { return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity()); }
+
+  const PreparedData& data_;
+  RayWorkspace& work_;
+  std::size_t count_ = 0;
+  RayBatch rays_;
+  /// Turns a t of the rays into the user's; 0 for those that no such number does it for but their power.
+  std::array<Lanes, packet_size / lane_count> to_users_t_{};
+  std::array<PowerOfTwo, packet_size> powers_;
+  std::array<RayHit, packet_size> hits_;
+  // Of a group of rays, by lane, those that have found something:
+  RayMask found_ = 0;
+  Lanes t_{};  ///< the user's
+  SurfacePointLanes points_;
+  SurfacePointLanes others_;  ///< of hits that are not alike
+  IntLanes ids_{};
+  IntLanes sides_{};
+};
+
+}  // namespace crt::core
