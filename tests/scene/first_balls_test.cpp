@@ -74,6 +74,8 @@ std::vector<WorldRay> rays_at(const Ball& ball, const Room& room, Numbers& numbe
     if (kind == 1) ray.t_min = numbers.within(0, 1.2) * glm::length(way);
     if (kind == 2) ray.t_min = -numbers.within(0, 2) * glm::length(way);
     if (numbers.below(2) == 0) ray.direction *= 1 / largest_component(ray.direction);
+    // A camera's.
+    if (numbers.below(2) == 0) ray.start.t_error = start_rounding * largest_component(eye);
   }
   return rays;
 }

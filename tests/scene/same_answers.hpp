@@ -30,6 +30,8 @@ inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
   for (std::size_t i = 0; i < packet_size; ++i) {
     const bool is_one = (some >> i & 1u) != 0;
     batch.set(i, is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan});
+    // As those who have rays in free space make them.
+    if (batch.starts[i].leaf == nothing) batch.with_starts &= ~(RayMask{1} << i);
   }
   return batch;
 }

@@ -13,8 +13,7 @@
 
 namespace crt::core {
 
-/// Of a batch's rays that meet one, which have no error where they start. What floats have left open is not
-/// known.
+/// Of a batch's rays that meet one. What floats have left open is not known.
 class BallCrossings {
  public:
   /// Step by step for all groups: a step waits for its roots and quotients, and one group's for no other's.
@@ -117,7 +116,8 @@ class BallCrossings {
     reach_[group] = reach;
     entering_ |= mask_of(enters) << (group * lane_count);
     const RayMask known =
-        meeting & mask_of(chord.found & (t - begin - error > 0.0) & (reach <= balls.to[group]));
+        meeting & mask_of(chord.found & (t - begin - error > flattest_start * rays.start_errors[group]) &
+                          (reach <= balls.to[group]));
     known_ |= known << (group * lane_count);
   }
 

@@ -9,6 +9,7 @@
 #include <cstring>
 #include <limits>
 
+#include "core/csg/evaluate.hpp"
 #include "core/math/float_octet.hpp"
 #include "core/scene/ray_packet.hpp"
 
@@ -38,8 +39,8 @@ class BallSearch {
   /// In all it is as if the radius were off by 31 u.
   static constexpr float distance_error = 0x1p-18F;  // 64 u
   /// The line is closest to the center at t = w . d / d^2, found to 55 u, which is 10 u of |w| / |d|. Half
-  /// the chord is found to 4 u, but for what the distance's error does; sums are rounded by 12 u, and the
-  /// exact crossing is known to 2 u.
+  /// the chord is found to 4 u, but for what the distance's error does; sums are rounded by 12 u, the exact
+  /// crossing is known to 2 u, and what is farther than 32 u from the start is not at it.
   static constexpr float t_error = 0x1p-17F;  // 128 u
 
   /// No ball is as far away as that along a ray that it takes.
@@ -50,9 +51,11 @@ class BallSearch {
     constexpr double longest_way = 0x1p20;  // doubles know that to 2^-33
     return (largest_component(place) < 2.0) & (size_of(t) < longest_way);
   }
-  /// Whether their directions are such.
-  static LaneMask is_plain(const Lanes& squared_speed) {
-    return (squared_speed > 0.9) & (squared_speed < 12.1);
+  /// Whether their directions are such, and whether is_at_start() is sure of all that is not as near to the
+  /// start as 32 u; start errors likewise.
+  static LaneMask is_plain(const Lanes& squared_speed, const Lanes& start_error) {
+    constexpr double largest_start_error = 0x1p-19 / flattest_start;
+    return (squared_speed > 0.9) & (squared_speed < 12.1) & (start_error <= largest_start_error);
   }
 
   BallSearch() {

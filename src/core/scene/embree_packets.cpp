@@ -157,7 +157,7 @@ void EmbreeTree::find_first_balls(const RayBatch& rays, const RayBatch::Numbers&
     known.missing |= (lanes & ~entry.coming) << (group * lane_count);
     const Lanes squared_speed = dot(direction, direction);
     search.set_squared_speeds(group * lane_count - first_ray, to_floats(squared_speed));
-    const LaneMask is_plain = BallSearch::is_plain(squared_speed) & (rays.start_errors[group] == 0.0);
+    const LaneMask is_plain = BallSearch::is_plain(squared_speed, rays.start_errors[group] * scale_);
     part.put(group, entry.coming & entry.near & mask_of(is_plain), entry, direction, scale_);
   });
   if (part.followed == 0) return;
