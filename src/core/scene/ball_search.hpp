@@ -139,8 +139,9 @@ class BallSearch {
   const std::array<std::uint32_t, packet_size>& first() const { return first_; }
 
  private:
-  /// 1 / x or up to a third more, without a quotient, which takes long; x is not negative. Source: the trick
-  /// of 1 / sqrt(x) in Quake III, for 1 / x: the bits of a float are nearly its logarithm.
+  /// 1 / x or up to an eighth more, without a quotient, which takes long; x is not negative. The bits of a
+  /// float are nearly its logarithm (Blinn, Floating-point tricks, IEEE Computer Graphics and Applications
+  /// 17(4), 1997).
   static FloatOctet inverse_or_more(const FloatOctet& x) {
     constexpr std::int32_t bits_of_one_twice = 0x7f000000;
     return reinterpret_cast<FloatOctet>(bits_of_one_twice - reinterpret_cast<OctetMask>(x));
