@@ -210,12 +210,16 @@ class QueryPacket {
   void tell(const Distances& answers) const {
     const Lanes t = told_t();
     const IntLanes ids = ids_ & int_lanes_with(found_);
-    if (answers.size() == lane_count) {
-      std::memcpy(answers.t.data(), &t, sizeof t);
-      if (!answers.ids.empty()) std::memcpy(answers.ids.data(), &ids, sizeof ids);
+    put(t, answers.t);
+    if (!answers.ids.empty()) put(ids, answers.ids);
+  }
+  /// A number for each lane, or for the first of them; to as many as there are mostly.
+  template <class Numbers, class Number>
+  static void put(const Numbers& lanes, std::span<Number> places) {
+    if (places.size() == lane_count) {
+      std::memcpy(places.data(), &lanes, sizeof lanes);
     } else {
-      std::memcpy(answers.t.data(), &t, answers.t.size_bytes());
-      std::memcpy(answers.ids.data(), &ids, answers.ids.size_bytes());
+      std::memcpy(places.data(), &lanes, places.size_bytes());
     }
   }
 
