@@ -96,8 +96,8 @@ class RayQueries {
 
   /// How far the nearest hits are, in units of |direction|, and of which entities, which is all that a depth
   /// map or a laser scanner has to know: t and entity_id as a PlainHit has them, in less time, as nobody asks
-  /// what the surface is like there. Several rays as above. `entity_ids` may be empty, which nobody asks for
-  /// then.
+  /// what the surface is like there. Several rays as above. `entity_ids` may be empty: then nobody asks
+  /// for them.
   void distances(std::span<const Ray> rays, std::span<double> distances,
                  std::span<std::uint32_t> entity_ids = {});
 

@@ -31,7 +31,6 @@ class BallCrossings {
   const Lanes& t(std::size_t group) const { return t_[group]; }
   /// Up to where a crossing may have company.
   const Lanes& reach(std::size_t group) const { return reach_[group]; }
-  RayMask entering() const { return entering_; }
   std::uint32_t object(std::size_t ray) const { return spheres_[ray]->object; }
   std::uint32_t leaf(std::size_t ray) const { return spheres_[ray]->detail; }
 

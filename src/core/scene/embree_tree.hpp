@@ -1,4 +1,4 @@
-// A bounding volume hierarchy over boxes, by Embree: the only place that knows of it.
+// A bounding volume hierarchy over boxes, by Embree: the only files that know of it are embree_*.
 #pragma once
 
 #include <cstdint>
@@ -45,7 +45,8 @@ struct FirstBalls {
 
 /// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved
 /// and scaled by a power of two to around 1, and grown by more than all roundings on the way: it
-/// decides nothing, it only spares tests. The scene's own size and place never matter.
+/// decides nothing, it only spares tests; and what it says of balls is so whatever the roundings. The
+/// scene's own size and place never matter.
 class EmbreeTree {
  public:
   /// All boxes must be finite; `total` is the box around them. `balls` are what is in the boxes, if there is

@@ -155,7 +155,6 @@ bool Accelerator::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& 
       first.leaves[i] = crossings.leaf(i);
     }
   });
-  first.entering = crossings.entering();
   return true;
 }
 

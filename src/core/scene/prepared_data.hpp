@@ -95,8 +95,7 @@ struct RayWorkspace {
 
 /// The nearest crossings of a batch's rays, without what else a hit tells.
 struct FirstLeaves {
-  RayMask found = 0;     ///< of the others nothing here means anything
-  RayMask entering = 0;  ///< as RayHit has it
+  RayMask found = 0;  ///< of the others nothing here means anything
   RayBatch::Numbers t;
   std::array<std::uint32_t, packet_size> leaves;
 };
