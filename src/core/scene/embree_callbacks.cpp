@@ -67,7 +67,8 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
 
 /// Rays of a packet come to a ball.
 void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) {
-  auto& [any, first_ray, search] = *reinterpret_cast<BallTraversal*>(arguments.context);
+  auto& traversal = *reinterpret_cast<BallTraversal*>(arguments.context);
+  BallSearch& search = traversal.search;
   const unsigned count = arguments.N;
   const FloatBall& ball = static_cast<const Things*>(arguments.geometryUserPtr)->balls[arguments.primID];
   const auto meet_octets = [&](auto& of_part) {
@@ -84,7 +85,7 @@ void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) 
   for (unsigned i = 0; i < count; ++i) {
     if (arguments.valid[i] == 0) continue;
     // One ray among others that are not looked at.
-    const std::size_t ray = RTCRayN_id(rays, count, i) - first_ray;
+    const std::size_t ray = RTCRayN_id(rays, count, i) - traversal.first_ray;
     const std::size_t first = ray - ray % octet_size;
     std::array<std::array<float, octet_size>, 7> columns;
     const auto column = [&](std::size_t index, float value) {
