@@ -11,6 +11,7 @@
 #include <optional>
 #include <span>
 #include <type_traits>
+#include <vector>
 
 #include "capi/structs.hpp"
 #include "crt/query.hpp"
@@ -92,16 +93,14 @@ class Rays {
   /// Calls ask(begin, rays) for piece after piece of the rays first ... last - 1.
   template <class Ask>
   void for_pieces(std::size_t first, std::size_t last, const Ask& ask) const {
-    if (places_.are_array_of<Ray>()) {
-      for (std::size_t begin = first; begin < last; begin += piece_size) {
-        const std::size_t count = std::min(piece_size, last - begin);
-        ask(begin, std::span(reinterpret_cast<const Ray*>(places_[begin]), count));
-      }
-      return;
-    }
-    std::array<Ray, piece_size> copies;
+    const bool in_place = places_.are_array_of<Ray>();
+    std::vector<Ray> copies(in_place ? 0 : std::min(piece_size, last - first));
     for (std::size_t begin = first; begin < last; begin += piece_size) {
       const std::size_t count = std::min(piece_size, last - begin);
+      if (in_place) {
+        ask(begin, std::span(reinterpret_cast<const Ray*>(places_[begin]), count));
+        continue;
+      }
       for (std::size_t i = 0; i < count; ++i) std::memcpy(&copies[i], places_[begin + i], sizeof(Ray));
       ask(begin, std::span<const Ray>(copies).first(count));
     }
@@ -123,13 +122,15 @@ class Rays {
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
-  /// Lets the rays first ... last - 1 be asked by ask(queries, first, last), some before others have been
-  /// looked at: the answers must wait until this returns without having thrown. So nobody goes through all
-  /// rays before.
+  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been looked at: its
+  /// answers must wait until this returns without having thrown. So nobody goes through all rays before.
   template <class Ask>
   void answer(const PreparedScene& scene, const Ask& ask) const {
     try {
-      query_in_parallel(scene, count_, ask);
+      query_in_parallel(scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
+        for_pieces(first, last,
+                   [&](std::size_t begin, std::span<const Ray> rays) { ask(queries, begin, rays); });
+      });
     } catch (const Error&) {
       validate_all(scene);  // which of them is the first
       throw;
@@ -199,11 +200,9 @@ crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray
     if (count > 0) require(distances, "distances");
     const auto t = std::make_unique_for_overwrite<double[]>(count);
     const auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(entity_ids != nullptr ? count : 0);
-    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-      questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-        const std::size_t asked_ids = entity_ids != nullptr ? piece.size() : 0;
-        queries.distances(piece, std::span(&t[begin], piece.size()), std::span(ids.get() + begin, asked_ids));
-      });
+    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
+      const std::size_t asked_ids = entity_ids != nullptr ? piece.size() : 0;
+      queries.distances(piece, std::span(&t[begin], piece.size()), std::span(ids.get() + begin, asked_ids));
     });
     std::copy_n(t.get(), count, distances);
     if (entity_ids != nullptr) std::copy_n(ids.get(), count, entity_ids);
@@ -217,10 +216,8 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     const Rays questions(rays, ray_stride, count);
     if (count > 0) require(occluded, "occluded");
     const auto answers = std::make_unique_for_overwrite<bool[]>(count);
-    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-      questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-        queries.occluded(piece, std::span(&answers[begin], piece.size()));
-      });
+    questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
+      queries.occluded(piece, std::span(&answers[begin], piece.size()));
     });
     std::transform(answers.get(), answers.get() + count, occluded, [](bool hit) { return hit ? 1 : 0; });
   });

@@ -38,23 +38,18 @@ struct NearLineOf {
   template <class Ray, class Center, class Unit>
   static NearLineOf at_closest(const Ray& ray, const Center& center, const Unit& unit, Real& rest) {
     NearLineOf line = at_origin(ray, center, unit);
-    rest = line.move_to_closest(ray, center, line.to_t(line.closest()));
-    return line;
-  }
-
-  /// Moves `point` to where the ray is (nearly) closest to the centre, at about t. Returns closest().
-  template <class Ray, class Center>
-  Real move_to_closest(const Ray& ray, const Center& center, const Real& t) {
-    move_to(ray, center, t);
+    line.move_to(ray, center, line.to_t(line.closest()));
     // One step leaves an error of one rounding of the way. From beyond 1 / u sizes that is still
     // far: a second step, which t alone could not hold, brings it near.
     constexpr double near = 4;
-    const Real rest = closest();
+    rest = line.closest();
     const auto is_far = size_of(rest) > near;
-    if (!any(is_far)) return rest;
-    const Real step = rest * unit_ * direction_scale_;
-    move_to(ray, center, shift_, is_far ? step : Real{});
-    return closest();
+    if (any(is_far)) {
+      const Real step = rest * line.unit_ * line.direction_scale_;
+      line.move_to(ray, center, line.shift_, is_far ? step : Real{});
+      rest = line.closest();
+    }
+    return line;
   }
 
   /// Moves `point` to where the ray is at t + t_low.

@@ -21,9 +21,10 @@ bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (ray.start.face == 0) return crossings_from_surface(ray, out);
   const auto chord = this->chord<double>(ray);
   if (!chord.found) return false;
-  const auto error = [&](double end) { return chord.error_of(end); };
-  out.push_back({.t = chord.enter, .error = error(chord.enter), .root = 0, .entering = true});
-  out.push_back({.t = chord.leave, .error = error(chord.leave), .root = 1, .entering = false});
+  const double enter = chord.enter;
+  const double leave = chord.leave;
+  out.push_back({.t = enter, .error = chord.error_of(enter), .root = 0, .entering = true});
+  out.push_back({.t = leave, .error = chord.error_of(leave), .root = 1, .entering = false});
   return false;
 }
 

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 
 #ifdef __AVX__
 #include <immintrin.h>
@@ -18,24 +17,6 @@ using FloatOctet = float __attribute__((vector_size(32)));
 using OctetMask = decltype(FloatOctet{} < FloatOctet{});
 inline constexpr std::size_t octet_size = 8;
 
-inline FloatOctet octet_of(float value) {
-  return FloatOctet{} + value;
-}
-
-/// From a row of numbers, and into one.
-template <class Octet, class Number>
-Octet octet_at(const Number* row) {
-  static_assert(sizeof(Octet) == octet_size * sizeof(Number));
-  Octet octet;
-  std::memcpy(&octet, row, sizeof octet);
-  return octet;
-}
-template <class Octet, class Number>
-void put_octet(const Octet& octet, Number* row) {
-  static_assert(sizeof(Octet) == octet_size * sizeof(Number));
-  std::memcpy(row, &octet, sizeof octet);
-}
-
 // Where GCC does not see that there is one instruction for all it is named.
 
 /// The results of a comparison as bits.
@@ -47,10 +28,6 @@ inline std::uint32_t mask_of(const OctetMask& octet) {
   for (std::size_t i = 0; i < octet_size; ++i) mask |= octet[i] != 0 ? 1u << i : 0u;
   return mask;
 #endif
-}
-
-inline bool any(const OctetMask& mask) {
-  return mask_of(mask) != 0;
 }
 
 inline FloatOctet min(const FloatOctet& a, const FloatOctet& b) {

@@ -5,7 +5,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <type_traits>
 
 #include "core/math/vector.hpp"
@@ -27,6 +29,20 @@ using WordLanes = std::uint64_t __attribute__((vector_size(32)));
 /// As many floats, and integers of their size.
 using FloatLanes = float __attribute__((vector_size(16)));
 using IntLanes = std::int32_t __attribute__((vector_size(16)));
+
+/// Into a column of numbers, from one on; of any kind of lanes.
+template <class Numbers, class Column>
+void put_lanes(const Numbers& lanes, Column& column, std::size_t first) {
+  std::memcpy(&column[first], &lanes, sizeof lanes);
+}
+
+/// As many of such numbers.
+template <class Numbers, class Number>
+Numbers lanes_at(const Number* column) {
+  Numbers lanes;
+  std::memcpy(&lanes, column, sizeof lanes);
+  return lanes;
+}
 
 // Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
 

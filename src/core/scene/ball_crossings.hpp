@@ -4,6 +4,7 @@
 #include <array>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 
 #include "core/geometry/sphere.hpp"
 #include "core/scene/company_width.hpp"
@@ -34,40 +35,19 @@ class BallCrossings {
   std::uint32_t object(std::size_t ray) const { return spheres_[ray]->object; }
   std::uint32_t leaf(std::size_t ray) const { return spheres_[ray]->detail; }
 
-  /// As the general test has it.
-  void write(std::size_t ray, RayHit& hit) const {
+  /// As the general test has it; or that there is nothing.
+  void write(std::size_t ray, bool found, RayHit& hit) const {
     const Outline& sphere = *spheres_[ray];
-    const bool entering = (entering_ >> ray & 1u) != 0;
-    hit = {.t = t_[ray / lane_count][static_cast<int>(ray % lane_count)],
-           .error = errors_[ray / lane_count][static_cast<int>(ray % lane_count)],
-           .object = sphere.object,
-           .leaf = sphere.detail,
-           .face = 0,
-           .surface = sphere.surface,
-           .root = static_cast<std::uint8_t>(!entering),
+    const auto lane = static_cast<int>(ray % lane_count);
+    const bool entering = found && (entering_ >> ray & 1u) != 0;
+    hit = {.t = found ? t_[ray / lane_count][lane] : std::numeric_limits<double>::infinity(),
+           .error = found ? errors_[ray / lane_count][lane] : 0,
+           .object = found ? sphere.object : nothing,
+           .leaf = found ? sphere.detail : nothing,
+           .face = found ? 0 : no_face,
+           .surface = found ? sphere.surface : nothing,
+           .root = static_cast<std::uint8_t>(found && !entering),
            .entering = entering};
-  }
-  /// The same of those of a group's rays that have their bit in `found`; of the others that there is nothing.
-  void write(std::size_t group, RayMask found, std::span<RayHit, lane_count> hits) const {
-    const LaneMask is_found = lanes_with(found);
-    const Lanes t = is_found ? t_[group] : lanes_of(std::numeric_limits<double>::infinity());
-    const Lanes errors = is_found ? errors_[group] : Lanes{};
-    const RayMask entering = entering_ >> (group * lane_count);
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const Outline& sphere = *spheres_[group * lane_count + lane];
-      const auto told = [&](std::uint32_t value, std::uint32_t none) {
-        return (found >> lane & 1u) != 0 ? value : none;
-      };
-      const std::uint32_t enters = entering >> lane & found >> lane & 1u;
-      hits[lane] = {.t = t[static_cast<int>(lane)],
-                    .error = errors[static_cast<int>(lane)],
-                    .object = told(sphere.object, nothing),
-                    .leaf = told(sphere.detail, nothing),
-                    .face = told(0, no_face),
-                    .surface = told(sphere.surface, nothing),
-                    .root = static_cast<std::uint8_t>(told(1 - enters, 0)),
-                    .entering = enters != 0};
-    }
   }
 
  private:

@@ -6,7 +6,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "core/csg/evaluate.hpp"
@@ -66,21 +65,20 @@ class BallSearch {
 
   /// d^2 of the four rays from one on.
   void set_squared_speeds(std::size_t first_ray, const FloatLanes& squares) {
-    const FloatLanes inverses = 1.0F / squares;
-    std::memcpy(&inverse_squared_speeds_[first_ray], &inverses, sizeof inverses);
+    put_lanes(1.0F / squares, inverse_squared_speeds_, first_ray);
   }
 
   /// Eight rays, from one on, meet a ball or pass by it.
   void meet(const FloatBall& ball, std::uint32_t number, std::size_t first_ray, const OctetMask& valid,
             const FloatRays& rays) {
     const auto way = [&](std::size_t axis) {
-      return ball.center[axis] - octet_at<FloatOctet>(rays.origin[axis]);
+      return ball.center[axis] - lanes_at<FloatOctet>(rays.origin[axis]);
     };
     const std::array<FloatOctet, 3> w = {way(0), way(1), way(2)};
-    const std::array<FloatOctet, 3> d = {octet_at<FloatOctet>(rays.direction[0]),
-                                         octet_at<FloatOctet>(rays.direction[1]),
-                                         octet_at<FloatOctet>(rays.direction[2])};
-    const auto inverse_squared_speed = octet_at<FloatOctet>(&inverse_squared_speeds_[first_ray]);
+    const std::array<FloatOctet, 3> d = {lanes_at<FloatOctet>(rays.direction[0]),
+                                         lanes_at<FloatOctet>(rays.direction[1]),
+                                         lanes_at<FloatOctet>(rays.direction[2])};
+    const auto inverse_squared_speed = lanes_at<FloatOctet>(&inverse_squared_speeds_[first_ray]);
     const FloatOctet closest = dot(w, d) * inverse_squared_speed;
     const std::array<FloatOctet, 3> across = {multiply_add(-closest, d[0], w[0]),
                                               multiply_add(-closest, d[1], w[1]),
@@ -97,7 +95,7 @@ class BallSearch {
     const FloatOctet leaves_from = closest + half - less;
     const FloatOctet leaves_to = closest + half + t_error;
 
-    const auto end = octet_at<FloatOctet>(rays.end);
+    const auto end = lanes_at<FloatOctet>(rays.end);
     const OctetMask counts = valid & (most >= 0.0F) & (leaves_to >= 0.0F) & (enters_from <= end);
     // The others start on it, as far as floats know.
     const OctetMask is_before = enters_from > 0.0F;
@@ -109,14 +107,14 @@ class BallSearch {
     const FloatOctet apart = to + t_error;
     const OctetMask is_first = sure & (apart < end);
 
-    const auto first_from = octet_at<FloatOctet>(&first_from_[first_ray]);
-    const auto others_from = octet_at<FloatOctet>(&others_from_[first_ray]);
+    const auto first_from = lanes_at<FloatOctet>(&first_from_[first_ray]);
+    const auto others_from = lanes_at<FloatOctet>(&others_from_[first_ray]);
     const FloatOctet other = min(others_from, is_first ? first_from : from);
-    const auto first = octet_at<OctetMask>(&first_[first_ray]);
-    put_octet(counts ? other : others_from, &others_from_[first_ray]);
-    put_octet(is_first ? from : first_from, &first_from_[first_ray]);
-    put_octet(is_first ? OctetMask{} + static_cast<std::int32_t>(number) : first, &first_[first_ray]);
-    put_octet(is_first ? apart : end, rays.end);
+    const auto first = lanes_at<OctetMask>(&first_[first_ray]);
+    put_lanes(counts ? other : others_from, others_from_, first_ray);
+    put_lanes(is_first ? from : first_from, first_from_, first_ray);
+    put_lanes(is_first ? OctetMask{} + static_cast<std::int32_t>(number) : first, first_, first_ray);
+    put_lanes(is_first ? apart : end, rays.end, 0);
   }
 
   /// What there is to say in the end of the first rays, as many as there are ends.
@@ -128,10 +126,10 @@ class BallSearch {
   Outcome outcome(const float (&ends)[Count]) const {
     Outcome result;
     for (std::size_t first = 0; first < Count; first += octet_size) {
-      const auto others_from = octet_at<FloatOctet>(&others_from_[first]);
-      result.known |= mask_of(others_from > octet_at<FloatOctet>(&ends[first])) << first;
+      const auto others_from = lanes_at<FloatOctet>(&others_from_[first]);
+      result.known |= mask_of(others_from > lanes_at<FloatOctet>(&ends[first])) << first;
       const auto none = OctetMask{} + static_cast<std::int32_t>(nothing);
-      result.meeting |= mask_of(octet_at<OctetMask>(&first_[first]) != none) << first;
+      result.meeting |= mask_of(lanes_at<OctetMask>(&first_[first]) != none) << first;
     }
     return result;
   }

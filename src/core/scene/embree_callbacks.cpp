@@ -77,7 +77,7 @@ void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) 
           .origin = {&of_part.org_x[first], &of_part.org_y[first], &of_part.org_z[first]},
           .direction = {&of_part.dir_x[first], &of_part.dir_y[first], &of_part.dir_z[first]},
           .end = &of_part.tfar[first]};
-      search.meet(ball, arguments.primID, first, octet_at<OctetMask>(arguments.valid + first), octet);
+      search.meet(ball, arguments.primID, first, lanes_at<OctetMask>(arguments.valid + first), octet);
     }
   };
   if (count == packet_size) return meet_octets(*reinterpret_cast<RTCRay16*>(rays));

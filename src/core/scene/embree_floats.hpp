@@ -48,18 +48,4 @@ inline FloatLanes direction_floats(const Lanes& component) {
   return to_floats(size_of(component) > least ? component : Lanes{});
 }
 
-/// Into a column of numbers by ray, from one on.
-template <class Numbers, class Column>
-void put_lanes(const Numbers& lanes, Column& column, std::size_t first) {
-  std::memcpy(&column[first], &lanes, sizeof lanes);
-}
-
-/// As many of such numbers.
-template <class Numbers, class Number>
-Numbers lanes_at(const Number* column) {
-  Numbers lanes;
-  std::memcpy(&lanes, column, sizeof lanes);
-  return lanes;
-}
-
 }  // namespace crt::core

@@ -172,12 +172,9 @@ RayMask Accelerator::nearest_balls(const RayBatch& rays, RayMask some, std::span
       continue;
     }
     found &= mask_of(crossings.t(group) < rays.t_max[group]);
-    if (lanes == RayPacket::group_mask) {
-      crossings.write(group, found, hits.subspan(first).first<lane_count>());
-    } else {
-      for_each_ray(lanes & ~found, [&](std::size_t lane) { hits[first + lane] = {}; });
-      for_each_ray(found, [&](std::size_t lane) { crossings.write(first + lane, hits[first + lane]); });
-    }
+    for_each_ray(lanes, [&](std::size_t lane) {
+      crossings.write(first + lane, (found >> lane & 1u) != 0, hits[first + lane]);
+    });
   }
   work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
   return known;

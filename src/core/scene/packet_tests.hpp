@@ -126,7 +126,7 @@ class PacketTests {
       take_best(
           group, t, crossings.reach(group), known & mask_of(t <= packet_.limits[group]),
           [&](std::size_t lane) { return crossings.object(first + lane); },
-          [&](std::size_t lane, RayHit& hit) { crossings.write(first + lane, hit); });
+          [&](std::size_t lane, RayHit& hit) { crossings.write(first + lane, true, hit); });
     });
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
     return balls.missing | crossings.known();
