@@ -43,6 +43,10 @@ class ExactPlaneShape final : public ExactShape {
     return place_on(plane_, ray, crossing);
   }
 
+  ExactSurface surface(std::uint32_t /*face*/) const override {
+    return {.is_plane = true, .points = {}, .numbers = plane_.numbers()};
+  }
+
   std::size_t bytes() const override { return sizeof *this + plane_.more_bytes(); }
 
  private:
@@ -63,6 +67,10 @@ class ExactFlatShape : public ExactShape {
 
   std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const final {
     return place_on(plane_, ray, crossing);
+  }
+
+  ExactSurface surface(std::uint32_t /*face*/) const final {
+    return {.is_plane = true, .points = {}, .numbers = plane_.numbers()};
   }
 
  protected:

@@ -139,6 +139,14 @@ class ExactFrustumShape final : public ExactShape {
                    ray.near.start.face == crossing.face ? side.beside_zero() : side.polynomial());
   }
 
+  ExactSurface surface(std::uint32_t face) const override {
+    if (face != FrustumShape::side_face) {
+      return {.is_plane = true, .points = {}, .numbers = caps_[face - 1].numbers()};
+    }
+    return {.points = {exactly(frustum_.narrow), exactly(frustum_.wide)},
+            .numbers = {frustum_.radius, frustum_.wide_radius}};
+  }
+
   std::size_t bytes() const override {
     std::size_t bytes = sizeof *this;
     for (const ExactPlane& plane : caps_) bytes += plane.more_bytes();

@@ -53,6 +53,12 @@ class ExactPlane {
     return DyadicPolynomial({-t.numerator, t.denominator});
   }
 
+  /// The normal, and its product with a point of the plane.
+  std::vector<Dyadic> numbers() const {
+    const auto& [x, y, z] = exact_normal_;
+    return {x, y, z, dot(exact_normal_, exactly(position_))};
+  }
+
   const Vec3& position() const { return position_; }
 
   /// Of memory, beside the object itself.

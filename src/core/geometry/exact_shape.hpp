@@ -14,6 +14,14 @@
 
 namespace crt::core {
 
+/// A whole surface in object space by numbers that are not rounded: of planes a normal and its product with
+/// any point of the plane, of others points and what does not change where these are moved.
+struct ExactSurface {
+  bool is_plane = false;
+  std::vector<DyadicVector> points;
+  std::vector<Dyadic> numbers;
+};
+
 class ExactShape {
  public:
   ExactShape() = default;
@@ -27,6 +35,9 @@ class ExactShape {
   /// Where one of crossings() of this ray is, without rounding: what tells crossings apart however near they
   /// are. Nothing where the rounding of a start on the surface is all that there is to go by.
   virtual std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const = 0;
+
+  /// The surface that a face is a piece of.
+  virtual ExactSurface surface(std::uint32_t face) const = 0;
 
   /// Of memory.
   virtual std::size_t bytes() const = 0;

@@ -48,6 +48,10 @@ class ExactSphereShape final : public ExactShape {
     return root_at(ray, crossing, ray.near.start.face == 0 ? equation.beside_zero() : equation.polynomial());
   }
 
+  ExactSurface surface(std::uint32_t /*face*/) const override {
+    return {.points = {exactly(center_)}, .numbers = {radius_}};
+  }
+
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

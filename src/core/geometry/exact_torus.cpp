@@ -167,6 +167,12 @@ class ExactTorusShape final : public ExactShape {
     return ExactTorusLine(torus_, ray).place(crossing);
   }
 
+  ExactSurface surface(std::uint32_t /*face*/) const override {
+    const Vec3& axis = torus_.axis;
+    return {.points = {exactly(torus_.center)},
+            .numbers = {axis.x, axis.y, axis.z, torus_.radius, torus_.thickness}};
+  }
+
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
