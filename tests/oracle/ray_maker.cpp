@@ -304,15 +304,11 @@ TestRay ray_for(Counted& random, const P& primitive, double size) {
 }
 
 template <std::size_t kind = 0>
-TestRay ray_of_kind(std::size_t wanted, Counted& random) {
+Primitive default_primitive(std::size_t wanted) {
   if constexpr (kind + 1 < primitive_kinds) {
-    if (wanted != kind) return ray_of_kind<kind + 1>(wanted, random);
+    if (wanted != kind) return default_primitive<kind + 1>(wanted);
   }
-  const double size = random.power_of_ten(-9, 9);
-  const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
-  std::variant_alternative_t<kind, Primitive> primitive;
-  make(random, at, size, primitive);
-  return ray_for(random, primitive, size);
+  return std::variant_alternative_t<kind, Primitive>{};
 }
 
 bool is_usable(const TestRay& ray) {
@@ -336,6 +332,18 @@ Transform product(const Transform& second, const Transform& first) {
   return {row(second.row_x), row(second.row_y), row(second.row_z)};
 }
 
+}  // namespace
+
+Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size) {
+  Primitive primitive = default_primitive(primitive_kind);
+  std::visit([&](auto& p) { make(random, at, size, p); }, primitive);
+  return primitive;
+}
+
+TestRay make_ray_at(Counted& random, const Primitive& primitive, double size) {
+  return std::visit([&](const auto& p) { return ray_for(random, p, size); }, primitive);
+}
+
 Transform random_transform(Counted& random) {
   const auto quarter_turns = [&] { return 90.0 * random.integer(0, 3); };
   const auto angle_in_degrees = [&] { return random.uniform(0, 360); };
@@ -357,8 +365,6 @@ Transform random_transform(Counted& random) {
   return product(turned(), product(scaled, first));
 }
 
-}  // namespace
-
 std::string_view name_of(RayKind kind) {
   constexpr std::array<std::string_view, ray_kinds> names = {
       "plain", "grazing", "axis-parallel", "edges, corners", "on the surface", "nearly parallel"};
@@ -375,9 +381,16 @@ TestRay make_ray(std::size_t primitive_kind, std::uint64_t number) {
   // A size that is lost in the offset makes no primitive; the next seed makes another.
   for (std::uint64_t seed = primitive_kind;; seed += primitive_kinds) {
     Counted random(seed, number);
-    const TestRay ray = ray_of_kind(primitive_kind, random);
+    const double size = random.power_of_ten(-9, 9);
+    const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
+    const TestRay ray = make_ray_at(random, make_primitive(random, primitive_kind, at, size), size);
     if (is_usable(ray)) return ray;
   }
+}
+
+void move_to_world(TestRay& ray) {
+  ray.origin = apply(ray.to_world, ray.origin) + ray.to_world.translation;
+  ray.direction = apply(ray.to_world, ray.direction);
 }
 
 TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
@@ -387,8 +400,7 @@ TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
   const Vec3 shift = glm::length(ray.origin) * random.power_of_ten(-3, 3) * random.in_cube();
   ray.to_world = transform;
   if (random.integer(0, 1) == 0) ray.to_world.translation = shift;
-  ray.origin = apply(transform, ray.origin) + ray.to_world.translation;
-  ray.direction = apply(transform, ray.direction);
+  move_to_world(ray);
   return ray;
 }
 

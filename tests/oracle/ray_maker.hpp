@@ -57,6 +57,16 @@ class Counted {
   std::uint32_t drawn_ = 0;
 };
 
+/// A primitive of a size at a place; a ray of a random kind for it.
+Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size);
+TestRay make_ray_at(Counted& random, const Primitive& primitive, double size);
+
+/// Rotates, scales by factors that differ by up to 10^8 and rotates again; one in four rounds nothing.
+Transform random_transform(Counted& random);
+
+/// Moves a ray along with its primitive, by ray.to_world.
+void move_to_world(TestRay& ray);
+
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
 
 /// The same with the primitive and the ray moved by a transform: rotated, scaled by factors that differ by up
