@@ -8,6 +8,7 @@
 
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
+#include "oracle/ruling_rays.hpp"
 
 namespace crt::test {
 
@@ -274,6 +275,7 @@ TestRay ray_for(Counted& random, const P& primitive, double size) {
   Vec3 d = random.direction();
   switch (ray.kind) {
     case RayKind::plain:
+    case RayKind::along_ruling:  // made elsewhere
       break;
     case RayKind::grazing:
       d = around(across(at.normal), angle(random));
@@ -310,7 +312,14 @@ TestRay ray_of_kind(std::size_t wanted, Counted& random) {
   }
   const double size = random.power_of_ten(-9, 9);
   const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
-  std::variant_alternative_t<kind, Primitive> primitive;
+  using P = std::variant_alternative_t<kind, Primitive>;
+  P primitive;
+  if constexpr (std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone>) {
+    const std::uint64_t digit = random.number() % 10;
+    if (digit == 3 || digit == 7) make_extreme(random, at, size, primitive);
+    if (digit == 7) return make_ruling_ray(random, primitive);
+    if (digit == 3) return ray_for(random, primitive, size);
+  }
   make(random, at, size, primitive);
   return ray_for(random, primitive, size);
 }
@@ -361,7 +370,7 @@ Transform random_transform(Counted& random) {
 
 std::string_view name_of(RayKind kind) {
   constexpr std::array<std::string_view, ray_kinds> names = {
-      "plain", "grazing", "axis-parallel", "edges, corners", "on the surface", "nearly parallel"};
+      "plain", "grazing", "axis-parallel", "edges, corners", "on the surface", "nearly parallel", "along a ruling"};
   return names[static_cast<std::size_t>(kind)];
 }
 

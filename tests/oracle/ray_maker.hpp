@@ -1,7 +1,8 @@
 // Random primitives and rays over many orders of size and distance, each a function of its number.
 //
 // Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3 to
-// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds.
+// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the rays at cylinders
+// and cones one tenth more is along rulings and another at solids of extreme proportions (ruling_rays.hpp).
 #pragma once
 
 #include <cstdint>
@@ -20,8 +21,9 @@ enum class RayKind : std::uint8_t {
   edge,           ///< aimed at an edge, a corner, a rim
   on_surface,     ///< from a point on the surface, as near as doubles have it
   near_parallel,  ///< 10^-16 to 0.1 off parallel to a face or an axis
+  along_ruling,   ///< of cylinders and cones: 10^-16 to 0.1 off a straight line of the side
 };
-inline constexpr std::size_t ray_kinds = 6;
+inline constexpr std::size_t ray_kinds = 7;
 std::string_view name_of(RayKind kind);
 
 /// The primitives by their place in the variant `Primitive`.
@@ -49,6 +51,7 @@ class Counted {
   double power_of_ten(double low, double high);
   double sign() { return integer(0, 1) == 0 ? -1 : 1; }
   Vec3 in_cube();
+  std::uint64_t number() const { return number_; }
   Vec3 direction();  ///< unit length to rounding; one in four is a coordinate axis
 
  private:
