@@ -79,10 +79,12 @@ double FrustumShape::approach(const SideEquation& side, double x) {
 }
 
 /// The crossing at a root, after one more shift to the root itself and one step of Newton's iteration on
-/// the distance from the side there, which knows nothing of the rounding of a, b and c.
+/// the distance from the side there, which knows nothing of the rounding of a, b and c. Beyond the caps a root
+/// stays where it is: next to a ruling it may be so far away that a distance there says nothing.
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
-                                const Root& root) const {
+                                const Root& root, const Stretch& stretch) const {
   const Crossing crossing = side_crossing(line, side, root.x, root.number);
+  if (!(crossing.t > stretch.enter_t() && crossing.t < stretch.leave_t())) return crossing;
   // Where a ray grazes more closely, the step could take it to the other root.
   constexpr double squarely = 0x1p-20;
   constexpr double longest_step = 64 * unit_roundoff;
@@ -92,7 +94,6 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   const double reach = wide_radius_ + 2 * largest_component(line.at(root.x));
   const bool apart = longest_step * reach < squarely * gap * rate;
   if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return crossing;
-  if (!std::isfinite(crossing.t)) return crossing;
   NearLine at_root = line;
   at_root.move_to(ray, narrow_, line.to_precise_t(root.x));
   const double distance = distance_from_side(at_root.point);
@@ -100,9 +101,9 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   Crossing result = crossing;
   result.t = at_root.to_t(step);
   // Beside the apex the side bends away within such a step: the next ones take the slope that is there.
-  constexpr double straight = 0x1p-30;
   constexpr int most_steps = 8;
-  for (int i = 0; i < most_steps && std::abs(step) * std::sqrt(line.squared_speed) > straight * reach; ++i) {
+  double radius = std::abs(side.radius + side.radius_rate * root.x);
+  for (int i = 0; i < most_steps && !side.is_straight(step, radius, reach); ++i) {
     at_root.move_to(ray, narrow_, at_root.to_precise_t(step));
     const Vec3 along = glm::dot(at_root.point, axis_) * axis_;
     const Vec3 across = at_root.point - along;
@@ -110,6 +111,7 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
     const double slope = cosine_ * glm::dot(unit_vector(across), at_root.direction) -
                          sine_ * glm::dot(axis_, at_root.direction);
     if ((slope < 0) != root.entering || !(std::abs(slope) > squarely)) break;
+    radius = cosine_ * glm::length(across);
     step = -distance_from_side(at_root.point) / slope;
     result.t = at_root.to_t(step);
   }
@@ -131,50 +133,46 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
           .root = root};
 }
 
-/// Where the line grazes, the discriminant is what is left of large numbers. From halfway between the roots
-/// it is a c with b nearly 0, and c the distance from the side there.
+/// Where the line grazes, the discriminant may be what is left of large numbers. From halfway between the
+/// roots it is a c with b nearly 0, and c the distance from the side there.
 void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const {
   if (passes_plainly(line, side)) return;
-  constexpr double nearly = 0x1p-20;
+  constexpr double nearly = 0x1p-4;
+  const bool cancels = std::abs(side.discriminant) < nearly * (side.b * side.b);
   const double middle = -side.b / side.a;
-  // Next to a ruling, too, as long as the middle is there.
-  const bool is_within =
-      middle * middle * line.squared_speed < (height_ + wide_radius_) * (height_ + wide_radius_);
-  if (!(side.a > (is_within ? nearly * nearly : nearly) * line.squared_speed)) return;
+  const double farthest = (height_ + wide_radius_) * (height_ + wide_radius_);
+  if (!(side.a > 0 && cancels && middle * middle * line.squared_speed < farthest)) return;
   line.move_to(ray, narrow_, line.to_precise_t(middle));
   side = side_equation(line);
-  side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
 }
 
 void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const {
   SideEquation side = side_equation(line);
   center_on_grazing(ray, line, side);
-  const double s1 = side.radius_rate;
-  const auto crossing_at = [&](double x, bool entering, std::uint8_t number) {
-    return polished(ray, line, side, {x, entering, number});
+  const auto enter = [&](double x, std::uint8_t number) {
+    stretch.enter(polished(ray, line, side, {x, true, number}, stretch));
   };
-  if (side.a == 0) {
-    // Parallel to a ruling (for a cylinder: to the axis): at most one root.
-    if (side.b == 0) {
-      if (!(side.c < 0)) stretch.clear();
-      return;
-    }
-    if ((s1 > 0) != (side.b < 0)) return stretch.clear();
-    const Crossing crossing = crossing_at(-side.c / (2 * side.b), s1 > 0, 0);
-    return s1 > 0 ? stretch.enter(crossing) : stretch.leave(crossing);
+  const auto leave = [&](double x, std::uint8_t number) {
+    stretch.leave(polished(ray, line, side, {x, false, number}, stretch));
+  };
+  const bool is_within = side.is_within();
+  if (side.a >= 0 && !(side.discriminant > 0)) {
+    // (Within, only the axis of a cylinder meets nothing.)
+    if (!is_within) stretch.clear();
+    return;
   }
-
   const auto [low, high] = SideRoots<double>(side);
-  if (side.a > 0) {
-    // Both roots are on one nappe: the one on which the middle between them is.
-    const bool other_nappe = side.a * side.radius < side.b * s1;
-    if (!(side.discriminant > 0) || other_nappe) return stretch.clear();
-    stretch.enter(crossing_at(low, true, 0));
-    stretch.leave(crossing_at(high, false, 1));
-  } else if (s1 > 0) {
-    stretch.enter(crossing_at(high, true, 1));
-  } else {
-    stretch.leave(crossing_at(low, false, 0));
+  if (side.a >= 0) {
+    // (Parallel to a ruling one of them is infinite.)
+    if (side.is_on_other_nappe()) return stretch.clear();
+    enter(low, 0);
+    leave(high, 1);
+  } else if (is_within ? side.b * side.radius < 0 : side.radius_rate > 0) {
+    // One on each nappe. From within both are ahead or both behind; from outside it is this one's where the
+    // radius grows.
+    enter(high, 1);
+  } else if (!is_within || side.b * side.radius > 0) {
+    leave(low, 0);
   }
 }
 

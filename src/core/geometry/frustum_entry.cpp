@@ -33,8 +33,7 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   FrustumEntry<Real> entry{.missed = both(plainly, side.discriminant < 0.0)};
   const Real x = SideRoots<Real>(side).low;
   const Real root = square_root(max(side.discriminant, Real{}));
-  const auto other_nappe = side.a * side.radius < side.b * side.radius_rate;
-  const auto meets = without(both(plainly, is_between(x)), either(entry.missed, other_nappe));
+  const auto meets = without(both(plainly, is_between(x)), either(entry.missed, side.is_on_other_nappe()));
   if (!any(meets)) return entry;
 
   const Real at_root = size_of(side.radius + side.radius_rate * x);
@@ -56,11 +55,9 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   entry.t = there.to_t(step);
   // So squarely that no rounding takes one root near the other.
   constexpr double squarely = 0x1p-10;
-  constexpr double straight = 0x1p-30;
   const Real most_reach = wide_radius_ + 2.0 * largest;
   const auto is_square = both(rate > squarely * ray_speed, root / side.a * ray_speed > squarely * most_reach);
-  const auto is_straight = size_of(step) * ray_speed <= straight * most_reach;
-  entry.known = both(meets, both(is_square, is_straight));
+  entry.known = both(meets, both(is_square, side.is_straight(step, at_root, most_reach)));
   return entry;
 }
 template FrustumEntry<double> FrustumShape::first_entry<double>(const PlainRay<double>&) const;
