@@ -370,7 +370,8 @@ Transform random_transform(Counted& random) {
 
 std::string_view name_of(RayKind kind) {
   constexpr std::array<std::string_view, ray_kinds> names = {
-      "plain", "grazing", "axis-parallel", "edges, corners", "on the surface", "nearly parallel", "along a ruling"};
+      "plain",          "grazing",         "axis-parallel", "edges, corners",
+      "on the surface", "nearly parallel", "along a ruling"};
   return names[static_cast<std::size_t>(kind)];
 }
 

@@ -1,8 +1,9 @@
 // Random primitives and rays over many orders of size and distance, each a function of its number.
 //
 // Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3 to
-// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the rays at cylinders
-// and cones one tenth more is along rulings and another at solids of extreme proportions (ruling_rays.hpp).
+// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the rays at
+// cylinders and cones one tenth more is along rulings and another at solids of extreme proportions
+// (ruling_rays.hpp).
 #pragma once
 
 #include <cstdint>

@@ -1,7 +1,5 @@
 #include "core/geometry/frustum.hpp"
 
-#include <limits>
-
 #include "core/geometry/disc.hpp"
 #include "core/geometry/frustum_start.hpp"
 
@@ -54,14 +52,10 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   }
   if (ray.start.face == no_face && stretch.empty()) return false;
 
-  // The side is solved next to where the line, between the caps, comes closest to the axis.
-  const Vec3 across = accurate_cross(line.direction, axis_);
-  const double speed = glm::dot(across, across);
-  double t = line.to_t(0);
-  if (speed > std::numeric_limits<double>::min()) {
-    t = line.to_t(-glm::dot(accurate_cross(line.point, axis_), across) / speed);
-  }
-  // Nearly along the axis that is far away; the solid is within a ball, and between the caps.
+  // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a ball, and
+  // between the caps.
+  const double least = where_least(line);
+  double t = line.to_t(std::isfinite(least) ? least : 0);
   const double ball = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_speed));
   t = std::clamp(t, line.to_t(0) - ball, line.to_t(0) + ball);
   if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
@@ -79,8 +73,8 @@ double FrustumShape::approach(const SideEquation& side, double x) {
 }
 
 /// The crossing at a root, after one more shift to the root itself and one step of Newton's iteration on
-/// the distance from the side there, which knows nothing of the rounding of a, b and c. Beyond the caps a root
-/// stays where it is: next to a ruling it may be so far away that a distance there says nothing.
+/// the distance from the side there, which knows nothing of the rounding of a, b and c. Beyond the caps a
+/// root stays where it is: next to a ruling it may be so far away that a distance there says nothing.
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                                 const Root& root, const Stretch& stretch) const {
   const Crossing crossing = side_crossing(line, side, root.x, root.number);

@@ -15,14 +15,14 @@
 // M, s0 and s1 are off by some u of |p| and |d|: the coefficients by some u times |P|^2 + s0^2, by as much
 // of |P||M| + |s0 s1| and |M|^2 + s1^2. So g at x is off by some u times
 //     ((|P| + |M x|)^2 + (|s0| + |s1 x|)^2) / (s0 + s1 x).
-// Solved where the line is closest to the axis between the caps, P and M x are across each other or point the
-// same way, and at a root this is some u times the radius there: the roots are those of a line that is moved
-// by no more than what the standard tier promises. (From a point where the radius is much larger than at the
-// root, next to the apex, they would not be.) The discriminant must be that of these very coefficients,
-// b^2 - a c without another rounding: then what little is left of a, b and c next to a ruling agrees with
-// itself, and roots that leave the solid's reach do so on the right side. In exact arithmetic it is the
-// same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones.
-// The set of points inside is convex, so a line cuts one stretch out of it.
+// Solved between the caps where |P|^2 + s0^2 is least, x has the sign of P . M + s0 s1, or that is 0, and
+// this is at most 4 u (s0 + s1 x) at a root, times what "some" is: the roots are those of a line that is
+// moved by no more than what the standard tier promises. (From where the radius is much larger than at the
+// root, as it may be next to an apex, they would not be.) The discriminant must be that of these very
+// coefficients, b^2 - a c without another rounding: then what little is left of a, b and c next to a ruling
+// agrees with itself, and roots that leave the solid's reach do so on the right side. In exact arithmetic it
+// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones. The
+// set of points inside is convex, so a line cuts one stretch out of it.
 #pragma once
 
 #include <algorithm>
@@ -84,8 +84,8 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
     /// Whether the line is within the cone at x = 0, on either nappe.
     MaskOf<Real> is_within() const { return c < 0.0; }
-    /// Whether the roots are on the other nappe, where a is not negative and both are on one: that where x = 0
-    /// is if the line is within there, whatever is left of a and b, else that of the middle between them.
+    /// Whether the roots are on the other nappe, where a is not negative and both are on one: that where x =
+    /// 0 is if the line is within there, whatever is left of a and b, else that of the middle between them.
     MaskOf<Real> is_on_other_nappe() const {
       return either(both(is_within(), radius < 0.0), without(a * radius < b * radius_rate, is_within()));
     }
@@ -98,6 +98,9 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   using SideEquation = SideEquationOf<double>;
   template <class Real>
   SideEquationOf<Real> side_equation(const NearLineOf<Real>& line) const;
+  /// x of the point where |P|^2 + s0^2 is least; no number if there is no such.
+  template <class Real>
+  Real where_least(const NearLineOf<Real>& line) const;
   static double approach(const SideEquation& side, double x);
   /// Whether the line does not graze the side.
   template <class Real>
@@ -152,6 +155,16 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   double cosine_ = 1;
   double sine_ = 0;
 };
+
+template <class Real>
+Real FrustumShape::where_least(const NearLineOf<Real>& line) const {
+  const Vec3Of<Real> axis = spread<Real>(axis_);
+  const Vec3Of<Real> m = spread<Real>(cosine_) * accurate_cross(line.direction, axis);
+  const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
+  const Real s0 = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
+  const Real s1 = sine_ * dot(line.direction, axis);
+  return -(dot(p, m) + s0 * s1) / (dot(m, m) + s1 * s1);
+}
 
 template <class Real>
 FrustumShape::SideEquationOf<Real> FrustumShape::side_equation(const NearLineOf<Real>& line) const {

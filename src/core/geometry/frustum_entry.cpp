@@ -1,7 +1,5 @@
 // Where rays plainly enter a cylinder or cone through its side: the way of FrustumShape::crossings(), for as
 // many of them side by side as there are lanes. What is not plain is left to that.
-#include <limits>
-
 #include "core/geometry/frustum.hpp"
 
 namespace crt::core {
@@ -10,13 +8,10 @@ template <class Real, class Ray>
 FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   auto line = NearLineOf<Real>::at_closest(ray, narrow_, unit_);
   const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Vec3Of<Real> across = accurate_cross(line.direction, axis);
-  const Real speed = dot(across, across);
-  const Real closest = line.to_t(-dot(accurate_cross(line.point, axis), across) / speed);
+  const Real closest = line.to_t(where_least(line));
   const Real ball = line.to_t_length((height_ + wide_radius_) / square_root(line.squared_speed));
   const Real origin = line.to_t(Real{});
-  const auto is_near = both(both(closest >= origin - ball, closest <= origin + ball),
-                            speed > std::numeric_limits<double>::min());
+  const auto is_near = both(closest >= origin - ball, closest <= origin + ball);
   if (!any(is_near)) return {};
   line.move_to(ray, narrow_, closest);
 
