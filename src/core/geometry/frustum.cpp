@@ -52,6 +52,13 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   }
   if (ray.start.face == no_face && stretch.empty()) return false;
 
+  if (!move_to_least(ray, line, stretch)) return false;
+  clip_side(ray, line, stretch);
+  return stretch.finish(out);
+}
+
+/// To where |P|^2 + s0^2 is least between the caps; false if t has no number there.
+bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const Stretch& stretch) const {
   // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a ball, and
   // between the caps.
   const double least = where_least(line);
@@ -61,8 +68,7 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
   if (!std::isfinite(t)) return false;
   line.move_to(ray, narrow_, t);
-  clip_side(ray, line, stretch);
-  return stretch.finish(out);
+  return true;
 }
 
 /// |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
@@ -77,17 +83,21 @@ double FrustumShape::approach(const SideEquation& side, double x) {
 /// root stays where it is: next to a ruling it may be so far away that a distance there says nothing.
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                                 const Root& root, const Stretch& stretch) const {
-  const Crossing crossing = side_crossing(line, side, root.x, root.number);
+  const Vec3 p = line.at(root.x);
+  const Crossing crossing = side_crossing(line, side, root, reach_of(p));
   if (!(crossing.t > stretch.enter_t() && crossing.t < stretch.leave_t())) return crossing;
+  const auto unpolished = [&] {
+    return side_crossing(line, side, root, std::max(reach_of(p), reach_of(line.point)));
+  };
   // Where a ray grazes more closely, the step could take it to the other root.
   constexpr double squarely = 0x1p-20;
   constexpr double longest_step = 64 * unit_roundoff;
   const double rate = approach(side, root.x);
-  if (!std::isfinite(rate) || rate == 0) return crossing;
+  if (!std::isfinite(rate) || rate == 0) return unpolished();
   const double gap = std::sqrt(std::max(side.discriminant, 0.0)) / std::abs(side.a);
-  const double reach = wide_radius_ + 2 * largest_component(line.at(root.x));
+  const double reach = wide_radius_ + 2 * largest_component(p);
   const bool apart = longest_step * reach < squarely * gap * rate;
-  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return crossing;
+  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return unpolished();
   NearLine at_root = line;
   at_root.move_to(ray, narrow_, line.to_precise_t(root.x));
   const double distance = distance_from_side(at_root.point);
@@ -112,19 +122,21 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   return result;
 }
 
-Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, double x,
-                                     std::uint8_t root) const {
-  const double t = line.to_t(x);
-  const Vec3 p = line.at(x);
+double FrustumShape::reach_of(const Vec3& p) const {
   // Along needles the square of the length may overflow, the length does not.
-  const double reach = wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
+  return wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
+}
+
+Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
+                                     double reach) const {
+  const double t = line.to_t(root.x);
   const double speed = std::sqrt(line.squared_speed);
   const double graze = speed / std::sqrt(std::abs(side.a)) * grazing_error(line, reach, wide_radius_);
   const double longest = std::min(side.a > 0 ? graze : reach / speed, reach / speed);
   return {.t = t,
-          .error = standard_error(line, t, reach, approach(side, x), longest),
+          .error = standard_error(line, t, reach, approach(side, root.x), longest),
           .face = side_face,
-          .root = root};
+          .root = root.number};
 }
 
 /// Where the line grazes, the discriminant may be what is left of large numbers. From halfway between the
@@ -176,18 +188,38 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
   const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
   SideEquation side = side_equation(line);
   side.discriminant = side.b * side.b;
-  Crossing other = side_crossing(line, side, 0, 0);
+  Crossing other = side_crossing(line, side, {}, reach_of(line.point));
   if (side.a != 0) {
     const double x = -2 * side.b / side.a;
-    other = side_crossing(line, side, x, 0);
-    other.error += line.to_t_length(start_error(side.c, side.a, side.b));
+    // Towards the apex the rounding of the origin grows as the radius shrinks, and there it is another matter
+    // which of the roots is the origin: the one at which the line enters, or the one at which it leaves.
+    constexpr double much_narrower = 0.5;
+    if (side.a > 0 && !(side.radius + side.radius_rate * x >= much_narrower * side.radius)) {
+      other = root_next_to_apex(ray, side.b >= 0, stretch);
+    } else {
+      other = side_crossing(line, side, {.x = x}, std::max(reach_of(line.at(x)), reach_of(line.point)));
+      other.error += line.to_t_length(start_error(side.c, side.a, side.b));
+    }
   }
   core::clip_side_from_surface({.a = sign_of(side.a),
                                 .b = sign_of(side.b),
-                                .radius = sign_of(side.radius),
+                                .radius = ray.start.on_face ? 1 : sign_of(side.radius),
                                 .radius_rate = sign_of(side.radius_rate),
                                 .other = other},
                                ray.start, stretch);
+}
+
+/// The root of a line that crosses the side elsewhere, too, where it is much wider: that one is behind the
+/// wanted one if the line is entering here, else ahead.
+Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const {
+  NearLine line = NearLine::at_closest(ray, narrow_, unit_);
+  move_to_least(ray, line, stretch);
+  const SideEquation side = side_equation(line);
+  const auto [low, high] = SideRoots<double>(side);
+  // Not beyond the apex, whatever is left of a.
+  const double apex = -side.radius / side.radius_rate;
+  const double x = entering ? std::max(low, apex) : std::min(high, apex);
+  return polished(ray, line, side, {.x = x, .entering = entering}, stretch);
 }
 
 template <class Real>

@@ -106,16 +106,19 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   template <class Real>
   static MaskOf<Real> passes_plainly(const NearLineOf<Real>& line, const SideEquationOf<Real>& side);
   struct Root {
-    double x;
-    bool entering;
-    std::uint8_t number;
+    double x = 0;
+    bool entering = false;
+    std::uint8_t number = 0;
   };
   /// Of a point in units, relative to the narrow end.
   template <class Vector>
   RealOf<Vector> distance_from_side(const Vector& p) const;
   Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side, const Root& root,
                     const Stretch& stretch) const;
-  Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
+  /// R + |x| of a point in units, relative to the narrow end.
+  double reach_of(const Vec3& p) const;
+  Crossing side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
+                         double reach) const;
   /// Both roots of a side equation, by the formulas that add what has one sign (Ray Tracing Gems ch. 7).
   template <class Real>
   struct SideRoots {
@@ -124,9 +127,11 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
     explicit SideRoots(const SideEquationOf<Real>& side);
   };
+  bool move_to_least(const ObjectRay& ray, NearLine& line, const Stretch& stretch) const;
   void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
+  Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const;
   /// What is on the side at `offset` from the middle of the narrow end, or next to it.
   template <class Real>
   struct SidePoint {
