@@ -8,6 +8,7 @@
 
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
+#include "oracle/ruling_rays.hpp"
 
 namespace crt::test {
 
@@ -274,6 +275,8 @@ TestRay ray_for(Counted& random, const P& primitive, double size) {
   Vec3 d = random.direction();
   switch (ray.kind) {
     case RayKind::plain:
+    case RayKind::along_ruling:  // made elsewhere
+    case RayKind::extreme_length:
       break;
     case RayKind::grazing:
       d = around(across(at.normal), angle(random));
@@ -311,6 +314,34 @@ Primitive default_primitive(std::size_t wanted) {
   return std::variant_alternative_t<kind, Primitive>{};
 }
 
+/// Numbers of every ten that make no ordinary rays at cylinders and cones.
+constexpr std::uint64_t ruling_digit = 7;
+constexpr std::uint64_t extreme_digit = 3;
+
+template <class P>
+constexpr bool has_rulings = std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone>;
+
+/// The direction as it is when it is lengthened by ray.stretch.
+void round_stretched(TestRay& ray) {
+  ray.direction = (ray.stretch * ray.direction) * (1 / ray.stretch);
+}
+
+/// Gives the direction an extreme length, and components that are extremely far apart.
+void stretch(Counted& random, TestRay& ray) {
+  constexpr double farthest = 320;
+  const Vec3 before = ray.direction;
+  const int axis = random.integer(0, 2);
+  const int form = random.integer(0, 3);
+  if (form > 0) ray.direction[axis] *= random.power_of_ten(-farthest, 0);
+  if (form > 2) ray.direction[(axis + 1) % 3] *= random.power_of_ten(-farthest, 0);
+  constexpr int most_powers = 850;
+  ray.stretch = std::ldexp(1.0, random.integer(-most_powers, most_powers));
+  ray.kind = RayKind::extreme_length;
+  round_stretched(ray);
+  if (ray.direction == Vec3(0)) ray.direction = before;
+  round_stretched(ray);
+}
+
 bool is_usable(const TestRay& ray) {
   if (ray.direction == Vec3(0) || !std::isfinite(glm::dot(ray.direction, ray.direction))) return false;
   try {
@@ -336,12 +367,25 @@ Transform product(const Transform& second, const Transform& first) {
 
 Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size) {
   Primitive primitive = default_primitive(primitive_kind);
-  std::visit([&](auto& p) { make(random, at, size, p); }, primitive);
+  const auto make_one = [&]<class P>(P& p) {
+    if constexpr (has_rulings<P>) {
+      const std::uint64_t digit = random.number() % 10;
+      if (digit == extreme_digit || digit == ruling_digit) return make_extreme(random, at, size, p);
+    }
+    make(random, at, size, p);
+  };
+  std::visit(make_one, primitive);
   return primitive;
 }
 
 TestRay make_ray_at(Counted& random, const Primitive& primitive, double size) {
-  return std::visit([&](const auto& p) { return ray_for(random, p, size); }, primitive);
+  const auto make_one = [&]<class P>(const P& p) {
+    if constexpr (has_rulings<P>) {
+      if (random.number() % 10 == ruling_digit) return make_ruling_ray(random, p);
+    }
+    return ray_for(random, p, size);
+  };
+  return std::visit(make_one, primitive);
 }
 
 Transform random_transform(Counted& random) {
@@ -367,7 +411,8 @@ Transform random_transform(Counted& random) {
 
 std::string_view name_of(RayKind kind) {
   constexpr std::array<std::string_view, ray_kinds> names = {
-      "plain", "grazing", "axis-parallel", "edges, corners", "on the surface", "nearly parallel"};
+      "plain",          "grazing",         "axis-parallel",  "edges, corners",
+      "on the surface", "nearly parallel", "along a ruling", "extreme direction"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -383,7 +428,8 @@ TestRay make_ray(std::size_t primitive_kind, std::uint64_t number) {
     Counted random(seed, number);
     const double size = random.power_of_ten(-9, 9);
     const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
-    const TestRay ray = make_ray_at(random, make_primitive(random, primitive_kind, at, size), size);
+    TestRay ray = make_ray_at(random, make_primitive(random, primitive_kind, at, size), size);
+    if (number / 10 % 10 == extreme_digit) stretch(random, ray);
     if (is_usable(ray)) return ray;
   }
 }
@@ -401,6 +447,7 @@ TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
   ray.to_world = transform;
   if (random.integer(0, 1) == 0) ray.to_world.translation = shift;
   move_to_world(ray);
+  round_stretched(ray);
   return ray;
 }
 
