@@ -89,12 +89,15 @@ std::string text_of(const Ray& ray) {
                      ray.t_min, ray.t_max);
 }
 
-/// What is asked about: an entity, and what its rays are made for.
+constexpr std::size_t trees = primitive_kinds;
+constexpr std::size_t crowds = primitive_kinds + 1;
+
+/// What is asked about, and what its rays are made for.
 struct Subject {
-  Entity entity;
+  std::vector<Entity> entities;
   std::vector<Primitive> parts;
   double size;
-  Transform to_world;
+  Transform to_world{};
 };
 
 Primitive solid_part(Counted& random, const Vec3& at, double size) {
@@ -116,25 +119,50 @@ Entity combined(Counted& random, const Entity& a, const Entity& b) {
   }
 }
 
-Subject make_subject(Counted& random, std::size_t kind) {
-  const double size = random.power_of_ten(-9, 9);
-  const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
-  const bool is_tree = kind == primitive_kinds;
-  std::vector<Primitive> parts = {is_tree ? solid_part(random, at, size)
-                                          : make_primitive(random, kind, at, size)};
+Subject make_tree(Counted& random, const Vec3& at, double size) {
+  std::vector<Primitive> parts = {solid_part(random, at, size)};
   Entity entity = parts[0];
-  for (int more = is_tree ? random.integer(1, 2) : 0; more > 0; --more) {
+  for (int more = random.integer(1, 2); more > 0; --more) {
     const double part_size = size * random.power_of_ten(-1, 1);
     parts.push_back(solid_part(random, at + 0.5 * size * random.in_cube(), part_size));
     entity = combined(random, entity, parts.back());
   }
-  Transform to_world;
-  if (random.integer(0, 3) == 0) {
-    to_world = random_transform(random);
-    to_world.translation = random.power_of_ten(-3, 3) * at;
-    entity = entity.transformed(to_world);
+  return {.entities = {entity}, .parts = parts, .size = size};
+}
+
+/// More than are looked at in a row, each in a cell of its own.
+Subject make_crowd(Counted& random, const Vec3& at, double size) {
+  constexpr int cells = 5;
+  constexpr double most_sizes = 8;  // from its place a spindle torus reaches nearly that far
+  Subject crowd{.entities = {}, .parts = {}, .size = size};
+  for (int cell = 0; cell < cells * cells * cells; ++cell) {
+    const Vec3 place(cell % cells, cell / cells % cells, cell / (cells * cells));
+    Primitive part = solid_part(random, at + 2 * most_sizes * size * place, size);
+    if (std::holds_alternative<Plane>(part))
+      part = Sphere{.center = at + 2 * most_sizes * size * place, .radius = size};
+    crowd.parts.push_back(part);
+    crowd.entities.emplace_back(part);
   }
-  return {entity, parts, size, to_world};
+  return crowd;
+}
+
+Subject make_subject(Counted& random, std::size_t kind) {
+  const double size = random.power_of_ten(-9, 9);
+  const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
+  if (kind == crowds) return make_crowd(random, at, size);
+  Subject subject{.entities = {}, .parts = {}, .size = size};
+  if (kind == trees) {
+    subject = make_tree(random, at, size);
+  } else {
+    subject.parts = {make_primitive(random, kind, at, size)};
+    subject.entities = {subject.parts[0]};
+  }
+  if (random.integer(0, 3) == 0) {
+    subject.to_world = random_transform(random);
+    subject.to_world.translation = random.power_of_ten(-3, 3) * at;
+    subject.entities[0] = subject.entities[0].transformed(subject.to_world);
+  }
+  return subject;
 }
 
 /// A length near the ends of what doubles hold, of the whole or of some components.
@@ -184,6 +212,8 @@ void add_parts(Counted& random, RayQueries& queries, std::vector<Ray>& rays) {
 }
 
 std::string text_of(const Subject& subject) {
+  constexpr std::size_t most_parts = 3;
+  if (subject.parts.size() > most_parts) return "";
   std::string text;
   for (const Primitive& part : subject.parts) {
     text += description({.primitive = part, .to_world = subject.to_world}) + "; ";
@@ -200,7 +230,7 @@ void measure_subject(std::size_t kind, Precision precision, std::uint64_t number
     try {
       const Subject subject = make_subject(random, kind);
       Scene scene;
-      scene.entities = {subject.entity};
+      scene.entities = subject.entities;
       scene.settings.precision = precision;
       const PreparedScene prepared = prepare(scene);
       RayQueries queries(prepared);
@@ -240,7 +270,8 @@ void compare_queries(const PreparedScene& scene, const std::string& subject, std
 }
 
 std::string name_of_agreement(std::size_t kind) {
-  return kind == primitive_kinds ? "trees" : std::string(name_of_primitive(kind));
+  if (kind == trees) return "trees";
+  return kind == crowds ? "crowds" : std::string(name_of_primitive(kind));
 }
 
 AgreementRecord measure_agreement(std::size_t kind, Precision precision, std::uint64_t rays) {

@@ -22,15 +22,16 @@ struct AgreementRecord {
   void add(const AgreementRecord& other);
 };
 
-/// Asks a scene that has one entity. What it tells of a ray must be:
+/// Asks a scene whose entities keep apart. What it tells of a ray must be:
 ///  - crossings() is in order of t, within t_min < t < t_max, and enters and leaves by turns;
 ///  - intersect() is its first, or nothing if there is none, and occluded() tells whether there is one;
 ///  - a batch has the same bits as each of its rays alone, and distances() those of intersect().
 void compare_queries(const PreparedScene& scene, const std::string& subject, std::span<const Ray> rays,
                      AgreementRecord& record);
 
-/// The kinds of subjects: each primitive, by its place in the variant `Primitive`, and CSG of two or three.
-inline constexpr std::size_t agreement_kinds = std::variant_size_v<Primitive> + 1;
+/// The kinds of subjects: each primitive, by its place in the variant `Primitive`; CSG of two or three
+/// solids; crowds of solids that keep apart.
+inline constexpr std::size_t agreement_kinds = std::variant_size_v<Primitive> + 2;
 std::string name_of_agreement(std::size_t kind);
 
 /// Compares queries of random subjects, each with some rays of every kind that there is, and with parts of
