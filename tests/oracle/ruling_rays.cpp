@@ -11,7 +11,8 @@ namespace {
 constexpr double farthest_proportion = 6;  // a power of ten
 
 double log_uniform_tilt(Counted& random) {
-  return random.power_of_ten(-16, -1) * random.sign();
+  const double size = random.power_of_ten(-16, -1);
+  return size * random.sign();
 }
 
 /// One in eight is next to a coordinate axis, and Counted::direction() has those themselves.
@@ -38,7 +39,10 @@ Vec3 any_across(Counted& random, const Vec3& v) {
   const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 a = glm::normalize(glm::cross(n, other));
   const Vec3 b = glm::cross(n, a);
-  if (random.integer(0, 7) == 0) return random.sign() * (random.integer(0, 1) == 0 ? a : b);
+  if (random.integer(0, 7) == 0) {
+    const double sign = random.sign();
+    return sign * (random.integer(0, 1) == 0 ? a : b);
+  }
   const double angle = random.uniform(0, 2 * std::numbers::pi);
   return std::cos(angle) * a + std::sin(angle) * b;
 }
@@ -59,34 +63,34 @@ double any_share(Counted& random) {
   }
 }
 
-TestRay ray_along(Counted& random, const Vec3& from, const Vec3& to, double r1, double r2) {
-  const Vec3 axis = to - from;
-  const double height = glm::length(axis);
-  const double size = std::max({height, r1, r2});
-  const Vec3 out = any_across(random, axis);
-  const Vec3 ruling = glm::normalize(axis + (r2 - r1) * out);
-  const double share = any_share(random);
-  Vec3 target = from + share * axis + (r1 + (r2 - r1) * share) * out;
-  Vec3 d = random.sign() * ruling;
+TestRay ray_along(Counted& random, const Cone& cone) {
+  const double radius = std::max(cone.radius, cone.radius2);
+  const double size = std::max(glm::length(cone.to - cone.from), radius);
+  const Ruling ruling(random, cone);
+  Vec3 target = ruling.at(any_share(random));
+  Vec3 d = random.sign() * ruling.direction;
 
   const bool shifted = random.integer(0, 3) != 0;
   const bool turned = random.integer(0, 3) != 0;
-  const Vec3 normal = glm::normalize(height * out + (r1 - r2) * (axis / height));
   const auto any_way = [&]() -> Vec3 {
     switch (random.integer(0, 2)) {
       case 0:
-        return normal;
+        return ruling.normal;
       case 1:
-        return glm::cross(normal, ruling);
+        return glm::cross(ruling.normal, ruling.direction);
       default:
         return random.direction();
     }
   };
   if (shifted) {
-    const double unit = random.integer(0, 1) == 0 ? size : std::max(r1, r2);
-    target += unit * log_uniform_tilt(random) * any_way();
+    const double unit = random.integer(0, 1) == 0 ? size : radius;
+    const double shift = unit * log_uniform_tilt(random);
+    target += shift * any_way();
   }
-  if (turned) d += log_uniform_tilt(random) * any_way();
+  if (turned) {
+    const double turn = log_uniform_tilt(random);
+    d += turn * any_way();
+  }
 
   TestRay ray;
   ray.kind = RayKind::along_ruling;
@@ -135,14 +139,27 @@ void make_extreme(Counted& random, const Vec3& at, double size, Cone& c) {
   if (c.radius2 > 0 && random.integer(0, 1) == 0) std::swap(c.radius, c.radius2);
 }
 
+Ruling::Ruling(Counted& random, const Cone& cone) {
+  const Vec3 axis = cone.to - cone.from;
+  const double height = glm::length(axis);
+  const double growth = cone.radius2 - cone.radius;
+  const Vec3 out = any_across(random, axis);
+  from = cone.from + cone.radius * out;
+  way = axis + growth * out;
+  direction = glm::normalize(way);
+  normal = glm::normalize(height * out - growth * (axis / height));
+}
+
 TestRay make_ruling_ray(Counted& random, const Cylinder& cylinder) {
-  TestRay ray = ray_along(random, cylinder.from, cylinder.to, cylinder.radius, cylinder.radius);
+  TestRay ray = ray_along(
+      random,
+      {.from = cylinder.from, .to = cylinder.to, .radius = cylinder.radius, .radius2 = cylinder.radius});
   ray.primitive = cylinder;
   return ray;
 }
 
 TestRay make_ruling_ray(Counted& random, const Cone& cone) {
-  TestRay ray = ray_along(random, cone.from, cone.to, cone.radius, cone.radius2);
+  TestRay ray = ray_along(random, cone);
   ray.primitive = cone;
   return ray;
 }
