@@ -819,7 +819,11 @@ CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t str
 /**
  * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr and hdr
  * linear floats. An image with channels beside the colours goes into exr only (else
- * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all.
+ * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all: it is written under another name in the same
+ * folder, and then takes the place, the permissions and where possible the owner of a regular file that is
+ * there (other hard links of which stay as they were). Symbolic links are followed. What is no regular file
+ * (a device, a named pipe, /dev/fd/N) is written to as it is, and so is a regular file that may be written in
+ * a folder that takes no other. A pipe whose reader has gone is CRT_ERROR_IO, without a signal.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
 /** The same with options; NULL for the defaults. */
