@@ -182,8 +182,8 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
   command
       .add_option(
           "--checkpoint", request.render.checkpoint,
-          "with --targeterror, --timebudget or --passes: keeps the picture there after passes and at the "
-          "end, and goes on from it if it is there")
+          "with --targeterror, --timebudget or --passes: keeps what is done there, also when interrupted, "
+          "and goes on from it if it is there")
       ->type_name("FILE")
       ->excludes(frames);
   command

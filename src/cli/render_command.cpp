@@ -153,7 +153,7 @@ class RenderJob {
     const fs::path& checkpoint = request_.render.checkpoint;
     std::error_code ignored;
     if (checkpoint.empty() || !fs::exists(checkpoint, ignored)) return "";
-    return fmt::format("; --checkpoint '{}' goes on from there", checkpoint.string());
+    return fmt::format("; the same command goes on from its --checkpoint '{}'", checkpoint.string());
   }
 
   void write_stats(const std::string& json) {
