@@ -680,10 +680,11 @@ typedef struct crt_render_options {
   void* log_user;
   int32_t passes; /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
   uint32_t aovs;  /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
-  /** NULL, or the file that keeps a picture which is rendered by passes (target error, time budget, number of
-   * passes) as it is after a pass: the next render with the same checkpoint goes on from it, be it in another
-   * process, to the same picture as without the break. Written every few seconds and at the end, whole or not
-   * at all, and never removed; if that fails `log` is told, and the render goes on. A time budget counts from
+  /** NULL, or the file that keeps what is there of a picture which is rendered by passes (target error, time
+   * budget, number of passes): the next render with the same checkpoint goes on from it, be it in another
+   * process, to the same picture as without the break. Written within the first ten seconds, then every few
+   * seconds, and at the end, also when the render is cancelled or fails; whole or not at all, and never
+   * removed. If writing fails `log` is told, and the render goes on. A time budget counts from
    * the break on. A checkpoint of another picture is CRT_ERROR_INVALID_ARGUMENT; that it is of this one is
    * told by the settings and by the light of up to 1024 samples. Read by the call. */
   const char* checkpoint;
@@ -819,7 +820,11 @@ CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t str
 /**
  * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr and hdr
  * linear floats. An image with channels beside the colours goes into exr only (else
- * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all.
+ * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all: it is written under another name in the same
+ * folder, and then takes the place, the permissions and where possible the owner of a regular file that is
+ * there (other hard links of which stay as they were). Symbolic links are followed. What is no regular file
+ * (a device, a named pipe, /dev/fd/N) is written to as it is, and so is a regular file that may be written in
+ * a folder that takes no other. A pipe whose reader has gone is CRT_ERROR_IO, without a signal.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
 /** The same with options; NULL for the defaults. */
