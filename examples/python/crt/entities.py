@@ -112,8 +112,8 @@ def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
 class Empty(Entity):
     """Nothing: the solid without a point. No ray meets it; in combinations it is what the empty set is."""
 
-    def __init__(self) -> None:
-        self._create("crt_empty_create")
+    def __init__(self, **common: Any) -> None:
+        self._create("crt_empty_create", **common)
 
 
 class Sphere(Entity):
