@@ -114,6 +114,11 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
       ->type_name("FOLDER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option_function<std::string>(
+          "--compat", [&request](const std::string& value) { take_compat(request.script, value); },
+          "2015 for scripts of that year, see docs/compat.md; wins over the script's Settings")
+      ->type_name("YEAR");
   command.add_flag("--allow-outside-files", request.script.allow_outside_files,
                    "lets the script read files outside its own folder and --resources");
   command
