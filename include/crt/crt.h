@@ -20,7 +20,7 @@
  * - **Conventions.** Left-handed space: x to the right, y up, z into the screen. Vectors are double[3].
  *   Colours are double[3], linear RGB. Transforms are double[12], the three rows of a 3x4 affine matrix
  *   (linear part, then translation). Angles are radians. Texts are UTF-8, ended by 0 unless there is
- *   a length. Coordinates and sizes lie between 1e-100 and 1e100.
+ *   a length. Coordinates and sizes lie between 1e-100 and 1e100; what has no size is crt_empty_create().
  *
  * A sphere in 20 lines:
  * @code{.c}
@@ -195,7 +195,7 @@ typedef enum crt_pattern_type {
 typedef struct crt_pattern {
   uint32_t struct_size;
   int32_t type;      /**< a crt_pattern_type */
-  double color_a[3]; /**< linear RGB, each in [0, 1] */
+  double color_a[3]; /**< linear RGB, each in [0, 1e30] */
   double alpha_a;    /**< in [0, 1]; what is missing to 1 adds to the material's transparency */
   double color_b[3];
   double alpha_b;
@@ -214,7 +214,7 @@ typedef struct crt_pattern {
 typedef struct crt_material {
   uint32_t struct_size;
   int32_t reserved;           /**< 0 */
-  double color[3];            /**< linear RGB, each in [0, 1]; default 0.5 */
+  double color[3];            /**< linear RGB, each in [0, 1e30]; above 1 it brightens; default 0.5 */
   double alpha;               /**< in [0, 1]; what is missing to 1 adds to the transparency; default 1 */
   const crt_pattern* pattern; /**< takes the place of the colour; default NULL */
   double reflectivity;        /**< share of light mirrored, in [0, 1]; default 0 */
@@ -246,7 +246,7 @@ typedef struct crt_light {
   double angle;       /**< spot: full angle of the cone, in (0, 2 pi]; default pi / 3 */
   double penumbra;    /**< spot: how far it fades inwards, radians of the half angle; default pi / 36 */
   double radius;      /**< cylinder: > 0; default 1 */
-  double falloff;     /**< 0 (default): distance does not matter; else the light is falloff / D^2 */
+  double falloff;     /**< 0 (default) or less: distance does not matter; else it is falloff / D^2 */
   double ambient;     /**< share of the colour that every point gets, >= 0; default 0 */
 } crt_light;
 
@@ -290,7 +290,8 @@ typedef enum crt_background_type {
   CRT_BACKGROUND_SOLID = 0,  /**< `color` in every direction */
   CRT_BACKGROUND_GRADIENT,   /**< from `horizon` (level) to `sky` (straight up and down) */
   CRT_BACKGROUND_SPHERICAL,  /**< `image` all around, equirectangular */
-  CRT_BACKGROUND_CYLINDRICAL /**< `image` all around on a cylinder */
+  CRT_BACKGROUND_CYLINDRICAL, /**< `image` all around on a cylinder */
+  CRT_BACKGROUND_EQUAL_AREA   /**< `image` all around; down goes (1 - y) / 2 of the unit direction */
 } crt_background_type;
 
 /** What a ray that hits nothing sees. */
@@ -353,6 +354,10 @@ typedef struct crt_settings {
   int32_t max_samples; /**< likewise; default 1024 */
   int32_t filter;      /**< a crt_pixel_filter; default CRT_FILTER_BOX */
   int32_t reserved_2;  /**< must be 0 */
+  /** 0 (default), or 2015: the picture is formed as the program of that year formed it: lens, panoramas, places
+   * of the grid's samples, levels of 8-bit files; see docs/compat.md */
+  int32_t compat;
+  int32_t reserved_3; /**< must be 0 */
 } crt_settings;
 
 /** As a checker, with all values that other types need at sensible defaults too. */
@@ -418,6 +423,10 @@ CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], con
 CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
                                    size_t triangle_count, crt_entity** out);
 
+/** Nothing: the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No ray meets
+ * it; in combinations it is what the empty set is, and no transform, material or id changes it. */
+CRT_API crt_status crt_empty_create(crt_entity** out);
+
 /** What is in any of the parts (at least one), which may be surfaces too. */
 CRT_API crt_status crt_union_create(crt_entity* const* parts, size_t count, crt_entity** out);
 /** What is in all of the parts: at least one, all solids. */
@@ -438,7 +447,7 @@ CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entit
 
 /** 1 if the entity has an inside, 0 if a part of it is a mere surface (or it is NULL). */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
-/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL. */
+/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL and for the empty one. */
 CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 
 /** @} */
@@ -556,6 +565,8 @@ typedef struct crt_script_options {
   void* print_user;
   crt_poll_fn poll; /**< NULL: only the limits end a script */
   void* poll_user;
+  int32_t compat;   /**< 0: as the script's Settings say; 2015: it is a script of that year (docs/compat.md) */
+  int32_t reserved; /**< 0 */
 } crt_script_options;
 
 /** The defaults, which are all 0. */
@@ -680,10 +691,11 @@ typedef struct crt_render_options {
   void* log_user;
   int32_t passes; /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
   uint32_t aovs;  /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
-  /** NULL, or the file that keeps a picture which is rendered by passes (target error, time budget, number of
-   * passes) as it is after a pass: the next render with the same checkpoint goes on from it, be it in another
-   * process, to the same picture as without the break. Written every few seconds and at the end, whole or not
-   * at all, and never removed; if that fails `log` is told, and the render goes on. A time budget counts from
+  /** NULL, or the file that keeps what is there of a picture which is rendered by passes (target error, time
+   * budget, number of passes): the next render with the same checkpoint goes on from it, be it in another
+   * process, to the same picture as without the break. Written within the first ten seconds, then every few
+   * seconds, and at the end, also when the render is cancelled or fails; whole or not at all, and never
+   * removed. If writing fails `log` is told, and the render goes on. A time budget counts from
    * the break on. A checkpoint of another picture is CRT_ERROR_INVALID_ARGUMENT; that it is of this one is
    * told by the settings and by the light of up to 1024 samples. Read by the call. */
   const char* checkpoint;
@@ -819,7 +831,11 @@ CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t str
 /**
  * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr and hdr
  * linear floats. An image with channels beside the colours goes into exr only (else
- * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all.
+ * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all: it is written under another name in the same
+ * folder, and then takes the place, the permissions and where possible the owner of a regular file that is
+ * there (other hard links of which stay as they were). Symbolic links are followed. What is no regular file
+ * (a device, a named pipe, /dev/fd/N) is written to as it is, and so is a regular file that may be written in
+ * a folder that takes no other. A pipe whose reader has gone is CRT_ERROR_IO, without a signal.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
 /** The same with options; NULL for the defaults. */

@@ -6,6 +6,7 @@
 #include <crt/color.hpp>
 #include <crt/entity.hpp>
 #include <crt/error.hpp>
+#include <crt/file.hpp>
 #include <crt/image.hpp>
 #include <crt/job.hpp>
 #include <crt/light.hpp>

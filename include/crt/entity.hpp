@@ -49,6 +49,9 @@ class Entity {
   /// Whether it has an inside: false if any part of it is a mere surface (Disc, Triangle, HalfPlane).
   bool is_solid() const;
 
+  /// Whether there is nothing of it: see empty_entity().
+  bool is_empty() const;
+
   /// How many primitives it is made of, a part that occurs twice counted twice (saturating).
   std::uint64_t primitive_count() const;
 
@@ -75,6 +78,11 @@ Entity csg_union(std::span<const Entity> parts);
 Entity csg_intersection(std::span<const Entity> parts);
 /// `from` without any of the cutters (there may be none).
 Entity csg_difference(const Entity& from, std::span<const Entity> cutters);
+
+/// Nothing: the solid without a point, what is left of a sphere whose radius shrinks to 0. No ray meets it.
+/// Combined it is what the empty set is: `a + nothing` and `a - nothing` are `a`, `a ^ nothing` and
+/// `nothing - a` are nothing; moving it or giving it a material or an id changes nothing.
+Entity empty_entity();
 
 /// The corners of a triangle of a mesh, by their places in the list of positions.
 using TriangleIndices = std::array<std::uint32_t, 3>;

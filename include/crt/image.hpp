@@ -59,9 +59,9 @@ class Image {
   /// Writes a file whose format its ending says: png, tif, jpg, bmp and ppm get 8-bit integers with
   /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some pixel is
   /// not fully covered; the others then show the picture in front of black. Only exr holds channels(). The
-  /// file is written under another name and then renamed, so that no half file is ever seen. Throws Error:
-  /// io, unsupported (an unknown ending, one that cannot hold channels(), or OpenImageIO cannot be loaded),
-  /// invalid_argument (no pixels), out_of_memory.
+  /// file is written as write_file() does (crt/file.hpp): no half file is ever seen, links are followed,
+  /// devices and pipes are written to as they are. Throws Error: io, unsupported (an unknown ending, one that
+  /// cannot hold channels(), or OpenImageIO cannot be loaded), invalid_argument (no pixels), out_of_memory.
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
 
   /// The bytes of such a file; `format` is its ending: "png", "exr", ... Throws Error as write() does.

@@ -1,6 +1,6 @@
 // Lights. `ambient` is the share of a light's colour that every point gets, lit or not (>= 0).
-// `falloff` 0 means that distance does not matter; otherwise the light is falloff / D^2, with D as
-// Settings::falloff_model says. Lights cast shadows.
+// `falloff` above 0 makes the light fade with the distance D as falloff / D^2, with D as
+// Settings::falloff_model says; 0 or less means that distance does not matter. Lights cast shadows.
 #pragma once
 
 #include <crt/color.hpp>

@@ -11,7 +11,8 @@ namespace crt {
 
 /// What a surface is made of, and what light does with it. All factors are without unit.
 struct Material {
-  /// The colour of the surface: one everywhere, or a pattern. Channels in [0, 1].
+  /// The colour of the surface: one everywhere, or a pattern. Channels at least 0 and at most 1e30; above 1
+  /// more light leaves than comes. Alpha in [0, 1].
   std::variant<Color, Pattern> color = grey(0.5);
   /// Share of light mirrored, in [0, 1].
   double reflectivity = 0;

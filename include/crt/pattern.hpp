@@ -10,7 +10,8 @@
 namespace crt {
 
 // Patterns live in the space of the entity that wears them: they move, turn and stretch with it.
-// `scale` is the size of one period in scene units (> 0), `offset` moves the pattern.
+// `scale` is the size of one period in scene units (> 0), `offset` moves the pattern. Colours are as those of
+// materials.
 
 /// A checkerboard of cubes whose edges are `scale` long.
 struct Checker {

@@ -64,10 +64,11 @@ struct RenderOptions {
   /// Above 0: renders so many passes (RenderStats::passes) and no more, whatever the time budget; with
   /// neither target error nor time budget in the settings as with a time budget. Not negative.
   int passes = 0;
-  /// Of a picture that is rendered by passes: the file that keeps it as it is after a pass, from which the
+  /// Of a picture that is rendered by passes: the file that keeps what is there of it, from which the
   /// next render with the same checkpoint goes on, be it in another process, to the same picture as if there
-  /// had been no break. Written (whole, or left as it was) every few seconds and at the end, and never
-  /// removed; if that fails `log` is told, and the render goes on. A time budget counts from the break on.
+  /// had been no break. Written (whole, or left as it was) within the first ten seconds, then every few
+  /// seconds, and at the end, also when the render is cancelled or fails, at whatever time that is; never
+  /// removed. If writing fails `log` is told, and the render goes on. A time budget counts from the break on.
   /// That the file is of this picture is told by the settings that must stay (all but time budget and passes)
   /// and by the light of up to 1024 samples: what changes none of them is not noticed.
   std::filesystem::path checkpoint{};

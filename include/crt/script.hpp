@@ -71,6 +71,9 @@ struct ScriptOptions {
   std::vector<std::pair<std::string, std::string>> variables{};
   /// Attributes of Settings that win over the script's, as script expressions ("gamma", "2.2").
   std::vector<std::pair<std::string, std::string>> settings{};
+  /// 0: as the script's Settings say. 2015: the script is one of that year, see docs/compat.md; the scene's
+  /// Settings::compat then says so.
+  int compat = 0;
   ScriptLimits limits{};
   /// Gets what `print` prints, a line at a time without its end. From the calling thread.
   std::function<void(std::string_view)> print{};

@@ -23,6 +23,9 @@ enum class PixelFilter {
   blackman_harris,  ///< a bell around its middle, Settings::filter_width pixels wide
 };
 
+/// What Settings::compat can be beside 0.
+inline constexpr int compat_2015 = 2015;
+
 /// How a scene is rendered; everything that is neither geometry, light nor camera.
 struct Settings {
   // What the picture's file says of it.
@@ -62,6 +65,9 @@ struct Settings {
   /// Of the random numbers: another seed, another noise.
   std::uint64_t seed = 0;
   Precision precision = Precision::standard;
+  /// 0, or compat_2015: the picture is formed as the program of that year formed it, see docs/compat.md. That
+  /// is about the lens, panoramas, the places of the grid's samples and the levels of 8-bit files.
+  int compat = 0;
 };
 
 }  // namespace crt

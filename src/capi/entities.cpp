@@ -136,6 +136,10 @@ crt_status crt_mesh_create(const double* positions, size_t vertex_count, const u
   return create(out, [&] { return to_mesh(positions, vertex_count, indices, triangle_count); });
 }
 
+crt_status crt_empty_create(crt_entity** out) {
+  return create(out, [] { return crt::empty_entity(); });
+}
+
 crt_status crt_union_create(crt_entity* const* parts, size_t count, crt_entity** out) {
   return create(out, [&] { return crt::csg_union(to_entities(parts, count, "parts")); });
 }

@@ -35,6 +35,7 @@ crt_settings to_c(const Settings& settings) {
   out.min_samples = settings.min_samples;
   out.max_samples = settings.max_samples;
   out.filter = static_cast<std::int32_t>(settings.filter);
+  out.compat = settings.compat;
   return out;
 }
 
@@ -77,6 +78,7 @@ Settings to_settings(const crt_settings* settings) {
   result.min_samples = given.min_samples;
   result.max_samples = given.max_samples;
   result.filter = to_enum(given.filter, PixelFilter::blackman_harris, "settings.filter", "crt_pixel_filter");
+  result.compat = given.compat;
   return result;
 }
 

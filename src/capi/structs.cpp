@@ -68,7 +68,8 @@ std::span<const std::size_t> field_ends<crt_settings>() {
       CRT_END(S, date),         CRT_END(S, notes),           CRT_END(S, precision),
       CRT_END(S, reserved),     CRT_END(S, target_error),    CRT_END(S, time_budget),
       CRT_END(S, filter_width), CRT_END(S, min_samples),     CRT_END(S, max_samples),
-      CRT_END(S, filter),       CRT_END(S, reserved_2)};
+      CRT_END(S, filter),       CRT_END(S, reserved_2),      CRT_END(S, compat),
+      CRT_END(S, reserved_3)};
   return ends;
 }
 
@@ -98,7 +99,9 @@ std::span<const std::size_t> field_ends<crt_script_options>() {
                                       CRT_END(S, print),
                                       CRT_END(S, print_user),
                                       CRT_END(S, poll),
-                                      CRT_END(S, poll_user)};
+                                      CRT_END(S, poll_user),
+                                      CRT_END(S, compat),
+                                      CRT_END(S, reserved)};
   return ends;
 }
 

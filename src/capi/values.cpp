@@ -320,6 +320,13 @@ Camera to_camera(const crt_camera* camera) {
 
 // ---- backgrounds ------------------------------------------------------------------------------------
 
+constexpr int panorama_type(PanoramaProjection projection) {
+  return CRT_BACKGROUND_SPHERICAL + static_cast<int>(projection);
+}
+static_assert(panorama_type(PanoramaProjection::spherical) == CRT_BACKGROUND_SPHERICAL);
+static_assert(panorama_type(PanoramaProjection::cylindrical) == CRT_BACKGROUND_CYLINDRICAL);
+static_assert(panorama_type(PanoramaProjection::equal_area) == CRT_BACKGROUND_EQUAL_AREA);
+
 crt_background to_c(const Background& background, const crt_image* image) {
   crt_background out{};
   out.struct_size = sizeof out;
@@ -343,8 +350,7 @@ crt_background to_c(const Background& background, const crt_image* image) {
     put_gradient(*gradient);
   } else {
     const auto& panorama = std::get<PanoramaBackground>(background);
-    out.type = panorama.projection == PanoramaProjection::spherical ? CRT_BACKGROUND_SPHERICAL
-                                                                    : CRT_BACKGROUND_CYLINDRICAL;
+    out.type = panorama_type(panorama.projection);
     out.image = image;
     out.angle = panorama.angle;
   }
@@ -366,11 +372,11 @@ Background to_background(const crt_background* background) {
                                 .sky = to_color(given.sky, given.sky_alpha)};
     case CRT_BACKGROUND_SPHERICAL:
     case CRT_BACKGROUND_CYLINDRICAL:
-      return PanoramaBackground{.image = to_image(given.image, "background.image"),
-                                .projection = given.type == CRT_BACKGROUND_SPHERICAL
-                                                  ? PanoramaProjection::spherical
-                                                  : PanoramaProjection::cylindrical,
-                                .angle = given.angle};
+    case CRT_BACKGROUND_EQUAL_AREA:
+      return PanoramaBackground{
+          .image = to_image(given.image, "background.image"),
+          .projection = static_cast<PanoramaProjection>(given.type - CRT_BACKGROUND_SPHERICAL),
+          .angle = given.angle};
     default:
       reject_value("background.type", given.type, "crt_background_type");
   }

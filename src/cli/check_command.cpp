@@ -10,13 +10,14 @@ namespace crt::cli {
 
 ExitCode run_check(const CheckRequest& request) {
   Reporter reporter(request);
+  const bool tells_verdict = !request.quiet && request.diagnostics == DiagnosticsFormat::text;
   for (const std::filesystem::path& path : request.scenes) {
     const ScriptResult result = run_script_file(path, request.script);
     reporter.add(result.diagnostics);
     if (!result.scene) continue;
     try {
       prepare(*result.scene);
-      reporter.note(fmt::format("{}: no errors", path.string()));
+      if (tells_verdict) reporter.print(fmt::format("{}: no errors\n", path.string()));
     } catch (const Error& error) {
       reporter.add(error.code(), fmt::format("{}: {}", path.string(), error.what()), ExitCode::script);
     }

@@ -3,18 +3,29 @@
 #include <fcntl.h>
 #include <unistd.h>
 
+#include <cerrno>
+#include <csignal>
+
 namespace crt::cli {
 
 void hold_standard_streams() {
-  // open() takes the lowest number that is free.
+  std::signal(SIGPIPE, SIG_IGN);
+  // open() takes the lowest number that is free. What is opened to be read alone takes no output.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
-    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDWR) == -1) return;
+    if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDONLY) == -1) return;
   }
 }
 
 bool tell(std::FILE* stream, std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
-  return std::fflush(stream) == 0 && written;
+  const int error = errno;
+  const bool flushed = std::fflush(stream) == 0;
+  if (!written) errno = error;
+  return written && flushed;
+}
+
+bool is_closed(int error) {
+  return error == EBADF;
 }
 
 }  // namespace crt::cli

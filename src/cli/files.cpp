@@ -1,13 +1,12 @@
 #include "cli/files.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <crt/error.hpp>
+#include <crt/file.hpp>
 #include <crt/image.hpp>
-#include <fstream>
 #include <string>
-#include <system_error>
+#include <vector>
 
 namespace crt::cli {
 
@@ -41,15 +40,6 @@ NumberPlace find_hashes(const std::string& name) {
   return {first, end - first, static_cast<int>(end - first)};
 }
 
-fs::path folder_of(const fs::path& file) {
-  return file.has_parent_path() ? file.parent_path() : fs::path(".");
-}
-
-/// A name in the same folder that nobody else uses.
-fs::path name_beside(const fs::path& path, std::string_view purpose) {
-  return path.parent_path() / fmt::format(".crt-{}-{}{}", purpose, getpid(), path.extension().string());
-}
-
 /// A message about the file `name` as one about the file `better_name`.
 std::string with_name(std::string message, const std::string& name, const std::string& better_name) {
   const std::size_t position = message.find(name);
@@ -70,48 +60,18 @@ fs::path frame_path(const fs::path& output, int frame) {
   return output.parent_path() / std::string(name).replace(place.position, place.length, number);
 }
 
-void check_folder(const fs::path& file) {
-  const fs::path folder = folder_of(file);
-  std::error_code unreachable;
-  if (!fs::is_directory(folder, unreachable)) {
-    throw Error(ErrorCode::io,
-                fmt::format("cannot write '{}': there is no folder '{}'; make it first, or name another",
-                            file.string(), folder.string()));
-  }
-  if (fs::is_directory(file, unreachable)) {
-    throw Error(ErrorCode::io,
-                fmt::format("cannot write '{}': it is a folder; add a file's name to it", file.string()));
-  }
-}
-
 void check_picture(const fs::path& picture, bool with_channels) {
-  check_folder(picture);
-  const fs::path probe = name_beside(picture, "probe");
+  check_writable(picture);
+  Image image(1, 1);
+  if (with_channels) image.set_channels({{"Z", std::vector<float>{0}}});
+  const std::string name = picture.filename().string();
+  const std::size_t dot = name.rfind('.');
+  const std::string ending = dot == std::string::npos ? "" : name.substr(dot + 1);
   try {
-    Image image(1, 1);
-    if (with_channels) image.set_channels({{"Z", std::vector<float>{0}}});
-    image.write(probe);
+    image.encode(ending);
   } catch (const Error& error) {
-    throw Error(error.code(), with_name(error.what(), probe.string(), picture.string()));
+    throw Error(error.code(), with_name(error.what(), "picture." + ending, picture.string()));
   }
-  std::error_code ignored;
-  fs::remove(probe, ignored);
-}
-
-void write_text_file(const fs::path& path, std::string_view text) {
-  const fs::path unfinished = name_beside(path, "unfinished");
-  std::error_code failure;
-  {
-    std::ofstream file(unfinished, std::ios::binary);
-    file.write(text.data(), static_cast<std::streamsize>(text.size()));
-    file.close();
-    if (!file) failure = std::error_code(errno, std::generic_category());
-  }
-  if (!failure) fs::rename(unfinished, path, failure);
-  if (!failure) return;
-  std::error_code ignored;
-  fs::remove(unfinished, ignored);
-  throw Error(ErrorCode::io, fmt::format("cannot write '{}': {}", path.string(), failure.message()));
 }
 
 }  // namespace crt::cli

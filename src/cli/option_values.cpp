@@ -115,6 +115,14 @@ void take_variable(ScriptOptions& script, const std::string& assignment) {
   script.variables.emplace_back(assignment.substr(0, equals), assignment.substr(equals + 1));
 }
 
+void take_compat(ScriptOptions& script, const std::string& year) {
+  int number = 0;
+  if (!parse_whole(year, number) || (number != 0 && number != compat_2015)) {
+    throw WrongValue("--compat", fmt::format("{}, or 0 for none", compat_2015), year);
+  }
+  script.settings.emplace_back("compat", year);
+}
+
 FrameRange parse_frames(const std::string& text) {
   FrameRange frames;
   const std::size_t dash = text.find('-');

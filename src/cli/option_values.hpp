@@ -46,6 +46,9 @@ std::string setting_expression(const SettingOption& setting, const std::string& 
 /// Takes "NAME=VALUE".
 void take_variable(ScriptOptions& script, const std::string& assignment);
 
+/// Takes the year whose program a script is of: 2015, or 0 for none.
+void take_compat(ScriptOptions& script, const std::string& year);
+
 FrameRange parse_frames(const std::string& text);
 Region parse_region(const std::string& text);
 double parse_positive(const std::string& option, const std::string& text);

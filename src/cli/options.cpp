@@ -9,11 +9,13 @@
 #include <cstdio>
 #include <exception>
 #include <functional>
+#include <sstream>
 #include <string_view>
 #include <utility>
 
 #include "cli/console.hpp"
 #include "cli/option_values.hpp"
+#include "cli/reporter.hpp"
 
 namespace crt::cli {
 
@@ -32,11 +34,12 @@ constexpr std::string_view main_footer = R"(Examples:
 'crt render --help' lists all options. Every setting of a script is an option, too.
 
 Ends with 0: all done; 1: the script is wrong; 2: the command line is wrong; 3: a file could not be
-read or written; 70: a bug in crt, or no memory left; 130: interrupted.)";
+read or written, or standard output did not take what was for it; 70: a bug in crt, or no memory left; 130: interrupted.)";
 
 constexpr std::string_view render_footer =
     R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma applied),
-.exr and .hdr (linear light). Nothing is left behind under its name unless it is whole.
+.exr and .hdr (linear light). Nothing is left behind under its name unless it is whole. A link is followed, and
+what is a device or a pipe is written to as it is.
 An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo, and of each
 pixel how many samples it has (samples) and how far it may be from the truth (error).
 
@@ -111,6 +114,11 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
       ->type_name("FOLDER")
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  command
+      .add_option_function<std::string>(
+          "--compat", [&request](const std::string& value) { take_compat(request.script, value); },
+          "2015 for scripts of that year, see docs/compat.md; wins over the script's Settings")
+      ->type_name("YEAR");
   command.add_flag("--allow-outside-files", request.script.allow_outside_files,
                    "lets the script read files outside its own folder and --resources");
   command
@@ -179,8 +187,8 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
   command
       .add_option(
           "--checkpoint", request.render.checkpoint,
-          "with --targeterror, --timebudget or --passes: keeps the picture there after passes and at the "
-          "end, and goes on from it if it is there")
+          "with --targeterror, --timebudget or --passes: keeps what is done there, also when interrupted, "
+          "and goes on from it if it is there")
       ->type_name("FILE")
       ->excludes(frames);
   command
@@ -258,6 +266,15 @@ ExitCode complain(const std::exception& error, const CLI::App& app, int argc, co
   return ExitCode::usage;
 }
 
+/// Prints the help or the version that was asked for.
+ExitCode show(const CLI::Success& request, const CLI::App& app) {
+  std::ostringstream text;
+  app.exit(request, text, text);
+  Reporter reporter(CommonRequest{});
+  reporter.print(text.str(), Reporter::IfClosed::fails);
+  return reporter.finish();
+}
+
 }  // namespace
 
 Request parse_command_line(int argc, const char* const* argv) {
@@ -286,8 +303,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
-    app.exit(help_or_version);
-    return ExitCode::done;
+    return show(help_or_version, app);
   } catch (const CLI::ParseError& error) {
     return complain(error, app, argc, argv);
   } catch (const WrongValue& error) {

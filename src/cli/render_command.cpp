@@ -1,13 +1,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <crt/file.hpp>
 #include <crt/image.hpp>
 #include <crt/prepared_scene.hpp>
-#include <cstdio>
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
 #include "cli/files.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
@@ -61,8 +60,8 @@ class RenderJob {
     }
     try {
       check_picture(request_.output, request_.render.aovs != Aovs{});
-      if (!request_.stats.empty() && request_.stats != "-") check_folder(request_.stats);
-      if (!request_.render.checkpoint.empty()) check_folder(request_.render.checkpoint);
+      if (!request_.stats.empty() && request_.stats != "-") check_writable(request_.stats);
+      if (!request_.render.checkpoint.empty()) check_writable(request_.render.checkpoint);
     } catch (const Error& error) {
       const bool unknown_format = error.code() == ErrorCode::unsupported;
       reporter_.add(error.code(), error.what(), unknown_format ? ExitCode::usage : ExitCode::files);
@@ -121,8 +120,10 @@ class RenderJob {
     ScriptOptions options = request_.script;
     options.t = t;
     // Standard output belongs to the statistics if they are asked for there.
-    std::FILE* const stream = request_.stats == "-" ? stderr : stdout;
-    options.print = [stream](std::string_view line) { tell(stream, fmt::format("{}\n", line)); };
+    options.print = [this](std::string_view line) {
+      const std::string text = fmt::format("{}\n", line);
+      request_.stats == "-" ? reporter_.say(text) : reporter_.print(text);
+    };
     ScriptResult result = run_script_file(request_.scene, options);
     reporter_.add(result.diagnostics);
     return std::move(result.scene);
@@ -152,14 +153,14 @@ class RenderJob {
     const fs::path& checkpoint = request_.render.checkpoint;
     std::error_code ignored;
     if (checkpoint.empty() || !fs::exists(checkpoint, ignored)) return "";
-    return fmt::format("; --checkpoint '{}' goes on from there", checkpoint.string());
+    return fmt::format("; the same command goes on from its --checkpoint '{}'", checkpoint.string());
   }
 
   void write_stats(const std::string& json) {
     if (request_.stats == "-") {
-      if (!tell(stdout, json)) throw Error(ErrorCode::io, "cannot write the statistics to standard output");
+      reporter_.print(json, Reporter::IfClosed::fails);
     } else if (!request_.stats.empty()) {
-      write_text_file(request_.stats, json);
+      write_file(request_.stats, json);
     }
   }
 

@@ -3,7 +3,9 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cerrno>
 #include <cstdio>
+#include <system_error>
 
 #include "cli/console.hpp"
 
@@ -67,19 +69,30 @@ bool Reporter::accept_region(const Region& region, const Settings& settings) {
   return false;
 }
 
-void Reporter::note(const std::string& message) const {
-  if (!quiet_ && format_ == DiagnosticsFormat::text) tell(stderr, message + "\n");
+void Reporter::note(const std::string& message) {
+  if (!quiet_ && format_ == DiagnosticsFormat::text) say(message + "\n");
+}
+
+void Reporter::print(const std::string& text, IfClosed if_closed) {
+  if (tell(stdout, text) || (is_closed(errno) && if_closed == IfClosed::is_fine)) return;
+  add(ErrorCode::io,
+      fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)),
+      ExitCode::files);
+}
+
+void Reporter::say(const std::string& text) {
+  if (!tell(stderr, text) && !is_closed(errno)) exit_code_ = graver(exit_code_, ExitCode::files);
 }
 
 void Reporter::add_one(const Diagnostic& diagnostic, const std::string& text) {
   if (quiet_ && diagnostic.severity == Severity::warning) return;
   if (!texts_.insert(text).second) return;
   told_.push_back(diagnostic);
-  if (format_ == DiagnosticsFormat::text) tell(stderr, text);
+  if (format_ == DiagnosticsFormat::text) say(text);
 }
 
 ExitCode Reporter::finish() {
-  if (format_ == DiagnosticsFormat::json) tell(stderr, diagnostics_to_json(told_) + "\n");
+  if (format_ == DiagnosticsFormat::json) say(diagnostics_to_json(told_) + "\n");
   return exit_code_;
 }
 

@@ -25,7 +25,15 @@ class Reporter {
   bool accept_region(const Region& region, const Settings& settings);
 
   /// Something that went right, for the user to know: text on standard error.
-  void note(const std::string& message) const;
+  void note(const std::string& message);
+
+  /// Text on standard error. What cannot be told anywhere shows in the exit code alone.
+  void say(const std::string& text);
+
+  /// Text on standard output. Where that does not take it an error is added, or nothing happens if the
+  /// caller has closed it and that is fine.
+  enum class IfClosed { is_fine, fails };
+  void print(const std::string& text, IfClosed if_closed = IfClosed::is_fine);
 
   /// Prints the JSON array if that is the format. Gives the code to end with: that of the gravest
   /// thing told.

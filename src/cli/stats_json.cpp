@@ -140,6 +140,7 @@ std::string settings_json(const Settings& settings, Projection projection, int l
       .add("showclip", settings.show_clip)
       .add("seed", settings.seed)
       .add("precision", name_of(settings.precision))
+      .add("compat", settings.compat)
       .add("projection", name_of(projection))
       .text();
 }

@@ -1,16 +1,14 @@
 #include <fmt/format.h>
 
 #include <chrono>
+#include <crt/file.hpp>
 #include <crt/image.hpp>
 #include <crt/prepared_scene.hpp>
-#include <cstdio>
 #include <exception>
 #include <set>
 #include <utility>
 
 #include "cli/commands.hpp"
-#include "cli/console.hpp"
-#include "cli/files.hpp"
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/reporter.hpp"
@@ -57,7 +55,7 @@ class Trade {
 
   ExitCode run() {
     try {
-      check_folder(with_ending(".csv"));
+      check_writable(with_ending(".csv"));
       if (prepare_scene()) measure_and_tell();
     } catch (const Error& error) {
       reporter_.add(error);
@@ -77,7 +75,7 @@ class Trade {
   /// Whether there is a scene and a part of it to measure; what is wrong is told.
   bool prepare_scene() {
     ScriptOptions options = request_.script;
-    options.print = [](std::string_view line) { tell(stderr, fmt::format("{}\n", line)); };
+    options.print = [this](std::string_view line) { reporter_.say(fmt::format("{}\n", line)); };
     ScriptResult result = run_script_file(request_.scene, options);
     reporter_.add(result.diagnostics);
     if (!result.scene) return false;
@@ -111,14 +109,14 @@ class Trade {
           ExitCode::usage);
       return;
     }
-    if (!request_.quiet) tell(stdout, report_text(report, {request_.budget, request_.error}));
+    if (!request_.quiet) reporter_.print(report_text(report, {request_.budget, request_.error}));
     write(report);
   }
 
   void write(const TradeReport& report) {
-    write_text_file(with_ending(".csv"), report_csv(report));
+    write_file(with_ending(".csv"), report_csv(report));
     const Drawing plot = report_plot(report);
-    write_text_file(with_ending(".svg"), plot.svg());
+    write_file(with_ending(".svg"), plot.svg());
     if (request_.png) {
       constexpr double pixels_per_unit = 2;
       plot.picture(pixels_per_unit).write(with_ending(".png"), {.reproducible = true});

@@ -36,10 +36,18 @@ const Wanted& get(const Given& given) {
   return *value;
 }
 
+std::string in_small_letters(std::string text) {
+  for (char& c : text) {
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  }
+  return text;
+}
+
+/// One of some words, in small letters or large ones.
 template <class Enum, std::size_t count>
 void choose(const Given& given, const std::array<std::pair<std::string_view, Enum>, count>& choices,
             Enum& field) {
-  const std::string& text = get<String>(given)->text;
+  const std::string text = in_small_letters(get<String>(given)->text);
   std::vector<std::string_view> names;
   std::vector<std::string> quoted;
   for (const auto& [name, value] : choices) {
@@ -140,7 +148,10 @@ void convert(const Given& given, Context&, Projection& field) {
 void convert(const Given& given, Context&, PanoramaProjection& field) {
   using enum PanoramaProjection;
   using Choice = std::pair<std::string_view, PanoramaProjection>;
-  choose(given, std::array{Choice{"spherical", spherical}, Choice{"cylindrical", cylindrical}}, field);
+  choose(given,
+         std::array{Choice{"spherical", spherical}, Choice{"cylindrical", cylindrical},
+                    Choice{"equalarea", equal_area}},
+         field);
 }
 
 void convert(const Given& given, Context&, ApertureShape& field) {

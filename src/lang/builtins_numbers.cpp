@@ -120,10 +120,15 @@ Value random_number(const Arguments& arguments) {
   const double low = arguments.size() > 0 ? arguments.number(0) : 0;
   const double high = arguments.size() > 1 ? arguments.number(1) : 1;
   if (arguments.size() == 1) fail(arguments.call, "rand takes no arguments or two: rand(low, high)");
-  if (!(low <= high)) fail(arguments.call, "rand needs low <= high");
+  Context& context = arguments.context;
+  const bool in_2015 = context.compat == compat_2015;
+  // In 2015 both orders were fine.
+  if (!(low <= high) && !(in_2015 && low > high)) fail(arguments.call, "rand needs low <= high");
+  const double share = in_2015 ? context.random_2015.next_float() : context.random.next_float();
+  const double number = low + (high - low) * share;
   // Rounding may reach `high`, which is not among the results unless it is `low` too.
-  const double number = low + (high - low) * arguments.context.random.next_float();
-  return number < high ? number : low;
+  const bool is_before_high = low <= high ? number < high : number > high;
+  return is_before_high ? number : low;
 }
 
 Value noise(const Arguments& arguments) {

@@ -15,7 +15,8 @@ namespace {
 
 class Checker {
  public:
-  Checker(const SymbolTable& symbols, Reporter& reporter) : symbols_(symbols), reporter_(reporter) {}
+  Checker(int compat, const SymbolTable& symbols, Reporter& reporter)
+      : compat_(compat), symbols_(symbols), reporter_(reporter) {}
 
   void check_object(ObjectLiteral& object) {
     const std::string_view name = symbols_.name(object.name.symbol);
@@ -62,10 +63,15 @@ class Checker {
     }
     std::string hint = did_you_mean(name, names);
     if (hint.empty()) hint = fmt::format("; {} has {}", type.name, enumerate(listed, "and"));
+    if (compat_ == compat_2015) {
+      reporter_.warning(span, fmt::format("unknown attribute '{}' is passed over{}", name, hint));
+      return type.attributes.size();
+    }
     reporter_.error(span, fmt::format("unknown attribute '{}'{}", name, hint));
     return find_attribute(type, nearest(name, names));
   }
 
+  int compat_;
   const SymbolTable& symbols_;
   Reporter& reporter_;
 };
@@ -143,8 +149,8 @@ class AssignedNames {
 
 }  // namespace
 
-void check(Script& script, const SymbolTable& symbols, Reporter& reporter) {
-  Checker checker(symbols, reporter);
+void check(Script& script, int compat, const SymbolTable& symbols, Reporter& reporter) {
+  Checker checker(compat, symbols, reporter);
   const Span* settings_span = nullptr;
   const Span* scene_span = nullptr;
   const auto only_one = [&](const Span*& first, const Span& span, const char* name) {

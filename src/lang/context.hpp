@@ -40,7 +40,10 @@ class Context {
   SourceMap& sources;
   Reporter& reporter;
   Files files;
+  /// Of the script that runs: that of the options, or else what its Settings say.
+  int compat = 0;
   Random random;
+  Random2015 random_2015;
 
   /// Counts an expression evaluated at `span`. This is the hot path.
   void step(Span span) {

@@ -34,10 +34,12 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   std::vector<Given> given;
   given.reserve(attributes.size());
   for (const AttributeSyntax& attribute : attributes) {
+    Value value = evaluate(*attribute.value);
+    if (attribute.index == type.attributes.size()) continue;  // passed over, as the check has said
     given.push_back({.type = &type.attributes[attribute.index],
                      .name_span = attribute.name.span,
                      .value_span = attribute.value->span,
-                     .value = evaluate(*attribute.value)});
+                     .value = std::move(value)});
   }
   return given;
 }

@@ -1,6 +1,8 @@
 // The interpreter's statements.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lang/check.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
@@ -159,7 +161,7 @@ void Interpreter::execute_node(const Import& import) {
 
 void Interpreter::emit_entity(const Entity& entity, Span span) {
   if (emission_.into_scene) {
-    context_.count_emitted(span, entity.primitive_count());
+    context_.count_emitted(span, std::max<std::uint64_t>(entity.primitive_count(), 1));
   } else {
     context_.count_made(span);
   }

@@ -18,7 +18,9 @@ namespace crt::lang {
 /// over, so the parser never sees them.
 class Lexer {
  public:
-  Lexer(const Source& source, TextKind kind, SymbolTable& symbols, Reporter& reporter);
+  /// `compat` as in ScriptOptions: in scripts of 2015 the words that have become keywords since are names
+  /// wherever they cannot be meant as such.
+  Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter);
 
   Grammar::symbol_type next();
 
@@ -41,6 +43,7 @@ class Lexer {
   std::uint32_t offset(const Byte* position) const;
   std::string_view token_text() const;
 
+  Grammar::symbol_type scan();
   Grammar::symbol_type sign(Grammar::token::token_kind_type kind);
   Grammar::symbol_type opening(Grammar::token::token_kind_type kind);
   Grammar::symbol_type closing(Grammar::token::token_kind_type kind, char opening_bracket);
@@ -63,6 +66,8 @@ class Lexer {
   const Byte* next_token_start() const;
   bool modifier_follows() const;
   bool arrow_follows() const;
+  std::string_view next_word() const;
+  bool is_keyword_of_2015(Grammar::token::token_kind_type kind) const;
 
   const Source& source_;
   SymbolTable& symbols_;
@@ -71,9 +76,11 @@ class Lexer {
   const Byte* limit_;
   const Byte* token_;
   Grammar::token::token_kind_type start_;
+  int compat_;
   bool started_ = false;
   bool first_on_line_ = true;
   std::vector<Span> open_brackets_;
+  int for_tokens_ = 0;  ///< of `for (name`, so many came last
 };
 
 }  // namespace crt::lang

@@ -49,14 +49,15 @@ const unsigned char* bytes(const std::string& text) {
 
 }  // namespace
 
-Lexer::Lexer(const Source& source, TextKind kind, SymbolTable& symbols, Reporter& reporter)
+Lexer::Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter)
     : source_(source),
       symbols_(symbols),
       reporter_(reporter),
       cursor_(bytes(source.text)),
       limit_(bytes(source.text) + source.text.size()),
       token_(cursor_),
-      start_(kind == TextKind::script ? Token::START_SCRIPT : Token::START_EXPRESSION) {
+      start_(kind == TextKind::script ? Token::START_SCRIPT : Token::START_EXPRESSION),
+      compat_(compat) {
   if (source.text.starts_with(byte_order_mark)) cursor_ += byte_order_mark.size();
 }
 
@@ -76,6 +77,16 @@ std::uint32_t Lexer::line_end(Span span) const {
 std::string_view Lexer::token_text() const { return text(token_span()); }
 
 Grammar::symbol_type Lexer::next() {
+  using Kind = Grammar::symbol_kind;
+  Grammar::symbol_type token = scan();
+  const auto kind = token.kind();
+  const bool goes_on = (for_tokens_ == 1 && (kind == Kind::S_LEFT_PARENTHESIS || kind == Kind::S_FIRST_PARENTHESIS)) ||
+                       (for_tokens_ == 2 && kind == Kind::S_IDENTIFIER);
+  for_tokens_ = goes_on ? for_tokens_ + 1 : (kind == Kind::S_FOR ? 1 : 0);
+  return token;
+}
+
+Grammar::symbol_type Lexer::scan() {
   if (!std::exchange(started_, true)) {
     token_ = cursor_;
     return Grammar::symbol_type(start_, token_span());
@@ -175,7 +186,9 @@ Grammar::symbol_type Lexer::word() {
       std::find_if(keywords.begin(), keywords.end(), [name](const Keyword& k) { return k.text == name; });
   // Before an arrow every word is the name of an attribute.
   const bool is_attribute = keyword != keywords.end() && arrow_follows();
-  if (keyword != keywords.end() && !is_attribute) return sign(keyword->kind);
+  const bool is_keyword = keyword != keywords.end() && !is_attribute &&
+                          (compat_ != compat_2015 || is_keyword_of_2015(keyword->kind));
+  if (is_keyword) return sign(keyword->kind);
   first_on_line_ = false;
   const bool lower_case = name[0] >= 'a' && name[0] <= 'z';
   if (lower_case || is_attribute) return Grammar::make_IDENTIFIER(symbols_.intern(name), token_span());
@@ -212,17 +225,43 @@ const Lexer::Byte* Lexer::next_token_start() const {
   }
 }
 
-bool Lexer::modifier_follows() const {
+std::string_view Lexer::next_word() const {
   const Byte* begin = next_token_start();
   const Byte* end = begin;
   while (is_word_byte(*end)) ++end;
-  const std::string_view next = text({offset(begin), offset(end)});
+  return text({offset(begin), offset(end)});
+}
+
+bool Lexer::modifier_follows() const {
+  const std::string_view next = next_word();
   return next == "scale" || next == "translate" || next == "rotate";
 }
 
 bool Lexer::arrow_follows() const {
   const Byte* position = next_token_start();
   return position[0] == '-' && position[1] == '>';
+}
+
+/// Whether a word is a keyword in a script of 2015, when there were no control statements and no imports.
+bool Lexer::is_keyword_of_2015(Token::token_kind_type kind) const {
+  const Byte* const next = next_token_start();
+  switch (kind) {
+    case Token::WHILE:
+    case Token::IF:
+    case Token::FOR:
+      // First on its line a '(' continues nothing.
+      return *next == '(' && std::none_of(cursor_, next, [](Byte c) { return c == '\n' || c == '\r'; });
+    case Token::ELSE:
+      return *next == '{' || next_word() == "if";
+    case Token::IN: {
+      constexpr int tokens_before = 3;
+      return for_tokens_ == tokens_before;
+    }
+    case Token::IMPORT:
+      return *next == '"';
+    default:
+      return true;
+  }
 }
 
 void Lexer::not_utf8() {

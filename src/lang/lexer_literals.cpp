@@ -94,6 +94,7 @@ void Lexer::escape(std::string& value) {
   if (!line_ends && letter < 0x80) ++cursor_;
   switch (letter) {
     case '"':
+    case '\'':
     case '\\':
       value += static_cast<char>(letter);
       return;
@@ -110,7 +111,7 @@ void Lexer::escape(std::string& value) {
       break;
   }
   if (line_ends) return;  // the string is not closed, which will be said
-  reporter_.error({offset(start), offset(cursor_)}, R"(unknown escape; there are \" \\ \n \t \uXXXX)");
+  reporter_.error({offset(start), offset(cursor_)}, R"(unknown escape; there are \" \' \\ \n \t \uXXXX)");
 }
 
 /// Four hexadecimal digits, if they are there.

@@ -44,10 +44,25 @@ AttributeType degrees(std::string_view name, double Object::*field, std::string_
 
 /// The struct with the attributes of a script; all others have the defaults of the struct.
 template <class Object>
-Object assemble(const ObjectSite& site) {
-  Object object{};
+Object assemble(const ObjectSite& site, Object object = {}) {
   for (const Given& given : site.attributes) given.type->assign(&object, given, site.context);
   return object;
+}
+
+/// What an object is that gives no attributes.
+template <class Object>
+Object initial(const Context&) {
+  return {};
+}
+/// In scripts of 2015 cameras have a lens if they do not say otherwise.
+template <>
+inline Camera initial<Camera>(const Context& context) {
+  Camera camera;
+  if (context.compat == compat_2015) {
+    camera.aperture = 3;
+    camera.focal_distance = 0.5;
+  }
+  return camera;
 }
 
 /// A row whose `finish` makes a value of the filled struct; what the core refuses is blamed on the
@@ -57,7 +72,7 @@ ObjectType object(std::string_view name, std::vector<AttributeType> attributes,
                   Value (*finish)(Object, const ObjectSite&)) {
   return {.name = name, .attributes = std::move(attributes), .build = [finish](const ObjectSite& site) {
             try {
-              return finish(assemble<Object>(site), site);
+              return finish(assemble(site, initial<Object>(site.context)), site);
             } catch (const Error& error) {
               blame(error, site.name_span, site.attributes);
             }

@@ -1,11 +1,15 @@
 // The table of objects: attributes with their defaults, and what they become. The numbers behind
 // the defaults are those of the core's structs; the texts are for the reference, and a test keeps
 // both and docs/language.md together.
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <memory>
 #include <numbers>
 
 #include "crt/validate.hpp"
 #include "lang/failure.hpp"
+#include "lang/no_size.hpp"
 #include "lang/object_builder.hpp"
 
 namespace crt::lang {
@@ -14,13 +18,24 @@ namespace {
 
 // ---- entities -------------------------------------------------------------------------------
 
+void warn_of(const NoSize& no_size, const ObjectSite& site) {
+  const auto blamed = std::find_if(site.attributes.begin(), site.attributes.end(),
+                                   [&](const Given& given) { return given.type->name == no_size.attribute; });
+  site.context.reporter.warning(blamed->value_span, fmt::format("'{}' {}: what has no size draws nothing",
+                                                                no_size.attribute, no_size.reason));
+}
+
 template <class Shape>
 ObjectType entity(std::string_view name, std::vector<AttributeType> attributes) {
   attributes.push_back(attribute("material", &Shape::material, "a grey of 0.5"));
   return object<Shape>(
       name, std::move(attributes), +[](Shape shape, const ObjectSite& site) -> Value {
         site.context.count_made(site.name_span);
-        return Entity(std::move(shape));
+        const std::optional<NoSize> no_size = give_size(shape);
+        Entity entity(std::move(shape));
+        if (!no_size) return entity;
+        warn_of(*no_size, site);
+        return empty_entity();
       });
 }
 

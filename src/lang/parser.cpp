@@ -6,9 +6,9 @@
 
 namespace crt::lang {
 
-Script parse(const Source& source, TextKind kind, SymbolTable& symbols, Reporter& reporter,
+Script parse(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter,
              std::size_t& memory_left) {
-  Lexer lexer(source, kind, symbols, reporter);
+  Lexer lexer(source, kind, compat, symbols, reporter);
   TreeBuilder tree(lexer, reporter, memory_left);
   tree.charge_source(source.text.size());
   Grammar(lexer, tree).parse();

@@ -58,6 +58,21 @@ double Random::next_float() {
   return static_cast<double>(next() >> 11) * unit;
 }
 
+std::uint64_t Random2015::next(int bits) {
+  constexpr int state_bits = 48;
+  constexpr std::uint64_t increment = 0xB;
+  state_ = (state_ * multiplier + increment) & ((std::uint64_t{1} << state_bits) - 1);
+  return state_ >> (state_bits - bits);
+}
+
+double Random2015::next_float() {
+  constexpr double unit = 0x1p-53;
+  constexpr int high_bits = 26;
+  constexpr int low_bits = 27;
+  const std::uint64_t high = next(high_bits) << low_bits;
+  return static_cast<double>(high + next(low_bits)) * unit;
+}
+
 double gradient_noise(const Vec3& point) {
   // Every double beyond this is whole, where the noise is 0; and up to here floor() fits an integer.
   constexpr double all_are_whole = 0x1p52;

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <charconv>
 #include <deque>
 #include <new>
 #include <set>
@@ -10,6 +11,7 @@
 
 #include "crt/script.hpp"
 #include "lang/check.hpp"
+#include "lang/compat.hpp"
 #include "lang/context.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/parser.hpp"
@@ -48,6 +50,7 @@ class Session {
   std::vector<Diagnostic>& diagnostics() { return reporter_.diagnostics(); }
 
  private:
+  int compat_of(const Source& source);
   const Script* load(const Source& source, TextKind kind);
   void run_main(const Source& source, const Script& script, ScriptResult& result);
   void run_import(const Import& import);
@@ -74,11 +77,31 @@ class Session {
   std::vector<Given> overrides_;
 };
 
+/// Which year's script this is: that decides how it is read, and is known before. Of numbers that are none of
+/// the settings' check tells later.
+int Session::compat_of(const Source& source) {
+  if (options_.compat != 0 && options_.compat != compat_2015)
+    reporter_.error({}, fmt::format("ScriptOptions::compat must be 0 or {}", compat_2015),
+                    ErrorCode::invalid_argument);
+  if (options_.compat != 0) return options_.compat;
+  std::int64_t number = 0;
+  const auto setting = std::find_if(options_.settings.rbegin(), options_.settings.rend(),
+                                    [](const auto& given) { return given.first == "compat"; });
+  if (setting == options_.settings.rend()) {
+    number = written_compat(sources_, source);
+  } else {
+    const std::string& text = setting->second;
+    std::from_chars(text.data(), text.data() + text.size(), number);
+  }
+  return number == compat_2015 ? compat_2015 : 0;
+}
+
 /// Parses and checks a text; null after an error.
 const Script* Session::load(const Source& source, TextKind kind) {
-  Script& script = scripts_.emplace_back(parse(source, kind, symbols_, reporter_, memory_left_));
+  Script& script =
+      scripts_.emplace_back(parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
   if (reporter_.has_errors()) return nullptr;
-  check(script, symbols_, reporter_);
+  check(script, context_.compat, symbols_, reporter_);
   return reporter_.has_errors() ? nullptr : &script;
 }
 
@@ -93,6 +116,7 @@ void Session::run(std::string_view text, const std::string& name, ScriptResult& 
   context_.files.set_script_directory(main_directory_);
   const Source& source = sources_.add(name, std::string(text), main_directory_);
   running_.emplace_back(without_links(name), name);
+  context_.compat = compat_of(source);
   if (const Script* script = load(source, TextKind::script)) run_main(source, *script, result);
 }
 

@@ -1,6 +1,7 @@
 #include "lang/settings.hpp"
 
 #include "crt/validate.hpp"
+#include "lang/failure.hpp"
 #include "lang/object_builder.hpp"
 
 namespace crt::lang {
@@ -44,11 +45,23 @@ ObjectType make_settings_type() {
                          setting("showclip", &Settings::show_clip, "false"),
                          setting("seed", &Settings::seed, "0"),
                          setting("precision", &Settings::precision, "\"standard\""),
+                         setting("compat", &Settings::compat, "0"),
                          attribute("projection", &Fields::projection, "\"pinhole\""),
                          attribute("camera", &Fields::camera, "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"),
                          attribute("lights", &Fields::lights, "[]"),
                          attribute("background", &Fields::background, "Background { }")},
           .build = {}};
+}
+
+/// The options decide, or else what was read before anything ran: the script cannot compute it.
+void settle_compat(const Context& context, const std::vector<Given>& attributes, Settings& settings) {
+  if (context.options.compat != 0) settings.compat = context.options.compat;
+  if (settings.compat == context.compat) return;
+  for (const Given& given : attributes) {
+    if (given.type->name == "compat")
+      fail(given.value_span,
+           "'compat' decides how a script is read: it must be written as a plain number, 2015 or 0");
+  }
 }
 
 }  // namespace
@@ -60,12 +73,13 @@ const ObjectType& settings_type() {
 
 void apply_settings(Context& context, Span block, const std::vector<Given>& attributes, Scene& scene) {
   auto fields = assemble<SettingsFields>({context, block, attributes});
+  settle_compat(context, attributes, fields);
   try {
     validate(static_cast<const Settings&>(fields));
   } catch (const Error& error) {
     blame(error, block, attributes);
   }
-  if (fields.camera) scene.camera = *fields.camera;
+  scene.camera = fields.camera.value_or(initial<Camera>(context));
   if (fields.projection) scene.camera.projection = *fields.projection;
   if (fields.background) scene.background = std::move(*fields.background);
   scene.lights = std::move(fields.lights);

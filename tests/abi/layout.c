@@ -82,7 +82,7 @@ AT(crt_background, sky_alpha, 96);
 AT(crt_background, image, 104);
 AT(crt_background, angle, 112);
 
-SIZE(crt_settings, 136);
+SIZE(crt_settings, 144);
 AT(crt_settings, struct_size, 0);
 AT(crt_settings, width, 4);
 AT(crt_settings, height, 8);
@@ -107,8 +107,10 @@ AT(crt_settings, min_samples, 120);
 AT(crt_settings, max_samples, 124);
 AT(crt_settings, filter, 128);
 AT(crt_settings, reserved_2, 132);
+AT(crt_settings, compat, 136);
+AT(crt_settings, reserved_3, 140);
 
-SIZE(crt_script_options, 192);
+SIZE(crt_script_options, 200);
 AT(crt_script_options, struct_size, 0);
 AT(crt_script_options, allow_outside_files, 4);
 AT(crt_script_options, resource_directories, 8);
@@ -134,6 +136,8 @@ AT(crt_script_options, print, 160);
 AT(crt_script_options, print_user, 168);
 AT(crt_script_options, poll, 176);
 AT(crt_script_options, poll_user, 184);
+AT(crt_script_options, compat, 192);
+AT(crt_script_options, reserved, 196);
 
 SIZE(crt_diagnostic, 56);
 AT(crt_diagnostic, struct_size, 0);
@@ -269,6 +273,7 @@ VALUE(CRT_BACKGROUND_SOLID, 0);
 VALUE(CRT_BACKGROUND_GRADIENT, 1);
 VALUE(CRT_BACKGROUND_SPHERICAL, 2);
 VALUE(CRT_BACKGROUND_CYLINDRICAL, 3);
+VALUE(CRT_BACKGROUND_EQUAL_AREA, 4);
 
 VALUE(CRT_FALLOFF_PATH, 0);
 VALUE(CRT_FALLOFF_LIGHT, 1);

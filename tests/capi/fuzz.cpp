@@ -142,7 +142,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(10);
+  const std::uint32_t kind = input_.below(11);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -163,6 +163,8 @@ void Session::make_primitive() {
         return crt_disc_create(a.data(), b.data(), r, out);
       case 8:
         return crt_triangle_create(a.data(), b.data(), c.data(), out);
+      case 9:
+        return crt_empty_create(out);
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};
@@ -228,6 +230,8 @@ void Session::edit_settings() {
   settings.recursion_depth = static_cast<std::int32_t>(input_.below(6));
   settings.gamma = input_.number();
   settings.falloff_model = static_cast<std::int32_t>(input_.below(4)) - 1;
+  settings.compat =
+      static_cast<std::int32_t>(2013 + input_.below(3)) * static_cast<std::int32_t>(input_.below(2));
   const std::string title = input_.text();
   settings.title = title.c_str();
   crt_scene_set_settings(scene, &settings);
@@ -265,7 +269,7 @@ void Session::edit_scene() {
     }
     case 4: {
       auto background = scrambled<crt_background>(crt_background_init);
-      background.type = static_cast<std::int32_t>(input_.below(6)) - 1;
+      background.type = static_cast<std::int32_t>(input_.below(7)) - 1;
       background.color[0] = input_.number();
       background.image = images_.any(input_);
       background.angle = input_.number();

@@ -102,14 +102,29 @@ std::vector<std::string> TemporaryFolder::names() const {
 }
 
 Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  return run_crt_into(folder, arguments, "", "");
+}
+
+Outcome run_crt_into(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                     const std::string& out, const std::string& err) {
   const TemporaryFolder outputs;
-  const std::string out = outputs.path() / "out";
+  const std::string out_file = outputs.path() / "out";
+  const std::string err_file = outputs.path() / "err";
+  Streams streams(folder.path());
+  streams.write_to(STDOUT_FILENO, (out.empty() ? out_file : out).c_str());
+  streams.write_to(STDERR_FILENO, (err.empty() ? err_file : err).c_str());
+  const int exit_code = exit_code_of(spawn_crt(streams, arguments));
+  return {exit_code, content_of(out_file), content_of(err_file)};
+}
+
+Outcome run_crt_without_output(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  const TemporaryFolder outputs;
   const std::string err = outputs.path() / "err";
   Streams streams(folder.path());
-  streams.write_to(STDOUT_FILENO, out.c_str());
+  posix_spawn_file_actions_addclose(&streams.actions, STDOUT_FILENO);
   streams.write_to(STDERR_FILENO, err.c_str());
   const int exit_code = exit_code_of(spawn_crt(streams, arguments));
-  return {exit_code, content_of(out), content_of(err)};
+  return {exit_code, "", content_of(err)};
 }
 
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {

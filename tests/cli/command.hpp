@@ -38,6 +38,13 @@ struct Outcome {
 /// Runs `crt` with these arguments in the folder. Standard input is empty, the outputs are files.
 Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
+/// The same with standard output, or standard error, going to a file or device that is there.
+Outcome run_crt_into(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
+                     const std::string& out, const std::string& err);
+
+/// The same with standard output closed.
+Outcome run_crt_without_output(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+
 /// Runs `crt` with all standard streams closed; its exit code.
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 

@@ -9,6 +9,8 @@
 
 using namespace crt::test;
 
+namespace fs = std::filesystem;
+
 namespace {
 
 constexpr int interrupted = 130;
@@ -26,6 +28,36 @@ TEST_CASE("an interrupt while rendering ends with 130 and leaves no file" * doct
     CHECK(crt.wait() == interrupted);
     CHECK(crt.shown().find("not written") != std::string::npos);
     CHECK(folder.names() == std::vector<std::string>{"endless.crt"});
+  }
+}
+
+TEST_CASE("an interrupt at any time leaves a checkpoint, from which the same picture comes" *
+          doctest::skip(!has_terminals())) {
+  const std::vector<std::string> to_picture = {"render", "mirrors.crt", "--passes", "8", "--reproducible"};
+  const TemporaryFolder folder;
+  folder.write("mirrors.crt", mirrors_script);
+  std::vector<std::string> whole = to_picture;
+  whole.insert(whole.end(), {"-o", "whole.png"});
+  REQUIRE(run_crt(folder, whole).exit_code == 0);
+
+  std::vector<std::string> command = to_picture;
+  command.insert(command.end(), {"-o", "part.png", "--checkpoint", "part.state"});
+  for (const int signal : {SIGINT, SIGTERM}) {
+    // At once, and within the first pass, going on from there.
+    for (const char* sight : {"0 %", "[#"}) {
+      CrtOnTerminal crt(folder, command);
+      REQUIRE(crt.shows(sight));
+      crt.send(signal);
+      CHECK(crt.wait() == interrupted);
+      CHECK(crt.shown().find("goes on from its --checkpoint 'part.state'") != std::string::npos);
+      CHECK(folder.has("part.state"));
+      CHECK_FALSE(folder.has("part.png"));
+    }
+    CHECK(run_crt(folder, command).exit_code == 0);
+    CHECK(folder.read("part.png") == folder.read("whole.png"));
+    CHECK(folder.names() == std::vector<std::string>{"mirrors.crt", "part.png", "part.state", "whole.png"});
+    fs::remove(folder.path() / "part.png");
+    fs::remove(folder.path() / "part.state");
   }
 }
 

@@ -34,4 +34,24 @@ Scene {
 }
 )";
 
+/// Rays that go to and fro between mirrors: a pass takes seconds, though its pixels are few.
+inline const std::string mirrors_script = R"(m = Material {
+  color -> rgb(1, 1, 1)
+  reflectivity -> 1.0
+  diffuse -> 0.0
+}
+Settings {
+  width -> 400
+  height -> 400
+  recursiondepth -> 250
+  minweight -> 0.0
+  camera -> Camera { position -> vec3(0.1, 0.05, 0) pointing -> vec3(0, 0, 1) }
+}
+Scene {
+  Plane { position -> vec3(0, 0, 4) normal -> vec3(0, 0, -1) material -> m }
+  Plane { position -> vec3(0, 0, -4) normal -> vec3(0, 0, 1) material -> m }
+  Sphere { center -> vec3(0, 0, 2) radius -> 0.5 material -> m }
+}
+)";
+
 }  // namespace crt::test

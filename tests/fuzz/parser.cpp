@@ -12,13 +12,13 @@ void require(bool condition) {
   if (!condition) std::abort();
 }
 
-void parse(const std::string& text, crt::lang::TextKind kind) {
+void parse(const std::string& text, crt::lang::TextKind kind, int compat) {
   crt::lang::SourceMap sources;
   crt::lang::SymbolTable symbols;
   crt::lang::Reporter reporter(sources, 20);
   std::size_t memory = 64 << 20;
   try {
-    crt::lang::parse(sources.add("fuzz", text), kind, symbols, reporter, memory);
+    crt::lang::parse(sources.add("fuzz", text), kind, compat, symbols, reporter, memory);
   } catch (const crt::lang::GiveUp&) {
     require(reporter.has_errors());
   }
@@ -34,7 +34,9 @@ void parse(const std::string& text, crt::lang::TextKind kind) {
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   const std::string text(reinterpret_cast<const char*>(data), size);
-  parse(text, crt::lang::TextKind::script);
-  parse(text, crt::lang::TextKind::expression);
+  for (const int compat : {0, crt::compat_2015}) {
+    parse(text, crt::lang::TextKind::script, compat);
+    parse(text, crt::lang::TextKind::expression, compat);
+  }
   return 0;
 }

@@ -51,6 +51,7 @@ Image described_picture() {
   settings.falloff_model = FalloffModel::light;
   settings.seed = 18446744073709551615u;
   settings.precision = Precision::exact;
+  settings.compat = compat_2015;
   image.set_settings(settings);
   image.stats().camera_rays = 576;
   image.stats().prepare_seconds = 0.25;
@@ -106,6 +107,7 @@ TEST_CASE("a PNG tells title, author, date, notes, software, settings and what t
                                                        {"crt:showclip", "false"},
                                                        {"crt:seed", "18446744073709551615"},
                                                        {"crt:precision", "exact"},
+                                                       {"crt:compat", "2015"},
                                                        {"crt:camerarays", "576"},
                                                        {"crt:renderseconds", "1.750"}};
   CHECK(png_texts(file_text(directory / "a.png")) == expected);

@@ -84,6 +84,43 @@ TEST_CASE("every level comes out as itself, and halves between two go up") {
   CHECK(bytes_of({0.5, std::nextafter(0.5f, 0.0f), std::nextafter(0.5f, 1.0f)}) == Pixel{128, 127, 128, 255});
 }
 
+TEST_CASE("in 2015 values are cut to the level below") {
+  Image image(4, 1);
+  image.set(0, 0, {0.999, 0.5, 1, 1});
+  image.set(1, 0, {0.9 / 255, 254.999 / 255, 254.99 / 255, 1});
+  image.set(2, 0, {2, -1, 0, 1});
+  image.set(3, 0, {0.5, 0.25, 0, 0.5});
+  crt::Settings settings;
+  settings.compat = crt::compat_2015;
+  image.set_settings(settings);
+  CHECK(image.to_rgba8() ==
+        std::vector<std::uint8_t>{254, 127, 255, 255, 0, 254, 254, 255, 255, 0, 0, 255, 255, 127, 0, 127});
+}
+
+TEST_CASE("in 2015 as well every level comes out as itself, at any gamma and alpha") {
+  for (const double gamma : {1.0, 1.8, 2.2}) {
+    Image image(256, 255);
+    for (int x = 0; x < 256; ++x) {
+      for (int y = 0; y < 255; ++y) {
+        const double alpha = (y + 1) / 255.0;
+        const double value = alpha * std::pow(x / 255.0, gamma);
+        image.set(x, y, {value, value, value, alpha});
+      }
+    }
+    crt::Settings settings;
+    settings.gamma = gamma;
+    settings.compat = crt::compat_2015;
+    image.set_settings(settings);
+    const std::vector<std::uint8_t> bytes = image.to_rgba8();
+    int wrong = 0;
+    for (std::size_t i = 0; i < bytes.size(); i += 4) {
+      const std::size_t pixel = i / 4;
+      wrong += bytes[i] != pixel % 256 || bytes[i + 3] != pixel / 256 + 1;
+    }
+    CHECK(wrong == 0);
+  }
+}
+
 TEST_CASE("gamma is applied to the clamped value before rounding") {
   for (const double gamma : {0.1, 0.5, 1.0, 1.8, 2.2, 10.0}) {
     for (int i = 0; i <= 100; ++i) {

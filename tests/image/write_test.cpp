@@ -62,11 +62,11 @@ TEST_CASE("a directory as the target or none around it is an error that names th
   WriteError error = write_error(smooth_picture(2, 2), directory / "a.png");
   CHECK(error.code == ErrorCode::io);
   CHECK(contains(error.message, (directory / "a.png").string()));
-  CHECK(contains(error.message, "directory"));
+  CHECK(contains(error.message, "it is a folder"));
 
   error = write_error(smooth_picture(2, 2), directory / "missing/a.png");
   CHECK(error.code == ErrorCode::io);
-  CHECK(contains(error.message, "No such file"));
+  CHECK(contains(error.message, "there is no folder"));
 
   smooth_picture(2, 2).write(directory / "file.png");
   CHECK(write_error(smooth_picture(2, 2), directory / "file.png/a.png").code == ErrorCode::io);

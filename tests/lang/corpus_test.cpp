@@ -1,5 +1,5 @@
-// Runs each script of corpus/good and corpus/bad and compares what it does with what its comments
-// say: a line each, in this order.
+// Runs each script of corpus/good, corpus/bad and scripts_2015 and compares what it does with what its
+// comments say: a line each, in this order.
 //   -- prints: a line that `print` gave
 //   -- error 3:9: the message         (or warning; the file goes before the line if it is another)
 //   -- in macro 5:3                   a call that the error above lies in, innermost first
@@ -21,11 +21,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path corpus = fs::path(CRT_SOURCE_DIR) / "tests" / "lang" / "corpus";
+const fs::path tests = fs::path(CRT_SOURCE_DIR) / "tests" / "lang";
 
 std::vector<fs::path> scripts_in(const char* folder) {
   std::vector<fs::path> scripts;
-  for (const fs::directory_entry& entry : fs::directory_iterator(corpus / folder)) {
+  for (const fs::directory_entry& entry : fs::directory_iterator(tests / folder)) {
     if (entry.path().extension() == ".crt") scripts.push_back(entry.path());
   }
   std::sort(scripts.begin(), scripts.end());
@@ -100,7 +100,7 @@ bool has_error(const std::vector<std::string>& lines) {
 }  // namespace
 
 TEST_CASE("good scripts do what their comments say") {
-  const std::vector<fs::path> scripts = scripts_in("good");
+  const std::vector<fs::path> scripts = scripts_in("corpus/good");
   CHECK(scripts.size() >= 60);
   for (const fs::path& script : scripts) {
     check(script);
@@ -109,7 +109,7 @@ TEST_CASE("good scripts do what their comments say") {
 }
 
 TEST_CASE("bad scripts give the errors that their comments say, at their places") {
-  const std::vector<fs::path> scripts = scripts_in("bad");
+  const std::vector<fs::path> scripts = scripts_in("corpus/bad");
   CHECK(scripts.size() >= 90);
   for (const fs::path& script : scripts) {
     check(script);
@@ -117,8 +117,17 @@ TEST_CASE("bad scripts give the errors that their comments say, at their places"
   }
 }
 
+TEST_CASE("scripts of 2015 do what their comments say, without an error") {
+  const std::vector<fs::path> scripts = scripts_in("scripts_2015");
+  CHECK(scripts.size() >= 12);
+  for (const fs::path& script : scripts) {
+    check(script);
+    CHECK_FALSE(has_error(expectations(script)));
+  }
+}
+
 TEST_CASE("a script does the same every time") {
-  for (const char* folder : {"good", "bad"}) {
+  for (const char* folder : {"corpus/good", "corpus/bad", "scripts_2015"}) {
     for (const fs::path& script : scripts_in(folder)) {
       if (script.stem().string().starts_with("endless")) continue;  // only to save time
       CHECK(run(script) == run(script));

@@ -94,7 +94,7 @@ TEST_CASE("errors carry the kind of what went wrong") {
   const auto code = [](const std::string& text) { return run_statements(text).errors().at(0).code; };
   CHECK(code("a = ") == crt::ErrorCode::script);
   CHECK(code("a = 1 + true") == crt::ErrorCode::script);
-  CHECK(code("s = Sphere { center -> vec3(0, 0, 0) radius -> 0 }") == crt::ErrorCode::invalid_argument);
+  CHECK(code("s = Sphere { center -> vec3(0, 0, 0) radius -> -1 }") == crt::ErrorCode::invalid_argument);
   CHECK(code("import \"nowhere.crt\"") == crt::ErrorCode::io);
   CHECK(code("a = range(1e12)") == crt::ErrorCode::limit);
 }

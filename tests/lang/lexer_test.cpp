@@ -18,11 +18,11 @@ struct Lexed {
   std::vector<std::string> errors;
 };
 
-Lexed lex(const std::string& text) {
+Lexed lex(const std::string& text, int compat = 0) {
   crt::lang::SourceMap sources;
   crt::lang::SymbolTable symbols;
   crt::lang::Reporter reporter(sources, 100);
-  crt::lang::Lexer lexer(sources.add("test", text), crt::lang::TextKind::script, symbols, reporter);
+  crt::lang::Lexer lexer(sources.add("test", text), crt::lang::TextKind::script, compat, symbols, reporter);
   Lexed result;
   CHECK(lexer.next().kind() == Kind::S_START_SCRIPT);
   for (;;) {
@@ -36,13 +36,34 @@ Lexed lex(const std::string& text) {
   return result;
 }
 
-std::vector<Grammar::symbol_kind_type> kinds(const std::string& text) {
-  return lex(text).kinds;
+std::vector<Grammar::symbol_kind_type> kinds(const std::string& text, int compat = 0) {
+  return lex(text, compat).kinds;
 }
 
 using Kinds = std::vector<Grammar::symbol_kind_type>;
 
 }  // namespace
+
+TEST_CASE("in scripts of 2015 new keywords are names where they cannot be meant as keywords") {
+  constexpr int compat = crt::compat_2015;
+  for (const char* word : {"if", "while", "for", "else", "in", "import"}) {
+    CAPTURE(word);
+    const std::string name = word;
+    CHECK(kinds(name, compat) == Kinds{Kind::S_IDENTIFIER});
+    CHECK(kinds(name + " = 1", compat) == Kinds{Kind::S_IDENTIFIER, Kind::S_ASSIGN, Kind::S_INTEGER});
+    CHECK(kinds(name + "\n(", compat) == Kinds{Kind::S_IDENTIFIER, Kind::S_FIRST_PARENTHESIS});
+    CHECK(kinds(name) != Kinds{Kind::S_IDENTIFIER});
+  }
+  CHECK(kinds("while(", compat) == Kinds{Kind::S_WHILE, Kind::S_LEFT_PARENTHESIS});
+  CHECK(kinds("if (", compat) == Kinds{Kind::S_IF, Kind::S_LEFT_PARENTHESIS});
+  CHECK(kinds("else {", compat) == Kinds{Kind::S_ELSE, Kind::S_LEFT_BRACE});
+  CHECK(kinds("else if (", compat) == Kinds{Kind::S_ELSE, Kind::S_IF, Kind::S_LEFT_PARENTHESIS});
+  CHECK(kinds("import \"a\"", compat) == Kinds{Kind::S_IMPORT, Kind::S_STRING});
+  CHECK(kinds("for (in in in)", compat) == Kinds{Kind::S_FOR, Kind::S_LEFT_PARENTHESIS, Kind::S_IDENTIFIER,
+                                                 Kind::S_IN, Kind::S_IDENTIFIER, Kind::S_RIGHT_PARENTHESIS});
+  // Those that were there from the beginning stay.
+  CHECK(kinds("true scale Macro", compat) == Kinds{Kind::S_TRUE, Kind::S_SCALE, Kind::S_MACRO});
+}
 
 TEST_CASE("signs are read as long as they go") {
   CHECK(kinds("< <= = == ! != && || -> - > >=") ==

@@ -25,7 +25,7 @@ Parsed parse(const std::string& text, std::size_t most_errors = 20) {
   Parsed result;
   try {
     const crt::lang::Script script =
-        crt::lang::parse(sources.add("test", text), TextKind::script, symbols, reporter, memory);
+        crt::lang::parse(sources.add("test", text), TextKind::script, 0, symbols, reporter, memory);
     result.statements = script.statements.statements.size();
   } catch (const crt::lang::GiveUp&) {
     result.gave_up = true;
@@ -150,7 +150,7 @@ TEST_CASE("a tree larger than its memory is an ordinary error") {
   crt::lang::Reporter reporter(sources, 20);
   std::size_t memory = 10'000;
   const std::string text = repeated("a ", 10'000);
-  CHECK_THROWS_AS(crt::lang::parse(sources.add("test", text), TextKind::script, symbols, reporter, memory),
+  CHECK_THROWS_AS(crt::lang::parse(sources.add("test", text), TextKind::script, 0, symbols, reporter, memory),
                   crt::lang::GiveUp);
   REQUIRE(reporter.diagnostics().size() == 1);
   CHECK(reporter.diagnostics()[0].code == crt::ErrorCode::limit);

@@ -25,6 +25,15 @@ TEST_CASE("the generator is SplitMix64: its first numbers from the seed 0 are kn
   CHECK(random.next() == 0x06C45D188009454FU);
 }
 
+TEST_CASE("the generator of 2015 gives what java.util.Random(1337) gives") {
+  crt::lang::Random2015 random;
+  CHECK(random.next_float() == 0x1.51e251164549dp-1);
+  CHECK(random.next_float() == 0x1.60e46a6feaa42p-1);
+  CHECK(random.next_float() == 0x1.c43c50fbb9d68p-1);
+  for (int i = 3; i < 99; ++i) random.next_float();
+  CHECK(random.next_float() == 0x1.567bcceb83aeap-2);
+}
+
 TEST_CASE("random numbers fill [0, 1) evenly") {
   crt::lang::Random random;
   constexpr int count = 100'000;

@@ -11,6 +11,7 @@
 
 #include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/render/users_rays.hpp"
 #include "oracle/naive.hpp"
 
 namespace crt::test {
@@ -111,14 +112,31 @@ void account(const Crossing& found, const TrueCrossing& crossing, const TestRay&
   }
 }
 
+/// Asks a shape as a query does: with the direction brought near length 1. What it tells is put back.
+template <class Ask>
+bool ask_as_query(const TestRay& ray, CrossingList& out, const Ask& ask) {
+  core::WorldRay world;
+  core::follow({.origin = ray.origin, .direction = ray.stretch * ray.direction}, world);
+  const bool inside_before = ask(world.origin, world.direction);
+  const double factor = core::largest_component(world.direction) / core::largest_component(ray.direction);
+  for (Crossing& crossing : out) {
+    crossing.t *= factor;
+    crossing.t_low *= factor;
+    crossing.error *= factor;
+  }
+  return inside_before;
+}
+
 }  // namespace
 
 Contestant standard_tier() {
   return {.name = "standard",
           .promise = Promise::standard,
           .crossings = [](const TestRay& ray, CrossingList& out, std::uint64_t&) {
-            const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
-            return core::make_shape(ray.primitive)->crossings(object_ray, out);
+            return ask_as_query(ray, out, [&](const Vec3& origin, const Vec3& direction) {
+              const core::ObjectRay object_ray{.origin = origin, .direction = direction};
+              return core::make_shape(ray.primitive)->crossings(object_ray, out);
+            });
           }};
 }
 
@@ -126,11 +144,13 @@ Contestant exact_tier() {
   return {.name = "exact",
           .promise = Promise::exact,
           .crossings = [](const TestRay& ray, CrossingList& out, std::uint64_t& escalations) {
-            const core::Placement placement{core::PreciseTransform(ray.to_world)};
-            const core::ObjectRay object_ray = placement.to_object(ray.origin, ray.direction);
-            core::ExactRay exact = placement.to_object_exactly(ray.origin, ray.direction, object_ray);
-            exact.escalations = &escalations;
-            return core::make_exact_shape(ray.primitive)->crossings(exact, out);
+            return ask_as_query(ray, out, [&](const Vec3& origin, const Vec3& direction) {
+              const core::Placement placement{core::PreciseTransform(ray.to_world)};
+              const core::ObjectRay object_ray = placement.to_object(origin, direction);
+              core::ExactRay exact = placement.to_object_exactly(origin, direction, object_ray);
+              exact.escalations = &escalations;
+              return core::make_exact_shape(ray.primitive)->crossings(exact, out);
+            });
           }};
 }
 
@@ -185,7 +205,9 @@ void Record::add(const Record& other) {
 }
 
 Truth truth_of(const TestRay& ray, FirstTry first) {
-  return {ray, true_crossings(question_of(ray), first)};
+  // Doubles cannot hold what components that are so far apart make of one another.
+  const bool is_extreme = ray.kind == RayKind::extreme_length;
+  return {ray, true_crossings(question_of(ray), is_extreme ? FirstTry::mpfr : first)};
 }
 
 bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number, Record& record) {
@@ -285,9 +307,10 @@ std::string description(const TestRay& ray) {
           ? ""
           : fmt::format(", rows {} {} {} translation {}", text(ray.to_world.row_x), text(ray.to_world.row_y),
                         text(ray.to_world.row_z), text(ray.to_world.translation));
-  return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}{}",
+  return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}{}{}",
                      std::visit(primitive, ray.primitive), name_of(ray.kind), ray.decade, text(ray.origin),
-                     text(ray.direction), placed);
+                     text(ray.direction), placed,
+                     ray.stretch == 1 ? "" : fmt::format(", stretched {:a}", ray.stretch));
 }
 
 }  // namespace crt::test

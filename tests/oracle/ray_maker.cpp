@@ -7,7 +7,9 @@
 #include <numbers>
 
 #include "core/geometry/shape.hpp"
+#include "core/math/vector.hpp"
 #include "crt/error.hpp"
+#include "oracle/ruling_rays.hpp"
 
 namespace crt::test {
 
@@ -274,6 +276,8 @@ TestRay ray_for(Counted& random, const P& primitive, double size) {
   Vec3 d = random.direction();
   switch (ray.kind) {
     case RayKind::plain:
+    case RayKind::along_ruling:  // made elsewhere
+    case RayKind::extreme_length:
       break;
     case RayKind::grazing:
       d = around(across(at.normal), angle(random));
@@ -304,15 +308,44 @@ TestRay ray_for(Counted& random, const P& primitive, double size) {
 }
 
 template <std::size_t kind = 0>
-TestRay ray_of_kind(std::size_t wanted, Counted& random) {
+Primitive default_primitive(std::size_t wanted) {
   if constexpr (kind + 1 < primitive_kinds) {
-    if (wanted != kind) return ray_of_kind<kind + 1>(wanted, random);
+    if (wanted != kind) return default_primitive<kind + 1>(wanted);
   }
-  const double size = random.power_of_ten(-9, 9);
-  const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
-  std::variant_alternative_t<kind, Primitive> primitive;
-  make(random, at, size, primitive);
-  return ray_for(random, primitive, size);
+  return std::variant_alternative_t<kind, Primitive>{};
+}
+
+/// Numbers of every ten that make no ordinary rays at cylinders and cones.
+constexpr std::uint64_t ruling_digit = 7;
+constexpr std::uint64_t extreme_digit = 3;
+
+template <class P>
+constexpr bool has_rulings = std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone>;
+
+/// The direction as it is when it is lengthened by ray.stretch.
+void round_stretched(TestRay& ray) {
+  ray.direction = (ray.stretch * ray.direction) * (1 / ray.stretch);
+}
+
+/// Gives the direction an extreme length, and components that are extremely far apart.
+void stretch(Counted& random, TestRay& ray) {
+  // Farther apart a line meets a plane where no number tells.
+  constexpr double farthest = 280;
+  const Vec3 before = ray.direction;
+  const int axis = random.integer(0, 2);
+  const int form = random.integer(0, 3);
+  if (form > 0) ray.direction[axis] *= random.power_of_ten(-farthest, 0);
+  if (form > 2) ray.direction[(axis + 1) % 3] *= random.power_of_ten(-farthest, 0);
+  // All that t is compared with takes it as it comes: its largest component near 1.
+  const double largest = core::largest_component(ray.direction);
+  const int exponent = largest > 0 ? std::ilogb(largest) : 0;
+  for (int i = 0; i < 3; ++i) ray.direction[i] = std::scalbn(ray.direction[i], -exponent);
+  constexpr int most_powers = 850;
+  ray.stretch = std::ldexp(1.0, random.integer(-most_powers, most_powers));
+  ray.kind = RayKind::extreme_length;
+  round_stretched(ray);
+  if (ray.direction == Vec3(0)) ray.direction = before;
+  round_stretched(ray);
 }
 
 bool is_usable(const TestRay& ray) {
@@ -336,6 +369,31 @@ Transform product(const Transform& second, const Transform& first) {
   return {row(second.row_x), row(second.row_y), row(second.row_z)};
 }
 
+}  // namespace
+
+Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size) {
+  Primitive primitive = default_primitive(primitive_kind);
+  const auto make_one = [&]<class P>(P& p) {
+    if constexpr (has_rulings<P>) {
+      const std::uint64_t digit = random.number() % 10;
+      if (digit == extreme_digit || digit == ruling_digit) return make_extreme(random, at, size, p);
+    }
+    make(random, at, size, p);
+  };
+  std::visit(make_one, primitive);
+  return primitive;
+}
+
+TestRay make_ray_at(Counted& random, const Primitive& primitive, double size) {
+  const auto make_one = [&]<class P>(const P& p) {
+    if constexpr (has_rulings<P>) {
+      if (random.number() % 10 == ruling_digit) return make_ruling_ray(random, p);
+    }
+    return ray_for(random, p, size);
+  };
+  return std::visit(make_one, primitive);
+}
+
 Transform random_transform(Counted& random) {
   const auto quarter_turns = [&] { return 90.0 * random.integer(0, 3); };
   const auto angle_in_degrees = [&] { return random.uniform(0, 360); };
@@ -357,11 +415,10 @@ Transform random_transform(Counted& random) {
   return product(turned(), product(scaled, first));
 }
 
-}  // namespace
-
 std::string_view name_of(RayKind kind) {
   constexpr std::array<std::string_view, ray_kinds> names = {
-      "plain", "grazing", "axis-parallel", "edges, corners", "on the surface", "nearly parallel"};
+      "plain",          "grazing",         "axis-parallel",  "edges, corners",
+      "on the surface", "nearly parallel", "along a ruling", "extreme direction"};
   return names[static_cast<std::size_t>(kind)];
 }
 
@@ -375,9 +432,17 @@ TestRay make_ray(std::size_t primitive_kind, std::uint64_t number) {
   // A size that is lost in the offset makes no primitive; the next seed makes another.
   for (std::uint64_t seed = primitive_kind;; seed += primitive_kinds) {
     Counted random(seed, number);
-    const TestRay ray = ray_of_kind(primitive_kind, random);
+    const double size = random.power_of_ten(-9, 9);
+    const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
+    TestRay ray = make_ray_at(random, make_primitive(random, primitive_kind, at, size), size);
+    if (number / 10 % 10 == extreme_digit) stretch(random, ray);
     if (is_usable(ray)) return ray;
   }
+}
+
+void move_to_world(TestRay& ray) {
+  ray.origin = apply(ray.to_world, ray.origin) + ray.to_world.translation;
+  ray.direction = apply(ray.to_world, ray.direction);
 }
 
 TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
@@ -387,8 +452,8 @@ TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
   const Vec3 shift = glm::length(ray.origin) * random.power_of_ten(-3, 3) * random.in_cube();
   ray.to_world = transform;
   if (random.integer(0, 1) == 0) ray.to_world.translation = shift;
-  ray.origin = apply(transform, ray.origin) + ray.to_world.translation;
-  ray.direction = apply(transform, ray.direction);
+  move_to_world(ray);
+  round_stretched(ray);
   return ray;
 }
 

@@ -1,7 +1,9 @@
 // Random primitives and rays over many orders of size and distance, each a function of its number.
 //
 // Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3 to
-// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds.
+// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the rays at
+// cylinders and cones one tenth more is along rulings and another at solids of extreme proportions
+// (ruling_rays.hpp). One in ten of all has a direction of extreme length.
 #pragma once
 
 #include <cstdint>
@@ -15,13 +17,15 @@ namespace crt::test {
 
 enum class RayKind : std::uint8_t {
   plain,
-  grazing,        ///< along a tangent, moved in or out by 10^-16 to 0.1 sizes
-  axis_parallel,  ///< along a coordinate axis
-  edge,           ///< aimed at an edge, a corner, a rim
-  on_surface,     ///< from a point on the surface, as near as doubles have it
-  near_parallel,  ///< 10^-16 to 0.1 off parallel to a face or an axis
+  grazing,         ///< along a tangent, moved in or out by 10^-16 to 0.1 sizes
+  axis_parallel,   ///< along a coordinate axis
+  edge,            ///< aimed at an edge, a corner, a rim
+  on_surface,      ///< from a point on the surface, as near as doubles have it
+  near_parallel,   ///< 10^-16 to 0.1 off parallel to a face or an axis
+  along_ruling,    ///< of cylinders and cones: 10^-16 to 0.1 off a straight line of the side
+  extreme_length,  ///< any of these, its direction stretched or its components up to 10^280 apart
 };
-inline constexpr std::size_t ray_kinds = 6;
+inline constexpr std::size_t ray_kinds = 8;
 std::string_view name_of(RayKind kind);
 
 /// The primitives by their place in the variant `Primitive`.
@@ -35,6 +39,9 @@ struct TestRay {
   Vec3 origin{0};
   Vec3 direction{0};
   Transform to_world{};  ///< where the primitive is
+  /// A power of two. Asked is a ray with a direction so many times as long, which all that t is compared with
+  /// need not know.
+  double stretch = 1;
 };
 inline constexpr int lowest_decade = -3;
 inline constexpr int highest_decade = 11;
@@ -49,6 +56,7 @@ class Counted {
   double power_of_ten(double low, double high);
   double sign() { return integer(0, 1) == 0 ? -1 : 1; }
   Vec3 in_cube();
+  std::uint64_t number() const { return number_; }
   Vec3 direction();  ///< unit length to rounding; one in four is a coordinate axis
 
  private:
@@ -56,6 +64,16 @@ class Counted {
   std::uint64_t number_;
   std::uint32_t drawn_ = 0;
 };
+
+/// A primitive of a size at a place; a ray of a random kind for it.
+Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size);
+TestRay make_ray_at(Counted& random, const Primitive& primitive, double size);
+
+/// Rotates, scales by factors that differ by up to 10^8 and rotates again; one in four rounds nothing.
+Transform random_transform(Counted& random);
+
+/// Moves a ray along with its primitive, by ray.to_world.
+void move_to_world(TestRay& ray);
 
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
 

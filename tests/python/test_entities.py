@@ -17,6 +17,7 @@ class Primitives(unittest.TestCase):
     def test_each_is_where_its_arguments_say(self):
         x = 5  # the ray begins at x = -5
         cases = [
+            (crt.Empty(), []),
             (crt.Sphere((1, 0, 0), 1), [x, x + 2]),
             (crt.Box((1, 1, 1), (-1, -1, -1)), [x - 1, x + 1]),
             (crt.Plane((-1, 0, 0), (2, 0, 0)), [x + 2]),
@@ -32,6 +33,13 @@ class Primitives(unittest.TestCase):
         ]
         for entity, expected in cases:
             self.assertEqual(crossings(entity), expected, type(entity).__name__)
+
+    def test_the_empty_one_is_what_the_empty_set_is(self):
+        ball, nothing = crt.Sphere((0, 0, 0), 1), crt.Empty(material=crt.Material(), id=4)
+        for same in (ball + nothing, nothing + ball, ball - nothing):
+            self.assertEqual((crossings(same), same.primitive_count), ([4, 6], 1))
+        for empty in (nothing, ball ^ nothing, nothing - ball, nothing.moved((1, 2, 3))):
+            self.assertEqual((crossings(empty), empty.primitive_count, empty.is_solid), ([], 0, True))
 
     def test_a_mesh_takes_whole_numbers_below_the_number_of_positions(self):
         corners = np.eye(3)

@@ -37,6 +37,18 @@ class Scripts(unittest.TestCase):
         self.assertEqual("\n".join(lines).split("[")[0], '3 a "b"\n\\c ')
         self.assertTrue(lines[-1].endswith(" 4"), lines)
 
+    def test_a_script_of_2015_is_run_as_one(self):
+        lines = []
+        script = "in = 2\nprint(rand(), rand(in, 1) < 2)\nScene { }"
+        with self.assertRaises(crt.ScriptError):
+            crt.Scene.from_script(script)
+        scene = crt.Scene.from_script(script, compat=2015, print=lines.append)
+        self.assertEqual(lines, ["0.6599297847448217 true"])
+        self.assertEqual(scene.settings.compat, 2015)
+        self.assertEqual((scene.camera.aperture, scene.camera.focal_distance), (3, 0.5))
+        with self.assertRaisesRegex(crt.Error, "compat"):
+            crt.Scene.from_script(script, compat=2014)
+
     def test_expressions_mean_what_the_python_values_are(self):
         cases = {
             "true": True,

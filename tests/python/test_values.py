@@ -16,6 +16,27 @@ class Values(unittest.TestCase):
         self.assertEqual(crt.Light.parallel().origin, (0, 1, 0))
         self.assertNotEqual(crt.Pattern.wood().color_a, crt.Pattern.checker().color_a)
 
+    def test_panoramas_are_spherical_cylindrical_or_of_equal_area(self):
+        image = crt.Image.from_pixels(np.ones((2, 1, 4), np.float32))
+        kinds = [crt.Background.panorama(image).type]
+        kinds.append(crt.Background.panorama(image, cylindrical=True).type)
+        kinds.append(crt.Background.panorama(image, equal_area=True).type)
+        spherical, cylindrical, equal_area = 2, 3, 4
+        self.assertEqual(kinds, [spherical, cylindrical, equal_area])
+        with self.assertRaises(ValueError):
+            crt.Background.panorama(image, cylindrical=True, equal_area=True)
+        scene = crt.Scene(background=crt.Background.panorama(image, equal_area=True))
+        self.assertEqual(scene.background.type, crt.BackgroundType.EQUAL_AREA)
+
+    def test_8_bit_values_of_2015_are_cut(self):
+        scene = crt.Scene(background=crt.Background(color=(0.999, 0.5, 1)))
+        for compat, expected in ((0, [255, 128, 255, 255]), (2015, [254, 127, 255, 255])):
+            scene.settings = crt.Settings(width=1, height=1, compat=compat)
+            self.assertEqual(scene.settings.compat, compat)
+            self.assertEqual(scene.render().to_rgba8()[0, 0].tolist(), expected)
+        with self.assertRaisesRegex(crt.Error, "compat"):
+            scene.settings = crt.Settings(compat=2014)
+
     def test_keyword_arguments_and_attributes_change_fields(self):
         camera = crt.Camera(position=np.array([1.0, 2.0, 3.0]), fov=1)
         camera.roll = 0.5

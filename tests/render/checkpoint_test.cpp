@@ -2,14 +2,17 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 #include <crt/error.hpp>
 #include <crt/job.hpp>
 #include <fstream>
+#include <mutex>
 #include <optional>
 #include <string>
 
 #include "core/files/state_file.hpp"
+#include "core/render/rendering.hpp"
 #include "pictures.hpp"
 #include "support/temporary_directory.hpp"
 
@@ -112,6 +115,116 @@ TEST_CASE("a picture that is cancelled goes on from what was kept") {
   CHECK(same_pixels(job.wait(), render(scene)));
 }
 
+TEST_CASE(
+    "a picture that is cancelled anywhere, even before the first pass is whole, goes on to the same one") {
+  Scene description = varied_scene();
+  description.settings.max_samples = 16;
+  const PreparedScene scene = prepare(description);
+  const Aovs aovs{.normal = true, .samples = true, .error = true};
+  const Image reference = render(scene, {.aovs = aovs});
+  for (const int threads : {1, 2}) {
+    for (const int calls : {1, 2, 3, 5, 8}) {  // of the clock, which rays ask now and then
+      const TemporaryDirectory directory;
+      const auto checkpoint = directory / "state";
+      std::optional<Image> whole;
+      int breaks = 0;
+      for (; !whole && breaks < 1000; ++breaks) {
+        std::atomic<int> left = calls + breaks / 4;
+        core::Rendering* running = nullptr;
+        core::Rendering rendering(scene.data(), {.threads = threads, .checkpoint = checkpoint, .aovs = aovs},
+                                  [&] {
+                                    if (--left == 0) running->cancel();
+                                    return 0.0;
+                                  });
+        running = &rendering;
+        try {
+          rendering.run();
+          whole = rendering.take();
+        } catch (const Error& error) {
+          REQUIRE(error.code() == ErrorCode::cancelled);
+          REQUIRE(std::filesystem::exists(checkpoint));
+        }
+      }
+      REQUIRE(whole);
+      CHECK(breaks > 4);
+      CHECK(same_pixels(*whole, reference));
+      CHECK(same_counts(whole->stats(), reference.stats()));
+      for (std::size_t i = 0; i < reference.channels().size(); ++i) {
+        CHECK(whole->channels()[i].values == reference.channels()[i].values);
+      }
+      CHECK(directory.entries() == 1);
+    }
+  }
+}
+
+TEST_CASE(
+    "the first checkpoint is there after 10 seconds, though no pass is whole, and is good to go on from") {
+  Scene description = varied_scene();
+  description.settings.width = description.settings.height = 100;
+  description.settings.max_samples = 16;
+  const PreparedScene scene = prepare(description);
+  for (const int threads : {1, 2}) {
+    const TemporaryDirectory directory;
+    const auto checkpoint = directory / "state";
+    std::atomic<int> now = 0;
+    int seconds_of_first = 0;
+    std::mutex looking;
+    core::Rendering rendering(scene.data(), {.threads = threads, .checkpoint = checkpoint}, [&] {
+      const int seconds = ++now;
+      const std::lock_guard lock(looking);
+      if (seconds_of_first == 0 && std::filesystem::exists(checkpoint)) {
+        seconds_of_first = seconds;
+        std::filesystem::copy_file(checkpoint, directory / "first");
+      }
+      return seconds;
+    });
+    rendering.run();
+    CHECK(seconds_of_first > 0);
+    // With others, which ask for the time as well, it flies while the file is written.
+    if (threads == 1) CHECK(seconds_of_first <= 10);
+    const Image reference = render(scene);
+    CHECK(same_pixels(rendering.take(), reference));
+    const Image continued = render(scene, {.checkpoint = directory / "first"});
+    CHECK(same_pixels(continued, reference));
+    CHECK(same_counts(continued.stats(), reference.stats()));
+  }
+}
+
+TEST_CASE(
+    "a picture that is cancelled at once leaves a checkpoint of nothing, and none that was there is lost") {
+  const PreparedScene scene = prepare(varied_scene());
+  const TemporaryDirectory directory;
+  const auto checkpoint = directory / "state";
+  const auto refuse = [](double) { return false; };
+  CHECK(failure(scene, {.progress = refuse, .checkpoint = checkpoint}) == ErrorCode::cancelled);
+  REQUIRE(std::filesystem::exists(checkpoint));
+  CHECK(same_pixels(render(scene, {.checkpoint = checkpoint}), render(scene)));
+  const std::string done = content_of(checkpoint);
+  CHECK(failure(scene, {.progress = refuse, .checkpoint = checkpoint}) == ErrorCode::cancelled);
+  CHECK(content_of(checkpoint) == done);
+  RenderJob job(scene, {.checkpoint = directory / "of_job"});
+  job.cancel();
+  try {
+    job.wait();
+  } catch (const Error& error) {
+    CHECK(error.code() == ErrorCode::cancelled);
+  }
+  CHECK(std::filesystem::exists(directory / "of_job"));
+}
+
+TEST_CASE("what fails while a picture is rendered leaves a checkpoint as well") {
+  const PreparedScene scene = prepare(varied_scene());
+  const TemporaryDirectory directory;
+  const auto checkpoint = directory / "state";
+  const auto fail = [](double share) {
+    if (share > 0.2) throw std::runtime_error("the host has had enough");
+    return true;
+  };
+  CHECK_THROWS_AS(render(scene, {.progress = fail, .checkpoint = checkpoint}), std::runtime_error);
+  REQUIRE(std::filesystem::exists(checkpoint));
+  CHECK(same_pixels(render(scene, {.checkpoint = checkpoint}), render(scene)));
+}
+
 TEST_CASE("a checkpoint of another picture is refused") {
   const TemporaryDirectory directory;
   const auto checkpoint = directory / "state";
@@ -167,7 +280,12 @@ TEST_CASE("nonsense with a right checksum does no harm") {
   const PreparedScene scene = prepare(varied_scene());
   const TemporaryDirectory directory;
   const auto checkpoint = directory / "state";
-  render(scene, {.passes = 74, .checkpoint = checkpoint});
+  int passes = 74;
+  SUBCASE("after many passes") {}
+  SUBCASE("before pixels are decided on") {
+    passes = 9;
+  }
+  render(scene, {.passes = passes, .checkpoint = checkpoint});
   const std::string written = content_of(checkpoint);
   const std::string content = written.substr(0, written.size() - 8);
   const auto write = [&](const std::string& changed) {
@@ -182,7 +300,7 @@ TEST_CASE("nonsense with a right checksum does no harm") {
       changed[place] = value;
       write(changed);
       try {
-        render(scene, {.passes = 76, .checkpoint = checkpoint});
+        render(scene, {.passes = passes + 2, .checkpoint = checkpoint});
       } catch (const Error& error) {
         CHECK((error.code() == ErrorCode::io || error.code() == ErrorCode::invalid_argument));
       }

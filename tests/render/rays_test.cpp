@@ -271,6 +271,62 @@ TEST_CASE("one bright channel is enough to follow a ray") {
   CHECK(seen(scene, {0, 0, -1}, {0, 0, 0}) == Color{0, 0, 0, 1});
 }
 
+TEST_CASE("a ray is followed that a bright surface can still make matter") {
+  Scene scene = dark_scene();
+  scene.background = SolidBackground{{1, 1, 1}};
+  scene.settings.min_weight = 0.5;
+  Material dark = inert(0, 1);
+  dark.color = Color{0.01, 0, 0.001};
+  Material bright = inert(0, 1);
+  bright.color = Color{200, 0, 1};
+  scene.entities = {Disc{.normal = {0, 0, -1}, .material = dark},
+                    Disc{.center = {0, 0, 1}, .normal = {0, 0, -1}, .material = bright}};
+  CHECK(seen(scene, {0, 0, -1}, {0, 0, 0}).r == 2);
+  // Not where it can pass no such surface any more: the cut-off is what it might have brought.
+  scene.settings.recursion_depth = 1;
+  const Image cut = look(scene, {0, 0, -1}, {0, 0, 0});
+  CHECK(cut.at(0, 0) == Color{0, 0, 0, 1});
+  CHECK(cut.stats().rays_below_min_weight == 1);
+  // Nor where even that is not enough.
+  scene.settings.recursion_depth = 2;
+  scene.settings.min_weight = 1;
+  dark.color = Color{0.004, 0, 0};
+  scene.entities[0] = Disc{.normal = {0, 0, -1}, .material = dark};
+  const Image weak = look(scene, {0, 0, -1}, {0, 0, 0});
+  CHECK(weak.at(0, 0) == Color{0, 0, 0, 1});
+  CHECK(weak.stats().refraction_rays == 0);
+  CHECK(weak.stats().cutoff_max == doctest::Approx(0.8));
+}
+
+TEST_CASE("light stays a number however many surfaces brighten it, on its way to the eye and from a lamp") {
+  Scene scene = dark_scene();
+  scene.settings.recursion_depth = 256;
+  scene.settings.min_weight = 1.0 / 1024;
+  Material film = inert(0, 1);
+  film.color = Color{1e30, 0, 1};
+  for (int i = 0; i < 120; ++i) {
+    scene.entities.push_back(
+        Disc{.center = {0, 0, double(i)}, .normal = {0, 0, -1}, .radius = 1, .material = film});
+  }
+  const auto check_numbers = [&](const Image& image) {
+    for (const float value : image.pixels()) CHECK(std::isfinite(value));
+    CHECK(image.at(0, 0).r == std::numeric_limits<float>::max());
+    CHECK(image.at(0, 0).g == 0);
+  };
+  // What is behind them is black, but for red.
+  scene.background = SolidBackground{{1e30, 0, 0}};
+  check_numbers(look(scene, {0, 0, -1}, {0, 0, 0}));
+  CHECK(look(scene, {0, 0, -1}, {0, 0, 0}).at(0, 0).b == 0);
+  // And before a wall that a lamp lights through them.
+  scene.background = SolidBackground{{0, 0, 0}};
+  scene.lights = {PointLight{.origin = {0, 0, -1}, .color = {1e30, 0, 1e30}}};
+  Material wall;
+  wall.color = Color{1e30, 1, 0};
+  scene.entities.push_back(Plane{.normal = {0, 0, -1}, .position = {0, 0, 200}, .material = wall});
+  check_numbers(look(scene, {5, 0, 150}, {0, 0, 200}));
+  check_numbers(look(scene, {0, 0, -2}, {0, 0, 0}));
+}
+
 TEST_CASE("a sample that could go on for ever is bounded") {
   // Every hit mirrors everything and lets everything through: 2^250 rays, if nobody stopped them.
   Scene scene = dark_scene();

@@ -232,6 +232,43 @@ TEST_CASE("an empty scene and an empty solid are met by nothing") {
   CHECK_FALSE(nothing.intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
 }
 
+TEST_CASE("the empty entity is what the empty set is") {
+  const Entity nothing = empty_entity();
+  CHECK(nothing.is_empty());
+  CHECK(nothing.is_solid());
+  CHECK(nothing.primitive_count() == 0);
+  const Entity ball = Sphere{};
+  const Entity disc = Disc{};
+  for (const Entity& same :
+       {ball + nothing, nothing + ball, ball - nothing, csg_difference(ball, std::array{nothing, nothing}),
+        csg_union(std::array{nothing, ball, nothing})}) {
+    CHECK(same.shared_node() == ball.shared_node());
+  }
+  CHECK((disc + nothing).shared_node() == disc.shared_node());
+  const Entity bitten = csg_difference(ball, std::array{nothing, Entity(Box{}), nothing});
+  CHECK(bitten.primitive_count() == 2);
+  for (const Entity& empty :
+       {ball ^ nothing, nothing ^ ball, nothing - ball, nothing + nothing, nothing - nothing,
+        nothing.transformed(translate({1, 2, 3})), nothing.with_id(7), nothing.with_material(Material{})}) {
+    CHECK(empty.is_empty());
+  }
+  CHECK_FALSE(ball.is_empty());
+  // What holds for all operands holds for these.
+  CHECK_THROWS_AS(disc ^ nothing, Error);
+  CHECK_THROWS_AS(nothing - disc, Error);
+  CHECK_THROWS_AS(nothing.transformed(scale(0)), Error);
+}
+
+TEST_CASE("no ray meets the empty entity, and those behind it keep their ids") {
+  const PreparedData data(scene_of({empty_entity(), Sphere{.center = {0, 0, 5}}, empty_entity()}));
+  RayWorkspace work;
+  const RayHit hit = data.intersect(ray_from({0, 0, 0}, {0, 0, 1}), work);
+  REQUIRE(hit.found());
+  CHECK(data.entity_id(hit) == 1);
+  CHECK_FALSE(
+      PreparedData(scene_of({empty_entity()})).intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
+}
+
 TEST_CASE("transforms that flatten space are refused") {
   const Entity ball = Sphere{};
   CHECK_THROWS_AS(ball.transformed(Transform{.row_z = {0, 0, 0}}), Error);
@@ -275,9 +312,12 @@ TEST_CASE("a wrong description is refused with the name of the field") {
   scene.lights = {PointLight{.color = {-1, 0, 0}}};
   CHECK(argument_of(scene) == "color");
   scene = {};
+  scene.settings.compat = 2014;
+  CHECK(argument_of(scene) == "compat");
+  scene = {};
   scene.background = PanoramaBackground{};
   CHECK(argument_of(scene) == "image");
   CHECK_THROWS_AS(SharedMaterial(Material{.reflectivity = 1.5}), Error);
-  CHECK_THROWS_AS(SharedMaterial(Material{.color = Color{2, 0, 0}}), Error);
+  CHECK_THROWS_AS(SharedMaterial(Material{.color = Color{-0.5, 0, 0}}), Error);
   CHECK_THROWS_AS(SharedMaterial(Material{.color = Pattern(ImageMap{})}), Error);
 }

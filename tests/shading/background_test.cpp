@@ -16,9 +16,9 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-PreparedBackground prepared(const crt::Background& background, double gamma = 1) {
+PreparedBackground prepared(const crt::Background& background, double gamma = 1, int compat = 0) {
   TexturePool textures(gamma);
-  return {background, textures};
+  return {background, textures, compat};
 }
 
 /// Every texel another colour.
@@ -66,6 +66,35 @@ TEST_CASE("a spherical panorama shows each texel in the middle of its share of y
       const double yaw = ((x + 0.5) / 8 - 0.5) * 2 * pi;
       const double pitch = (0.5 - (y + 0.5) / 4) * pi;
       check_same(background.color(direction(yaw, pitch)), picture->at(x, y));
+    }
+  }
+}
+
+TEST_CASE("an equal-area panorama shows each texel in the middle of its share of yaw and height") {
+  const auto picture = test_picture(8, 4);
+  const PreparedBackground background =
+      prepared(crt::PanoramaBackground{picture, crt::PanoramaProjection::equal_area});
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) {
+      const double yaw = ((x + 0.5) / 8 - 0.5) * 2 * pi;
+      const double height = 1 - 2 * (y + 0.5) / 4;
+      check_same(background.color(direction(yaw, std::asin(height))), picture->at(x, y));
+    }
+  }
+  CHECK(background.color({0, 1, 0}).g == 0);
+  CHECK(background.color({0, -1, 0}).g == 3 / 16.0);
+}
+
+TEST_CASE("panoramas of 2015 are equal-area ones where today's are spherical, and turn the other way") {
+  using enum crt::PanoramaProjection;
+  const auto picture = test_picture(8, 4);
+  for (const auto& [in_2015, today] : {std::pair(spherical, equal_area), std::pair(equal_area, equal_area),
+                                       std::pair(cylindrical, cylindrical)}) {
+    const PreparedBackground old_one = prepared(crt::PanoramaBackground{picture, in_2015, 0.7}, 1, 2015);
+    const PreparedBackground new_one = prepared(crt::PanoramaBackground{picture, today, -0.7});
+    for (int i = 0; i < 100; ++i) {
+      const Vec3 towards = direction(0.37 * i, std::sin(1.3 * i) * pi / 2);
+      CHECK(old_one.color(towards) == new_one.color(towards));
     }
   }
 }

@@ -35,6 +35,19 @@ TEST_CASE("a material is opaque if neither its transparency nor its colour lets 
   CHECK(prepared({.color = crt::Pattern(crt::Checker{})}).opaque);
 }
 
+TEST_CASE("what lets light through brightens it by its brightest channel at most, and darkens nothing") {
+  CHECK(prepared({.color = crt::Color{7, 2, 3}}).gain == 1);
+  CHECK(prepared({.color = crt::Color{7, 2, 3}, .transparency = 0.1}).gain == 7);
+  CHECK(prepared({.color = crt::Color{0.7, 0.2, 0}, .transparency = 1}).gain == 1);
+  CHECK(prepared({.color = crt::Color{0, 4, 0, 0.5}}).gain == 4);
+  const crt::Pattern clouds = crt::Noise{.color_a = {1, 2, 1}, .color_b = {0, 0, 3}};
+  CHECK(prepared({.color = clouds, .transparency = 1}).gain == 3);
+  auto picture = std::make_shared<crt::Image>(2, 1);
+  picture->set(0, 0, {1, 2, 1, 0.25});
+  picture->set(1, 0, {5, 6, 1, 1});
+  CHECK(prepared({.color = crt::Pattern(crt::ImageMap{.image = picture})}).gain == 8);
+}
+
 TEST_CASE("only what light can enter absorbs it") {
   CHECK(prepared({.transparency = 1, .absorption = {0, 0, 1}}).absorbing);
   CHECK_FALSE(prepared({.absorption = {0, 0, 1}}).absorbing);

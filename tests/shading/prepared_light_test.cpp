@@ -52,6 +52,14 @@ constexpr double pi = std::numbers::pi;
 
 }  // namespace
 
+TEST_CASE("a falloff of 0 or less is none") {
+  for (const double falloff : {0.0, -1.0, -1e200}) {
+    CHECK(sampled(crt::PointLight{.origin = {0, 5, 0}, .falloff = falloff}, {0, -1e3, 0}).intensity == 1);
+    CHECK(sampled(crt::SpotLight{.origin = {0, 5, 0}, .falloff = falloff}, {0, -1e3, 0}).intensity == 1);
+    CHECK(sampled(crt::CylinderLight{.origin = {0, 5, 0}, .falloff = falloff}, {0, -1e3, 0}).intensity == 1);
+  }
+}
+
 TEST_CASE("a point light is seen in its direction, at its distance, at full strength without falloff") {
   const LightSample sample =
       sampled(crt::PointLight{.origin = {3, 4, 0}}, {0, 0, 0}, 100, FalloffModel::path);

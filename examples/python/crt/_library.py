@@ -66,6 +66,7 @@ STATUS_FUNCTIONS = {
     "crt_disc_create": "ppdp",
     "crt_triangle_create": "pppp",
     "crt_mesh_create": "pzpzp",
+    "crt_empty_create": "p",
     "crt_union_create": "pzp",
     "crt_intersection_create": "pzp",
     "crt_difference_create": "ppzp",

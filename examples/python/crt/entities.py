@@ -109,6 +109,13 @@ def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
     return Entity._adopt(create("crt_difference_create", whole._handle, *_handles(cutters)))
 
 
+class Empty(Entity):
+    """Nothing: the solid without a point. No ray meets it; in combinations it is what the empty set is."""
+
+    def __init__(self, **common: Any) -> None:
+        self._create("crt_empty_create", **common)
+
+
 class Sphere(Entity):
     def __init__(self, center: Point, radius: float, **common: Any) -> None:
         self._create("crt_sphere_create", vector(center), radius, **common)

@@ -55,6 +55,7 @@ class Scene(Handle):
         variables: Mapping[str, Any] = {},
         settings: Mapping[str, Any] = {},
         t: float = 0,
+        compat: int = 0,
         resource_directories: Iterable[str | os.PathLike[str]] = (),
         allow_outside_files: bool = False,
         print: Callable[[str], Any] | None = None,
@@ -64,14 +65,14 @@ class Scene(Handle):
         """The scene of a script: a str is its text, a path (pathlib.Path) its file.
 
         `name` stands for a text in messages. `variables` of the top level and attributes of Settings get
-        these values in place of the script's (see crt.Expression). `t` is the frame of an animation. `print`
-        gets each line that the script prints. `open_file` is asked for the content of each file that the
-        script names; None leaves it to the file system. `limits` are max_steps and the like, see
-        crt_script_options. What a callback raises comes out of here; so does Ctrl-C. A script that is wrong
+        these values in place of the script's (see crt.Expression). `t` is the frame of an animation. `compat`
+        may be 2015, for a script of that year (docs/compat.md). `print` gets each line that the script
+        prints. `open_file` is asked for the content of each file that the script names; None leaves it to
+        the file system. `limits` are max_steps and the like, see crt_script_options. What a callback raises comes out of here; so does Ctrl-C. A script that is wrong
         raises crt.ScriptError.
         """
         guard = Guard()
-        options = _ScriptOptions(t=t, allow_outside_files=allow_outside_files, **limits)
+        options = _ScriptOptions(t=t, compat=compat, allow_outside_files=allow_outside_files, **limits)
         options.set(**_pairs("variable", variables), **_pairs("setting", settings))
         directories = [to_utf8(directory) for directory in resource_directories]
         options.resource_directories = _texts(directories)
@@ -201,6 +202,8 @@ class _ScriptOptions(Struct):
     print_user: Pointer
     poll: Annotated[Any, POLL]
     poll_user: Pointer
+    compat: Int
+    reserved: Int
 
 
 def _texts(texts: list[bytes]) -> Any:

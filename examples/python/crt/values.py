@@ -176,6 +176,7 @@ class BackgroundType(enum.IntEnum):
     GRADIENT = 1
     SPHERICAL = 2
     CYLINDRICAL = 3
+    EQUAL_AREA = 4
 
 
 @growable("crt_background")
@@ -198,9 +199,17 @@ class Background(Struct):
         return cls(type=BackgroundType.GRADIENT, **fields)
 
     @classmethod
-    def panorama(cls, image: Any, cylindrical: bool = False, **fields: Any) -> "Background":
-        """A crt.Image all around."""
-        type = BackgroundType.CYLINDRICAL if cylindrical else BackgroundType.SPHERICAL
+    def panorama(
+        cls, image: Any, cylindrical: bool = False, equal_area: bool = False, **fields: Any
+    ) -> "Background":
+        """A crt.Image all around: spherical (equirectangular), unless it is one of the others."""
+        if cylindrical and equal_area:
+            raise ValueError("a panorama is cylindrical or of equal area, not both")
+        type = BackgroundType.SPHERICAL
+        if cylindrical:
+            type = BackgroundType.CYLINDRICAL
+        if equal_area:
+            type = BackgroundType.EQUAL_AREA
         return cls(type=type, image=image, **fields)
 
 
@@ -236,6 +245,8 @@ class Settings(Struct):
     max_samples: Int
     filter: Int
     reserved_2: Int
+    compat: Int
+    reserved_3: Int
 
 
 @growable("crt_render_stats", has_init=False)

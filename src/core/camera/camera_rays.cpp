@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 
 #include "core/math/direction_and_length.hpp"
+#include "crt/settings.hpp"
 
 namespace crt::core {
 
@@ -29,7 +30,7 @@ bool turns_across(Projection projection) {
 
 }  // namespace
 
-CameraRays::CameraRays(const Camera& camera, int width, int height)
+CameraRays::CameraRays(const Camera& camera, int width, int height, int compat)
     : position_(camera.position),
       forward_(unit(camera.pointing - camera.position)),
       projection_(camera.projection),
@@ -37,7 +38,7 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
       width_(width),
       height_(height),
       focal_distance_(camera.focal_distance),
-      lens_radius_(camera.aperture / 1000) {
+      lens_radius_(compat == compat_2015 ? camera.aperture / height_ : camera.aperture / 1000) {
   const Vec3 level_right = unit(glm::cross(reference_up(forward_), forward_));
   const Vec3 level_up = glm::cross(forward_, level_right);
   const double cosine = std::cos(camera.roll);
@@ -46,6 +47,7 @@ CameraRays::CameraRays(const Camera& camera, int width, int height)
   up_ = unit(cosine * level_up + sine * level_right);
 
   const double aspect = width_ / height_;
+  lens_right_ = compat == compat_2015 ? right_ / aspect : right_;
   const double half_angle = camera.fov / 2;
   const double half_length = std::tan(half_angle);
   half_across_ = (turns_across(projection_) ? half_angle : half_length) * aspect;
@@ -125,7 +127,7 @@ void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay&
   // A pinhole camera's way along `forward` is 1: times the focal distance it ends on the focal plane.
   const bool is_pinhole = projection_ == Projection::pinhole;
   const Vec3 in_focus = focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : result.direction);
-  const Vec3 offset = lens_radius_ * (lens_point.x * right_ + lens_point.y * up_);
+  const Vec3 offset = lens_radius_ * (lens_point.x * lens_right_ + lens_point.y * up_);
   const Vec3 to_focus = in_focus - offset;
   result.origin += offset;
   // A lens wider than the focal distance of a spherical camera can hold the point in focus itself.
@@ -168,7 +170,7 @@ bool CameraRays::rays_to_plane(const PicturePlaceLanes& places, const LensPointL
     Lanes& moved = is_pinhole ? way[i] : origin[i];
     moved = moved + to_right * right_[axis] + to_top * up_[axis];
     if (lens_points == nullptr) continue;
-    const Lanes offset = lens_radius_ * (lens_points->x * right_[axis] + lens_points->y * up_[axis]);
+    const Lanes offset = lens_radius_ * (lens_points->x * lens_right_[axis] + lens_points->y * up_[axis]);
     way[i] = focal_distance_ * way[i] - offset;
     origin[i] += offset;
   }

@@ -28,8 +28,9 @@ using PicturePlaceLanes = PlanePointLanes;
 /// A camera made ready for a picture of some size. Immutable.
 class CameraRays {
  public:
-  /// Takes a camera whose values are valid (crt::validate) and a picture of at least one pixel.
-  CameraRays(const Camera& camera, int width, int height);
+  /// Takes a camera whose values are valid (crt::validate), a picture of at least one pixel, and
+  /// Settings::compat: a lens of 2015 reaches aperture / width across and aperture / height up, in units.
+  CameraRays(const Camera& camera, int width, int height, int compat = 0);
 
   /// The ray through the middle of the lens.
   CameraRay ray(double x, double y) const;
@@ -101,6 +102,7 @@ class CameraRays {
   double half_up_;
   double focal_distance_;
   double lens_radius_;
+  Vec3 lens_right_;  ///< `right`, or as much shorter or longer as the lens is narrower or wider than high
 };
 
 }  // namespace crt::core

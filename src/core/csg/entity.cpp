@@ -37,10 +37,14 @@ void require_solid(const Entity& entity, const char* operation) {
                   " has no inside: Disc, Triangle and HalfPlane are surfaces, and only solids can be cut");
 }
 
+/// Of parts of which empty ones make no difference, the first one is not empty if there are any.
 Entity combine(CsgOperator op, std::span<const Entity> parts) {
   CsgOperation operation{.op = op, .parts = {}};
   operation.parts.reserve(parts.size());
-  for (const Entity& part : parts) operation.parts.push_back(part.shared_node());
+  for (const Entity& part : parts) {
+    if (!part.is_empty()) operation.parts.push_back(part.shared_node());
+  }
+  if (operation.parts.size() == 1) return Entity(std::move(operation.parts.front()));
   return make_entity(std::move(operation));
 }
 
@@ -159,16 +163,19 @@ Entity Entity::transformed(const Transform& transform) const {
   EntityWrapper wrapper = wrapper_of(*this);
   wrapper.to_parent = transformed_more(std::move(wrapper.to_parent), transform);
   require_usable(wrapper.to_parent->product);
+  if (is_empty()) return *this;
   return make_entity(std::move(wrapper));
 }
 
 Entity Entity::with_material(SharedMaterial material) const {
+  if (is_empty()) return *this;
   EntityWrapper wrapper = wrapper_of(*this);
   if (!wrapper.material) wrapper.material = std::move(material);
   return make_entity(std::move(wrapper));
 }
 
 Entity Entity::with_id(std::uint32_t id) const {
+  if (is_empty()) return *this;
   EntityWrapper wrapper = wrapper_of(*this);
   wrapper.id = id;
   return make_entity(std::move(wrapper));
@@ -176,6 +183,10 @@ Entity Entity::with_id(std::uint32_t id) const {
 
 bool Entity::is_solid() const {
   return node_->solid;
+}
+
+bool Entity::is_empty() const {
+  return node_->primitive_count == 0;
 }
 
 std::uint64_t Entity::primitive_count() const {
@@ -191,16 +202,23 @@ Entity csg_intersection(std::span<const Entity> parts) {
   if (parts.empty())
     throw Error(ErrorCode::invalid_argument, "an intersection needs at least one part", "parts");
   for (const Entity& part : parts) require_solid(part, "intersection");
+  if (std::any_of(parts.begin(), parts.end(), [](const Entity& part) { return part.is_empty(); })) {
+    return empty_entity();
+  }
   return parts.size() == 1 ? parts[0] : combine(CsgOperator::intersection, parts);
 }
 
 Entity csg_difference(const Entity& from, std::span<const Entity> cutters) {
   require_solid(from, "difference");
   for (const Entity& cutter : cutters) require_solid(cutter, "difference");
-  if (cutters.empty()) return from;
+  if (cutters.empty() || from.is_empty()) return from;
   std::vector<Entity> parts{from};
   parts.insert(parts.end(), cutters.begin(), cutters.end());
   return combine(CsgOperator::difference, parts);
+}
+
+Entity empty_entity() {
+  return make_entity(CsgOperation{});
 }
 
 Entity operator+(const Entity& a, const Entity& b) {

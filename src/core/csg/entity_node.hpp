@@ -16,7 +16,8 @@ using EntityPointer = std::shared_ptr<const EntityNode>;
 
 enum class CsgOperator { set_union, intersection, difference };
 
-/// A combination of at least two parts; a difference takes all others from the first.
+/// A combination of at least two parts, none of them empty; a difference takes all others from the first.
+/// The empty entity is a union without parts, and no part of anything.
 struct CsgOperation {
   CsgOperator op = CsgOperator::set_union;
   std::vector<EntityPointer> parts;

@@ -12,8 +12,7 @@ namespace crt::core {
 /// The content of a regular file; throws Error (io) if there is none or it is longer than `max_bytes`.
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path, std::size_t max_bytes);
 
-/// Makes `path` hold `content`, at once: it is written under another name in the same directory,
-/// which then takes the place of `path`. On failure throws Error (io) and leaves everything as it was.
+/// Makes `path` hold `content`: crt/file.hpp tells how. Throws Error (io).
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
 /// The same for content that comes piece by piece: `produce` hands each to the function that it gets.

@@ -1,7 +1,5 @@
 #include "core/geometry/frustum.hpp"
 
-#include <limits>
-
 #include "core/geometry/disc.hpp"
 #include "core/geometry/frustum_start.hpp"
 
@@ -54,21 +52,23 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   }
   if (ray.start.face == no_face && stretch.empty()) return false;
 
-  // The side is solved next to where the line, between the caps, comes closest to the axis.
-  const Vec3 across = accurate_cross(line.direction, axis_);
-  const double speed = glm::dot(across, across);
-  double t = line.to_t(0);
-  if (speed > std::numeric_limits<double>::min()) {
-    t = line.to_t(-glm::dot(accurate_cross(line.point, axis_), across) / speed);
-  }
-  // Nearly along the axis that is far away; the solid is within a ball, and between the caps.
+  if (!move_to_least(ray, line, stretch)) return false;
+  clip_side(ray, line, stretch);
+  return stretch.finish(out);
+}
+
+/// To where |P|^2 + s0^2 is least between the caps; false if t has no number there.
+bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const Stretch& stretch) const {
+  // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a ball, and
+  // between the caps.
+  const double least = where_least(line);
+  double t = line.to_t(std::isfinite(least) ? least : 0);
   const double ball = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_speed));
   t = std::clamp(t, line.to_t(0) - ball, line.to_t(0) + ball);
   if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
   if (!std::isfinite(t)) return false;
   line.move_to(ray, narrow_, t);
-  clip_side(ray, line, stretch);
-  return stretch.finish(out);
+  return true;
 }
 
 /// |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
@@ -79,20 +79,25 @@ double FrustumShape::approach(const SideEquation& side, double x) {
 }
 
 /// The crossing at a root, after one more shift to the root itself and one step of Newton's iteration on
-/// the distance from the side there, which knows nothing of the rounding of a, b and c.
+/// the distance from the side there, which knows nothing of the rounding of a, b and c. Beyond the caps a
+/// root stays where it is: next to a ruling it may be so far away that a distance there says nothing.
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
-                                const Root& root) const {
-  const Crossing crossing = side_crossing(line, side, root.x, root.number);
+                                const Root& root, const Stretch& stretch) const {
+  const Vec3 p = line.at(root.x);
+  const Crossing crossing = side_crossing(line, side, root, reach_of(p));
+  if (!(crossing.t > stretch.enter_t() && crossing.t < stretch.leave_t())) return crossing;
+  const auto unpolished = [&] {
+    return side_crossing(line, side, root, std::max(reach_of(p), reach_of(line.point)));
+  };
   // Where a ray grazes more closely, the step could take it to the other root.
   constexpr double squarely = 0x1p-20;
   constexpr double longest_step = 64 * unit_roundoff;
   const double rate = approach(side, root.x);
-  if (!std::isfinite(rate) || rate == 0) return crossing;
+  if (!std::isfinite(rate) || rate == 0) return unpolished();
   const double gap = std::sqrt(std::max(side.discriminant, 0.0)) / std::abs(side.a);
-  const double reach = wide_radius_ + 2 * largest_component(line.at(root.x));
+  const double reach = wide_radius_ + 2 * largest_component(p);
   const bool apart = longest_step * reach < squarely * gap * rate;
-  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return crossing;
-  if (!std::isfinite(crossing.t)) return crossing;
+  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return unpolished();
   NearLine at_root = line;
   at_root.move_to(ray, narrow_, line.to_precise_t(root.x));
   const double distance = distance_from_side(at_root.point);
@@ -100,9 +105,9 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   Crossing result = crossing;
   result.t = at_root.to_t(step);
   // Beside the apex the side bends away within such a step: the next ones take the slope that is there.
-  constexpr double straight = 0x1p-30;
   constexpr int most_steps = 8;
-  for (int i = 0; i < most_steps && std::abs(step) * std::sqrt(line.squared_speed) > straight * reach; ++i) {
+  double radius = std::abs(side.radius + side.radius_rate * root.x);
+  for (int i = 0; i < most_steps && !side.is_straight(step, radius, reach); ++i) {
     at_root.move_to(ray, narrow_, at_root.to_precise_t(step));
     const Vec3 along = glm::dot(at_root.point, axis_) * axis_;
     const Vec3 across = at_root.point - along;
@@ -110,71 +115,70 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
     const double slope = cosine_ * glm::dot(unit_vector(across), at_root.direction) -
                          sine_ * glm::dot(axis_, at_root.direction);
     if ((slope < 0) != root.entering || !(std::abs(slope) > squarely)) break;
+    radius = cosine_ * glm::length(across);
     step = -distance_from_side(at_root.point) / slope;
     result.t = at_root.to_t(step);
   }
   return result;
 }
 
-Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, double x,
-                                     std::uint8_t root) const {
-  const double t = line.to_t(x);
-  const Vec3 p = line.at(x);
+double FrustumShape::reach_of(const Vec3& p) const {
   // Along needles the square of the length may overflow, the length does not.
-  const double reach = wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
+  return wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
+}
+
+Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
+                                     double reach) const {
+  const double t = line.to_t(root.x);
   const double speed = std::sqrt(line.squared_speed);
   const double graze = speed / std::sqrt(std::abs(side.a)) * grazing_error(line, reach, wide_radius_);
   const double longest = std::min(side.a > 0 ? graze : reach / speed, reach / speed);
   return {.t = t,
-          .error = standard_error(line, t, reach, approach(side, x), longest),
+          .error = standard_error(line, t, reach, approach(side, root.x), longest),
           .face = side_face,
-          .root = root};
+          .root = root.number};
 }
 
-/// Where the line grazes, the discriminant is what is left of large numbers. From halfway between the roots
-/// it is a c with b nearly 0, and c the distance from the side there.
+/// Where the line grazes, the discriminant may be what is left of large numbers. From halfway between the
+/// roots it is a c with b nearly 0, and c the distance from the side there.
 void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const {
   if (passes_plainly(line, side)) return;
-  constexpr double nearly = 0x1p-20;
+  constexpr double nearly = 0x1p-4;
+  const bool cancels = std::abs(side.discriminant) < nearly * (side.b * side.b);
   const double middle = -side.b / side.a;
-  // Next to a ruling, too, as long as the middle is there.
-  const bool is_within =
-      middle * middle * line.squared_speed < (height_ + wide_radius_) * (height_ + wide_radius_);
-  if (!(side.a > (is_within ? nearly * nearly : nearly) * line.squared_speed)) return;
+  const double farthest = (height_ + wide_radius_) * (height_ + wide_radius_);
+  if (!(side.a > 0 && cancels && middle * middle * line.squared_speed < farthest)) return;
   line.move_to(ray, narrow_, line.to_precise_t(middle));
   side = side_equation(line);
-  side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
 }
 
 void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const {
   SideEquation side = side_equation(line);
   center_on_grazing(ray, line, side);
-  const double s1 = side.radius_rate;
-  const auto crossing_at = [&](double x, bool entering, std::uint8_t number) {
-    return polished(ray, line, side, {x, entering, number});
+  const auto enter = [&](double x, std::uint8_t number) {
+    stretch.enter(polished(ray, line, side, {x, true, number}, stretch));
   };
-  if (side.a == 0) {
-    // Parallel to a ruling (for a cylinder: to the axis): at most one root.
-    if (side.b == 0) {
-      if (!(side.c < 0)) stretch.clear();
-      return;
-    }
-    if ((s1 > 0) != (side.b < 0)) return stretch.clear();
-    const Crossing crossing = crossing_at(-side.c / (2 * side.b), s1 > 0, 0);
-    return s1 > 0 ? stretch.enter(crossing) : stretch.leave(crossing);
+  const auto leave = [&](double x, std::uint8_t number) {
+    stretch.leave(polished(ray, line, side, {x, false, number}, stretch));
+  };
+  const bool is_within = side.is_within();
+  if (side.a >= 0 && !(side.discriminant > 0)) {
+    // (Within, only the axis of a cylinder meets nothing.)
+    if (!is_within) stretch.clear();
+    return;
   }
-
   const auto [low, high] = SideRoots<double>(side);
-  if (side.a > 0) {
-    // Both roots are on one nappe: the one on which the middle between them is.
-    const bool other_nappe = side.a * side.radius < side.b * s1;
-    if (!(side.discriminant > 0) || other_nappe) return stretch.clear();
-    stretch.enter(crossing_at(low, true, 0));
-    stretch.leave(crossing_at(high, false, 1));
-  } else if (s1 > 0) {
-    stretch.enter(crossing_at(high, true, 1));
-  } else {
-    stretch.leave(crossing_at(low, false, 0));
+  if (side.a >= 0) {
+    // (Parallel to a ruling one of them is infinite.)
+    if (side.is_on_other_nappe()) return stretch.clear();
+    enter(low, 0);
+    leave(high, 1);
+  } else if (is_within ? side.b * side.radius < 0 : side.radius_rate > 0) {
+    // One on each nappe. From within both are ahead or both behind; from outside it is this one's where the
+    // radius grows.
+    enter(high, 1);
+  } else if (!is_within || side.b * side.radius > 0) {
+    leave(low, 0);
   }
 }
 
@@ -184,18 +188,38 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
   const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
   SideEquation side = side_equation(line);
   side.discriminant = side.b * side.b;
-  Crossing other = side_crossing(line, side, 0, 0);
+  Crossing other = side_crossing(line, side, {}, reach_of(line.point));
   if (side.a != 0) {
     const double x = -2 * side.b / side.a;
-    other = side_crossing(line, side, x, 0);
-    other.error += line.to_t_length(start_error(side.c, side.a, side.b));
+    // Towards the apex the rounding of the origin grows as the radius shrinks, and there it is another matter
+    // which of the roots is the origin: the one at which the line enters, or the one at which it leaves.
+    constexpr double much_narrower = 0.5;
+    if (side.a > 0 && !(side.radius + side.radius_rate * x >= much_narrower * side.radius)) {
+      other = root_next_to_apex(ray, side.b >= 0, stretch);
+    } else {
+      other = side_crossing(line, side, {.x = x}, std::max(reach_of(line.at(x)), reach_of(line.point)));
+      other.error += line.to_t_length(start_error(side.c, side.a, side.b));
+    }
   }
   core::clip_side_from_surface({.a = sign_of(side.a),
                                 .b = sign_of(side.b),
-                                .radius = sign_of(side.radius),
+                                .radius = ray.start.on_face ? 1 : sign_of(side.radius),
                                 .radius_rate = sign_of(side.radius_rate),
                                 .other = other},
                                ray.start, stretch);
+}
+
+/// The root of a line that crosses the side elsewhere, too, where it is much wider: that one is behind the
+/// wanted one if the line is entering here, else ahead.
+Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const {
+  NearLine line = NearLine::at_closest(ray, narrow_, unit_);
+  move_to_least(ray, line, stretch);
+  const SideEquation side = side_equation(line);
+  const auto [low, high] = SideRoots<double>(side);
+  // Not beyond the apex, whatever is left of a.
+  const double apex = -side.radius / side.radius_rate;
+  const double x = entering ? std::max(low, apex) : std::min(high, apex);
+  return polished(ray, line, side, {.x = x, .entering = entering}, stretch);
 }
 
 template <class Real>

@@ -8,10 +8,21 @@
 // times cos(alpha), the side is
 //     |P + M x|^2 = (s0 + s1 x)^2   on the nappe s0 + s1 x >= 0,
 // a x^2 + 2 b x + c = 0 with a = (|M| - |s1|)(|M| + |s1|), b = P . M - s0 s1, c = (|P| - s0)(|P| + s0).
-// Its discriminant b^2 - a c is |s0 M - s1 P|^2 - |P x M|^2: the cross product form, which does not
-// cancel for lines that are nearly parallel to the axis. Cross products keep |M| good to a rounding at
-// any angle to the axis, where 1 - (w . d)^2 would have no digit left.
-// The set of points inside is convex, so a line cuts one stretch out of it.
+// Cross products keep |M| good to a rounding at any angle to the axis, where 1 - (w . d)^2 would have no
+// digit left.
+//
+// Roundings. The left side minus the right one is (radial + radius) g, with g the distance from the side. P,
+// M, s0 and s1 are off by some u of |p| and |d|: the coefficients by some u times |P|^2 + s0^2, by as much
+// of |P||M| + |s0 s1| and |M|^2 + s1^2. So g at x is off by some u times
+//     ((|P| + |M x|)^2 + (|s0| + |s1 x|)^2) / (s0 + s1 x).
+// Solved between the caps where |P|^2 + s0^2 is least, x has the sign of P . M + s0 s1, or that is 0, and
+// this is at most 4 u (s0 + s1 x) at a root, times what "some" is: the roots are those of a line that is
+// moved by no more than what the standard tier promises. (From where the radius is much larger than at the
+// root, as it may be next to an apex, they would not be.) The discriminant must be that of these very
+// coefficients, b^2 - a c without another rounding: then what little is left of a, b and c next to a ruling
+// agrees with itself, and roots that leave the solid's reach do so on the right side. In exact arithmetic it
+// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones. The
+// set of points inside is convex, so a line cuts one stretch out of it.
 #pragma once
 
 #include <algorithm>
@@ -70,25 +81,44 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     Real a, b, c;
     Real discriminant;
     Real radius, radius_rate;  ///< s0 and s1
+
+    /// Whether the line is within the cone at x = 0, on either nappe.
+    MaskOf<Real> is_within() const { return c < 0.0; }
+    /// Whether the roots are on the other nappe, where a is not negative and both are on one: that where x =
+    /// 0 is if the line is within there, whatever is left of a and b, else that of the middle between them.
+    MaskOf<Real> is_on_other_nappe() const {
+      return either(both(is_within(), radius < 0.0), without(a * radius < b * radius_rate, is_within()));
+    }
+    /// Whether a step along the line that ends at such a radius strays from the tangent there by no more than
+    /// the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1 x) at most.)
+    MaskOf<Real> is_straight(const Real& step, const Real& radius_there, const Real& reach) const {
+      return step * step * (a + radius_rate * radius_rate) <= 2 * unit_roundoff * reach * radius_there;
+    }
   };
   using SideEquation = SideEquationOf<double>;
   template <class Real>
   SideEquationOf<Real> side_equation(const NearLineOf<Real>& line) const;
+  /// x of the point where |P|^2 + s0^2 is least; no number if there is no such.
+  template <class Real>
+  Real where_least(const NearLineOf<Real>& line) const;
   static double approach(const SideEquation& side, double x);
-  /// Whether the discriminant is not merely what is left of large numbers.
+  /// Whether the line does not graze the side.
   template <class Real>
   static MaskOf<Real> passes_plainly(const NearLineOf<Real>& line, const SideEquationOf<Real>& side);
   struct Root {
-    double x;
-    bool entering;
-    std::uint8_t number;
+    double x = 0;
+    bool entering = false;
+    std::uint8_t number = 0;
   };
   /// Of a point in units, relative to the narrow end.
   template <class Vector>
   RealOf<Vector> distance_from_side(const Vector& p) const;
-  Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
-                    const Root& root) const;
-  Crossing side_crossing(const NearLine& line, const SideEquation& side, double x, std::uint8_t root) const;
+  Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side, const Root& root,
+                    const Stretch& stretch) const;
+  /// R + |x| of a point in units, relative to the narrow end.
+  double reach_of(const Vec3& p) const;
+  Crossing side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
+                         double reach) const;
   /// Both roots of a side equation, by the formulas that add what has one sign (Ray Tracing Gems ch. 7).
   template <class Real>
   struct SideRoots {
@@ -97,9 +127,11 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
     explicit SideRoots(const SideEquationOf<Real>& side);
   };
+  bool move_to_least(const ObjectRay& ray, NearLine& line, const Stretch& stretch) const;
   void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
+  Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const;
   /// What is on the side at `offset` from the middle of the narrow end, or next to it.
   template <class Real>
   struct SidePoint {
@@ -130,10 +162,19 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 };
 
 template <class Real>
+Real FrustumShape::where_least(const NearLineOf<Real>& line) const {
+  const Vec3Of<Real> axis = spread<Real>(axis_);
+  const Vec3Of<Real> m = spread<Real>(cosine_) * accurate_cross(line.direction, axis);
+  const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
+  const Real s0 = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
+  const Real s1 = sine_ * dot(line.direction, axis);
+  return -(dot(p, m) + s0 * s1) / (dot(m, m) + s1 * s1);
+}
+
+template <class Real>
 FrustumShape::SideEquationOf<Real> FrustumShape::side_equation(const NearLineOf<Real>& line) const {
   const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Vec3Of<Real> across = accurate_cross(line.direction, axis);
-  const Vec3Of<Real> m = spread<Real>(cosine_) * across;
+  const Vec3Of<Real> m = spread<Real>(cosine_) * accurate_cross(line.direction, axis);
   const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
   const auto length = [](const Vec3Of<Real>& v) { return square_root(dot(v, v)); };
   const Real m_length = length(m);
@@ -146,9 +187,7 @@ FrustumShape::SideEquationOf<Real> FrustumShape::side_equation(const NearLineOf<
   side.a = (m_length - size_of(s1)) * (m_length + size_of(s1));
   side.b = dot(p, m) - s0 * s1;
   side.c = (p_length - size_of(s0)) * (p_length + size_of(s0));
-  const Real passing = cosine_ * cosine_ * size_of(dot(line.point, across));
-  const Real difference = length(s0 * m - s1 * p);
-  side.discriminant = (difference - passing) * (difference + passing);
+  side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
   return side;
 }
 

@@ -1,7 +1,5 @@
 // Where rays plainly enter a cylinder or cone through its side: the way of FrustumShape::crossings(), for as
 // many of them side by side as there are lanes. What is not plain is left to that.
-#include <limits>
-
 #include "core/geometry/frustum.hpp"
 
 namespace crt::core {
@@ -10,13 +8,10 @@ template <class Real, class Ray>
 FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   auto line = NearLineOf<Real>::at_closest(ray, narrow_, unit_);
   const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Vec3Of<Real> across = accurate_cross(line.direction, axis);
-  const Real speed = dot(across, across);
-  const Real closest = line.to_t(-dot(accurate_cross(line.point, axis), across) / speed);
+  const Real closest = line.to_t(where_least(line));
   const Real ball = line.to_t_length((height_ + wide_radius_) / square_root(line.squared_speed));
   const Real origin = line.to_t(Real{});
-  const auto is_near = both(both(closest >= origin - ball, closest <= origin + ball),
-                            speed > std::numeric_limits<double>::min());
+  const auto is_near = both(closest >= origin - ball, closest <= origin + ball);
   if (!any(is_near)) return {};
   line.move_to(ray, narrow_, closest);
 
@@ -33,8 +28,7 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   FrustumEntry<Real> entry{.missed = both(plainly, side.discriminant < 0.0)};
   const Real x = SideRoots<Real>(side).low;
   const Real root = square_root(max(side.discriminant, Real{}));
-  const auto other_nappe = side.a * side.radius < side.b * side.radius_rate;
-  const auto meets = without(both(plainly, is_between(x)), either(entry.missed, other_nappe));
+  const auto meets = without(both(plainly, is_between(x)), either(entry.missed, side.is_on_other_nappe()));
   if (!any(meets)) return entry;
 
   const Real at_root = size_of(side.radius + side.radius_rate * x);
@@ -56,11 +50,9 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   entry.t = there.to_t(step);
   // So squarely that no rounding takes one root near the other.
   constexpr double squarely = 0x1p-10;
-  constexpr double straight = 0x1p-30;
   const Real most_reach = wide_radius_ + 2.0 * largest;
   const auto is_square = both(rate > squarely * ray_speed, root / side.a * ray_speed > squarely * most_reach);
-  const auto is_straight = size_of(step) * ray_speed <= straight * most_reach;
-  entry.known = both(meets, both(is_square, is_straight));
+  entry.known = both(meets, both(is_square, side.is_straight(step, at_root, most_reach)));
   return entry;
 }
 template FrustumEntry<double> FrustumShape::first_entry<double>(const PlainRay<double>&) const;

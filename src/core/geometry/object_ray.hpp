@@ -50,8 +50,15 @@ struct ObjectRay {
   RayStart start = {};
   /// Crossings with t below this only count: where they are may be told roughly, with an error that says so.
   double begin = -std::numeric_limits<double>::infinity();
-  /// Of the crossings with t above this only the first is asked for: the others may be left out.
+  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it may be left
+  /// out. What is nearer than that to where the ray begins may be at its start and not count.
   double first_above = std::numeric_limits<double>::infinity();
+
+  /// Whether a crossing is surely ahead of `first_above`, whatever its error.
+  template <class Crossing>
+  bool is_first_asked(const Crossing& crossing) const {
+    return crossing.t - crossing.error > first_above;
+  }
 
   /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
   /// is about one rounding of the result, not of the way there, if the point is near the center.

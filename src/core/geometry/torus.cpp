@@ -93,30 +93,32 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (!on_surface && ray.first_above < std::numeric_limits<double>::infinity()) {
     const auto first = first_entry<double>(line, torus, true);
     if (!first.found) return false;
-    if (first.known && first.t > ray.first_above) {
-      out.push_back({.t = first.t, .error = first.error, .entering = true});
+    const Crossing crossing{.t = first.t, .error = first.error, .entering = true};
+    if (first.known && ray.is_first_asked(crossing)) {
+      out.push_back(crossing);
       return false;
     }
   }
-  std::uint8_t root = 0;
-  const auto crossing = [&](double x, bool entering, double length) {
-    const double t = line.to_t(x);
-    if (on_surface && x == 0) return Crossing{.root = root++, .entering = entering};
+  // Of one end of a dip, whose length is known so far.
+  const auto crossing = [&](double x, std::size_t dip, bool entering, double length) {
+    Crossing end{.root = static_cast<std::uint8_t>(2 * dip + (entering ? 0 : 1)), .entering = entering};
+    if (on_surface && x == 0) return end;
+    end.t = line.to_t(x);
     // The speed is at least 1, and no dip longer than the torus is wide.
-    if (t < ray.begin) {
-      const double width = 2 * (ring_ + tube_);
-      return Crossing{.t = t, .error = line.to_t_length(width), .root = root++, .entering = entering};
+    if (end.t < ray.begin) {
+      end.error = line.to_t_length(2 * (ring_ + tube_));
+      return end;
     }
     const auto& [reach, approach, longest] = meeting<double>(line, torus, x, length);
     // A start that rounding has moved off the surface takes the whole level of G along.
     const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
     const double along = off_surface < longest * approach ? off_surface / approach : longest;
-    const double error = standard_error(line, t, reach, approach, longest) + line.to_t_length(along);
-    return Crossing{.t = t, .error = error, .root = root++, .entering = entering};
+    end.error = standard_error(line, end.t, reach, approach, longest) + line.to_t_length(along);
+    return end;
   };
-  const auto add = [&](const TorusLine::Dip& dip) {
-    const Crossing enter = crossing(dip.enter, true, dip.leave - dip.enter);
-    const Crossing leave = crossing(dip.leave, false, dip.leave - dip.enter);
+  const auto add = [&](const TorusLine::Dip& ends, std::size_t dip) {
+    const Crossing enter = crossing(ends.enter, dip, true, ends.leave - ends.enter);
+    const Crossing leave = crossing(ends.leave, dip, false, ends.leave - ends.enter);
     if (!(enter.t < leave.t)) return;
     out.push_back(enter);
     out.push_back(leave);
@@ -125,22 +127,22 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   if (on_surface) {
     TorusLine::Dips dips = torus.dips(ray.begin >= 0 ? 0 : -std::numeric_limits<double>::infinity());
     obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
-    for (std::size_t i = 0; i < dips.count; ++i) add(dips.dip[i]);
+    for (std::size_t i = 0; i < dips.count; ++i) add(dips.dip[i], i);
     return false;
   }
   const TorusLine::Stretches stretches = torus.stretches();
   for (std::size_t i = 0; i < stretches.count; ++i) {
     const auto& [enter, leave] = stretches.stretch[i];
     const double first = torus.root(enter, true);
-    const double t = line.to_t(first);
     // The stretch goes on to where it is known to be inside: its end needs not be known if it is not asked
     // for.
-    if (t > ray.first_above && t < line.to_t(leave.negative)) {
-      out.push_back(crossing(first, true, leave.positive - first));
+    const Crossing entry = crossing(first, i, true, leave.positive - first);
+    if (ray.is_first_asked(entry) && entry.t < line.to_t(leave.negative)) {
+      out.push_back(entry);
       return false;
     }
-    add({first, torus.root(leave, true)});
-    if (!out.empty() && out.back().t > ray.first_above) return false;
+    add({first, torus.root(leave, true)}, i);
+    if (!out.empty() && ray.is_first_asked(out.back())) return false;
   }
   return false;
 }

@@ -49,6 +49,7 @@ void add_settings(FileTexts& texts, const Settings& settings) {
   add(texts, "crt:showclip", settings.show_clip ? "true" : "false");
   add(texts, "crt:seed", fmt::format("{}", settings.seed));
   if (settings.precision == Precision::exact) add(texts, "crt:precision", "exact");
+  if (settings.compat != 0) add(texts, "crt:compat", fmt::format("{}", settings.compat));
 }
 
 /// JPEG holds texts in segments of 64 KiB, several texts in one, and some with up to six bytes for

@@ -19,16 +19,28 @@ Real clamped(const Real& value) {
   return value > 0.0 ? min(value, spread<Real>(1)) : Real{};
 }
 
-/// The nearest of 256 levels to values in [0, 1]; halves go up.
-Lanes nearest_levels(const Lanes& values) {
-  return floor(values * 255 + 0.5);
-}
+/// A few roundings of floats, which colours carry that were divided by their alpha or raised to a power.
+constexpr double float_rounding = 0x1p-20;
 
-/// Where a channel is past what a display can show. A colour divided by its alpha carries a few
-/// roundings of floats, which are not meant.
+/// Which of 256 levels values in [0, 1] get.
+class Levels {
+ public:
+  explicit Levels(int compat)
+      : factor_(compat == compat_2015 ? 255 * (1 + float_rounding) : 255),
+        shift_(compat == compat_2015 ? 0 : 0.5) {}
+
+  /// The nearest, of halves the upper one; in 2015 the last one below, but for what rounding has taken from
+  /// values that are one.
+  Lanes operator()(const Lanes& values) const { return floor(values * factor_ + shift_); }
+
+ private:
+  double factor_;
+  double shift_;
+};
+
+/// Where a channel is past what a display can show.
 LaneMask clips(const Lanes& values) {
-  constexpr double rounding = 0x1p-20;
-  return values > 1 + rounding;
+  return values > 1 + float_rounding;
 }
 
 constexpr std::array<std::uint8_t, 4> clip_mark = {255, 0, 0, 255};
@@ -38,6 +50,7 @@ constexpr std::array<std::uint8_t, 4> clip_mark = {255, 0, 0, 255};
 std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
   const double exponent = image.display_encoded() ? 1.0 : 1 / image.settings().gamma;
   const bool show_clip = image.settings().show_clip;
+  const Levels levels_of(image.settings().compat);
   const std::span<const float> pixels = image.pixels();
   std::vector<std::uint8_t> bytes(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
@@ -47,7 +60,7 @@ std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
     Lanes levels = clamped(mode == AlphaMode::straight ? whole : covered);
     if (exponent != 1) levels = power(levels, lanes_of(exponent));
     levels[3] = alpha;
-    levels = nearest_levels(levels);
+    levels = levels_of(levels);
     for (int channel = 0; channel < 4; ++channel) {
       bytes[i + static_cast<std::size_t>(channel)] = static_cast<std::uint8_t>(levels[channel]);
     }

@@ -4,9 +4,12 @@
 
 #include <algorithm>
 #include <array>
+#include <exception>
+#include <limits>
 #include <span>
 #include <string_view>
 #include <type_traits>
+#include <utility>
 #include <vector>
 
 #include "core/render/tracer.hpp"
@@ -16,7 +19,13 @@ namespace crt::core {
 
 namespace {
 
-constexpr std::string_view magic = "CRT checkpoint 3 of " CRT_VERSION "\n";
+constexpr std::string_view magic = "CRT checkpoint 4 of " CRT_VERSION "\n";
+
+// In seconds. The first is to be there after 10, with the time that writing a large one takes; later on writing
+// is to take a small part of the time, whatever the size.
+constexpr double first_break = 5;
+constexpr double shortest_break = 10;
+constexpr double break_per_writing = 20;
 
 /// So many samples on each side tell one scene from another, if the picture has as many pixels.
 constexpr int probes_a_side = 32;
@@ -30,14 +39,14 @@ void add(ByteHash& hash, const T&... numbers) {
 void add_settings(ByteHash& hash, const Settings& s) {
   add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision, s.target_error,
       s.min_samples, s.max_samples, s.filter, s.filter_width);
+  if (s.compat != 0) add(hash, s.compat);
 }
 
 /// The light along rays through the middles of pixels that are spread over the region.
-void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
+void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress) {
   WorkspacePool pool;
   WorkspacePool::Loan work(pool);
-  Progress nobody({});
-  Tracer tracer(frame, *work, nobody);
+  Tracer tracer(frame, *work, progress);
   constexpr double middle = 0.5;
   std::array<PicturePlaceLanes, RayPacket::group_count> places;
   std::array<LensPointLanes, RayPacket::group_count> lens_points;
@@ -70,35 +79,86 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
 
 }  // namespace
 
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits) {
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+                          Progress& progress) {
   ByteHash hash;
   add_settings(hash, frame.settings());
   add(hash, region.x, region.y, region.width, region.height, with_first_hits, frame.features().lens);
-  add_light(hash, frame, region);
+  add_light(hash, frame, region, progress);
   return hash.value();
 }
 
-void Checkpoint::keep() const {
+void leave_empty_checkpoint(const std::filesystem::path& path) {
+  if (std::filesystem::exists(path)) return;
+  write_state_file(path, [](StateWriter& out) { out.put_all(std::span<const char>(magic)); });
+}
+
+Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Passes& passes, Canvas& canvas,
+                       WorkspacePool& pool, const PassClock::Seconds& seconds, double begin)
+    : path_(std::move(path)),
+      fingerprint_(fingerprint),
+      passes_(passes),
+      canvas_(canvas),
+      pool_(pool),
+      seconds_(seconds),
+      next_(begin + first_break) {}
+
+void Checkpoint::write() const {
+  // As long as nothing changes the picture, its counts and what is known of its pixels are of the same
+  // moment.
+  const auto hold = passes_.hold();
   const Image picture = canvas_.copy();
-  const RenderStats stats = pool_.total_stats();
-  const CutoffSum cutoff = pool_.total_cutoff();
+  const WorkspacePool::Counts counts = pool_.settled();
   write_state_file(path_, [&](StateWriter& out) {
     out.put_all(std::span<const char>(magic));
     out.put(fingerprint_);
-    for (const auto count : summed_counts) out.put(stats.*count);
-    out.put(cutoff.units);
-    out.put(cutoff.most);
+    for (const auto count : summed_counts) out.put(counts.stats.*count);
+    out.put(counts.cutoff.units);
+    out.put(counts.cutoff.most);
     out.put_all(picture.pixels());
     passes_.store(out);
   });
 }
 
+void Checkpoint::keep() noexcept {
+  const std::lock_guard one_at_a_time(writing_);
+  try {
+    const double begin = seconds_();
+    write();
+    const double end = seconds_();
+    next_ = end + std::max(shortest_break, break_per_writing * (end - begin));
+  } catch (const std::exception& error) {
+    next_ = seconds_() + shortest_break;
+    const std::lock_guard lock(complaining_);
+    complaint_ = error.what();
+  }
+}
+
+void Checkpoint::keep_if_due() noexcept {
+  double due = next_;
+  constexpr double never = std::numeric_limits<double>::infinity();
+  // The thread that is the first to see it.
+  if (due <= seconds_() && next_.compare_exchange_strong(due, never)) keep();
+}
+
+std::string Checkpoint::take_complaint() {
+  const std::lock_guard lock(complaining_);
+  return std::exchange(complaint_, {});
+}
+
 void Checkpoint::take_up() {
-  if (!std::filesystem::exists(path_)) return;
+  if (std::filesystem::exists(path_)) read();
+  passes_.make_storable([&pool = pool_](Workspace& workspace) { pool.settle(workspace); });
+  pool_.settle_all();
+}
+
+void Checkpoint::read() {
   StateReader in(path_);
   std::array<char, magic.size()> head;
   in.get_all(std::span<char>(head));
-  if (std::string_view(head.data(), head.size()) != magic || in.get<std::uint64_t>() != fingerprint_) {
+  const bool is_ours = std::string_view(head.data(), head.size()) == magic;
+  if (is_ours && in.at_end()) return;  // an empty one
+  if (!is_ours || in.get<std::uint64_t>() != fingerprint_) {
     throw Error(
         ErrorCode::invalid_argument,
         fmt::format("the checkpoint '{}' is of another picture: of another scene, size, part, accuracy, "
@@ -106,17 +166,16 @@ void Checkpoint::take_up() {
                     path_.string()),
         "checkpoint");
   }
-  RenderStats stats;
-  for (const auto count : summed_counts) stats.*count = in.get<std::uint64_t>();
-  CutoffSum cutoff;
-  cutoff.units = in.get<std::uint64_t>();
-  cutoff.most = in.get<double>();
+  WorkspacePool::Counts counts;
+  for (const auto count : summed_counts) counts.stats.*count = in.get<std::uint64_t>();
+  counts.cutoff.units = in.get<std::uint64_t>();
+  counts.cutoff.most = in.get<double>();
   std::vector<float> pixels(4 * pixel_count(canvas_.region()));
   in.get_all(std::span<float>(pixels));
   passes_.restore(in);
   if (!in.at_end()) in.fail();
   canvas_.put(canvas_.region(), pixels);
-  pool_.set_totals(stats, cutoff);
+  pool_.set_total(counts);
 }
 
 }  // namespace crt::core

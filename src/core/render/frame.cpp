@@ -59,23 +59,31 @@ bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work)
 Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work)
     : data_(data),
       settings_(settings),
-      camera_(data.scene().camera, settings.width, settings.height),
+      camera_(data.scene().camera, settings.width, settings.height, settings.compat),
       filter_(settings),
       subpixel_count_(static_cast<std::size_t>(settings.supersampling) *
                       static_cast<std::size_t>(settings.supersampling)),
       subpixels_((subpixel_count_ + lane_count - 1) / lane_count) {
   const int side = settings.supersampling;
+  // Samples of 2015 lie at the upper left corners of subpixels, others in their middles.
+  const double in_subpixel = settings.compat == compat_2015 ? 0 : 0.5;
   std::size_t index = 0;
   for (int row = 0; row < side; ++row) {
     for (int column = 0; column < side; ++column, ++index) {
       set_lane(subpixels_[index / lane_count], index % lane_count,
-               {filter_((column + 0.5) / side), filter_((row + 0.5) / side)});
+               {filter_((column + in_subpixel) / side), filter_((row + in_subpixel) / side)});
     }
   }
   lights_.reserve(data.scene().lights.size());
   for (const Light& light : data.scene().lights) {
     lights_.emplace_back(light, settings.falloff_model);
     ambient_ += lights_.back().ambient();
+  }
+  if (features().gain > 1) {
+    gains_behind_.assign(static_cast<std::size_t>(settings.recursion_depth) + 1, 1);
+    for (std::size_t i = gains_behind_.size() - 1; i-- > 1;) {
+      gains_behind_[i - 1] = std::min(features().gain * gains_behind_[i], largest_share);
+    }
   }
   if (!features().transparency || features().lens) return;
   if (data.scene().camera.projection == Projection::orthographic) return;

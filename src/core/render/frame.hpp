@@ -21,8 +21,8 @@ class Frame {
   const Features& features() const { return data_.features(); }
   const CameraRays& camera() const { return camera_; }
   const FilterPlaces& filter() const { return filter_; }
-  /// A pixel's grid, row by row: where in the first pixel of the picture its samples lie. So many, the last
-  /// lanes may be of no use.
+  /// A pixel's grid, row by row: where in (or around) the first pixel of the picture its samples lie. So
+  /// many, the last lanes may be of no use.
   std::size_t subpixel_count() const { return subpixel_count_; }
   const std::vector<PicturePlaceLanes>& subpixels() const { return subpixels_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
@@ -40,6 +40,10 @@ class Frame {
     rays.with_starts = 0;
   }
 
+  /// What all the surfaces that a ray can still pass which goes on after so many bounces may multiply its
+  /// weight by.
+  double gain_behind(int bounces) const { return gains_behind_[static_cast<std::size_t>(bounces)]; }
+
   /// Whether all camera rays start at one point off all surfaces, so that the same solids surround them all;
   /// those are then camera_media(), the outermost first.
   bool one_viewpoint() const { return one_viewpoint_; }
@@ -54,6 +58,7 @@ class Frame {
   std::vector<PicturePlaceLanes> subpixels_;
   std::vector<PreparedLight> lights_;
   Rgb ambient_{0, 0, 0};
+  std::vector<double> gains_behind_;  ///< by bounces; none if no surface brightens light
   bool one_viewpoint_ = false;
   std::vector<Medium> camera_media_;
 };

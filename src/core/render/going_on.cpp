@@ -137,7 +137,8 @@ void Tracer::split(std::size_t group, RayMask lanes, Split& split) {
     look_behind(group, transparent, behind, split);
     const auto refraction = refract(surfaces.phong.view, normal, behind.index_before, behind.index_behind);
     mirrored_share += behind.transparency * refraction.reflectance;
-    split.refracted_weight = behind.transparency * (1.0 - refraction.reflectance) * weight * behind.color;
+    split.refracted_weight =
+        bounded_share(behind.transparency * (1.0 - refraction.reflectance) * weight * behind.color);
     split.refracted_direction = kept_on_side(refraction.direction, -surfaces.face_normal);
   }
   split.mirrored_weight = mirrored_share * weight;
@@ -171,15 +172,25 @@ void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split
   });
 }
 
+inline VectorLanes Tracer::most_weights(std::size_t group, const VectorLanes& weights) const {
+  if (frame_.features().gain == 1) return weights;
+  Lanes gains{};
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    gains[static_cast<int>(lane)] = frame_.gain_behind(round_->paths[group * lane_count + lane].bounces);
+  }
+  return gains * weights;
+}
+
 RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights) {
-  const RayMask weak = lanes & mask_of(is_weaker(weights, frame_.settings().min_weight));
+  const VectorLanes most = most_weights(group, weights);
+  const RayMask weak = lanes & mask_of(is_weaker(most, frame_.settings().min_weight));
   deep &= lanes & ~weak;
   const RayMask dropped = weak | deep;
   if (dropped == 0) return lanes;
   work_.stats.rays_below_min_weight += static_cast<unsigned>(std::popcount(weak));
   work_.stats.rays_beyond_depth += static_cast<unsigned>(std::popcount(deep));
   for_each_ray(dropped, [&](std::size_t lane) {
-    round_->samples[group * lane_count + lane]->dropped += largest_component(weights.lane(lane));
+    round_->samples[group * lane_count + lane]->dropped += largest_component(most.lane(lane));
   });
   return lanes & ~dropped;
 }
@@ -217,7 +228,7 @@ void Tracer::pass_company(std::size_t ray, Passage& passage) {
     if (crossing.leaf != hit.leaf || crossing.face != hit.face || crossing.root != hit.root) {
       const CrossingFilter filter = crossing_filter(data_, before, crossing, work_.stats);
       passage.transparency *= filter.transparency;
-      passage.color *= filter.color;
+      passage.color = bounded_share(passage.color * filter.color);
     }
     if (!solid) return;
     if (crossing.entering) {

@@ -4,8 +4,11 @@
 #include <array>
 #include <bit>
 #include <cstring>
+#include <iterator>
 #include <memory>
+#include <optional>
 
+#include "core/render/pixels_aside.hpp"
 #include "core/render/small_things.hpp"
 
 namespace crt::core {
@@ -106,26 +109,34 @@ int Passes::passes() const {
 
 std::uint64_t Passes::samples_of(const Step& step) const {
   std::uint64_t pixels = 0;
-  for (const std::size_t index : active_) pixels += tiles_[index].places.size();
+  for (const std::size_t index : active_) {
+    if (!tiles_[index].is_ahead) pixels += tiles_[index].places.size();
+  }
   const auto share = static_cast<std::uint64_t>(step.ranks.last - step.ranks.first);
   return static_cast<std::uint64_t>(step.until - count_) * (pixels * share / passes_per_step);
 }
 
 void Passes::run(const TaskRunner& run_tasks) {
-  if (count_ > 0 && eighths_ == 0 && is_doubled()) settle(run_tasks, false);  // what was taken up
+  if (count_ > 0 && eighths_ == 0 && !is_within_step()) decide(run_tasks);  // what was taken up
   while (!active_.empty() && !is_complete()) {
     const Step step = next_step();
     const std::uint64_t samples = samples_of(step);
-    if (by_clock_ && count_ > 0 && !clock_.has_time_for(samples)) break;
+    const bool may_end = count_ > 0 && !is_within_step();
+    if (by_clock_ && may_end && !clock_.has_time_for(samples)) break;
     const double share = goes_by_pass() ? share_of_pass : share_of_doubling;
     share_ = by_clock_ ? std::max(share_, clock_.share_after(samples)) : share_ + share * (1 - share_);
     trace(run_tasks, step);
     clock_.pass_done(samples);
     if (eighths_ == 0) decide(run_tasks);
-    if (pause_) pause_(false);
   }
-  if (pause_) pause_(true);
+}
+
+void Passes::finish(const TaskRunner& run_tasks) {
   settle(run_tasks, true);
+}
+
+bool Passes::is_within_step() const {
+  return std::any_of(tiles_.begin(), tiles_.end(), [](const Tile& tile) { return tile.is_ahead; });
 }
 
 Passes::Step Passes::next_step() const {
@@ -144,16 +155,21 @@ bool Passes::is_doubled() const {
 }
 
 void Passes::decide(const TaskRunner& run_tasks) {
-  if (count_ == frame_.settings().min_samples) exchange_notes(run_tasks);
+  if (count_ == frame_.settings().min_samples && !has_exchanged_notes_) exchange_notes(run_tasks);
   if (!is_complete() && is_doubled()) settle(run_tasks, false);
 }
 
 void Passes::trace(const TaskRunner& run_tasks, const Step& step) {
-  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
+  std::vector<std::size_t> behind;
+  std::copy_if(active_.begin(), active_.end(), std::back_inserter(behind),
+               [&](std::size_t index) { return !tiles_[index].is_ahead; });
+  run_tasks(behind.size(), share_, [&](std::size_t index, Workspace& work, Progress& progress) {
     Tracer tracer(frame_, work, progress);
     tracer.identify();
-    trace_tile(tiles_[active_[index]], step, tracer, work);
+    trace_tile(tiles_[behind[index]], step, tracer, work);
   });
+  const auto hold = this->hold();
+  for (Tile& tile : tiles_) tile.is_ahead = false;
   eighths_ = step.ranks.last % passes_per_step;
   if (eighths_ == 0) count_ = step.until;
 }
@@ -177,8 +193,13 @@ void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace&
       pixel.first_hits = &measures_.first_hits[index_of(place)];
     }
   }
-  const std::span<const PixelPlace> chosen(pixels.data(), count);
+  const std::span<PixelPlace> chosen(pixels.data(), count);
+  std::optional<PixelsAside> aside;
+  if (is_storable()) aside.emplace(chosen, count_ > 0, work);
   trace_passes(frame_, chosen, {count_, step.until}, tracer, work.stats);
+  const Change change(*this, work);
+  if (aside) aside->put_back();
+  tile.is_ahead = true;
   if (count_ == 0) expect_small_things(tile);
   show(tile.region, chosen, SampleCount(step.until));
   const bool ends_step = step.ranks.last == passes_per_step;
@@ -240,9 +261,12 @@ void Passes::show_some(std::span<const PixelPlace> pixels, const SampleCount& co
 }
 
 void Passes::exchange_notes(const TaskRunner& run_tasks) {
-  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& /*work*/, Progress& /*progress*/) {
+  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
+    const Change change(*this, work);
     keep_notes_from_beyond(tiles_[active_[index]]);
   });
+  const auto hold = this->hold();
+  has_exchanged_notes_ = true;
 }
 
 void Passes::keep_notes_from_beyond(Tile& tile) const {
@@ -280,6 +304,7 @@ void Passes::look_at(int y, int begin, int end, PixelSamples::Notes* notes) cons
 
 void Passes::settle(const TaskRunner& run_tasks, bool at_end) {
   run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
+    const Change change(*this, work);
     Tile& tile = tiles_[active_[index]];
     const TilePart part = tile.rim.empty() ? TilePart::whole : TilePart::rim;
     settle_tile(tile, {count_, eighths_, at_end, part}, work);

@@ -13,6 +13,8 @@
 
 #include <array>
 #include <functional>
+#include <mutex>
+#include <shared_mutex>
 #include <vector>
 
 #include "core/files/state_file.hpp"
@@ -41,13 +43,18 @@ class Passes {
   Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits, PassClock& clock,
          Canvas& canvas);
 
-  /// Renders. Once.
+  /// Renders. Once; then finish() is to be called.
   void run(const TaskRunner& run_tasks);
+  /// Takes leave of all pixels that are left.
+  void finish(const TaskRunner& run_tasks);
 
-  /// From now on goes from pass to pass, also where nothing is decided between them, and calls
-  /// pause(at_end) after each and at the end: then everything can be stored.
-  void pause_with(std::function<void(bool)> pause) { pause_ = std::move(pause); }
-  /// Everything that is known of the picture after the passes so far.
+  /// Before run(): from now on goes from pass to pass, also where nothing is decided between them, so that
+  /// everything can be stored at any time, even if run() ends by an exception. What has been counted for work
+  /// that is kept is handed to `settle`, from any thread.
+  void make_storable(std::function<void(Workspace&)> settle) { settle_counts_ = std::move(settle); }
+  /// Keeps all that can be stored, and what goes with it into the canvas and to `settle`, as it is.
+  std::unique_lock<std::shared_mutex> hold() const { return std::unique_lock(changing_); }
+  /// Everything that is known of the picture so far, while it is held; before finish().
   void store(StateWriter& out) const;
   /// Takes it up before run(), in one that was made alike but for its clock and number of passes. Throws
   /// Error: io for what cannot be, invalid_argument if there are more passes than wanted.
@@ -64,13 +71,35 @@ class Passes {
     std::vector<std::uint8_t> places;  ///< in a whole tile, row by row
     /// Of what was seen on the rim, if the tile was decided on before the others told what they saw.
     std::vector<PixelSamples::Notes> rim;
+    bool is_ahead = false;  ///< has had the step that others are still to have
+  };
+  /// As long as one lives, what can be stored is changed by a thread; others may do so, too.
+  class Change {
+   public:
+    Change(Passes& passes, Workspace& work) : passes_(passes), work_(work) {
+      if (passes.is_storable()) lock_ = std::shared_lock(passes.changing_);
+    }
+    ~Change() {
+      if (lock_) passes_.settle_counts_(work_);
+    }
+    Change(const Change&) = delete;
+    Change& operator=(const Change&) = delete;
+
+   private:
+    Passes& passes_;
+    Workspace& work_;
+    std::shared_lock<std::shared_mutex> lock_;
   };
   struct Place {
     int x = 0;
     int y = 0;
   };
   static Place place_of(const Tile& tile, std::size_t index);
-  static void store_tile(const Tile& tile, StateWriter& out);
+  void store_tile(const Tile& tile, StateWriter& out) const;
+  /// Whether a step has been begun, and not ended.
+  bool is_within_step() const;
+  bool is_storable() const { return static_cast<bool>(settle_counts_); }
+  bool has_samples(const Tile& tile) const { return count_ > 0 || tile.is_ahead; }
   void restore_tile(Tile& tile, StateReader& in);
   bool is_in_region(const Place& place) const;
   /// Of one that is.
@@ -87,7 +116,7 @@ class Passes {
     std::int64_t until = 0;
     Ranks ranks;
   };
-  bool goes_by_pass() const { return by_clock_ || pause_; }
+  bool goes_by_pass() const { return by_clock_ || is_storable(); }
   bool is_end(std::int64_t count, int eighths) const {
     return count == most_samples_ && eighths == more_eighths_;
   }
@@ -98,7 +127,7 @@ class Passes {
   void trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace& work);
   /// Whether a tile's pixels are decided on as soon as the step has been traced.
   bool decides_at_once(const Step& step) const {
-    return count_ == 0 && step.until == frame_.settings().min_samples && !pause_;
+    return count_ == 0 && step.until == frame_.settings().min_samples && !is_storable();
   }
   /// Takes leave of pixels inside a tile that are good enough, and finds a place for the others.
   void decide_inside(Tile& tile, std::int64_t count, Workspace& work);
@@ -158,7 +187,9 @@ class Passes {
   int eighths_ = 0;                  ///< of them, by rank, that have one more
   double share_ = 0;
   PixelMeasures measures_;
-  std::function<void(bool)> pause_;
+  bool has_exchanged_notes_ = false;
+  std::function<void(Workspace&)> settle_counts_;
+  mutable std::shared_mutex changing_;
 };
 
 }  // namespace crt::core

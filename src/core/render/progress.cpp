@@ -48,11 +48,13 @@ void Progress::task_done() {
   const auto done = static_cast<double>(++tasks_done_);
   raise_share(share_before_ + share_of_part_ * (done / task_count_));
   if (stopped_) throw_cancelled();
+  if (chore_) chore_();
   if (callback_) report(false);
 }
 
 void Progress::poll() {
   if (stopped_) throw_cancelled();
+  if (chore_) chore_();
   if (callback_) report(true);
 }
 

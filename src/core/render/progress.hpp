@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstddef>
 #include <functional>
+#include <utility>
 
 namespace crt::core {
 
@@ -22,6 +23,10 @@ class Progress {
   /// Before the first of some tasks, with all before them done: how many come, and what share of everything
   /// is done after them.
   void begin_part(std::size_t task_count, double share_after);
+
+  /// Has each thread do this now and then, between rays, from now on; nothing if it is empty. While no task
+  /// runs.
+  void do_between_rays(std::function<void()> chore) { chore_ = std::move(chore); }
 
   /// After each task. Throws Error (cancelled) if the callback says no, now or before.
   void task_done();
@@ -44,6 +49,7 @@ class Progress {
   void raise_share(double share);
 
   std::function<bool(double)> callback_;
+  std::function<void()> chore_;
   // Of this part.
   double share_before_ = 0;
   double share_of_part_ = 0;

@@ -28,7 +28,9 @@ bool is_finite(const Vec3& v) {
 class Query {
  public:
   Query(const PreparedData& data, const Ray& ray, RayWorkspace& work)
-      : data_(data), work_(work), to_users_t_(follow(ray, ray_)) {}
+      : data_(data), work_(work), users_(ray) {
+    follow(users_, ray_);
+  }
 
   std::optional<Hit> nearest() const {
     const RayHit hit = data_.intersect(ray_, work_);
@@ -49,13 +51,14 @@ class Query {
   Hit described(const RayHit& hit) const {
     HitPoint point;
     data_.hit_point(ray_, hit, true, point);
-    return core::described(to_users_t_ * point.t, point, point.entity_id, point.entering);
+    const double t = users_t(users_, hit.t, hit.t_low);
+    return core::described(t, point, point.entity_id, point.entering);
   }
 
   const PreparedData& data_;
   RayWorkspace& work_;
+  const Ray& users_;
   WorldRay ray_;
-  PowerOfTwo to_users_t_;
 };
 
 /// Throws if there are fewer places than rays.

@@ -47,6 +47,7 @@ class QueryPacket {
 
   /// `next` are to be taken after them: they come from memory meanwhile.
   void take(std::span<const Ray> rays, std::span<const Ray> next) {
+    users_ = rays;
     count_ = rays.size();
     rays_.with_starts = 0;
     std::size_t done = 0;
@@ -113,8 +114,9 @@ class QueryPacket {
       validate(rays[i]);
       const std::size_t index = first + i;
       WorldRay ray;
-      powers_[index] = follow(rays[i], ray);
-      to_users_t_[index / lane_count][static_cast<int>(index % lane_count)] = powers_[index].factor();
+      follow(rays[i], ray);
+      const PowerOfTwo shorten(-exponent_of(largest_component(rays[i].direction)));
+      to_users_t_[index / lane_count][static_cast<int>(index % lane_count)] = shorten.factor();
       rays_.set(index, ray);
     }
   }
@@ -134,9 +136,10 @@ class QueryPacket {
     if (found == 0) return;
     const Lanes& factors = to_users_t_[group];
     t_ = factors * t;
-    for_each_ray(found & mask_of(factors == 0.0), [&](std::size_t lane) {
+    for_each_ray(found & ~mask_of(has_all_digits(t_)), [&](std::size_t lane) {
       const auto i = static_cast<int>(lane);
-      t_[i] = powers_[group * lane_count + lane] * t[i];
+      const std::size_t index = group * lane_count + lane;
+      t_[i] = users_t(users_[index], t[i], hits_[index].t_low);
     });
     const auto id = [&](std::size_t lane) {
       return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));
@@ -227,11 +230,11 @@ class QueryPacket {
 
   const PreparedData& data_;
   RayWorkspace& work_;
+  std::span<const Ray> users_;
   std::size_t count_ = 0;
   RayBatch rays_;
-  /// Turns a t of the rays into the user's; 0 for those that no such number does it for but their power.
+  /// Turns a t of the rays into the user's where that has all its digits; 0 where no number does.
   std::array<Lanes, packet_size / lane_count> to_users_t_{};
-  std::array<PowerOfTwo, packet_size> powers_;
   std::array<RayHit, packet_size> hits_;
   // Of a group of rays, by lane, those that have found something:
   RayMask found_ = 0;

@@ -151,29 +151,45 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
 }
 
 void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
-                                    const TaskRunner& run_tasks) {
-  const std::uint64_t picture = fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs));
-  Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool);
+                                    const TaskRunner& run_tasks, double begin) {
+  const std::uint64_t picture =
+      fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs), progress_);
+  Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool, seconds_, begin);
   checkpoint.take_up();
-  // Writing is to take a small part of the time, whatever the size.
-  constexpr double shortest_break = 10;
-  constexpr double break_per_writing = 20;
-  double next = steady_seconds() + shortest_break;
-  passes.pause_with([&](bool at_end) {
-    const double begin = steady_seconds();
-    if (begin < next && !at_end) return;
-    try {
-      checkpoint.keep();
-    } catch (const Error& error) {
-      if (options_.log) log(LogLevel::warning, fmt::format("no checkpoint was made: {}", error.what()));
-    }
-    const double end = steady_seconds();
-    next = end + std::max(shortest_break, break_per_writing * (end - begin));
-  });
-  passes.run(run_tasks);
+  const TaskRunner run_and_tell = [&](std::size_t count, double share_after, const auto& task) {
+    run_tasks(count, share_after, task);
+    tell_of_checkpoint(checkpoint.take_complaint());
+  };
+  const auto keep = [&] {
+    progress_.do_between_rays({});
+    checkpoint.keep();
+    tell_of_checkpoint(checkpoint.take_complaint());
+  };
+  progress_.do_between_rays([&] { checkpoint.keep_if_due(); });
+  try {
+    passes.run(run_and_tell);
+  } catch (...) {
+    keep();
+    throw;
+  }
+  keep();
+}
+
+void Rendering::leave_checkpoint() const {
+  try {
+    leave_empty_checkpoint(options_.checkpoint);
+  } catch (const std::exception& error) {
+    tell_of_checkpoint(error.what());
+  }
+}
+
+void Rendering::tell_of_checkpoint(const std::string& complaint) const {
+  if (complaint.empty() || !options_.log) return;
+  log(LogLevel::warning, fmt::format("no checkpoint was made: {}", complaint));
 }
 
 RenderStats Rendering::render_picture() {
+  const double begin = seconds_();
   PassClock clock(settings_.time_budget, seconds_);
   WorkspacePool pool;
   const Frame frame = [&] {
@@ -193,22 +209,24 @@ RenderStats Rendering::render_picture() {
     if (options_.checkpoint.empty()) {
       rendering.run(run_tasks);
     } else {
-      run_with_checkpoint(frame, rendering, pool, run_tasks);
+      run_with_checkpoint(frame, rendering, pool, run_tasks, begin);
     }
+    rendering.finish(run_tasks);
     measures_ = rendering.take_measures();
     passes = rendering.passes();
     if (is_any(options_.aovs)) put_aovs(frame, run_tasks);
   } else {
     render_grid(frame, run_tasks);
   }
-  RenderStats stats = pool.total_stats();
+  const WorkspacePool::Counts counts = pool.total();
+  RenderStats stats = counts.stats;
   stats.passes = passes;
   if (by_passes) {
     report_measures(measures_, stats);
   } else {
     report_grid(settings_, frame.features().lens, stats);
   }
-  report_cutoff(pool.total_cutoff(), data_.scene().background, stats);
+  report_cutoff(counts.cutoff, data_.scene().background, stats);
   progress_.finish();
   return stats;
 }
@@ -231,6 +249,9 @@ void Rendering::run() {
     tell(stats);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::out_of_memory, "there is not enough memory to render the picture");
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled && !options_.checkpoint.empty()) leave_checkpoint();
+    throw;
   }
 }
 

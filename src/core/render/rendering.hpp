@@ -16,7 +16,7 @@ namespace crt::core {
 class Rendering {
  public:
   /// Checks the options; throws Error (invalid_argument, limit, out_of_memory). `data` must outlive it.
-  /// `seconds` is what a time budget goes by.
+  /// `seconds` is what a time budget goes by, and when a checkpoint is due.
   Rendering(const PreparedData& data, RenderOptions options, PassClock::Seconds seconds = steady_seconds);
 
   /// Renders on this thread and those that the options allow. Once. Throws Error: cancelled, out_of_memory.
@@ -38,8 +38,13 @@ class Rendering {
  private:
   static double steady_seconds();
   RenderStats render_picture();
+  /// Leaves one however it ends.
   void run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
-                           const TaskRunner& run_tasks);
+                           const TaskRunner& run_tasks, double begin);
+  /// Sees to it that there is one, of nothing if need be, when a render ends before it can be kept.
+  void leave_checkpoint() const;
+  /// Tells what kept a checkpoint from being written, unless it is "".
+  void tell_of_checkpoint(const std::string& complaint) const;
   /// Tells what there is beside the colours of a picture that was rendered pass by pass.
   void put_aovs(const Frame& frame, const TaskRunner& run_tasks);
   void render_grid(const Frame& frame, const TaskRunner& run_tasks);

@@ -90,7 +90,7 @@ Rgb light_share(const PreparedData& data, const WorldRay& ray, std::span<const R
   Rgb share(1);
   for (const RayHit& crossing : crossings) {
     const CrossingFilter filter = crossing_filter(data, ray, crossing, work.stats);
-    share *= filter.transparency * filter.color;
+    share = bounded_share(share * (filter.transparency * filter.color));
     if (is_black(share)) return share;
   }
   if (data.features().absorption) share *= AbsorbedShare(data, ray, crossings, lists, media, work).share();

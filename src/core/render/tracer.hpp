@@ -116,6 +116,8 @@ class Tracer {
   void look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split);
   /// Which rays of such weights are to go on from where a group of rays ends, of which some are too deep.
   RayMask worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights);
+  /// What they may weigh after all that brightens light on their further ways.
+  VectorLanes most_weights(std::size_t group, const VectorLanes& weights) const;
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
   /// fills in its media.
   PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction, const StartPoint& start,

@@ -94,10 +94,15 @@ inline int exponent_of(double x) {
   return biased > 0 ? biased - bias : std::ilogb(x);
 }
 
+/// Rays within which there is no number for a t: where t is scaled finer numbers are, but none to tell.
+template <class Real>
+MaskOf<Real> are_without_t(const Real& t_min, const Real& t_max) {
+  return t_max - t_min == std::numeric_limits<double>::denorm_min();
+}
+
 /// Makes of the user's ray one that can be followed: its direction is brought near length 1 by a power of
-/// two, which makes any length safe and changes no digit of t. Returns what turns a t of that ray into one of
-/// the user's.
-inline PowerOfTwo follow(const Ray& users, WorldRay& ray) {
+/// two, which makes any length safe and changes no digit of t; see users_t().
+inline void follow(const Ray& users, WorldRay& ray) {
   // Beyond the largest number there is no t to tell of, and so no hit.
   constexpr double largest = std::numeric_limits<double>::max();
   const int exponent = exponent_of(largest_component(users.direction));
@@ -107,7 +112,7 @@ inline PowerOfTwo follow(const Ray& users, WorldRay& ray) {
   ray.direction = shorten * users.direction;
   ray.t_min = lengthen * std::max(users.t_min, -largest);
   ray.t_max = lengthen * std::min(users.t_max, largest);
-  return shorten;
+  if (are_without_t(users.t_min, users.t_max)) ray.t_max = ray.t_min;
 }
 
 /// The same side by side, of valid rays that are not too long or short for that; else false. What shortens
@@ -118,12 +123,34 @@ inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lan
   const Lanes extent = largest_component(users.direction);
   const Lanes lengthen = power_of_two_below(extent);
   if (!all((extent >= 1 / longest) & (lengthen <= longest))) return false;
+  if (any(are_without_t(users.t_min, users.t_max))) return false;
   to_users_t = inverse_of_power(lengthen);
   rays.lines[group] = {users.origin, to_users_t * users.direction};
   rays.t_min[group] = lengthen * max(users.t_min, lanes_of(-largest));
   rays.t_max[group] = lengthen * min(users.t_max, lanes_of(largest));
   rays.start_errors[group] = Lanes{};
   return true;
+}
+
+/// Whether a t has all its digits still.
+template <class Real>
+MaskOf<Real> has_all_digits(const Real& users_t) {
+  return size_of(users_t) >= std::numeric_limits<double>::min();
+}
+
+/// The user's t of what the followed ray crosses at t + t_low. Next to 0, where numbers have fewer digits, it
+/// is rounded once more, but neither onto t_min nor onto t_max, between which it is.
+inline double users_t(const Ray& users, double t, double t_low) {
+  const int exponent = exponent_of(largest_component(users.direction));
+  double result = PowerOfTwo(-exponent) * t;
+  if (has_all_digits(result)) return result;
+  constexpr double step = std::numeric_limits<double>::denorm_min();
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  // Halfway between two numbers t_low tells the nearer one.
+  const PowerOfTwo lengthen(exponent);
+  const double rest = t - lengthen * result;
+  if (2 * std::abs(rest) == lengthen * step && rest * t_low > 0) result += std::copysign(step, rest);
+  return std::clamp(result, std::nextafter(users.t_min, infinity), std::nextafter(users.t_max, -infinity));
 }
 
 }  // namespace crt::core

@@ -4,33 +4,50 @@ namespace crt::core {
 
 namespace {
 
-void add_counts(RenderStats& total, const Workspace& workspace) {
+void add_counts(WorkspacePool::Counts& total, const Workspace& workspace) {
   const RenderStats& part = workspace.stats;
-  for (const auto count : summed_counts) total.*count += part.*count;
-  total.intersection_tests += workspace.rays.intersection_tests;
-  total.interval_events += workspace.rays.interval_events();
-  total.escalations += workspace.rays.escalations();
+  for (const auto count : summed_counts) total.stats.*count += part.*count;
+  total.stats.intersection_tests += workspace.rays.intersection_tests;
+  total.stats.interval_events += workspace.rays.interval_events();
+  total.stats.escalations += workspace.rays.escalations();
+  total.cutoff.add(workspace.cutoff);
+}
+
+/// Adds what a workspace has counted, which then begins anew.
+void move_counts(WorkspacePool::Counts& total, Workspace& workspace) {
+  add_counts(total, workspace);
+  workspace.stats = {};
+  workspace.cutoff = {};
+  RayWorkspace& rays = workspace.rays;
+  rays.intersection_tests = rays.leaf_escalations = rays.csg.events = rays.csg.escalations = 0;
 }
 
 }  // namespace
 
-RenderStats WorkspacePool::total_stats() const {
-  RenderStats total = stats_before_;
+WorkspacePool::Counts WorkspacePool::total() const {
+  Counts total = settled_;
   for (const std::unique_ptr<Workspace>& workspace : all_) add_counts(total, *workspace);
   return total;
 }
 
-CutoffSum WorkspacePool::total_cutoff() const {
-  CutoffSum total = cutoff_before_;
-  for (const std::unique_ptr<Workspace>& workspace : all_) total.add(workspace->cutoff);
-  return total;
-}
-
-void WorkspacePool::set_totals(const RenderStats& stats, const CutoffSum& cutoff) {
-  stats_before_ = stats;
-  cutoff_before_ = cutoff;
+void WorkspacePool::set_total(const Counts& counts) {
+  settled_ = counts;
   all_.clear();
   idle_.clear();
+}
+
+void WorkspacePool::settle(Workspace& workspace) {
+  const std::lock_guard lock(mutex_);
+  move_counts(settled_, workspace);
+}
+
+void WorkspacePool::settle_all() {
+  for (const std::unique_ptr<Workspace>& workspace : all_) move_counts(settled_, *workspace);
+}
+
+WorkspacePool::Counts WorkspacePool::settled() const {
+  const std::lock_guard lock(mutex_);
+  return settled_;
 }
 
 Workspace* WorkspacePool::take() {

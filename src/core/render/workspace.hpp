@@ -133,21 +133,33 @@ class WorkspacePool {
     Workspace* workspace_;
   };
 
-  // All counts together; while nothing is on loan.
-  RenderStats total_stats() const;
-  CutoffSum total_cutoff() const;
+  /// Sums of counts.
+  struct Counts {
+    RenderStats stats;
+    CutoffSum cutoff;
+  };
+
+  /// All together; while nothing is on loan.
+  Counts total() const;
   /// Takes these in place of all that has been counted; while nothing is on loan.
-  void set_totals(const RenderStats& stats, const CutoffSum& cutoff);
+  void set_total(const Counts& counts);
+
+  /// Of work that is done for good: what a workspace has counted since then goes into that sum. From the
+  /// thread that has it.
+  void settle(Workspace& workspace);
+  /// The same for all; while nothing is on loan.
+  void settle_all();
+  /// What has been settled; from any thread.
+  Counts settled() const;
 
  private:
   Workspace* take();
   void give_back(Workspace* workspace);
 
-  std::mutex mutex_;
+  mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> all_;
   std::vector<Workspace*> idle_;
-  RenderStats stats_before_;
-  CutoffSum cutoff_before_;
+  Counts settled_;
 };
 
 }  // namespace crt::core

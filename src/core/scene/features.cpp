@@ -20,6 +20,7 @@ Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& 
     features.reflection = features.reflection || material.description->reflectivity > 0;
     features.transparency = features.transparency || !material.opaque;
     features.absorption = features.absorption || (!material.opaque && material.absorbing);
+    features.gain = std::max(features.gain, material.gain);
     features.patterns = features.patterns || material.pattern.has_value();
     features.bumps = features.bumps || material.bump.has_value();
   }

@@ -22,6 +22,8 @@ struct Features {
   bool bumps = false;
   bool lens = false;  ///< aperture > 0 and more than one sample of it
   bool csg = false;
+  /// What a surface multiplies the light by at most that it lets through; 1 if none brightens it.
+  double gain = 1;
 };
 
 /// Reads them off a scene and its materials.

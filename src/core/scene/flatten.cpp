@@ -67,6 +67,7 @@ FlatScene Flattening::flatten(std::span<const Entity> entities) {
   result_.objects.reserve(entities.size());
   result_.placements.push_back(nullptr);
   for (std::size_t i = 0; i < entities.size(); ++i) {
+    if (entities[i].is_empty()) continue;
     const Part part{.node = &entities[i].node(), .id = static_cast<std::uint32_t>(i)};
     add_entity(part.unwrapped(result_.transforms));
   }

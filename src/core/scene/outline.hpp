@@ -1,6 +1,7 @@
 // Cheap tests that spare most exact ones: whether a line surely misses an object, or surely meets it.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <span>
@@ -248,8 +249,9 @@ auto judge_torus(const Outline& torus, const OutlineAxis& of_torus, const Outlin
   const Real high = first < second ? second : first;
   pass.from = low > -half ? low : -half;
   pass.to = high < half ? high : half;
-  const double hole = torus.radius - thickness;
-  const double squared_hole = hole > 0 ? hole * hole : 0;
+  // Next to the axis the squared distance from it is little more than its rounding, and may be negative.
+  const double hole = std::max(torus.radius - thickness, 0.0);
+  const double squared_hole = hole * hole - 0x1p-30 * ball * ball;
   using Mask = decltype(room < half);
   const Mask through_hole = both(pass.squared_distance_at(pass.from) < squared_hole,
                                  pass.squared_distance_at(pass.to) < squared_hole);

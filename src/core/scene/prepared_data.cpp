@@ -86,7 +86,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
   entity_ids_ = geometry_->entity_ids;
   for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
-  background_ = std::make_unique<PreparedBackground>(scene.background, textures_);
+  background_ = std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
   textures_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
 

@@ -74,9 +74,7 @@ void require_color(std::string_view field, const Color& color, double highest) {
   for (const double channel : {color.r, color.g, color.b}) {
     if (!std::isfinite(channel)) reject(field, "must consist of finite numbers");
     if (channel < 0 || channel > highest) {
-      reject(field, highest == 1
-                        ? fmt::format("must have channels between 0 and 1 (one is {})", channel)
-                        : fmt::format("must not have negative or absurd channels (one is {})", channel));
+      reject(field, fmt::format("must not have negative or absurd channels (one is {})", channel));
     }
   }
   if (!(color.a >= 0 && color.a <= 1))
@@ -112,8 +110,8 @@ struct PatternCheck {
  private:
   template <class P>
   static void common(const P& pattern) {
-    require_color("color_a", pattern.color_a, 1);
-    require_color("color_b", pattern.color_b, 1);
+    require_color("color_a", pattern.color_a, largest_factor);
+    require_color("color_b", pattern.color_b, largest_factor);
     require_positive("scale", pattern.scale, largest_coordinate);
     require_point("offset", pattern.offset);
   }
@@ -163,8 +161,8 @@ struct LightCheck {
     common(light);
     falloff(light.falloff);
   }
-  // Falloff goes with the square of a length.
-  static void falloff(double value) { require_between("falloff", value, 0, 1e200); }
+  // Falloff goes with the square of a length; 0 or less is none.
+  static void falloff(double value) { require_between("falloff", value, -1e200, 1e200); }
 };
 
 struct BackgroundCheck {
@@ -189,7 +187,7 @@ void validate(const Pattern& pattern) {
 
 void validate(const Material& material) {
   if (const auto* color = std::get_if<Color>(&material.color)) {
-    require_color("color", *color, 1);
+    require_color("color", *color, largest_factor);
   } else {
     validate(std::get<Pattern>(material.color));
   }
@@ -247,6 +245,9 @@ void validate(const Settings& settings) {
   require_between("filter_width", settings.filter_width, 1, 16);
   require_between("recursion_depth", settings.recursion_depth, 0, 256);
   require_between("min_weight", settings.min_weight, 0, 1);
+  if (settings.compat != 0 && settings.compat != compat_2015) {
+    reject("compat", fmt::format("must be 0 or {} (it is {})", compat_2015, settings.compat));
+  }
 }
 
 SharedMaterial::SharedMaterial(Material material) {

@@ -4,16 +4,23 @@
 #include <cmath>
 #include <numbers>
 
+#include "crt/settings.hpp"
+
 namespace crt::core {
 
 namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 }
 
-PreparedBackground::PreparedBackground(const Background& background, TexturePool& textures)
+PreparedBackground::PreparedBackground(const Background& background, TexturePool& textures, int compat)
     : background_(background) {
-  if (const auto* panorama = std::get_if<PanoramaBackground>(&background_)) {
-    texture_ = textures.get(panorama->image);
+  auto* const panorama = std::get_if<PanoramaBackground>(&background_);
+  if (panorama == nullptr) return;
+  texture_ = textures.get(panorama->image);
+  if (compat != compat_2015) return;
+  panorama->angle = -panorama->angle;
+  if (panorama->projection == PanoramaProjection::spherical) {
+    panorama->projection = PanoramaProjection::equal_area;
   }
 }
 
@@ -42,11 +49,18 @@ Color PreparedBackground::panorama(const PanoramaBackground& panorama, const Vec
   const double x = (0.5 + across / full_turn) * width;
 
   double y = 0.5 * height;
-  if (panorama.projection == PanoramaProjection::spherical) {
-    y -= std::atan2(direction.y, level) / std::numbers::pi * height;
-  } else {
-    // The cylinder has radius 1, so that a texel is as high as it is wide.
-    y -= direction.y / level * width / full_turn;
+  switch (panorama.projection) {
+    case PanoramaProjection::spherical:
+      y -= std::atan2(direction.y, level) / std::numbers::pi * height;
+      break;
+    case PanoramaProjection::cylindrical:
+      // The cylinder has radius 1, so that a texel is as high as it is wide.
+      y -= direction.y / level * width / full_turn;
+      break;
+    case PanoramaProjection::equal_area:
+      // Archimedes: between two heights lies as much of the sphere as of the cylinder around it.
+      y -= 0.5 * direction.y * height;
+      break;
   }
   return texture_->bilinear(x, y, TextureWrap::repeat, TextureWrap::clamp);
 }

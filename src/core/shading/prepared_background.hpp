@@ -14,7 +14,9 @@ namespace crt::core {
 /// to the right of it: across the picture goes atan2(d.x, d.z) + angle.
 class PreparedBackground {
  public:
-  PreparedBackground(const Background& background, TexturePool& textures);
+  /// `compat` as in Settings: spherical panoramas of 2015 are of equal area, and angles turn them all the
+  /// other way.
+  PreparedBackground(const Background& background, TexturePool& textures, int compat = 0);
 
   /// The colour in a direction (unit length), not premultiplied.
   Color color(const Vec3& direction) const;

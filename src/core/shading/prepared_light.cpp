@@ -70,7 +70,7 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
     directions_and_lengths(lanes_of(origin_) - points, light.directions, light.distances);
   }
   if (kind_ == Kind::spot) light.intensities = cone_share(light.directions);
-  if (falloff_ != 0) {
+  if (falloff_ > 0) {
     const Lanes way = counts_path_ ? path_lengths + light.distances : light.distances;
     light.intensities *= min(lanes_of(largest_intensity), falloff_ / (way * way));
   }

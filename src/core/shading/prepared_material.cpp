@@ -1,5 +1,7 @@
 #include "core/shading/prepared_material.hpp"
 
+#include <algorithm>
+
 namespace crt::core {
 
 PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& textures)
@@ -13,6 +15,7 @@ PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& 
 
   const bool gapless = pattern ? pattern->opaque() : color.a == 1;
   opaque = gapless && description->transparency == 0;
+  if (!opaque) gain = std::max(1.0, pattern ? pattern->brightest() : brightest_channel(color));
   ends_paths = opaque && description->reflectivity <= 0;
   const Color& absorption = description->absorption;
   absorbing = !opaque && (absorption.r > 0 || absorption.g > 0 || absorption.b > 0);

@@ -19,6 +19,8 @@ struct PreparedMaterial {
   std::optional<PreparedPattern> bump;
   /// Lets nothing through anywhere.
   bool opaque = true;
+  /// What light that it lets through is multiplied by at most; 1 if it brightens none.
+  double gain = 1;
   /// No ray goes on from it.
   bool ends_paths = true;
   bool absorbing = false;

@@ -1,5 +1,6 @@
 #include "core/shading/prepared_pattern.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <glm/common.hpp>
 #include <numbers>
@@ -136,8 +137,10 @@ PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures) 
         if constexpr (std::is_same_v<Kind, ImageMap>) {
           texture_ = textures.get(kind.image);
           opaque_ = texture_->opaque();
+          brightest_ = texture_->brightest();
         } else {
           opaque_ = kind.color_a.a == 1 && kind.color_b.a == 1;
+          brightest_ = std::max(brightest_channel(kind.color_a), brightest_channel(kind.color_b));
           if constexpr (has_direction<Kind>) kind.direction = direction_and_length(kind.direction).direction;
         }
       },

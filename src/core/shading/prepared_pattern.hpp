@@ -26,6 +26,9 @@ class PreparedPattern {
   /// Whether alpha is 1 everywhere.
   bool opaque() const { return opaque_; }
 
+  /// What no channel of its colours passes.
+  double brightest() const { return brightest_; }
+
   const Pattern& description() const { return pattern_; }
 
   /// The picture of an image map, null for other patterns.
@@ -35,6 +38,7 @@ class PreparedPattern {
   Pattern pattern_;
   std::shared_ptr<const Texture> texture_;
   bool opaque_ = true;
+  double brightest_ = 0;
 };
 
 }  // namespace crt::core

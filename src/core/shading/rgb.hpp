@@ -1,6 +1,8 @@
 // Colours to compute with: three channels of linear light.
 #pragma once
 
+#include <algorithm>
+
 #include "core/math/vector_lanes.hpp"
 #include "crt/color.hpp"
 #include "crt/vec.hpp"
@@ -19,6 +21,24 @@ inline bool is_black(const Rgb& light) {
 }
 inline LaneMask is_black(const VectorLanes& light) {
   return (light.x == 0.0) & (light.y == 0.0) & (light.z == 0.0);
+}
+
+inline double brightest_channel(const Color& color) {
+  return std::max({color.r, color.g, color.b});
+}
+
+/// Shares of light are kept below this: so much, times all that lamps and surfaces may add, is still a
+/// number, however many surfaces brighten what they let through.
+inline constexpr double largest_share = 0x1p100;
+
+/// A share of light, kept within its bound.
+inline Rgb bounded_share(const Rgb& share) {
+  return {std::min(share.x, largest_share), std::min(share.y, largest_share),
+          std::min(share.z, largest_share)};
+}
+inline VectorLanes bounded_share(const VectorLanes& share) {
+  const Lanes bound = lanes_of(largest_share);
+  return {min(share.x, bound), min(share.y, bound), min(share.z, bound)};
 }
 
 /// How bright a colour looks: the weights of Rec. ITU-R BT.709, item 3.2.

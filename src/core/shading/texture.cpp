@@ -27,14 +27,6 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
   return linear;
 }
 
-bool covers_fully(const Image& image) {
-  const std::span<const float> values = image.pixels();
-  for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
-    if (values[pixel + 3] < 1) return false;
-  }
-  return true;
-}
-
 /// Two neighbouring texels along one side of the picture and the share of the second.
 struct Neighbours {
   int first = 0;
@@ -73,7 +65,16 @@ Texture::Texture(std::shared_ptr<const Image> image, double gamma) : image_(std:
     image_ = to_linear_light(*image_, gamma);
     own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
   }
-  opaque_ = covers_fully(*image_);
+  // What lies between texels is a mean of them, weighted by alpha, and no brighter.
+  Lanes brightest{};
+  const std::span<const float> values = image_->pixels();
+  for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
+    const double alpha = std::clamp(double{values[pixel + 3]}, 0.0, 1.0);
+    opaque_ = opaque_ && alpha == 1;
+    if (!(alpha > 0)) continue;
+    brightest = max(brightest, Lanes{values[pixel], values[pixel + 1], values[pixel + 2], 0} / alpha);
+  }
+  brightest_ = std::max({brightest[0], brightest[1], brightest[2]});
 }
 
 Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const {

@@ -28,6 +28,9 @@ class Texture {
   /// Whether every texel covers fully.
   bool opaque() const { return opaque_; }
 
+  /// What no channel of its colours passes.
+  double brightest() const { return brightest_; }
+
   /// Bilinear, at (x, y) in texels: (0.5, 0.5) is the centre of the top left one. Any finite
   /// position is valid. The colour is straight (not premultiplied); where nothing covers it is black.
   Color bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const;
@@ -36,6 +39,7 @@ class Texture {
   std::shared_ptr<const Image> image_;
   std::uint64_t own_bytes_ = 0;
   bool opaque_ = true;
+  double brightest_ = 0;
 };
 
 /// The textures of one scene, so that a picture used twice is made ready once.
