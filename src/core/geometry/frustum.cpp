@@ -52,6 +52,8 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   }
   if (ray.start.face == no_face && stretch.empty()) return false;
 
+  // Squares of what is farther away could overflow.
+  if (ray.start.face == no_face && largest_component(line.point) > 2 * (height_ + wide_radius_)) return false;
   if (!move_to_least(ray, line, stretch)) return false;
   clip_side(ray, line, stretch);
   return stretch.finish(out);
@@ -156,10 +158,10 @@ void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stre
   SideEquation side = side_equation(line);
   center_on_grazing(ray, line, side);
   const auto enter = [&](double x, std::uint8_t number) {
-    stretch.enter(polished(ray, line, side, {x, true, number}, stretch));
+    stretch.enter(polished(ray, line, side, {side.on_nappe(x), true, number}, stretch));
   };
   const auto leave = [&](double x, std::uint8_t number) {
-    stretch.leave(polished(ray, line, side, {x, false, number}, stretch));
+    stretch.leave(polished(ray, line, side, {side.on_nappe(x), false, number}, stretch));
   };
   const bool is_within = side.is_within();
   if (side.a >= 0 && !(side.discriminant > 0)) {
@@ -216,10 +218,7 @@ Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering, co
   move_to_least(ray, line, stretch);
   const SideEquation side = side_equation(line);
   const auto [low, high] = SideRoots<double>(side);
-  // Not beyond the apex, whatever is left of a.
-  const double apex = -side.radius / side.radius_rate;
-  const double x = entering ? std::max(low, apex) : std::min(high, apex);
-  return polished(ray, line, side, {.x = x, .entering = entering}, stretch);
+  return polished(ray, line, side, {side.on_nappe(entering ? low : high), entering, 0}, stretch);
 }
 
 template <class Real>

@@ -89,6 +89,8 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     MaskOf<Real> is_on_other_nappe() const {
       return either(both(is_within(), radius < 0.0), without(a * radius < b * radius_rate, is_within()));
     }
+    /// Of a root that is on this nappe: not beyond the apex, whatever is left of a and b.
+    Real on_nappe(const Real& x) const { return radius + radius_rate * x < 0.0 ? -radius / radius_rate : x; }
     /// Whether a step along the line that ends at such a radius strays from the tangent there by no more than
     /// the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1 x) at most.)
     MaskOf<Real> is_straight(const Real& step, const Real& radius_there, const Real& reach) const {
