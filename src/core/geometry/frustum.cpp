@@ -50,10 +50,10 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     clip_side_from_surface(ray, stretch);
     return stretch.finish(out);
   }
-  if (ray.start.face == no_face && stretch.empty()) return false;
-
-  // Squares of what is farther away could overflow.
-  if (ray.start.face == no_face && largest_component(line.point) > 2 * (height_ + wide_radius_)) return false;
+  // Squares of what is farther away could overflow. (What is closest is known to a few units.)
+  constexpr double far = 64;
+  const bool passes_far = largest_component(line.point) > far * (height_ + wide_radius_);
+  if (ray.start.face == no_face && (stretch.empty() || passes_far)) return false;
   const SideRates rates = side_rates(line);
   if (!move_to_least(ray, line, rates, stretch)) return false;
   clip_side(ray, line, rates, stretch);

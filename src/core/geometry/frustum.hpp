@@ -21,8 +21,9 @@
 // root, as it may be next to an apex, they would not be.) The discriminant must be that of these very
 // coefficients, b^2 - a c without another rounding: then what little is left of a, b and c next to a ruling
 // agrees with itself, and roots that leave the solid's reach do so on the right side. In exact arithmetic it
-// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones. The
-// set of points inside is convex, so a line cuts one stretch out of it.
+// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones.
+//
+// The set of points inside is convex, so a line cuts one stretch out of it.
 #pragma once
 
 #include <algorithm>
@@ -36,9 +37,6 @@
 
 namespace crt::core {
 
-/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
-/// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
-/// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
 /// Where a line, or as many as a Real has lanes, enters a cylinder or cone through its side.
 template <class Real>
 struct FrustumEntry {
@@ -50,6 +48,9 @@ struct FrustumEntry {
   Real error{};  ///< as in Crossing
 };
 
+/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
+/// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
+/// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
 class FrustumShape : public ShapeOfPoints<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
