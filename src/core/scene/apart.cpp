@@ -15,11 +15,6 @@ namespace {
 /// So many boxes are looked at for one object.
 constexpr int most_looks = 1024;
 
-bool lets_light_in(const Material& material) {
-  const auto* color = std::get_if<Color>(&material.color);
-  return material.transparency > 0 || color == nullptr || color->a < 1;
-}
-
 /// Boxes of objects that lie in memory as they lie in space, and boxes around every few of them, and so on.
 class BoxLevels {
  public:
@@ -76,6 +71,11 @@ bool passes_by(const Outline& plane, const OutlineAxis& axis, const Bounds& box)
 }
 
 }  // namespace
+
+bool lets_light_in(const Material& material) {
+  const auto* color = std::get_if<Color>(&material.color);
+  return material.transparency > 0 || color == nullptr || color->a < 1;
+}
 
 std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
                                          std::span<const SharedMaterial> materials,

@@ -10,6 +10,9 @@
 
 namespace crt::core {
 
+/// Whether light may get through a surface of it somewhere, as far as its numbers tell.
+bool lets_light_in(const Material& material);
+
 /// By object: its place in `bounded` if light enters it and its box, grown by `margin`, touches no other
 /// object's, grown likewise; else nothing. `bounded` are the objects that have an end, in an order in which
 /// neighbours are near each other; `unbounded` the others. O(n log n); where that does not suffice to find

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "core/scene/duplicates.hpp"
 #include "core/scene/flatten.hpp"
 #include "core/scene/surface_table.hpp"
 #include "core/tasks/parallel.hpp"
@@ -109,12 +110,16 @@ class Compiler {
 };
 
 CompiledScene Compiler::compile() {
-  result_.materials = std::move(flat_.materials);
-  result_.programs = std::move(flat_.programs);
-  result_.programs.shrink_to_fit();
   make_placements();
   make_leaves();
   make_faces();
+  if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces)) {
+    make_leaves();
+    make_faces();
+  }
+  result_.materials = std::move(flat_.materials);
+  result_.programs = std::move(flat_.programs);
+  result_.programs.shrink_to_fit();
   finish_programs();
   finish_objects();
   return std::move(result_);
@@ -131,6 +136,7 @@ void Compiler::make_placements() {
 }
 
 void Compiler::make_leaves() {
+  result_.leaves.clear();
   result_.leaves.resize(flat_.leaves.size());
   std::atomic<std::uint64_t> shape_bytes = 0;
   for_ranges(flat_.leaves.size(), items_for_a_thread / 4, threads_, [&](std::size_t begin, std::size_t end) {
@@ -161,7 +167,7 @@ void Compiler::make_faces() {
     leaf.first_face = count;
     count += leaf.face_count;
   }
-  result_.face_surfaces.resize(count);
+  result_.face_surfaces.assign(count, {});
   number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, threads_);
 }
 

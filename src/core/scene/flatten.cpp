@@ -15,6 +15,12 @@ namespace {
 
 constexpr std::uint64_t most_primitives = std::uint64_t{1} << 25;
 
+/// Whether a part is the one before it once more: without this a = a + a, done n times, would be 2^n parts.
+bool repeats(const CsgOperation& operation, std::size_t part) {
+  const std::size_t first = operation.op == CsgOperator::difference ? 1 : 0;
+  return part > first && operation.parts[part] == operation.parts[part - 1];
+}
+
 class Flattening {
  public:
   explicit Flattening(int threads) : threads_(threads) {}
@@ -85,8 +91,9 @@ void Flattening::add_entity(const Part& entity) {
     open_.pop_back();
     const CsgOperation* operation = part.operation();
     if (operation != nullptr && operation->op == CsgOperator::set_union) {
-      for (auto child = operation->parts.rbegin(); child != operation->parts.rend(); ++child) {
-        open_.push_back(part.child(*child, result_.transforms));
+      for (std::size_t i = operation->parts.size(); i-- > 0;) {
+        if (repeats(*operation, i)) continue;
+        open_.push_back(part.child(operation->parts[i], result_.transforms));
       }
     } else {
       (part.node->solid ? solids_ : surfaces_).push_back(part);
@@ -148,6 +155,7 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
     program.nodes.push_back({.parent = pending.parent, .needed = needed, .count_outside = 0});
   }
   for (std::size_t i = operation.parts.size(); i-- > 0;) {
+    if (repeats(operation, i)) continue;
     const bool cutter = operation.op == CsgOperator::difference && i > 0;
     stack_.push_back(
         {pending.part.child(operation.parts[i], result_.transforms), node, pending.complemented != cutter});
