@@ -33,8 +33,8 @@ void add_settings(ByteHash& hash, const Settings& s) {
 }
 
 /// The light along rays through the middles of pixels that are spread over the region.
-void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
-  WorkspacePool pool;
+void add_light(ByteHash& hash, const Frame& frame, const Region& region, const StepRules& rules) {
+  WorkspacePool pool(rules);
   WorkspacePool::Loan work(pool);
   Progress nobody({});
   Tracer tracer(frame, *work, nobody);
@@ -70,11 +70,12 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region) {
 
 }  // namespace
 
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits) {
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+                          const StepRules& rules) {
   ByteHash hash;
   add_settings(hash, frame.settings());
   add(hash, region.x, region.y, region.width, region.height, with_first_hits, frame.features().lens);
-  add_light(hash, frame, region);
+  add_light(hash, frame, region, rules);
   return hash.value();
 }
 

@@ -9,8 +9,9 @@
 namespace crt::core {
 
 /// Tells pictures apart: a number from the settings that it takes to go on, and from the light of some
-/// samples that belong to no pixel's own.
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits);
+/// samples that belong to no pixel's own, whose rays go by `rules`.
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+                          const StepRules& rules);
 
 class Checkpoint {
  public:

@@ -10,7 +10,7 @@ namespace {
 /// A share risen by this is news.
 constexpr double news = 0.01;
 /// Without news the callback is called this often, for callers who want to cancel.
-constexpr std::chrono::milliseconds longest_silence{100};
+constexpr std::chrono::milliseconds longest_silence{50};
 
 [[noreturn]] void throw_cancelled() {
   throw Error(ErrorCode::cancelled, "the render was cancelled");

@@ -73,6 +73,8 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
       settings_(chosen_settings(options_, data.scene().settings)),
       canvas_(chosen_region(options_, settings_), settings_),
       progress_(options_.progress),
+      rules_{.most = options_.max_ray_steps == 0 ? usual_most_steps : options_.max_ray_steps,
+             .poll = [this] { progress_.poll(); }},
       seconds_(std::move(seconds)) {
   if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
   allowed_threads(options_.threads);  // throws for a number that is none
@@ -152,7 +154,8 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
 
 void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
                                     const TaskRunner& run_tasks) {
-  const std::uint64_t picture = fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs));
+  const std::uint64_t picture = 
+      fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs), rules_);
   Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool);
   checkpoint.take_up();
   // Writing is to take a small part of the time, whatever the size.
@@ -175,7 +178,8 @@ void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, Workspac
 
 RenderStats Rendering::render_picture() {
   PassClock clock(settings_.time_budget, seconds_);
-  WorkspacePool pool;
+  WorkspacePool pool(rules_);
+  progress_.begin();
   const Frame frame = [&] {
     WorkspacePool::Loan work(pool);
     return Frame(data_, settings_, *work);
@@ -184,7 +188,6 @@ RenderStats Rendering::render_picture() {
     progress_.begin_part(count, share_after);
     run(count, pool, task);
   };
-  progress_.begin();
   int passes = 0;
   const bool by_passes = asks_for_passes(settings_, options_.passes);
   if (by_passes) {

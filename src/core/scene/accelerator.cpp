@@ -171,11 +171,13 @@ template <class Kind>
 void Accelerator::traverse(Kind& query) const {
   for (const Outline& outline : unbounded_.list) {
     if (query.limit() <= query.ray().t_min) return;
+    query.step();
     query.test(outline.object);
   }
   if (query.limit() <= query.ray().t_min) return;
   constexpr bool from_near = false;
   visit_boxes<from_near>(query.ray(), query.limit(), [&](std::uint32_t box) {
+    query.step();
     query.test(bounded_.list[box].object);
     return query.limit();
   });
