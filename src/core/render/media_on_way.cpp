@@ -12,18 +12,29 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
+/// Crossings or nodes that are looked through one by one.
+constexpr std::size_t few = 16;
+
 }  // namespace
 
 void MediaOnWay::begin(std::span<const RayHit> crossings, ExitOf exit_beyond) {
   crossings_ = crossings;
   exit_beyond_ = std::move(exit_beyond);
   nodes_.clear();
-  root_ = innermost_ = nothing;
   passings_.clear();
-  for (std::uint32_t i = 0; i < crossings.size(); ++i) passings_.push_back({crossings[i].object, i});
+  root_ = innermost_ = nothing;
+}
+
+void MediaOnWay::sort_passings() {
+  if (!passings_.empty()) return;
+  for (std::uint32_t i = 0; i < crossings_.size(); ++i) passings_.push_back({crossings_[i].object, i});
   std::sort(passings_.begin(), passings_.end(), [](const Passing& a, const Passing& b) {
     return std::tie(a.object, a.index) < std::tie(b.object, b.index);
   });
+  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+    Passing* const passing = passing_of(nodes_[node].medium.object);
+    if (passing != nullptr) passing->node = node;
+  }
 }
 
 std::size_t MediaOnWay::first_passing(std::uint32_t object, std::size_t index) const {
@@ -33,13 +44,35 @@ std::size_t MediaOnWay::first_passing(std::uint32_t object, std::size_t index) c
   return static_cast<std::size_t>(found - passings_.begin());
 }
 
-std::uint32_t* MediaOnWay::node_of(std::uint32_t object) {
+MediaOnWay::Passing* MediaOnWay::passing_of(std::uint32_t object) {
   const std::size_t first = first_passing(object, 0);
-  const bool is_on_way = first < passings_.size() && passings_[first].object == object;
-  return is_on_way ? &passings_[first].node : nullptr;
+  return first < passings_.size() && passings_[first].object == object ? &passings_[first] : nullptr;
 }
 
-RayHit MediaOnWay::exit_of(std::uint32_t object, std::size_t index) const {
+std::uint32_t MediaOnWay::node_of(std::uint32_t object) {
+  const auto is_its = [&](std::uint32_t node) {
+    return nodes_[node].is_there && nodes_[node].medium.object == object;
+  };
+  if (innermost_ == nothing || is_its(innermost_)) return innermost_;
+  if (nodes_.size() <= few) {
+    std::uint32_t node = 0;
+    while (node < nodes_.size() && !is_its(node)) ++node;
+    return node < nodes_.size() ? node : nothing;
+  }
+  sort_passings();
+  const Passing* const passing = passing_of(object);
+  const bool is_known = passing != nullptr && passing->node != nothing && is_its(passing->node);
+  return is_known ? passing->node : nothing;
+}
+
+RayHit MediaOnWay::exit_of(std::uint32_t object, std::size_t index) {
+  if (crossings_.size() <= few) {
+    for (; index < crossings_.size(); ++index) {
+      if (crossings_[index].object == object && !crossings_[index].entering) return crossings_[index];
+    }
+    return exit_beyond_(object);
+  }
+  sort_passings();
   for (std::size_t i = first_passing(object, index); i < passings_.size(); ++i) {
     if (passings_[i].object != object) break;
     const RayHit& crossing = crossings_[passings_[i].index];
@@ -54,15 +87,17 @@ void MediaOnWay::enter(const Medium& medium, std::size_t index) {
   const std::uint32_t place = first_around(root_, entering);
   const std::uint32_t node = insert_before(place, medium);
   nodes_[node].index = index;
+  if (!entering.knows_exit) return;
   nodes_[node].exit = entering.exit;
-  nodes_[node].knows_exit = entering.knows_exit;
+  nodes_[node].knows_exit = true;
   update_up(node);
 }
 
 void MediaOnWay::leave(std::uint32_t object) {
-  std::uint32_t* const node = node_of(object);
-  if (node == nullptr || *node == nothing) return;
-  remove(std::exchange(*node, nothing));
+  const std::uint32_t node = node_of(object);
+  if (node == nothing) return;
+  remove(node);
+  nodes_[node].is_there = false;
 }
 
 const RayHit& MediaOnWay::exit(Node& node) {
@@ -141,7 +176,10 @@ std::uint32_t MediaOnWay::insert_before(std::uint32_t place, const Medium& mediu
   constexpr std::uint32_t factor = 0x9e3779b9u;  // 2^32 / the golden ratio
   const std::uint32_t mixed = (node + 1) * factor;
   nodes_.push_back({.medium = medium, .priority = (mixed ^ mixed >> 15) * factor});
-  if (std::uint32_t* const known = node_of(medium.object)) *known = node;
+  if (!passings_.empty()) {
+    Passing* const passing = passing_of(medium.object);
+    if (passing != nullptr) passing->node = node;
+  }
   if (place == innermost_) innermost_ = node;
   std::uint32_t above = place == nothing ? root_ : place;
   if (above == nothing) {

@@ -31,7 +31,7 @@ class MediaOnWay {
   void enter(const Medium& medium, std::size_t index);
   void leave(std::uint32_t object);
   /// Where a solid is left that the ray is in after the crossings before number `index`.
-  RayHit exit_of(std::uint32_t object, std::size_t index) const;
+  RayHit exit_of(std::uint32_t object, std::size_t index);
 
  private:
   struct Node {
@@ -39,6 +39,7 @@ class MediaOnWay {
     RayHit exit{};
     std::size_t index = 0;  ///< up to where the way was passed when it came in
     bool knows_exit = false;
+    bool is_there = true;
     std::uint32_t left = nothing;  ///< more inner ones
     std::uint32_t right = nothing;
     std::uint32_t above = nothing;
@@ -55,9 +56,13 @@ class MediaOnWay {
   };
 
   static double farthest_of(const Node& node);
+  /// What tells of many crossings and nodes where those of an object are; not worth it for few.
+  void sort_passings();
   std::size_t first_passing(std::uint32_t object, std::size_t index) const;
-  /// The node of an object, if it is on the way.
-  std::uint32_t* node_of(std::uint32_t object);
+  /// The first passing of an object, if it has any.
+  Passing* passing_of(std::uint32_t object);
+  /// The node of an object that is left or entered on the way, if it is there.
+  std::uint32_t node_of(std::uint32_t object);
   bool is_inside_of(Node& inner, Node& outer);
   /// The innermost node of a subtree that `entering` is inside of.
   std::uint32_t first_around(std::uint32_t subtree, Node& entering);
@@ -71,7 +76,7 @@ class MediaOnWay {
 
   std::span<const RayHit> crossings_;
   ExitOf exit_beyond_;
-  std::vector<Passing> passings_;  ///< by object, then in order
+  std::vector<Passing> passings_;  ///< by object, then in order; empty until they are sorted
   std::vector<Node> nodes_;
   std::uint32_t root_ = nothing;
   std::uint32_t innermost_ = nothing;

@@ -56,6 +56,11 @@ void Progress::poll() {
   if (callback_) report(true);
 }
 
+void Progress::poll_in_ray() {
+  if (stopped_) throw_cancelled();
+  if (callback_) report(true);
+}
+
 void Progress::report(bool even_without_news) {
   if (reporting_.test_and_set(std::memory_order_acquire)) return;
   struct Release {

@@ -74,7 +74,7 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
       canvas_(chosen_region(options_, settings_), settings_),
       progress_(options_.progress),
       rules_{.most = options_.max_ray_steps == 0 ? usual_most_steps : options_.max_ray_steps,
-             .poll = [this] { progress_.poll(); }},
+             .poll = [this] { progress_.poll_in_ray(); }},
       seconds_(std::move(seconds)) {
   if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
   allowed_threads(options_.threads);  // throws for a number that is none
@@ -154,7 +154,7 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
 
 void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
                                     const TaskRunner& run_tasks) {
-  const std::uint64_t picture = 
+  const std::uint64_t picture =
       fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs), rules_);
   Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool);
   checkpoint.take_up();

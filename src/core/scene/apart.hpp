@@ -7,6 +7,7 @@
 
 #include "core/scene/compile.hpp"
 #include "core/scene/outline.hpp"
+#include "core/tasks/workers.hpp"
 
 namespace crt::core {
 
@@ -20,6 +21,6 @@ bool lets_light_in(const Material& material);
 std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
                                          std::span<const SharedMaterial> materials,
                                          std::span<const std::uint32_t> bounded, const Outlines& unbounded,
-                                         double margin);
+                                         double margin, const Workers& workers = {});
 
 }  // namespace crt::core

@@ -10,6 +10,7 @@
 #include "core/geometry/description.hpp"
 #include "core/scene/apart.hpp"
 #include "core/scene/surface_table.hpp"
+#include "core/tasks/parallel.hpp"
 
 namespace crt::core {
 
@@ -17,8 +18,9 @@ namespace {
 
 class Duplicates {
  public:
-  Duplicates(FlatScene& scene, std::span<const Leaf> leaves, std::span<const FaceSurface> faces)
-      : scene_(scene), leaves_(leaves), faces_(faces) {}
+  Duplicates(FlatScene& scene, std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
+             const Workers& workers)
+      : scene_(scene), leaves_(leaves), faces_(faces), workers_(workers) {}
 
   bool remove() {
     if (!find_equal_leaves()) return false;
@@ -68,8 +70,9 @@ class Duplicates {
   FlatScene& scene_;
   std::span<const Leaf> leaves_;
   std::span<const FaceSurface> faces_;
-  std::vector<std::uint32_t> equal_;   ///< by leaf: the first that is equal
-  std::vector<bool> has_equal_;        ///< by leaf
+  Workers workers_;
+  std::vector<std::uint32_t> equal_;  ///< by leaf: the first that is equal
+  std::vector<bool> has_equal_;       ///< by leaf
   std::vector<bool> keeps_leaf_;
   std::uint32_t next_class_ = 0;
   std::map<std::vector<std::uint32_t>, std::uint32_t> classes_;
@@ -93,16 +96,18 @@ bool Duplicates::find_equal_leaves() {
   equal_.resize(leaves_.size());
   has_equal_.assign(leaves_.size(), false);
   for (std::uint32_t leaf = 0; leaf < leaves_.size(); ++leaf) {
+    workers_.poll_at(leaf);
     equal_[leaf] = leaf;
     if (leaves_[leaf].face_count == 0 || begun[first_surface(leaves_[leaf])] < 2) continue;
     hashed.push_back({hash(leaf), leaf});
   }
-  std::sort(hashed.begin(), hashed.end(), [](const HashedLeaf& a, const HashedLeaf& b) {
+  sort_in_parallel(std::span(hashed), workers_, [](const HashedLeaf& a, const HashedLeaf& b) {
     return std::tie(a.hash, a.leaf) < std::tie(b.hash, b.leaf);
   });
   bool any = false;
   for (std::size_t i = 1; i < hashed.size(); ++i) {
     // (Of leaves that differ though their hashes do not some may be overlooked.)
+    workers_.poll_at(i);
     const std::uint32_t first = equal_[hashed[i - 1].leaf];
     const std::uint32_t leaf = hashed[i].leaf;
     if (hashed[i].hash != hashed[i - 1].hash || !equal(first, leaf)) continue;
@@ -157,6 +162,7 @@ void Duplicates::choose() {
   }
   std::map<std::vector<std::uint32_t>, bool> seen;
   std::erase_if(scene_.objects, [&](const SceneObject& object) {
+    workers_.poll_at(object.first_leaf);
     if (!is_involved(object)) return false;
     std::vector<std::uint32_t> key = {object.is_csg() ? reduce(scene_.programs[object.program])
                                                       : equal_[object.first_leaf]};
@@ -186,6 +192,7 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program) {
   std::uint32_t equal = 0;
   // Children come after their parents.
   for (auto node = static_cast<std::uint32_t>(nodes.size()); node-- > 0;) {
+    workers_.poll_at(node);
     const std::span<Child> of_node = std::span(children).subspan(ends[node], ends[node + 1] - ends[node]);
     std::sort(of_node.begin(), of_node.end(), [](const Child& a, const Child& b) {
       return std::tie(a.equal, a.first_leaf) < std::tie(b.equal, b.first_leaf);
@@ -277,8 +284,9 @@ void Duplicates::compact(CsgProgram& program) {
 
 }  // namespace
 
-bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves, std::span<const FaceSurface> faces) {
-  return Duplicates(scene, leaves, faces).remove();
+bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
+                       const Workers& workers) {
+  return Duplicates(scene, leaves, faces, workers).remove();
 }
 
 }  // namespace crt::core

@@ -23,7 +23,7 @@ bool repeats(const CsgOperation& operation, std::size_t part) {
 
 class Flattening {
  public:
-  explicit Flattening(int threads) : threads_(threads) {}
+  explicit Flattening(const Workers& workers) : workers_(workers) {}
   FlatScene flatten(std::span<const Entity> entities);
 
  private:
@@ -42,7 +42,7 @@ class Flattening {
   std::uint32_t placement_number(const PreciseTransform* to_world);
   std::uint32_t material_number(const Part& part);
 
-  int threads_;
+  Workers workers_;
   FlatScene result_;
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
@@ -89,6 +89,7 @@ void Flattening::add_entity(const Part& entity) {
   while (!open_.empty()) {
     const Part part = open_.back();
     open_.pop_back();
+    workers_.poll_at(solids_.size() + surfaces_.size());
     const CsgOperation* operation = part.operation();
     if (operation != nullptr && operation->op == CsgOperator::set_union) {
       for (std::size_t i = operation->parts.size(); i-- > 0;) {
@@ -101,7 +102,7 @@ void Flattening::add_entity(const Part& entity) {
   }
   // Solids that cannot touch need not know of each other.
   std::size_t begin = 0;
-  for (const std::size_t end : group_apart(solids_, threads_)) {
+  for (const std::size_t end : group_apart(solids_, workers_)) {
     add_group(std::span<const Part>(solids_).subspan(begin, end - begin));
     begin = end;
   }
@@ -132,6 +133,7 @@ void Flattening::build_program(std::span<const Part> parts, CsgProgram& program)
   while (!stack_.empty()) {
     const Pending pending = stack_.back();
     stack_.pop_back();
+    workers_.poll_at(stack_.size());
     if (pending.part.operation() == nullptr) {
       add_leaf(pending.part, pending.complemented);
       program.leaf_parents.push_back(pending.parent);
@@ -163,6 +165,7 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
 }
 
 void Flattening::add_leaf(const Part& part, bool complemented) {
+  workers_.poll_at(result_.leaves.size());
   result_.leaves.push_back({.primitive = std::get_if<Primitive>(&part.node->content),
                             .placement = placement_number(part.to_world),
                             .material = material_number(part),
@@ -205,8 +208,8 @@ std::uint32_t Flattening::material_number(const Part& part) {
 
 }  // namespace
 
-FlatScene flatten(std::span<const Entity> entities, int threads) {
-  return Flattening(threads).flatten(entities);
+FlatScene flatten(std::span<const Entity> entities, const Workers& workers) {
+  return Flattening(workers).flatten(entities);
 }
 
 }  // namespace crt::core
