@@ -500,6 +500,27 @@ CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* 
  * new camera, light, background or setting (other than the precision) costs next to nothing. */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 
+/** Asked now and then while something takes long (of a script every few thousand steps); a return value other
+ * than 0 cancels it. */
+typedef int (*crt_poll_fn)(void* user);
+
+/** What preparing may be asked beyond the scene. All 0 is the default. */
+typedef struct crt_prepare_options {
+  uint32_t struct_size;
+  uint32_t reserved; /**< 0 */
+  /** NULL, or what may cancel: within 0.1 s in scenes of up to a million primitives, with
+   * CRT_ERROR_CANCELLED. May be called on any of the threads that work. */
+  crt_poll_fn poll;
+  void* poll_user;
+} crt_prepare_options;
+
+/** The defaults, which are all 0. */
+CRT_API crt_status crt_prepare_options_init(crt_prepare_options* options, size_t struct_size);
+
+/** crt_scene_prepare() with options; NULL: the defaults. */
+CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
+                                          crt_prepared** out);
+
 /** @} */
 
 /* ---- scripts -------------------------------------------------------------------------------- */
@@ -535,8 +556,6 @@ CRT_API crt_status crt_file_content_append(crt_file_content* content, const void
 
 /** Gets a line that the script prints, without its end; a return value other than 0 cancels the script. */
 typedef int (*crt_print_fn)(const char* line, size_t length, void* user);
-/** Asked every few thousand steps of a script; a return value other than 0 cancels it. */
-typedef int (*crt_poll_fn)(void* user);
 
 /** What a script may see and use. All 0 is the default: files of its own directory, and the limits below. */
 typedef struct crt_script_options {
@@ -699,6 +718,10 @@ typedef struct crt_render_options {
    * the break on. A checkpoint of another picture is CRT_ERROR_INVALID_ARGUMENT; that it is of this one is
    * told by the settings and by the light of up to 1024 samples. Read by the call. */
   const char* checkpoint;
+  /** The most things that a single ray may be tested against: objects, and primitives of CSG objects, whose
+   * boxes it passes; looked at after every 1024 of them. A ray that takes more ends the render with
+   * CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary scene takes some hundred. */
+  uint64_t max_ray_steps;
 } crt_render_options;
 
 /** The defaults, which are all 0. */
@@ -904,7 +927,8 @@ typedef struct crt_hit {
   uint32_t flags;     /**< CRT_HIT_* */
 } crt_hit;
 
-/** The nearest hit of each ray. If any ray is wrong, none is asked, and the message names its index. */
+/** The nearest hit of each ray. In this and the other queries a ray that would be tested against more than
+ * 4194304 things (see crt_render_options.max_ray_steps) is CRT_ERROR_LIMIT. If any ray is wrong, none is asked, and the message names its index. */
 CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                  crt_hit* hits, size_t hit_stride);
 /**

@@ -1,6 +1,7 @@
 // Ray queries: what a program asks of the geometry without making a picture: the same crossings that
 // pictures see. All functions are safe from any number of threads at once. They throw Error: invalid_argument
-// for a ray with a number that is not finite (t_min and t_max may be infinite) or without a direction,
+// for a ray with a number that is not finite (t_min and t_max may be infinite) or without a direction, limit
+// for one that would be tested against more than 4194304 things (see RenderOptions::max_ray_steps),
 // out_of_memory.
 #pragma once
 

@@ -85,7 +85,7 @@ STATUS_FUNCTIONS = {
     "crt_scene_get_camera": "pp",
     "crt_scene_get_background": "pp",
     "crt_scene_get_settings": "pp",
-    "crt_scene_prepare": "pp",
+    "crt_scene_prepare_with": "ppp",
     "crt_scene_from_script": "pzsppp",
     "crt_scene_from_script_file": "sppp",
     "crt_file_content_append": "ppz",

@@ -82,6 +82,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   work_.met_.clear();
   work_.to_come_.clear();
   for (const std::uint32_t leaf : program.tree.unbounded()) {
+    tick();
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
     if (!span.empty() && span.leave >= part_.enter && span.enter <= part_.leave) {
       put_off(LeafTree::Child::leaf(leaf), span.enter);
@@ -161,6 +162,7 @@ void CsgEvaluation::open_what_may_coincide() {
 }
 
 void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
+  work_.steps.step();
   const Leaf& leaf = leaves_[index];
   // Leaves that are placed alike often follow one another: the ray is taken to their space once.
   if (leaf.placement != placement_) {
@@ -222,6 +224,7 @@ void CsgEvaluation::gather_cluster() {
 }
 
 void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
+  tick();
   work_.cluster_.push_back(&crossing);
   if (crossing.shared == FaceSurface::not_shared) return;
   SharedState& shared = shared_state(crossing);
@@ -231,6 +234,7 @@ void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
 
 void CsgEvaluation::gather_shared() {
   auto& to_come = work_.to_come_;
+  work_.steps.poll();
   const auto others = std::partition(to_come.begin(), to_come.end(), [&](const auto& waiting) {
     const CsgCrossing& crossing = work_.met_[waiting.index];
     return crossing.shared == FaceSurface::not_shared || shared_state(crossing).cluster != work_.stamp_;
@@ -264,7 +268,10 @@ bool CsgEvaluation::leaf_inside(std::uint32_t leaf) const {
 bool CsgEvaluation::flip_cluster() {
   const bool before = root_value();
   if (paths_) paths_->begin_cluster();
-  for (const CsgCrossing* crossing : work_.cluster_) flip_leaf(crossing->leaf);
+  for (const CsgCrossing* crossing : work_.cluster_) {
+    tick();
+    flip_leaf(crossing->leaf);
+  }
   return root_value() != before;
 }
 
@@ -307,6 +314,7 @@ void CsgEvaluation::find_causes() {
   auto& causes = work_.causes_;
   causes.clear();
   for (const CsgCrossing* crossing : work_.cluster_) {
+    tick();
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
     const std::uint32_t leaf = crossing->leaf;
     const bool inside = leaf_inside(leaf);

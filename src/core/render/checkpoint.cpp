@@ -21,8 +21,8 @@ namespace {
 
 constexpr std::string_view magic = "CRT checkpoint 4 of " CRT_VERSION "\n";
 
-// In seconds. The first is to be there after 10, with the time that writing a large one takes; later on writing
-// is to take a small part of the time, whatever the size.
+// In seconds. The first is to be there after 10, with the time that writing a large one takes; later on
+// writing is to take a small part of the time, whatever the size.
 constexpr double first_break = 5;
 constexpr double shortest_break = 10;
 constexpr double break_per_writing = 20;
@@ -43,8 +43,9 @@ void add_settings(ByteHash& hash, const Settings& s) {
 }
 
 /// The light along rays through the middles of pixels that are spread over the region.
-void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress) {
-  WorkspacePool pool;
+void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress,
+               const StepRules& rules) {
+  WorkspacePool pool(rules);
   WorkspacePool::Loan work(pool);
   Tracer tracer(frame, *work, progress);
   constexpr double middle = 0.5;
@@ -79,12 +80,12 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
 
 }  // namespace
 
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
-                          Progress& progress) {
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress,
+                          const StepRules& rules) {
   ByteHash hash;
   add_settings(hash, frame.settings());
   add(hash, region.x, region.y, region.width, region.height, with_first_hits, frame.features().lens);
-  add_light(hash, frame, region, progress);
+  add_light(hash, frame, region, progress, rules);
   return hash.value();
 }
 

@@ -7,6 +7,8 @@
 #include "core/scene/compile.hpp"
 #include "core/scene/part.hpp"
 
+#include "core/tasks/workers.hpp"
+
 namespace crt::core {
 
 /// What a leaf is to be made of.
@@ -32,6 +34,6 @@ struct FlatScene {
 inline constexpr std::uint32_t all_children = 0xffffffffu;
 
 /// Walks through the entities without recursion, however deep they are.
-FlatScene flatten(std::span<const Entity> entities, int threads);
+FlatScene flatten(std::span<const Entity> entities, const Workers& workers);
 
 }  // namespace crt::core

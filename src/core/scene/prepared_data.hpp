@@ -17,6 +17,7 @@
 #include "core/scene/ray_packet.hpp"
 #include "core/shading/prepared_background.hpp"
 #include "core/shading/prepared_material.hpp"
+#include "core/tasks/workers.hpp"
 #include "crt/scene.hpp"
 #include "crt/stats.hpp"
 
@@ -116,7 +117,8 @@ struct LightWays {
 class PreparedData {
  public:
   /// Takes over of `earlier`, if there is one, what does not depend on what has changed since.
-  explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr);
+  explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr,
+                        const Workers& workers = {});
   ~PreparedData();
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;
