@@ -136,8 +136,19 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
     for (auto object = around.rbegin(); object != around.rend(); ++object) {
       list = lists.entered(list, Medium{*object, 0});
     }
+    class Line final : public MediaOnWay::Line {
+     public:
+      explicit Line(const std::vector<double>& beyond) : beyond_(beyond) {}
+      RayHit exit_beyond(std::uint32_t object) const override {
+        return {.t = beyond_[object], .error = 1e-9, .object = object};
+      }
+
+     private:
+      const std::vector<double>& beyond_;
+    };
+    const Line line(beyond);
     MediaOnWay way;
-    way.begin(crossings, [&](std::uint32_t object) { return exit_after(crossings.size(), object); });
+    way.begin(crossings, line);
     for (const std::uint32_t object : around) way.surround({object, 0});
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const Medium medium{crossings[i].object, static_cast<std::uint32_t>(i)};

@@ -107,10 +107,10 @@ TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
   std::vector<Entity> parts = balls;
   for (const double moved : {0.5, 1.0}) {
     for (const Entity& ball : balls) {
-      auto sphere = std::get<Sphere>(std::get<Primitive>(ball.node().content));
+      const auto& sphere = std::get<Sphere>(std::get<Primitive>(ball.node().content));
       const Vec3 way = moved * sphere.center;
-      sphere.center -= way;
-      parts.push_back(Entity(sphere).transformed({.translation = way}));
+      const Entity begun = Sphere{.center = sphere.center - way, .radius = sphere.radius};
+      parts.push_back(begun.transformed({.translation = way}));
     }
   }
   std::vector<Entity> entities{csg_union(parts)};

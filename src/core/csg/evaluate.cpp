@@ -224,7 +224,6 @@ void CsgEvaluation::gather_cluster() {
 }
 
 void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
-  tick();
   work_.cluster_.push_back(&crossing);
   if (crossing.shared == FaceSurface::not_shared) return;
   SharedState& shared = shared_state(crossing);
@@ -313,8 +312,9 @@ void CsgEvaluation::find_causes() {
   const bool now = root_value();
   auto& causes = work_.causes_;
   causes.clear();
+  std::uint64_t looked_at = 0;
   for (const CsgCrossing* crossing : work_.cluster_) {
-    tick();
+    if (++looked_at % steps_per_look == 0) work_.steps.poll();
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
     const std::uint32_t leaf = crossing->leaf;
     const bool inside = leaf_inside(leaf);

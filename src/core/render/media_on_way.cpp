@@ -15,12 +15,19 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 /// Crossings or nodes that are looked through one by one.
 constexpr std::size_t few = 16;
 
+/// Of a node in the treap, as if by chance.
+std::uint32_t priority(std::uint32_t node) {
+  constexpr std::uint32_t factor = 0x9e3779b9u;  // 2^32 / the golden ratio
+  const std::uint32_t mixed = (node + 1) * factor;
+  return (mixed ^ mixed >> 15) * factor;
+}
+
 }  // namespace
 
-void MediaOnWay::begin(std::span<const RayHit> crossings, ExitOf exit_beyond) {
+void MediaOnWay::begin(std::span<const RayHit> crossings, const Line& line) {
   crossings_ = crossings;
-  exit_beyond_ = std::move(exit_beyond);
-  nodes_.clear();
+  line_ = &line;
+  node_count_ = 0;
   passings_.clear();
   root_ = innermost_ = nothing;
 }
@@ -31,7 +38,7 @@ void MediaOnWay::sort_passings() {
   std::sort(passings_.begin(), passings_.end(), [](const Passing& a, const Passing& b) {
     return std::tie(a.object, a.index) < std::tie(b.object, b.index);
   });
-  for (std::uint32_t node = 0; node < nodes_.size(); ++node) {
+  for (std::uint32_t node = 0; node < node_count_; ++node) {
     Passing* const passing = passing_of(nodes_[node].medium.object);
     if (passing != nullptr) passing->node = node;
   }
@@ -54,10 +61,10 @@ std::uint32_t MediaOnWay::node_of(std::uint32_t object) {
     return nodes_[node].is_there && nodes_[node].medium.object == object;
   };
   if (innermost_ == nothing || is_its(innermost_)) return innermost_;
-  if (nodes_.size() <= few) {
+  if (node_count_ <= few) {
     std::uint32_t node = 0;
-    while (node < nodes_.size() && !is_its(node)) ++node;
-    return node < nodes_.size() ? node : nothing;
+    while (node < node_count_ && !is_its(node)) ++node;
+    return node < node_count_ ? node : nothing;
   }
   sort_passings();
   const Passing* const passing = passing_of(object);
@@ -70,7 +77,7 @@ RayHit MediaOnWay::exit_of(std::uint32_t object, std::size_t index) {
     for (; index < crossings_.size(); ++index) {
       if (crossings_[index].object == object && !crossings_[index].entering) return crossings_[index];
     }
-    return exit_beyond_(object);
+    return line_->exit_beyond(object);
   }
   sort_passings();
   for (std::size_t i = first_passing(object, index); i < passings_.size(); ++i) {
@@ -78,19 +85,13 @@ RayHit MediaOnWay::exit_of(std::uint32_t object, std::size_t index) {
     const RayHit& crossing = crossings_[passings_[i].index];
     if (!crossing.entering) return crossing;
   }
-  return exit_beyond_(object);
+  return line_->exit_beyond(object);
 }
 
 void MediaOnWay::enter(const Medium& medium, std::size_t index) {
   leave(medium.object);
-  Node entering{.medium = medium, .index = index};
-  const std::uint32_t place = first_around(root_, entering);
-  const std::uint32_t node = insert_before(place, medium);
-  nodes_[node].index = index;
-  if (!entering.knows_exit) return;
-  nodes_[node].exit = entering.exit;
-  nodes_[node].knows_exit = true;
-  update_up(node);
+  const std::uint32_t node = new_node(medium, index);
+  insert_before(first_around(root_, nodes_[node]), node);
 }
 
 void MediaOnWay::leave(std::uint32_t object) {
@@ -171,20 +172,30 @@ void MediaOnWay::lift(std::uint32_t node) {
   update(node);
 }
 
-std::uint32_t MediaOnWay::insert_before(std::uint32_t place, const Medium& medium) {
-  const auto node = static_cast<std::uint32_t>(nodes_.size());
-  constexpr std::uint32_t factor = 0x9e3779b9u;  // 2^32 / the golden ratio
-  const std::uint32_t mixed = (node + 1) * factor;
-  nodes_.push_back({.medium = medium, .priority = (mixed ^ mixed >> 15) * factor});
+std::uint32_t MediaOnWay::new_node(const Medium& medium, std::size_t index) {
+  if (node_count_ == nodes_.size()) nodes_.emplace_back();
+  Node& node = nodes_[node_count_];
+  node.medium = medium;
+  node.index = index;
+  node.knows_exit = false;
+  node.is_there = true;
+  node.left = node.right = node.above = nothing;
+  return node_count_++;
+}
+
+void MediaOnWay::insert_before(std::uint32_t place, std::uint32_t node) {
   if (!passings_.empty()) {
-    Passing* const passing = passing_of(medium.object);
+    Passing* const passing = passing_of(nodes_[node].medium.object);
     if (passing != nullptr) passing->node = node;
   }
   if (place == innermost_) innermost_ = node;
-  std::uint32_t above = place == nothing ? root_ : place;
-  if (above == nothing) {
+  if (root_ == nothing) {
     root_ = node;
-  } else if (place != nothing && nodes_[place].left == nothing) {
+    update(node);
+    return;
+  }
+  std::uint32_t above = place == nothing ? root_ : place;
+  if (place != nothing && nodes_[place].left == nothing) {
     nodes_[place].left = node;
   } else {
     if (place != nothing) above = nodes_[place].left;
@@ -193,10 +204,7 @@ std::uint32_t MediaOnWay::insert_before(std::uint32_t place, const Medium& mediu
   }
   nodes_[node].above = above;
   update_up(node);
-  while (nodes_[node].above != nothing && nodes_[nodes_[node].above].priority < nodes_[node].priority) {
-    lift(node);
-  }
-  return node;
+  while (nodes_[node].above != nothing && priority(nodes_[node].above) < priority(node)) lift(node);
 }
 
 void MediaOnWay::remove(std::uint32_t node) {
@@ -212,8 +220,7 @@ void MediaOnWay::remove(std::uint32_t node) {
   while (nodes_[node].left != nothing || nodes_[node].right != nothing) {
     const std::uint32_t left = nodes_[node].left;
     const std::uint32_t right = nodes_[node].right;
-    const bool takes_left =
-        right == nothing || (left != nothing && nodes_[left].priority > nodes_[right].priority);
+    const bool takes_left = right == nothing || (left != nothing && priority(left) > priority(right));
     lift(takes_left ? left : right);
   }
   const std::uint32_t above = nodes_[node].above;

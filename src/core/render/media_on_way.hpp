@@ -6,7 +6,6 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <span>
 #include <vector>
 
@@ -16,13 +15,18 @@ namespace crt::core {
 
 class MediaOnWay {
  public:
-  using ExitOf = std::function<RayHit(std::uint32_t object)>;
+  /// Knows the line on which the way is.
+  class Line {
+   public:
+    virtual ~Line() = default;
+    /// Where a solid is left that is not left on the way.
+    virtual RayHit exit_beyond(std::uint32_t object) const = 0;
+  };
 
-  /// Starts anew, within `outermost_first`. `crossings` are those on the way, in order; `exit_beyond(object)`
-  /// says where a solid is left that is not left on the way. Both are used until the next begin().
-  void begin(std::span<const RayHit> crossings, ExitOf exit_beyond);
+  /// Starts anew. `crossings` are those on the way, in order; both are used until the next begin().
+  void begin(std::span<const RayHit> crossings, const Line& line);
   /// Puts a medium around all that are there.
-  void surround(const Medium& medium) { insert_before(nothing, medium); }
+  void surround(const Medium& medium) { insert_before(nothing, new_node(medium, 0)); }
 
   bool empty() const { return root_ == nothing; }
   const Medium& innermost() const { return nodes_[innermost_].medium; }
@@ -43,7 +47,6 @@ class MediaOnWay {
     std::uint32_t left = nothing;  ///< more inner ones
     std::uint32_t right = nothing;
     std::uint32_t above = nothing;
-    std::uint32_t priority = 0;
     // Of all in the subtree:
     std::uint32_t least_object = 0;
     double farthest = 0;  ///< t of an exit, at most
@@ -67,7 +70,9 @@ class MediaOnWay {
   /// The innermost node of a subtree that `entering` is inside of.
   std::uint32_t first_around(std::uint32_t subtree, Node& entering);
   const RayHit& exit(Node& node);
-  std::uint32_t insert_before(std::uint32_t place, const Medium& medium);
+  /// One that is in no tree yet. (What is known of its exit means nothing.)
+  std::uint32_t new_node(const Medium& medium, std::size_t index);
+  void insert_before(std::uint32_t place, std::uint32_t node);
   void remove(std::uint32_t node);
   std::uint32_t& link_to(std::uint32_t node);
   void lift(std::uint32_t node);
@@ -75,9 +80,10 @@ class MediaOnWay {
   void update_up(std::uint32_t node);
 
   std::span<const RayHit> crossings_;
-  ExitOf exit_beyond_;
+  const Line* line_ = nullptr;
   std::vector<Passing> passings_;  ///< by object, then in order; empty until they are sorted
-  std::vector<Node> nodes_;
+  std::vector<Node> nodes_;        ///< made once; so many are in use:
+  std::uint32_t node_count_ = 0;
   std::uint32_t root_ = nothing;
   std::uint32_t innermost_ = nothing;
 };

@@ -11,7 +11,7 @@ namespace crt::core {
 namespace {
 
 /// What the media along the ray absorb, between the crossings.
-class AbsorbedShare {
+class AbsorbedShare final : private MediaOnWay::Line {
  public:
   AbsorbedShare(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
                 Workspace& work)
@@ -19,7 +19,7 @@ class AbsorbedShare {
 
   /// Of a ray that starts within `media`.
   Rgb share(const MediaLists& lists, MediaLists::List media) {
-    media_.begin(crossings_, [this](std::uint32_t object) { return exit_beyond(object); });
+    media_.begin(crossings_, *this);
     for (; media != MediaLists::empty; media = lists.around(media)) media_.surround(lists.innermost(media));
     for (std::size_t begin = 0; begin < crossings_.size();) {
       std::size_t end = begin + 1;
@@ -60,8 +60,7 @@ class AbsorbedShare {
     }
   }
 
-  /// Where the ray's line leaves a solid that it does not leave on the way.
-  RayHit exit_beyond(std::uint32_t object) const {
+  RayHit exit_beyond(std::uint32_t object) const override {
     if (std::isinf(ray_.t_max)) return {};
     WorldRay beyond = ray_;
     beyond.t_min = ray_.t_max;

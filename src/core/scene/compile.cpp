@@ -111,6 +111,9 @@ class Compiler {
 
 CompiledScene Compiler::compile() {
   make_placements();
+  // They may take half of all memory, and nothing looks at them again.
+  flat_.placements = {};
+  flat_.transforms = {};
   make_leaves();
   make_faces();
   if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_)) {
