@@ -132,6 +132,7 @@ PLAIN_FUNCTIONS = {
     "crt_scene_light_count": "zp",
     "crt_diagnostics_count": "zp",
     "crt_diagnostics_text": "tp",
+    "crt_image_not_finite": "lppp",
     "crt_image_width": "up",
     "crt_image_height": "up",
     "crt_image_pixels": "ppp",

@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -78,6 +79,12 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
   trace();
 }
 
+/// Whether there is surely no file. (Where the system does not tell, reading will say why.)
+bool is_missing(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found;
+}
+
 }  // namespace
 
 std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress,
@@ -90,7 +97,7 @@ std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_fi
 }
 
 void leave_empty_checkpoint(const std::filesystem::path& path) {
-  if (std::filesystem::exists(path)) return;
+  if (!is_missing(path)) return;
   write_state_file(path, [](StateWriter& out) { out.put_all(std::span<const char>(magic)); });
 }
 
@@ -148,7 +155,7 @@ std::string Checkpoint::take_complaint() {
 }
 
 void Checkpoint::take_up() {
-  if (std::filesystem::exists(path_)) read();
+  if (!is_missing(path_)) read();
   passes_.make_storable([&pool = pool_](Workspace& workspace) { pool.settle(workspace); });
   pool_.settle_all();
 }

@@ -259,6 +259,7 @@ void Rendering::run() {
 
 void Rendering::tell(const RenderStats& stats) const {
   if (!options_.log) return;
+  for (const std::string& warning : data_.warnings()) log(LogLevel::warning, warning);
   log(LogLevel::info, fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
                                   stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
   if (stats.passes > 0) {

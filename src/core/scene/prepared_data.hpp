@@ -244,6 +244,8 @@ class PreparedData {
   const Scene& scene() const { return scene_; }
   double prepare_seconds() const { return prepare_seconds_; }
   MemoryUse memory() const;
+  /// What the user should know of the scene, a line each.
+  std::vector<std::string> warnings() const { return textures_.warnings(); }
   /// Whether what rays meet was made once for both.
   bool shares_geometry_with(const PreparedData& other) const { return geometry_ == other.geometry_; }
 
