@@ -18,7 +18,7 @@ struct Sphere {
   std::optional<SharedMaterial> material{};
 };
 
-/// An axis-parallel box between any two opposite corners, which must differ in every coordinate.
+/// An axis-parallel box between any two opposite corners, which must differ by at least 1e-100 in every coordinate.
 /// (u, v): across each face, in [0, 1].
 struct Box {
   Vec3 corner_a{-1, -1, -1};

@@ -173,3 +173,28 @@ TEST_CASE("box: a ray that starts beside a face, on its plane, enters where it d
   ray.start.side = core::Side::outside;
   CHECK(crossings(Box{}, ray).empty());
 }
+
+TEST_CASE(
+    "a side of a box, or the length of a cylinder or a cone, below 1e-100 is refused with what is right") {
+  const auto message = [](const Primitive& primitive) -> std::string {
+    try {
+      core::validate(primitive);
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::invalid_argument);
+      return error.what();
+    }
+    return {};
+  };
+  CHECK(message(Box{.corner_a = {0, 0, 0}, .corner_b = {1, 5e-324, 1}}) ==
+        "corner_b must differ from corner_a by at least 1e-100 in every coordinate");
+  CHECK(message(Box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, -0.99e-100}}) ==
+        "corner_b must differ from corner_a by at least 1e-100 in every coordinate");
+  CHECK(message(Box{.corner_a = {0, 0, 0}, .corner_b = {1, 0, 1}}) ==
+        "corner_b must differ from corner_a in every coordinate");
+  CHECK(message(Box{.corner_a = {0, 0, 0}, .corner_b = {1e-100, 1, -1e-100}}).empty());
+  CHECK(message(Cylinder{.from = {0, 0, 0}, .to = {0, 5e-324, 0}}) ==
+        "to must differ from from by at least 1e-100");
+  CHECK(message(Cone{.from = {0, 0, 0}, .to = {0, 0, 1e-101}}) ==
+        "to must differ from from by at least 1e-100");
+  CHECK(message(Cone{.from = {0, 0, 0}, .to = {0, 0, 1e-100}}).empty());
+}

@@ -90,6 +90,24 @@ void require_usable(const core::PreciseTransform& transform) {
   }
 }
 
+using ChainPointer = std::shared_ptr<const core::TransformChain>;
+
+/// What `earlier` (or nothing) and then `transform` do.
+ChainPointer transformed_more(ChainPointer earlier, const Transform& transform) {
+  if (!earlier) return std::make_shared<const core::TransformChain>(transform);
+  struct Both {
+    ChainPointer earlier;
+    core::TransformChain later;
+    core::TransformChain all;
+  };
+  const core::TransformChain later(transform);
+  const core::TransformChain all = core::compose(later, *earlier);
+  if (all.is_product()) return std::make_shared<const core::TransformChain>(all);
+  const auto both = std::make_shared<Both>(std::move(earlier), later, core::TransformChain{});
+  both->all = core::compose(both->later, *both->earlier);
+  return {both, &both->all};
+}
+
 }  // namespace
 
 EntityNode::EntityNode(Content new_content) : content(std::move(new_content)) {
@@ -143,11 +161,9 @@ Entity::Entity(Primitive primitive) {
 Entity Entity::transformed(const Transform& transform) const {
   require_finite(transform);
   EntityWrapper wrapper = wrapper_of(*this);
-  core::PreciseTransform to_parent(transform);
-  if (wrapper.to_parent) to_parent = core::compose(to_parent, *wrapper.to_parent);
-  require_usable(to_parent);
+  wrapper.to_parent = transformed_more(std::move(wrapper.to_parent), transform);
+  require_usable(wrapper.to_parent->product);
   if (is_empty()) return *this;
-  wrapper.to_parent = std::make_shared<const core::PreciseTransform>(to_parent);
   return make_entity(std::move(wrapper));
 }
 

@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/math/precise_transform.hpp"
+#include "core/math/transform_chain.hpp"
 #include "crt/entity.hpp"
 
 namespace crt {
@@ -27,7 +27,7 @@ struct CsgOperation {
 /// again makes a new one around the same child, so chains of a million transforms cost nothing later.
 struct EntityWrapper {
   /// Behind a pointer, as most nodes are primitives and all nodes have one size; none: as it is.
-  std::shared_ptr<const core::PreciseTransform> to_parent;
+  std::shared_ptr<const core::TransformChain> to_parent;
   std::optional<SharedMaterial> material;  ///< for parts without one of their own
   std::optional<std::uint32_t> id;
   EntityPointer child;

@@ -27,10 +27,15 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
                     std::uint64_t& escalations) {
   if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
+  return leaf.exact->crossings(exact_ray(leaf, ray, object_ray, escalations), out);
+}
+
+ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                   std::uint64_t& escalations) {
   ExactRay exact = leaf.placement->to_object_exactly(ray.origin, ray.direction, object_ray);
   exact.start_error = ray.start.t_error;
   exact.escalations = &escalations;
-  return leaf.exact->crossings(exact, out);
+  return exact;
 }
 
 bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
@@ -52,6 +57,7 @@ constexpr auto is_opened_later = [](const auto& a, const auto& b) {
 };
 
 bool coincides(const CsgCrossing& first, const CsgCrossing& other) {
+  if (first.place != 0) return other.place == first.place;
   const double way = (other.t - first.t) + (other.t_low - first.t_low);
   return way <= first.error + other.error && other.enter <= first.t + first.error;
 }
@@ -62,13 +68,15 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
                              std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
                              CsgWorkspace& workspace)
     : program_(program),
+      leaves_of_scene_(leaves),
       leaves_(leaves.subspan(program.first_leaf, program.leaf_count())),
       face_surfaces_(face_surfaces),
       ray_(ray),
       work_(workspace),
       slabs_(ray.origin, ray.direction, ray.start.t_error),
       part_{ray.t_min - ray.start.t_error, ray.t_max},
-      first_stamp_(++workspace.stamp_) {
+      first_stamp_(++workspace.stamp_),
+      exact_(leaves_[0].exact != nullptr) {
   if (!program.paths.empty()) {
     paths_.emplace(program.paths, work_.paths_, first_stamp_);
   } else if (work_.nodes_.size() < program.nodes.size()) {
@@ -81,6 +89,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   work_.openings_.clear();
   work_.met_.clear();
   work_.to_come_.clear();
+  work_.places_ = 0;
   for (const std::uint32_t leaf : program.tree.unbounded()) {
     tick();
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
@@ -90,8 +99,12 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   }
   if (program.tree.has_root()) put_off(LeafTree::Child::node(0), -std::numeric_limits<double>::infinity());
   open_up_to(farthest_start(ray_));
-  while (!work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min) {
+  const auto is_before_start = [&] {
+    return !work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min;
+  };
+  while (is_before_start()) {
     open_what_may_coincide();
+    if (!is_before_start()) break;
     gather_cluster();
     flip_cluster();
   }
@@ -152,12 +165,80 @@ bool CsgEvaluation::find_crossing() {
 }
 
 void CsgEvaluation::open_what_may_coincide() {
+  if (exact_) tell_apart_what_is_near();
   // What is opened may bring a crossing that is nearer still.
   while (!work_.openings_.empty()) {
     const CsgCrossing& first = next_crossing();
     const double next_enter = work_.openings_.front().enter;
     if (!(next_enter <= first.t + first.error)) return;
     open_up_to(next_enter);
+  }
+}
+
+void CsgEvaluation::tell_apart_what_is_near() {
+  auto& openings = work_.openings_;
+  const auto& to_come = work_.to_come_;
+  while (!openings.empty() && is_near_next(openings.front().enter)) open_up_to(openings.front().enter);
+  if (next_crossing().place != 0) return;
+  // The second is one of the two below the first.
+  const bool has_company = (to_come.size() > 1 && is_near_next(to_come[1].t)) ||
+                           (to_come.size() > 2 && is_near_next(to_come[2].t));
+  if (has_company) gather_near();
+}
+
+bool CsgEvaluation::is_near_next(double t) const {
+  const double first = work_.to_come_.front().t;
+  return t <= first + looking_distance(first);
+}
+
+void CsgEvaluation::gather_near() {
+  auto& to_come = work_.to_come_;
+  auto& near = work_.near_;
+  auto& crossings = work_.near_crossings_;
+  near.clear();
+  crossings.clear();
+  bool is_one = true;
+  bool is_known = true;
+  double end = to_come.front().t;
+  // What one of them may be at the place of is among them, too.
+  while (true) {
+    while (!work_.openings_.empty() && work_.openings_.front().enter <= end) {
+      open_up_to(work_.openings_.front().enter);
+    }
+    if (to_come.empty() || to_come.front().t > end) break;
+    const CsgWorkspace::ToCome next = to_come.front();
+    std::pop_heap(to_come.begin(), to_come.end(), later());
+    to_come.pop_back();
+    end = std::max(end, next.t + looking_distance(next.t));
+    near.push_back(next);
+    const CsgCrossing& met = work_.met_[next.index];
+    is_known = is_known && !met.moved;
+    const NearCrossing& crossing = crossings.emplace_back(NearCrossing{.t = met.t,
+                                                                       .error = met.error,
+                                                                       .t_low = met.t_low,
+                                                                       .leaf = program_.first_leaf + met.leaf,
+                                                                       .face = met.face,
+                                                                       .surface = met.surface,
+                                                                       .root = met.root,
+                                                                       .item = next.index});
+    is_one = is_one && crossing.surface == crossings[0].surface && crossing.root == crossings[0].root;
+  }
+  if (!is_one && is_known &&
+      sort_exactly(crossings, leaves_of_scene_, face_surfaces_, ray_, work_.escalations)) {
+    near.clear();
+    for (const NearCrossing& crossing : crossings) {
+      CsgCrossing& met = work_.met_[crossing.item];
+      met.t = crossing.t;
+      met.t_low = crossing.t_low;
+      met.error = crossing.error;
+      met.place = work_.places_ + crossing.rank;
+      near.push_back({crossing.t, crossing.item});
+    }
+    work_.places_ += crossings.back().rank;
+  }
+  for (const CsgWorkspace::ToCome& crossing : near) {
+    to_come.push_back(crossing);
+    std::push_heap(to_come.begin(), to_come.end(), later());
   }
 }
 
@@ -176,8 +257,9 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   for (const Crossing& crossing : work_.leaf_crossings_) {
     const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
     const bool before_box = crossing.t < enter;
-    // Before the box nothing of it matters, but the crossing may be in the box for all that is known.
-    if (before_box && crossing.t + crossing.error < enter) {
+    // Before the box nothing of it matters, but the crossing may be in the box for all that is known. (In the
+    // exact tier that is less than what boxes are larger by.)
+    if (before_box && (exact_ || crossing.t + crossing.error < enter)) {
       inside = crossing.entering;
       continue;
     }
@@ -197,6 +279,7 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
         is_at_start(leaf, ray_, object_ray_, crossing)) {
       met.t = ray_.t_min;
       met.t_low = 0;
+      met.moved = true;
     }
     if (met.shared != FaceSurface::not_shared) ++shared_state(met).to_come;
     work_.to_come_.push_back({met.t, place});

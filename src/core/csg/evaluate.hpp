@@ -7,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "core/csg/exact_order.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/ray_steps.hpp"
 
@@ -26,6 +27,8 @@ struct CsgCrossing {
   std::uint8_t root = 0;
   bool entering = false;                           ///< the primitive, whether or not it is complemented
   std::uint32_t shared = FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
+  std::uint32_t place = 0;  ///< if not 0: at one place are those that have the same, and no others
+  bool moved = false;       ///< t is that of the start, and not where the surface is
 };
 
 /// A crossing of the object's own boundary.
@@ -122,12 +125,15 @@ class CsgWorkspace {
   };
 
   std::uint64_t stamp_ = 0;
+  std::uint32_t places_ = 0;  ///< told apart along this ray
   CrossingList leaf_crossings_;
   std::vector<Opening> openings_;       ///< a heap, the nearest first
   std::vector<std::uint32_t> to_open_;  ///< nodes of the tree that are next
   std::vector<CsgCrossing> met_;        ///< all crossings of this ray so far
   std::vector<ToCome> to_come_;         ///< a heap, the nearest first
   std::vector<const CsgCrossing*> cluster_;
+  std::vector<ToCome> near_;  ///< what is to be told apart
+  std::vector<NearCrossing> near_crossings_;
   std::vector<const CsgCrossing*> causes_;
   std::vector<NodeState> nodes_;
   PathWorkspace paths_;  ///< in the place of nodes_, of deep programs
@@ -144,6 +150,10 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
 /// tier.
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
                     std::uint64_t& escalations);
+
+/// The ray in the space of a leaf of the exact tier, where it is `object_ray`, which must outlive it.
+ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                   std::uint64_t& escalations);
 
 /// The flatter a ray meets a surface, the farther from its start it may do so if that is on the surface: up
 /// to this many times the rounding of the start.
@@ -184,7 +194,8 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
 ///  1. The boxes of the tree are opened in the order in which the line enters them, and no further than the
 ///     next crossing asks for. A leaf whose box is opened puts its crossings among those to come.
 ///  2. The first of these and all that coincide with it form a *cluster*: crossings that the bounds of
-///     their errors cannot tell apart, and those of one surface.
+///     their errors cannot tell apart, and those of one surface. In the exact tier the former are told apart
+///     nevertheless (exact_order.hpp).
 ///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do. In deep
 ///     programs paths take their place (node_paths.hpp).
 ///     Only the root's value before and after counts, so pieces without length vanish.
@@ -219,6 +230,10 @@ class CsgEvaluation {
   /// Opens boxes until there is a crossing, and all that can coincide with it.
   bool find_crossing();
   void open_what_may_coincide();
+  /// Of the exact tier: what is near the next crossing, so that which of it coincides is known for good.
+  void tell_apart_what_is_near();
+  bool is_near_next(double t) const;
+  void gather_near();
   void open_leaf(std::uint32_t index, double enter);
   /// Of handling one crossing: whoever may stop the ray is asked now and then.
   void tick() {
@@ -250,6 +265,7 @@ class CsgEvaluation {
   bool is_changed_up_to_root(std::uint32_t leaf, bool now);
 
   const CsgProgram& program_;
+  std::span<const Leaf> leaves_of_scene_;
   std::span<const Leaf> leaves_;  ///< of the object
   std::span<const FaceSurface> face_surfaces_;
   WorldRay ray_;
@@ -262,6 +278,7 @@ class CsgEvaluation {
   ObjectRay object_ray_;
   bool starts_inside_ = false;
   std::uint64_t ticks_ = 0;
+  bool exact_ = false;  ///< the tier
 };
 
 }  // namespace crt::core

@@ -20,7 +20,55 @@ Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.roun
   const Transform unmoved{.translation = to_world_.translation};
   if (to_world_ == Transform{}) return;
   kind_ = to_world_ == unmoved ? Kind::translation : Kind::affine;
-  to_object_ = inverse(PreciseTransform(to_world_));
+  take_inverse(inverse(PreciseTransform(to_world_)));
+  if (kind_ == Kind::affine) vector_error_ = inverse_error();
+}
+
+namespace {
+
+DoubleDouble nearest(const Dyadic& number) {
+  return number.rounded().unscaled();
+}
+
+}  // namespace
+
+Placement::Placement(const TransformChain& to_world) {
+  if (to_world.is_plain()) {
+    *this = Placement(to_world.product);
+    return;
+  }
+  const DyadicTransform map = exact_product(to_world);
+  PreciseTransform precise;
+  PreciseTransform back;
+  const DyadicInverse inverse(map);
+  const ScaledNumber weight = inverse.weight.rounded();
+  const DyadicVector moved = inverse * map.translation;
+  for (std::size_t i = 0; i < 3; ++i) {
+    for (std::size_t k = 0; k < 3; ++k) {
+      precise.rows[i][k] = nearest(map.rows[i][k]);
+      back.rows[i][k] = (inverse.rows[i][k].rounded() / weight).unscaled();
+    }
+    precise.translation[i] = nearest(map.translation[i]);
+    back.translation[i] = -(moved[i].rounded() / weight).unscaled();
+  }
+  // Even what only moves: by more than doubles tell.
+  kind_ = Kind::affine;
+  to_world_ = precise.rounded();
+  take_inverse(back);
+  // Each number of the inverse is off by its last bit, and there are the roundings of a product with a
+  // vector.
+  vector_error_ = 4 * precise_roundoff * inverse_size();
+  const auto low = [](const PreciseVec3& v) { return Vec3(v[0].lo, v[1].lo, v[2].lo); };
+  more_ = std::make_shared<const More>(&to_world, Transform{low(precise.rows[0]), low(precise.rows[1]),
+                                                            low(precise.rows[2]), low(precise.translation)});
+}
+
+DyadicTransform Placement::exactly() const {
+  return more_ ? exact_product(*more_->chain) : core::exactly(to_world_);
+}
+
+void Placement::take_inverse(const PreciseTransform& inverse) {
+  to_object_ = inverse;
   for (int row = 0; row < 3; ++row) {
     const auto set = [&](DoubleDoubleLanes& column, const DoubleDouble& entry) {
       column.hi[row] = entry.hi;
@@ -30,7 +78,15 @@ Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.roun
     for (std::size_t column = 0; column < 3; ++column) set(columns_[column], to_object_.rows[i][column]);
     set(columns_[3], to_object_.translation[i]);
   }
-  if (kind_ == Kind::affine) vector_error_ = inverse_error();
+}
+
+/// The largest sum of sizes in a row.
+double Placement::inverse_size() const {
+  double result = 0;
+  for (const PreciseVec3& row : to_object_.rows) {
+    result = std::max(result, std::abs(row[0].hi) + std::abs(row[1].hi) + std::abs(row[2].hi));
+  }
+  return result;
 }
 
 /// With B the computed inverse of A, A^-1 - B = A^-1 (I - A B), which is at most |B| e / (1 - e) where e
@@ -38,10 +94,8 @@ Placement::Placement(const PreciseTransform& to_world) : to_world_(to_world.roun
 double Placement::inverse_error() const {
   const PreciseTransform forth(to_world_);
   double residual = 0;
-  double inverse_size = 0;
   for (std::size_t i = 0; i < 3; ++i) {
     double row_residual = 0;
-    double row_size = 0;
     for (std::size_t j = 0; j < 3; ++j) {
       DoubleDouble sum = i == j ? -1.0 : 0.0;
       double size = 1;
@@ -51,15 +105,13 @@ double Placement::inverse_error() const {
         size += std::abs(product.hi);
       }
       row_residual += std::abs(sum.hi) + precise_roundoff * size;
-      row_size += std::abs(to_object_.rows[i][j].hi);
     }
     residual = std::max(residual, row_residual);
-    inverse_size = std::max(inverse_size, row_size);
   }
   constexpr double largest_residual = 0.5;  // beyond it nothing is known, and every answer is found exactly
   if (!(residual < largest_residual)) return std::numeric_limits<double>::infinity();
   // And the roundings of the product with the vector itself.
-  return inverse_size * (2 * residual + precise_roundoff);
+  return inverse_size() * (2 * residual + precise_roundoff);
 }
 
 namespace {
@@ -144,6 +196,7 @@ ExactRay Placement::to_object_exactly(const Vec3& origin, const Vec3& direction,
   ExactRay exact{.near = ray, .world_origin = origin, .world_direction = direction};
   if (kind_ == Kind::identity) return exact;
   exact.to_world = &to_world_;
+  if (more_) exact.chain = more_->chain;
   if (kind_ == Kind::affine) {
     exact.origin_error =
         vector_error_ * (largest_component(origin) + largest_component(to_world_.translation));
@@ -163,6 +216,21 @@ Vector Placement::point_to_world(const Vector& object) const {
   const Vec3& moved = to_world_.translation;
   if (kind_ == Kind::identity) return object;
   if (kind_ == Kind::translation) return object + spread<Real>(moved);
+  if (more_) {
+    const Transform& low = more_->low;
+    const auto precise = [&](const Vec3& m, double translation, const Vec3& m_low, double translation_low) {
+      using Precise = decltype(two_product(object.x, object.x));
+      const Precise sum = two_product(spread<Real>(m.x), object.x) +
+                          two_product(spread<Real>(m.y), object.y) +
+                          two_product(spread<Real>(m.z), object.z) + Precise{spread<Real>(translation)};
+      const Real more =
+          m_low.x * object.x + m_low.y * object.y + m_low.z * object.z + spread<Real>(translation_low);
+      return sum.hi + (sum.lo + more);
+    };
+    return {precise(to_world_.row_x, moved.x, low.row_x, low.translation.x),
+            precise(to_world_.row_y, moved.y, low.row_y, low.translation.y),
+            precise(to_world_.row_z, moved.z, low.row_z, low.translation.z)};
+  }
   const auto component = [&](const Vec3& m, double translation) {
     using Precise = decltype(two_product(object.x, object.x));
     return (two_product(spread<Real>(m.x), object.x) + two_product(spread<Real>(m.y), object.y) +

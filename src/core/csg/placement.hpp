@@ -1,6 +1,7 @@
 // Where a primitive's object space lies in the world.
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "core/geometry/bounds.hpp"
@@ -12,17 +13,23 @@
 
 namespace crt::core {
 
-/// All the transforms of an entity in one. By definition the placement *is* the map to the world
-/// rounded to 12 doubles; its inverse is kept in double-double, so that a ray enters object space
-/// with far less error than a double has.
+/// All the transforms of an entity in one. In the standard tier the placement *is* by definition the map to
+/// the world rounded to 12 doubles; in the exact tier it is the map. Its inverse is kept in double-double, so
+/// that a ray enters object space with far less error than a double has.
 class Placement {
  public:
   Placement() = default;
   explicit Placement(const PreciseTransform& to_world);
+  /// Of the exact tier; the chain must outlive the placement if it is more than twelve doubles.
+  explicit Placement(const TransformChain& to_world);
 
   bool is_identity() const { return kind_ == Kind::identity; }
   bool is_translation() const { return kind_ != Kind::affine; }
+  /// Rounded to 12 doubles.
   const Transform& to_world() const { return to_world_; }
+  /// The map itself.
+  DyadicTransform exactly() const;
+  bool is_more_than_doubles() const { return more_ != nullptr; }
 
   /// The ray origin + t * direction in object space, with the same t.
   ObjectRay to_object(const Vec3& origin, const Vec3& direction) const {
@@ -62,7 +69,9 @@ class Placement {
                       DoubleDouble& world_offset) const;
 
  private:
+  void take_inverse(const PreciseTransform& inverse);
   double inverse_error() const;
+  double inverse_size() const;
   /// A vector turned into object space, a lane a component.
   DoubleDoubleLanes turned_by_rows(const Vec3& v) const;
   /// Takes a ray of the world into object space.
@@ -72,6 +81,12 @@ class Placement {
 
   Kind kind_ = Kind::identity;
   Transform to_world_;
+  /// Of a map that has more to it than these.
+  struct More {
+    const TransformChain* chain = nullptr;
+    Transform low;  ///< rounded to doubles, what the map is more than to_world_
+  };
+  std::shared_ptr<const More> more_;
   PreciseTransform to_object_;
   /// The same by columns, the translation last, a lane a row.
   std::array<DoubleDoubleLanes, 4> columns_;

@@ -103,9 +103,11 @@ void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std:
 void validate(const Box& box) {
   check_coordinates("corner_a", box.corner_a);
   check_coordinates("corner_b", box.corner_b);
+  const Vec3 size = glm::abs(box.corner_b - box.corner_a);
   for (int axis = 0; axis < 3; ++axis) {
-    if (box.corner_a[axis] == box.corner_b[axis]) {
-      reject("corner_b", "must differ from corner_a in every coordinate");
+    if (size[axis] == 0) reject("corner_b", "must differ from corner_a in every coordinate");
+    if (size[axis] < smallest_length) {
+      reject("corner_b", "must differ from corner_a by at least 1e-100 in every coordinate");
     }
   }
 }

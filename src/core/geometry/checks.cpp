@@ -11,7 +11,6 @@ namespace crt::core {
 namespace {
 
 constexpr double largest_length = 1e100;
-constexpr double smallest_radius = 1e-100;
 
 [[noreturn]] void reject_value(const char* argument, const char* rule, const Vec3& value) {
   reject(argument, fmt::format("{} (it is ({}, {}, {}))", rule, value.x, value.y, value.z).c_str());
@@ -41,10 +40,17 @@ void check_direction(const char* argument, const Vec3& value) {
   if (largest_component(value) == 0) reject_value(argument, "must have a length", value);
 }
 
+void check_end(const char* argument, const Vec3& from, const Vec3& to) {
+  if (from == to) reject(argument, "must differ from from");
+  if (largest_component(to - from) < smallest_length) {
+    reject(argument, "must differ from from by at least 1e-100");
+  }
+}
+
 void check_radius(const char* argument, double value) {
   if (!std::isfinite(value)) reject_value(argument, "must be finite", value);
   if (!(value > 0)) reject_value(argument, "must be greater than 0", value);
-  if (value < smallest_radius) reject_value(argument, "must be at least 1e-100", value);
+  if (value < smallest_length) reject_value(argument, "must be at least 1e-100", value);
   if (value > largest_length) reject_value(argument, "must be at most 1e100", value);
 }
 

@@ -7,7 +7,7 @@ namespace crt::core {
 void validate(const Cone& cone) {
   check_coordinates("from", cone.from);
   check_coordinates("to", cone.to);
-  if (cone.from == cone.to) reject("to", "must differ from from");
+  check_end("to", cone.from, cone.to);
   check_radius("radius", cone.radius);
   if (cone.radius2 != 0) check_radius("radius2", cone.radius2);
 }

@@ -7,7 +7,7 @@ namespace crt::core {
 void validate(const Cylinder& cylinder) {
   check_coordinates("from", cylinder.from);
   check_coordinates("to", cylinder.to);
-  if (cylinder.from == cylinder.to) reject("to", "must differ from from");
+  check_end("to", cylinder.from, cylinder.to);
   check_radius("radius", cylinder.radius);
 }
 

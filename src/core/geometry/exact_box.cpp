@@ -42,6 +42,15 @@ class ExactBoxShape final : public ExactShape {
     return false;
   }
 
+  std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
+    if (is_start(ray, crossing)) return RealRoot::at(0);
+    return root_at(ray, crossing, faces_[crossing.face].equation(ray.exact()));
+  }
+
+  ExactSurface surface(std::uint32_t face) const override {
+    return {.is_plane = true, .points = {}, .numbers = faces_[face].numbers()};
+  }
+
   std::size_t bytes() const override {
     std::size_t bytes = sizeof *this;
     for (const ExactPlane& plane : faces_) bytes += plane.more_bytes();

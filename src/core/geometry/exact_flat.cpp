@@ -17,6 +17,11 @@ constexpr double filter_rounding = filter_roundings * unit_roundoff;
 using Meeting = ExactPlane::Meeting;
 using Fraction = ExactPlane::Fraction;
 
+std::optional<RealRoot> place_on(const ExactPlane& plane, const ExactRay& ray, const Crossing& crossing) {
+  if (is_start(ray, crossing)) return RealRoot::at(0);
+  return root_at(ray, crossing, plane.equation(ray.exact()));
+}
+
 class ExactPlaneShape final : public ExactShape {
  public:
   explicit ExactPlaneShape(const Plane& plane) : plane_(plane.normal, plane.position) {}
@@ -32,6 +37,14 @@ class ExactPlaneShape final : public ExactShape {
     if (!meeting.found()) return meeting.behind;
     out.push_back(meeting.crossing());
     return meeting.side > 0;
+  }
+
+  std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
+    return place_on(plane_, ray, crossing);
+  }
+
+  ExactSurface surface(std::uint32_t /*face*/) const override {
+    return {.is_plane = true, .points = {}, .numbers = plane_.numbers()};
   }
 
   std::size_t bytes() const override { return sizeof *this + plane_.more_bytes(); }
@@ -50,6 +63,14 @@ class ExactFlatShape : public ExactShape {
     if (!meeting.found()) return false;
     if (PlaneFace::starts_here(ray.near) || contains(ray, meeting)) out.push_back(meeting.crossing());
     return false;
+  }
+
+  std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const final {
+    return place_on(plane_, ray, crossing);
+  }
+
+  ExactSurface surface(std::uint32_t /*face*/) const final {
+    return {.is_plane = true, .points = {}, .numbers = plane_.numbers()};
   }
 
  protected:

@@ -27,6 +27,8 @@ class ExactSide {
           squared_length * dot(across, across) - square(radius_)};
   }
 
+  const ExactQuadratic& equation() const { return g_; }
+
   std::optional<int> sign_at(const CapMeeting& end) const {
     if (!end.found()) return 1;
     if (end.within_rim) return -1;
@@ -125,6 +127,24 @@ class ExactFrustumShape final : public ExactShape {
     stretch.enter(piece.enter);
     stretch.leave(piece.leave);
     return stretch.finish(out);
+  }
+
+  std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
+    if (is_start(ray, crossing)) return RealRoot::at(0);
+    if (crossing.face != FrustumShape::side_face) {
+      return root_at(ray, crossing, caps_[crossing.face - 1].equation(ray.exact()));
+    }
+    const ExactQuadratic side = ExactSide(frustum_, ray).equation();
+    return root_at(ray, crossing,
+                   ray.near.start.face == crossing.face ? side.beside_zero() : side.polynomial());
+  }
+
+  ExactSurface surface(std::uint32_t face) const override {
+    if (face != FrustumShape::side_face) {
+      return {.is_plane = true, .points = {}, .numbers = caps_[face - 1].numbers()};
+    }
+    return {.points = {exactly(frustum_.narrow), exactly(frustum_.wide)},
+            .numbers = {frustum_.radius, frustum_.wide_radius}};
   }
 
   std::size_t bytes() const override {

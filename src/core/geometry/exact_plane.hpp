@@ -3,6 +3,7 @@
 
 #include "core/geometry/exact_ray.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/math/dyadic_polynomial.hpp"
 #include "core/math/precise_transform.hpp"
 
 namespace crt::core {
@@ -45,6 +46,18 @@ class ExactPlane {
     int side = 0;
   };
   Fraction meet_exactly(const ExactLine& line) const;
+
+  /// The equation of t whose root that is.
+  DyadicPolynomial equation(const ExactLine& line) const {
+    const Fraction t = meet_exactly(line);
+    return DyadicPolynomial({-t.numerator, t.denominator});
+  }
+
+  /// The normal, and its product with a point of the plane.
+  std::vector<Dyadic> numbers() const {
+    const auto& [x, y, z] = exact_normal_;
+    return {x, y, z, dot(exact_normal_, exactly(position_))};
+  }
 
   const Vec3& position() const { return position_; }
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/math/dyadic.hpp"
+#include "core/math/dyadic_polynomial.hpp"
 
 namespace crt::core {
 
@@ -14,6 +14,11 @@ struct ExactQuadratic {
   Dyadic c;
 
   Dyadic discriminant() const { return square(b) - a * c; }
+
+  DyadicPolynomial polynomial() const { return DyadicPolynomial({c, b + b, a}); }
+
+  /// If c is taken as 0, what is left when the root at 0 is divided out.
+  DyadicPolynomial beside_zero() const { return DyadicPolynomial({b + b, a}); }
 
   /// Both roots in ascending order, each to about 100 bits. a must not be 0, the discriminant not negative.
   std::array<DoubleDouble, 2> roots() const;

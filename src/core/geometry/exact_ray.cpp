@@ -9,29 +9,13 @@ ExactLine ExactRay::exact() const {
   line.origin = exactly(world_origin);
   line.direction = exactly(world_direction);
   if (to_world == nullptr) return line;
-  line.origin = line.origin - exactly(to_world->translation);
-  if (*to_world == Transform{.translation = to_world->translation}) return line;
-
-  // Cramer's rule: the columns of the inverse times the determinant are cross products of the rows.
-  const DyadicVector x = exactly(to_world->row_x);
-  const DyadicVector y = exactly(to_world->row_y);
-  const DyadicVector z = exactly(to_world->row_z);
-  const DyadicVector yz = cross(y, z);
-  const DyadicVector zx = cross(z, x);
-  const DyadicVector xy = cross(x, y);
-  line.weight = dot(x, yz);
-  const bool mirrored = line.weight.sign() < 0;
-  if (mirrored) line.weight = -line.weight;
-  const auto solve = [&](const DyadicVector& v) {
-    DyadicVector result;
-    for (std::size_t i = 0; i < 3; ++i) {
-      result[i] = yz[i] * v[0] + zx[i] * v[1] + xy[i] * v[2];
-      if (mirrored) result[i] = -result[i];
-    }
-    return result;
-  };
-  line.origin = solve(line.origin);
-  line.direction = solve(line.direction);
+  const DyadicTransform map = chain != nullptr ? exact_product(*chain) : exactly(*to_world);
+  line.origin = line.origin - map.translation;
+  if (chain == nullptr && *to_world == Transform{.translation = to_world->translation}) return line;
+  const DyadicInverse inverse(map);
+  line.weight = inverse.weight;
+  line.origin = inverse * line.origin;
+  line.direction = inverse * line.direction;
   return line;
 }
 

@@ -6,7 +6,7 @@
 
 #include "core/geometry/object_ray.hpp"
 #include "core/math/dyadic_vector.hpp"
-#include "core/math/precise_transform.hpp"
+#include "core/math/transform_chain.hpp"
 #include "crt/transform.hpp"
 
 namespace crt::core {
@@ -32,6 +32,7 @@ struct ExactRay {
   Vec3 world_origin{0, 0, 0};
   Vec3 world_direction{0, 0, 1};
   const Transform* to_world = nullptr;
+  const TransformChain* chain = nullptr;  ///< that map, if it is more than twelve doubles
   /// A ray that starts on a surface has a rounded origin: what it meets at |t| below this is at the start for
   /// all that is known.
   double start_error = 0;

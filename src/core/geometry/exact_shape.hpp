@@ -10,8 +10,17 @@
 
 #include "core/geometry/exact_ray.hpp"
 #include "core/geometry/shape.hpp"
+#include "core/math/real_root.hpp"
 
 namespace crt::core {
+
+/// A whole surface in object space by numbers that are not rounded: of planes a normal and its product with
+/// any point of the plane, of others points and what does not change where these are moved.
+struct ExactSurface {
+  bool is_plane = false;
+  std::vector<DyadicVector> points;
+  std::vector<Dyadic> numbers;
+};
 
 class ExactShape {
  public:
@@ -22,6 +31,13 @@ class ExactShape {
 
   /// As Shape::crossings, of the same primitive: the same faces, roots and promises.
   virtual bool crossings(const ExactRay& ray, CrossingList& out) const = 0;
+
+  /// Where one of crossings() of this ray is, without rounding: what tells crossings apart however near they
+  /// are. Nothing where the rounding of a start on the surface is all that there is to go by.
+  virtual std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const = 0;
+
+  /// The surface that a face is a piece of.
+  virtual ExactSurface surface(std::uint32_t face) const = 0;
 
   /// Of memory.
   virtual std::size_t bytes() const = 0;
@@ -42,6 +58,21 @@ inline Crossing exact_crossing(const DoubleDouble& t, Crossing crossing) {
   crossing.t_low = t.lo;
   crossing.error = precise_roundoff * std::abs(t.hi);
   return crossing;
+}
+
+/// Whether a ray meets its own start there, which is at 0 by identity.
+inline bool is_start(const ExactRay& ray, const Crossing& crossing) {
+  return ray.near.start.face != no_face && crossing.t == 0 && crossing.error == 0;
+}
+
+/// The root of a polynomial in t that a crossing is.
+inline std::optional<RealRoot> root_at(const ExactRay& ray, const Crossing& crossing,
+                                       const DyadicPolynomial& polynomial) {
+  const DoubleDouble t(crossing.t, crossing.t_low);
+  std::optional<RealRoot> root = RealRoot::near(polynomial, t, crossing.error);
+  // From a surface the line may be said to go on farther than it does.
+  if (root || ray.near.start.face != no_face) return root;
+  return RealRoot::of_index(polynomial, crossing.root);
 }
 
 std::unique_ptr<const ExactShape> make_exact_shape(const Plane& plane);

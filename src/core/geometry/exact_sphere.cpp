@@ -42,6 +42,16 @@ class ExactSphereShape final : public ExactShape {
     return false;
   }
 
+  std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
+    if (is_start(ray, crossing)) return RealRoot::at(0);
+    const ExactQuadratic equation = quadratic(ray.exact());
+    return root_at(ray, crossing, ray.near.start.face == 0 ? equation.beside_zero() : equation.polynomial());
+  }
+
+  ExactSurface surface(std::uint32_t /*face*/) const override {
+    return {.points = {exactly(center_)}, .numbers = {radius_}};
+  }
+
   std::size_t bytes() const override { return sizeof *this; }
 
  private:

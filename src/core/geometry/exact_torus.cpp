@@ -23,6 +23,9 @@ namespace {
 /// with t = shift + scale x, where x is about 1 at the torus.
 class ExactTorusLine {
  public:
+  /// Of t itself.
+  ExactTorusLine(const Torus& torus, const ExactRay& ray) { expand(torus, ray.exact()); }
+
   ExactTorusLine(const Torus& torus, const ExactRay& ray, const NearLine& near_line, double unit) {
     shift_ = near_line.to_precise_t(near_line.closest());
     scale_ = unit / power_of_two_below(largest_component(ray.near.direction));
@@ -31,9 +34,50 @@ class ExactTorusLine {
       shift_ = 0.0;
       scale_ = 1;
     }
+    expand(torus, ray.exact());
+  }
+
+  /// All crossings.
+  void append(CrossingList& out) const {
+    std::uint8_t root = 0;
+    each_crossing([&](const Dyadic& low, const Dyadic& high, bool entering) {
+      Crossing crossing{.root = root++, .entering = entering};
+      refine(low, high, crossing);
+      if (std::isfinite(crossing.t)) out.push_back(crossing);
+    });
+  }
+
+  /// The place of one of them.
+  std::optional<RealRoot> place(const Crossing& crossing) const {
+    std::optional<RealRoot> place =
+        RealRoot::near(quartic_, DoubleDouble(crossing.t, crossing.t_low), crossing.error);
+    std::uint8_t root = 0;
+    if (place) return place;
+    each_crossing([&](const Dyadic& low, const Dyadic& high, bool /*entering*/) {
+      if (root++ == crossing.root) place = RealRoot(quartic_, low, high);
+    });
+    return place;
+  }
+
+  /// Finds the crossing at about t, if that is the only one within `room` of it; or cannot tell.
+  bool find(const DoubleDouble& t, double room, Crossing& crossing) const {
+    const double x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
+    constexpr double narrowest = 0x1p-44;
+    constexpr double widening = 0x1p10;
+    for (double width = narrowest; width < room / scale_; width *= widening) {
+      const Dyadic low = Dyadic(x) - Dyadic(width);
+      const Dyadic high = Dyadic(x) + Dyadic(width);
+      if (is_inside(low) == crossing.entering || is_inside(high) != crossing.entering) continue;
+      refine(low, high, crossing);
+      return std::isfinite(crossing.t);
+    }
+    return false;
+  }
+
+ private:
+  void expand(const Torus& torus, const ExactLine& line) {
     const Dyadic shift = Dyadic(shift_.hi) + Dyadic(shift_.lo);
     offset_ = shift * Dyadic(1 / scale_);
-    const ExactLine line = ray.exact();
     DyadicPolynomial squared_length;
     DyadicPolynomial along;
     Dyadic squared_axis;
@@ -54,36 +98,18 @@ class ExactTorusLine {
     quartic_ = squared_axis * (sum_ * sum_) - Dyadic(4) * square(ring) * squared_rho;
   }
 
-  /// All crossings.
-  void append(CrossingList& out) const {
+  /// take(low, high, entering) of each crossing, which is the only root between low and high.
+  template <class Take>
+  void each_crossing(const Take& take) const {
     const std::vector<Dyadic> separators = root_separators(quartic_);
     bool inside = false;
-    std::uint8_t root = 0;
     for (std::size_t i = 1; i < separators.size(); ++i) {
       if (is_inside(separators[i]) == inside) continue;
       inside = !inside;
-      Crossing crossing{.root = root++, .entering = inside};
-      refine(separators[i - 1], separators[i], crossing);
-      if (std::isfinite(crossing.t)) out.push_back(crossing);
+      take(separators[i - 1], separators[i], inside);
     }
   }
 
-  /// Finds the crossing at about t, if that is the only one within `room` of it; or cannot tell.
-  bool find(const DoubleDouble& t, double room, Crossing& crossing) const {
-    const double x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
-    constexpr double narrowest = 0x1p-44;
-    constexpr double widening = 0x1p10;
-    for (double width = narrowest; width < room / scale_; width *= widening) {
-      const Dyadic low = Dyadic(x) - Dyadic(width);
-      const Dyadic high = Dyadic(x) + Dyadic(width);
-      if (is_inside(low) == crossing.entering || is_inside(high) != crossing.entering) continue;
-      refine(low, high, crossing);
-      return std::isfinite(crossing.t);
-    }
-    return false;
-  }
-
- private:
   bool is_inside(const Dyadic& x) const { return sum_.value(x).sign() < 0 || quartic_.value(x).sign() < 0; }
 
   void refine(const Dyadic& low, const Dyadic& high, Crossing& crossing) const {
@@ -94,7 +120,7 @@ class ExactTorusLine {
 
   DyadicPolynomial sum_;      ///< S
   DyadicPolynomial quartic_;  ///< Q
-  DoubleDouble shift_;
+  DoubleDouble shift_;        ///< 0, or as above
   double scale_ = 1;
   Dyadic offset_;  ///< shift / scale
 };
@@ -133,6 +159,18 @@ class ExactTorusShape final : public ExactShape {
     out.resize(before);
     ExactTorusLine(torus_, ray, line, unit_).append(out);
     return false;
+  }
+
+  std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
+    if (is_start(ray, crossing)) return RealRoot::at(0);
+    if (ray.near.start.face == 0) return std::nullopt;
+    return ExactTorusLine(torus_, ray).place(crossing);
+  }
+
+  ExactSurface surface(std::uint32_t /*face*/) const override {
+    const Vec3& axis = torus_.axis;
+    return {.points = {exactly(torus_.center)},
+            .numbers = {axis.x, axis.y, axis.z, torus_.radius, torus_.thickness}};
   }
 
   std::size_t bytes() const override { return sizeof *this; }

@@ -107,6 +107,11 @@ DyadicPolynomial negative_remainder(const DyadicPolynomial& a, const DyadicPolyn
   return rest;
 }
 
+DyadicPolynomial common_divisor(DyadicPolynomial a, DyadicPolynomial b) {
+  while (b.degree() >= 0) a = std::exchange(b, negative_remainder(a, b));
+  return a;
+}
+
 SturmChain::SturmChain(const DyadicPolynomial& polynomial) {
   chain_.push_back(polynomial);
   DyadicPolynomial next = polynomial.derivative();

@@ -16,6 +16,8 @@ class DyadicPolynomial {
 
   /// -1 for the polynomial 0.
   int degree() const { return static_cast<int>(coefficients_.size()) - 1; }
+  /// Of the power i, which is no more than the degree.
+  const Dyadic& coefficient(std::size_t i) const { return coefficients_[i]; }
   /// Of the highest power; the polynomial must not be 0.
   const Dyadic& leading() const { return coefficients_.back(); }
   Dyadic value(const Dyadic& x) const;
@@ -34,6 +36,9 @@ class DyadicPolynomial {
 
   std::vector<Dyadic> coefficients_;  ///< the last is not 0
 };
+
+/// The polynomial of the highest degree that divides both. One of them must not be 0.
+DyadicPolynomial common_divisor(DyadicPolynomial a, DyadicPolynomial b);
 
 /// Counts real roots, each once whatever its multiplicity.
 /// Source: Sturm's theorem, as in Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry, 2006, 2.2.2.

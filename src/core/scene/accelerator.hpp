@@ -9,6 +9,7 @@
 #include "core/math/vector.hpp"
 #include "core/scene/box_row.hpp"
 #include "core/scene/compile.hpp"
+#include "core/scene/crossing_order.hpp"
 #include "core/scene/embree_tree.hpp"
 #include "core/scene/outline.hpp"
 #include "core/scene/prepared_data.hpp"
@@ -54,8 +55,10 @@ class Accelerator {
   /// The same for one solid object.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
-  /// Whether some surface has faces of several objects on it.
-  bool objects_share_surfaces() const { return objects_share_surfaces_; }
+  /// Puts what all() has appended into order.
+  void sort(const WorldRay& ray, std::vector<RayHit>& crossings, RayWorkspace& work) const {
+    sort_crossings(compiled_, ray, objects_share_surfaces_, crossings, work);
+  }
 
   /// What it takes of memory, but for materials.
   MemoryUse memory() const;
@@ -144,7 +147,7 @@ class Accelerator {
   std::vector<std::uint32_t> apart_;        ///< by object: see objects_apart()
   std::unique_ptr<const EmbreeTree> tree_;  ///< none if nothing is bounded
   BoxRow box_row_;                          ///< takes its place if there are few boxes
-  bool objects_share_surfaces_ = false;
+  bool objects_share_surfaces_ = false;     ///< whether some surface has faces of several objects on it
 };
 
 template <bool FromNear, class Visit>

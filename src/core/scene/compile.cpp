@@ -91,7 +91,10 @@ Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
 class Compiler {
  public:
   Compiler(std::span<const Entity> entities, Precision precision, const Workers& workers)
-      : precision_(precision), workers_(workers), flat_(flatten(entities, workers)) {}
+      : precision_(precision), workers_(workers), flat_(flatten(entities, precision, workers)) {
+    if (precision != Precision::exact) return;
+    for (const Entity& entity : entities) result_.entities.push_back(entity.shared_node());
+  }
 
   CompiledScene compile();
 
@@ -129,13 +132,16 @@ CompiledScene Compiler::compile() {
 }
 
 void Compiler::make_placements() {
+  const bool exact = precision_ == Precision::exact;
   result_.placements.resize(flat_.placements.size());
   for_ranges(flat_.placements.size(), items_for_a_thread / 4, workers_,
              [&](std::size_t begin, std::size_t end) {
                for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) {
-                 result_.placements[i] = Placement(*flat_.placements[i]);
+                 const TransformChain& to_world = *flat_.placements[i];
+                 result_.placements[i] = exact ? Placement(to_world) : Placement(to_world.product);
                }
              });
+  if (exact) result_.transforms = std::move(flat_.transforms);
 }
 
 void Compiler::make_leaves() {

@@ -2,11 +2,13 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
 #include "core/csg/program.hpp"
+#include "core/scene/part.hpp"
 #include "crt/entity.hpp"
 #include "crt/settings.hpp"
 
@@ -31,6 +33,9 @@ struct CompiledScene {
   std::vector<SceneObject> objects;
   std::vector<CsgProgram> programs;
   std::vector<SharedMaterial> materials;
+  /// What the placements of the exact tier are made of.
+  TransformPool transforms;
+  std::vector<std::shared_ptr<const EntityNode>> entities;
   std::uint64_t shape_bytes = 0;  ///< of all leaves together
 
   std::span<const Leaf> leaves_of(const SceneObject& object) const {

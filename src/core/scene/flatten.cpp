@@ -23,7 +23,8 @@ bool repeats(const CsgOperation& operation, std::size_t part) {
 
 class Flattening {
  public:
-  explicit Flattening(const Workers& workers) : workers_(workers) {}
+  Flattening(Precision precision, const Workers& workers)
+      : exact_(precision == Precision::exact), workers_(workers) {}
   FlatScene flatten(std::span<const Entity> entities);
 
  private:
@@ -39,13 +40,15 @@ class Flattening {
   void build_program(std::span<const Part> parts, CsgProgram& program);
   void expand(const Pending& pending, CsgProgram& program);
   void add_leaf(const Part& part, bool complemented);
-  std::uint32_t placement_number(const PreciseTransform* to_world);
+  std::uint32_t placement_number(const TransformChain* to_world);
   std::uint32_t material_number(const Part& part);
 
+  bool exact_;
   Workers workers_;
   FlatScene result_;
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
+  bool last_is_all_ = true;             ///< whether it is no more than that
   std::unordered_map<const Material*, std::uint32_t> material_numbers_;
   const Material* last_material_ = nullptr;
   std::uint32_t last_material_number_ = 0;
@@ -175,14 +178,17 @@ void Flattening::add_leaf(const Part& part, bool complemented) {
   result_.programs_of_leaves.push_back(program_);
 }
 
-std::uint32_t Flattening::placement_number(const PreciseTransform* to_world) {
+std::uint32_t Flattening::placement_number(const TransformChain* to_world) {
   // Most leaves are not moved at all, or together with the one before.
   if (to_world == nullptr) return 0;
   if (to_world != result_.placements.back()) {
-    const Transform map = to_world->rounded();
-    if (map == Transform{}) return 0;
-    if (!(map == last_map_)) {
+    const Transform map = to_world->product.rounded();
+    // In the exact tier that may not be all of it.
+    const bool is_all = !exact_ || to_world->is_plain();
+    if (is_all && map == Transform{}) return 0;
+    if (!is_all || !last_is_all_ || !(map == last_map_)) {
       last_map_ = map;
+      last_is_all_ = is_all;
       result_.placements.push_back(to_world);
     }
   }
@@ -209,8 +215,8 @@ std::uint32_t Flattening::material_number(const Part& part) {
 
 }  // namespace
 
-FlatScene flatten(std::span<const Entity> entities, const Workers& workers) {
-  return Flattening(workers).flatten(entities);
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers) {
+  return Flattening(precision, workers).flatten(entities);
 }
 
 }  // namespace crt::core

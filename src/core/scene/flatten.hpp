@@ -24,7 +24,7 @@ struct FlatScene {
   TransformPool transforms;
   std::vector<LeafSource> leaves;
   std::vector<std::uint32_t> programs_of_leaves;  ///< or no_program
-  std::vector<const PreciseTransform*> placements;
+  std::vector<const TransformChain*> placements;
   std::vector<SceneObject> objects;  ///< without bounds
   std::vector<CsgProgram> programs;  ///< nodes and parents of leaves only; an AND needs all_children
   std::vector<SharedMaterial> materials;
@@ -33,7 +33,8 @@ struct FlatScene {
 /// Marks a node that is an AND until its children are counted.
 inline constexpr std::uint32_t all_children = 0xffffffffu;
 
-/// Walks through the entities without recursion, however deep they are.
-FlatScene flatten(std::span<const Entity> entities, const Workers& workers);
+/// Walks through the entities without recursion, however deep they are. The entities must outlive the
+/// placements.
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers);
 
 }  // namespace crt::core

@@ -4,7 +4,7 @@ namespace crt::core {
 
 std::uint64_t primitive_bytes(const CompiledScene& scene) {
   return bytes_of(scene.placements) + bytes_of(scene.leaves) + bytes_of(scene.face_surfaces) +
-         bytes_of(scene.objects) + scene.shape_bytes;
+         bytes_of(scene.objects) + scene.shape_bytes + scene.transforms.bytes();
 }
 
 std::uint64_t csg_bytes(const CompiledScene& scene) {

@@ -104,15 +104,20 @@ RayHit Accelerator::gather_company(const WorldRay& ray, const RayHit& nearest, R
   here.clear();
   near.clear();
   all(piece, nullptr, near, work);
+  const bool exact = compiled_.leaves[nearest.leaf].exact != nullptr;
+  if (exact) sort(ray, near, work);
+  RayHit first = exact && !near.empty() ? near.front() : nearest;
+  const auto is_there = [&](const RayHit& crossing) {
+    return exact ? crossing.t == first.t && crossing.t_low == first.t_low : same_place(crossing, first);
+  };
   std::sort(near.begin(), near.end(), [](const RayHit& a, const RayHit& b) {
     return std::tie(a.object, a.t, a.t_low) < std::tie(b.object, b.t, b.t_low);
   });
-  const auto split = std::stable_partition(
-      near.begin(), near.end(), [&](const RayHit& crossing) { return same_place(crossing, nearest); });
+  const auto split = std::stable_partition(near.begin(), near.end(), is_there);
   here.assign(near.begin(), split);
   near.erase(near.begin(), split);
   if (here.empty()) return nearest;
-  RayHit first = here.front();
+  first = here.front();
   first.has_company = here.size() + near.size() > 1;
   return first;
 }

@@ -10,20 +10,23 @@ namespace crt::core {
 /// The transforms that come about where one is applied after another. A null pointer is none at all.
 class TransformPool {
  public:
-  const PreciseTransform* composed(const PreciseTransform* second, const PreciseTransform* first) {
+  const TransformChain* composed(const TransformChain* second, const TransformChain* first) {
     if (second == nullptr) return first;
     return first == nullptr ? second : &transforms_.emplace_back(compose(*second, *first));
   }
 
+  /// Of memory.
+  std::size_t bytes() const { return transforms_.size() * sizeof(TransformChain); }
+
  private:
-  std::deque<PreciseTransform> transforms_;
+  std::deque<TransformChain> transforms_;
 };
 
 /// A subtree of an entity with all that was decided above it.
 struct Part {
   const EntityNode* node = nullptr;
-  const PreciseTransform* to_world = nullptr;  ///< of a TransformPool or of the entity
-  const SharedMaterial* material = nullptr;    ///< for leaves without one of their own
+  const TransformChain* to_world = nullptr;  ///< of a TransformPool or of the entity
+  const SharedMaterial* material = nullptr;  ///< for leaves without one of their own
   std::uint32_t id = 0;
   bool id_is_final = false;  ///< a with_id above: inner ones no longer count
 

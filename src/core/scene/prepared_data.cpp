@@ -25,20 +25,6 @@ void check_scene(const Scene& scene) {
   validate(scene.settings);
 }
 
-/// Gives crossings of one surface one t, whosever they are.
-void unify_coincident(std::vector<RayHit>& crossings) {
-  std::sort(crossings.begin(), crossings.end(), [](const RayHit& a, const RayHit& b) {
-    return std::tie(a.surface, a.root, a.object) < std::tie(b.surface, b.root, b.object);
-  });
-  for (std::size_t i = 1; i < crossings.size(); ++i) {
-    const RayHit& first = crossings[i - 1];
-    if (crossings[i].surface != first.surface || crossings[i].root != first.root) continue;
-    crossings[i].t = first.t;
-    crossings[i].error = first.error;
-    crossings[i].t_low = first.t_low;
-  }
-}
-
 Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
   Opacity opacity;
   for (const PreparedMaterial& material : materials) opacity.of_materials.push_back(material.opaque);
@@ -160,22 +146,14 @@ PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) cons
 LightWays PreparedData::ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                                       RayWorkspace& work, Packets packets) const {
   const LightWays ways = accelerator_->ways_to_light(rays, starts, some, opacity_, packets, work);
-  for_each_ray(ways.filtered, [&](std::size_t i) { sort(work.on_ways[i]); });
+  for_each_ray(ways.filtered, [&](std::size_t i) { accelerator_->sort(rays.ray(i), work.on_ways[i], work); });
   return ways;
 }
 
 void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
   out.clear();
   accelerator_->all(ray, nullptr, out, work);
-  sort(out);
-}
-
-void PreparedData::sort(std::vector<RayHit>& crossings) const {
-  if (accelerator_->objects_share_surfaces()) unify_coincident(crossings);
-  // Where two solids touch, one is left before the other is entered.
-  std::sort(crossings.begin(), crossings.end(), [](const RayHit& a, const RayHit& b) {
-    return std::tie(a.t, a.t_low, a.entering, a.object) < std::tie(b.t, b.t_low, b.entering, b.object);
-  });
+  accelerator_->sort(ray, out, work);
 }
 
 void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {

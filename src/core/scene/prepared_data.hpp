@@ -86,6 +86,7 @@ struct RayWorkspace {
   /// written, and those so near that rounding may put a ray which starts there on either side of them.
   std::vector<RayHit> here;
   std::vector<RayHit> near;
+  std::vector<std::uint32_t> numbers;  ///< of what is sorted
   /// By ray of a packet: what ways_to_light() finds.
   std::array<std::vector<RayHit>, packet_size> on_ways;
 
@@ -251,9 +252,6 @@ class PreparedData {
 
  private:
   struct Geometry;
-
-  /// Puts all crossings of a ray into order.
-  void sort(std::vector<RayHit>& crossings) const;
 
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;

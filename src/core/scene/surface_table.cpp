@@ -49,6 +49,60 @@ CanonicalPlane canonical_plane(const Surface& plane, const Placement& placement)
 /// The words of a key that a placement fills which does more than move come last.
 constexpr std::size_t words_of_surface = 9;
 
+/// The surface in the world, without rounding.
+ExactSurface in_world(const ExactSurface& surface, const Placement& placement) {
+  if (placement.is_identity()) return surface;
+  ExactSurface result = surface;
+  const DyadicTransform map = placement.exactly();
+  if (!surface.is_plane) {
+    if (placement.is_translation()) {
+      for (DyadicVector& point : result.points) point = point + map.translation;
+    } else {
+      const auto& [x, y, z] = map.rows;
+      result.points.insert(result.points.end(), {x, y, z, map.translation});
+    }
+    return result;
+  }
+  // With the inverse as rows / weight, n . p = c is (n rows) . q = weight c + (n rows) . translation.
+  const DyadicInverse inverse(map);
+  const DyadicVector normal = surface.numbers[0] * inverse.rows[0] + surface.numbers[1] * inverse.rows[1] +
+                              surface.numbers[2] * inverse.rows[2];
+  const auto& [x, y, z] = normal;
+  result.numbers = {x, y, z, inverse.weight * surface.numbers[3] + dot(normal, map.translation)};
+  return result;
+}
+
+int compared(const Dyadic& a, const Dyadic& b) {
+  return (a - b).sign();
+}
+
+/// As numbers of which only ratios count.
+int compared_planes(std::span<const Dyadic> a, std::span<const Dyadic> b) {
+  std::size_t pivot = 0;
+  while (a[pivot].sign() == 0 && b[pivot].sign() == 0) ++pivot;
+  if (a[pivot].sign() == 0 || b[pivot].sign() == 0) return a[pivot].sign() == 0 ? 1 : -1;
+  const int sign = a[pivot].sign() * b[pivot].sign();
+  for (std::size_t i = pivot + 1; i < a.size(); ++i) {
+    const int order = compared(a[i] * b[pivot], b[i] * a[pivot]);
+    if (order != 0) return sign * order;
+  }
+  return 0;
+}
+
+/// An order of surfaces of equal keys, in which equal ones are equal.
+int compared(const ExactSurface& a, const ExactSurface& b) {
+  if (a.is_plane) return compared_planes(a.numbers, b.numbers);
+  for (std::size_t i = 0; i < a.numbers.size(); ++i) {
+    if (const int order = compared(a.numbers[i], b.numbers[i])) return order;
+  }
+  for (std::size_t i = 0; i < a.points.size(); ++i) {
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (const int order = compared(a.points[i][axis], b.points[i][axis])) return order;
+    }
+  }
+  return 0;
+}
+
 /// A face among all, and what equal surfaces have in common.
 struct HashedFace {
   std::uint64_t hash;
@@ -105,7 +159,7 @@ class Numbering {
     const CanonicalSurface::Key first_key = key_of(faces[0]);
     if (std::all_of(faces.begin(), faces.end(),
                     [&](const HashedFace& face) { return key_of(face) == first_key; })) {
-      number_equal(faces);
+      number_equal_keys(faces);
       return;
     }
     std::vector<std::pair<CanonicalSurface::Key, HashedFace>> keyed;
@@ -117,6 +171,31 @@ class Numbering {
     for (std::size_t i = 0; i < keyed.size(); ++i) {
       equal.push_back(keyed[i].second);
       if (i + 1 < keyed.size() && keyed[i + 1].first == keyed[i].first) continue;
+      number_equal_keys(equal);
+      equal.clear();
+    }
+  }
+
+  /// In the exact tier equal keys are not all there is to surfaces that are equal.
+  void number_equal_keys(std::span<const HashedFace> faces) {
+    if (faces.size() == 1) return;
+    if (!leaves_[faces[0].leaf].exact) {
+      number_equal(faces);
+      return;
+    }
+    std::vector<std::pair<ExactSurface, HashedFace>> surfaces;
+    surfaces.reserve(faces.size());
+    for (const HashedFace& face : faces) {
+      const Leaf& leaf = leaves_[face.leaf];
+      surfaces.emplace_back(in_world(leaf.exact->surface(face.face - leaf.first_face), *leaf.placement),
+                            face);
+    }
+    const auto is_before = [](const auto& a, const auto& b) { return compared(a.first, b.first) < 0; };
+    std::stable_sort(surfaces.begin(), surfaces.end(), is_before);
+    std::vector<HashedFace> equal;
+    for (std::size_t i = 0; i < surfaces.size(); ++i) {
+      equal.push_back(surfaces[i].second);
+      if (i + 1 < surfaces.size() && !is_before(surfaces[i], surfaces[i + 1])) continue;
       number_equal(equal);
       equal.clear();
     }

@@ -30,7 +30,8 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
 /// Fills in the surfaces of all faces: `faces` holds those of the first leaf, then those of the next, and
 /// so on. A surface is called by the number of the first face on it. Where several faces of one program are
 /// on it, their `shared` is the number of the first of those. `programs` has the program of each leaf, or
-/// no_program. O(n log n), by as many threads as `workers` says.
+/// no_program. In the exact tier surfaces whose canonical forms are equal are one only if they are so without
+/// any rounding. O(n log n), by as many threads as `workers` says.
 void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
                      std::span<FaceSurface> faces, const Workers& workers);
 

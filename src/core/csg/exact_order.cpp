@@ -1,0 +1,119 @@
+#include "core/csg/exact_order.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numeric>
+#include <optional>
+#include <tuple>
+
+#include "core/csg/evaluate.hpp"
+#include "core/math/real_root.hpp"
+
+namespace crt::core {
+namespace {
+
+class ExactOrder {
+ public:
+  ExactOrder(std::span<const NearCrossing> crossings, std::span<const Leaf> leaves,
+             std::span<const FaceSurface> face_surfaces, const WorldRay& ray, std::uint64_t& escalations)
+      : crossings_(crossings),
+        leaves_(leaves),
+        face_surfaces_(face_surfaces),
+        ray_(ray),
+        escalations_(escalations),
+        places_(crossings.size()) {}
+
+  /// The numbers of the crossings, sorted.
+  std::vector<std::size_t> sorted() {
+    std::vector<std::size_t> numbers(crossings_.size());
+    std::iota(numbers.begin(), numbers.end(), std::size_t{0});
+    std::stable_sort(numbers.begin(), numbers.end(),
+                     [&](std::size_t a, std::size_t b) { return compare(a, b) < 0; });
+    return numbers;
+  }
+
+  int compare(std::size_t a, std::size_t b) {
+    const NearCrossing& one = crossings_[a];
+    const NearCrossing& other = crossings_[b];
+    if (one.surface == other.surface && one.root == other.root) return 0;
+    const double way = (one.t - other.t) + (one.t_low - other.t_low);
+    // The rounding of the way is far less than what the errors have in them beside what they must.
+    if (std::abs(way) > one.error + other.error) return way > 0 ? 1 : -1;
+    std::optional<RealRoot>& first = place(a);
+    std::optional<RealRoot>& second = place(b);
+    return first && second ? order(*first, *second) : 0;
+  }
+
+  /// Whether all places that were asked for are known.
+  bool all_known() const { return all_known_; }
+
+ private:
+  struct Place {
+    bool is_found = false;
+    std::optional<RealRoot> root;
+  };
+
+  std::optional<RealRoot>& place(std::size_t number) {
+    Place& place = places_[number];
+    if (place.is_found) return place.root;
+    const NearCrossing& crossing = crossings_[number];
+    const Leaf& leaf = leaves_[crossing.leaf];
+    ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
+    object_ray.start = start_on_leaf(leaf, crossing.leaf, face_surfaces_, ray_.start);
+    place = {true,
+             leaf.exact->place(exact_ray(leaf, ray_, object_ray, escalations_), {.t = crossing.t,
+                                                                                 .error = crossing.error,
+                                                                                 .t_low = crossing.t_low,
+                                                                                 .face = crossing.face,
+                                                                                 .root = crossing.root})};
+    all_known_ = all_known_ && place.root;
+    return place.root;
+  }
+
+  std::span<const NearCrossing> crossings_;
+  std::span<const Leaf> leaves_;
+  std::span<const FaceSurface> face_surfaces_;
+  const WorldRay& ray_;
+  std::uint64_t& escalations_;
+  std::vector<Place> places_;
+  bool all_known_ = true;
+};
+
+/// Moves a crossing beyond those of lower ranks, of which `last` is told to be the farthest, if it is not.
+void move_beyond(const NearCrossing& last, NearCrossing& crossing) {
+  if (std::tie(crossing.t, crossing.t_low) > std::tie(last.t, last.t_low)) return;
+  const double t_low = std::nextafter(last.t_low, std::numeric_limits<double>::infinity());
+  crossing.error += std::abs((last.t - crossing.t) + (t_low - crossing.t_low));
+  crossing.t = last.t;
+  crossing.t_low = t_low;
+}
+
+}  // namespace
+
+bool sort_exactly(std::vector<NearCrossing>& crossings, std::span<const Leaf> leaves,
+                  std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
+                  std::uint64_t& escalations) {
+  ExactOrder order(crossings, leaves, face_surfaces, ray, escalations);
+  const std::vector<std::size_t> numbers = order.sorted();
+  std::vector<NearCrossing> result;
+  result.reserve(crossings.size());
+  NearCrossing last;      // of lower ranks
+  NearCrossing farthest;  // of all so far
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
+    NearCrossing& crossing = result.emplace_back(crossings[numbers[i]]);
+    crossing.rank = i == 0 ? 1 : result[i - 1].rank;
+    if (i > 0 && order.compare(numbers[i - 1], numbers[i]) < 0) {
+      ++crossing.rank;
+      last = farthest;
+    }
+    if (crossing.rank > 1) move_beyond(last, crossing);
+    const bool is_farther = std::tie(crossing.t, crossing.t_low) > std::tie(farthest.t, farthest.t_low);
+    if (i == 0 || is_farther) farthest = crossing;
+  }
+  if (!order.all_known()) return false;
+  crossings = std::move(result);
+  return true;
+}
+
+}  // namespace crt::core

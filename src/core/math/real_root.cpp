@@ -1,0 +1,129 @@
+#include "core/math/real_root.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace crt::core {
+namespace {
+
+int compared(const Dyadic& a, const Dyadic& b) {
+  return (a - b).sign();
+}
+
+/// Of a polynomial that has no more than one root between low and high, where its signs differ: one that has
+/// that root with different signs about it.
+DyadicPolynomial changing_sign(DyadicPolynomial polynomial, const Dyadic& low, const Dyadic& high) {
+  while (polynomial.value(low).sign() == polynomial.value(high).sign()) {
+    // The root has an even multiplicity, which the common divisor with the derivative makes odd.
+    polynomial = common_divisor(polynomial, polynomial.derivative());
+  }
+  return polynomial;
+}
+
+}  // namespace
+
+RealRoot RealRoot::at(const Dyadic& x) {
+  RealRoot root;
+  root.polynomial_ = DyadicPolynomial({-x, 1});
+  root.low_ = root.high_ = x;
+  return root;
+}
+
+RealRoot::RealRoot(DyadicPolynomial polynomial, const Dyadic& low, const Dyadic& high)
+    : polynomial_(changing_sign(std::move(polynomial), low, high)),
+      low_(low),
+      high_(high),
+      sign_low_(polynomial_.value(low).sign()) {}
+
+std::optional<RealRoot> RealRoot::near(const DyadicPolynomial& polynomial, const DoubleDouble& t,
+                                       double error) {
+  const Dyadic middle = Dyadic(t.hi) + Dyadic(t.lo);
+  if (error == 0) {
+    if (polynomial.value(middle).sign() != 0) return std::nullopt;
+    return at(middle);
+  }
+  // Wider, so that a root just within is not at an end.
+  const Dyadic room(2 * error);
+  const Dyadic low = middle - room;
+  const Dyadic high = middle + room;
+  if (polynomial.value(low).sign() == 0 || polynomial.value(high).sign() == 0) return std::nullopt;
+  if (SturmChain(polynomial).count(low, high) != 1) return std::nullopt;
+  return RealRoot(polynomial, low, high);
+}
+
+std::optional<RealRoot> RealRoot::of_index(const DyadicPolynomial& polynomial, std::size_t index) {
+  const std::vector<Dyadic> separators = root_separators(polynomial);
+  if (separators.empty()) return std::nullopt;
+  const std::size_t before = std::min(index, separators.size() - 2);
+  return RealRoot(polynomial, separators[before], separators[before + 1]);
+}
+
+bool RealRoot::is_at_root_of(const RealRoot& other) const {
+  return is_point() && compared(low_, other.low_) > 0 && compared(low_, other.high_) < 0 &&
+         other.polynomial_.value(low_).sign() == 0;
+}
+
+void RealRoot::cut_at(const Dyadic& x) {
+  const int sign = polynomial_.value(x).sign();
+  if (sign != -sign_low_) low_ = x;
+  if (sign != sign_low_) high_ = x;
+  if (sign == 0) sign_low_ = 0;
+}
+
+// Source: Abbott, Quadratic interval refinement for real roots, 2006: a straight line between the ends tells
+// in which of many pieces the root should be, and twice as many bits are tried the next time if it is.
+void RealRoot::narrow() {
+  if (is_point()) return;
+  constexpr int most_bits = 32;
+  const Dyadic width = high_ - low_;
+  if (bits_ == 1) {
+    constexpr double half = 0.5;
+    cut_at(low_ + width * Dyadic(half));
+    bits_ = 2;
+    return;
+  }
+  const ScaledNumber below = polynomial_.value(low_).rounded();
+  const ScaledNumber above = polynomial_.value(high_).rounded();
+  const double pieces = std::ldexp(1.0, bits_);
+  const double share = (below / (below + -above)).unscaled().hi;
+  const double piece = std::clamp(std::floor(share * pieces), 0.0, pieces - 1);
+  const Dyadic from = low_ + width * Dyadic(piece / pieces);
+  const Dyadic to = low_ + width * Dyadic((piece + 1) / pieces);
+  cut_at(from);
+  if (!is_point() && compared(high_, to) > 0) cut_at(to);
+  const bool is_there = is_point() || (compared(low_, from) == 0 && compared(high_, to) == 0);
+  bits_ = is_there ? std::min(2 * bits_, most_bits) : bits_ / 2;
+}
+
+int RealRoot::order_of_fractions(const RealRoot& a, const RealRoot& b) {
+  const auto& p = a.polynomial_;
+  const auto& q = b.polynomial_;
+  const int sign = (q.coefficient(0) * p.coefficient(1) - p.coefficient(0) * q.coefficient(1)).sign();
+  return sign * p.leading().sign() * q.leading().sign();
+}
+
+int order(RealRoot& a, RealRoot& b) {
+  if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1) return RealRoot::order_of_fractions(a, b);
+  // What is no nearer is told apart by then; only of the rest it is asked whether it is one.
+  constexpr int steps_before_asking = 8;
+  bool differ = false;
+  for (int step = 0;; ++step) {
+    const int a_to_b = compared(a.high_, b.low_);
+    if (a_to_b <= 0) return a_to_b == 0 && a.is_point() && b.is_point() ? 0 : -1;
+    if (compared(b.high_, a.low_) <= 0) return 1;
+    if (a.is_at_root_of(b) || b.is_at_root_of(a)) return 0;
+    if (!differ && !a.is_point() && !b.is_point() && step >= steps_before_asking) {
+      // They are one if their polynomials have a root in common where the intervals overlap.
+      const DyadicPolynomial common = common_divisor(a.polynomial_, b.polynomial_);
+      const Dyadic& low = compared(a.low_, b.low_) > 0 ? a.low_ : b.low_;
+      const Dyadic& high = compared(a.high_, b.high_) < 0 ? a.high_ : b.high_;
+      if (SturmChain(common).count(low, high) > 0) return 0;
+      differ = true;
+    }
+    const bool a_is_wider = compared(a.high_ - a.low_, b.high_ - b.low_) > 0;
+    (a_is_wider ? a : b).narrow();
+  }
+}
+
+}  // namespace crt::core
