@@ -500,6 +500,27 @@ CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* 
  * new camera, light, background or setting (other than the precision) costs next to nothing. */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 
+/** Asked now and then while something takes long (of a script every few thousand steps); a return value other
+ * than 0 cancels it. */
+typedef int (*crt_poll_fn)(void* user);
+
+/** What preparing may be asked beyond the scene. All 0 is the default. */
+typedef struct crt_prepare_options {
+  uint32_t struct_size;
+  uint32_t reserved; /**< 0 */
+  /** NULL, or what may cancel: within 0.1 s in scenes of up to a million primitives, with
+   * CRT_ERROR_CANCELLED. May be called on any of the threads that work. */
+  crt_poll_fn poll;
+  void* poll_user;
+} crt_prepare_options;
+
+/** The defaults, which are all 0. */
+CRT_API crt_status crt_prepare_options_init(crt_prepare_options* options, size_t struct_size);
+
+/** crt_scene_prepare() with options; NULL: the defaults. */
+CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
+                                          crt_prepared** out);
+
 /** @} */
 
 /* ---- scripts -------------------------------------------------------------------------------- */
@@ -535,8 +556,6 @@ CRT_API crt_status crt_file_content_append(crt_file_content* content, const void
 
 /** Gets a line that the script prints, without its end; a return value other than 0 cancels the script. */
 typedef int (*crt_print_fn)(const char* line, size_t length, void* user);
-/** Asked every few thousand steps of a script; a return value other than 0 cancels it. */
-typedef int (*crt_poll_fn)(void* user);
 
 /** What a script may see and use. All 0 is the default: files of its own directory, and the limits below. */
 typedef struct crt_script_options {
@@ -699,6 +718,10 @@ typedef struct crt_render_options {
    * the break on. A checkpoint of another picture is CRT_ERROR_INVALID_ARGUMENT; that it is of this one is
    * told by the settings and by the light of up to 1024 samples. Read by the call. */
   const char* checkpoint;
+  /** The most things that a single ray may be tested against: objects, and primitives of CSG objects, whose
+   * boxes it passes; looked at after every 1024 of them. A ray that takes more ends the render with
+   * CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary scene takes some hundred. */
+  uint64_t max_ray_steps;
 } crt_render_options;
 
 /** The defaults, which are all 0. */
@@ -793,6 +816,13 @@ CRT_API crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const u
 CRT_API crt_status crt_image_read(const char* path, crt_image** out);
 /** The same from a file's bytes; `name` (or NULL) is for messages. */
 CRT_API crt_status crt_image_decode(const void* bytes, size_t count, const char* name, crt_image** out);
+/**
+ * How many pixels of the file that an image was read from had values which are no finite numbers (NaN,
+ * infinities): they count as 0. The place of the first, row by row from the top left, goes to *x and *y if
+ * there is one (either may be NULL). A render of a scene with such an image warns through its log, too.
+ * 0 for all other images.
+ */
+CRT_API uint64_t crt_image_not_finite(const crt_image* image, uint32_t* x, uint32_t* y);
 
 /** Pixels across; 0 for NULL. */
 CRT_API uint32_t crt_image_width(const crt_image* image);
@@ -866,6 +896,15 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * What a program asks of the geometry without making a picture; the same crossings that pictures see.
  * Many rays are asked on several threads: what the calling TBB arena has. Threads: Shared.
  *
+ * A surface at the start of a ray, for all four queries: with CRT_PRECISION_STANDARD it counts as behind the
+ * ray unless it is ahead of t_min by more than rounding may be off there. Of a lone primitive that is at most
+ * 32 u times the sum of its size and the largest coordinate of the start (u = 2^-53), measured across the
+ * surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that was
+ * computed to be on a surface does not meet that surface there again, and what is nearer than that is not
+ * seen. What is behind the start is never told as ahead of it. With CRT_PRECISION_EXACT the origin is taken
+ * for the point that its doubles say: a surface is met if t_min < t holds for the exact t, and not otherwise,
+ * so that a ray from a point which rounding has put just below a surface meets it at once.
+ *
  * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one after the
  * other. Any alignment will do, and hits may take the place of their own rays.
  *
@@ -904,24 +943,28 @@ typedef struct crt_hit {
   uint32_t flags;     /**< CRT_HIT_* */
 } crt_hit;
 
-/** The nearest hit of each ray. If any ray is wrong, none is asked, and the message names its index. */
+/** The nearest hit of each ray; what is at its start counts as is said above. In this and the other queries a
+ * ray that would be tested against more than 4194304 things (see crt_render_options.max_ray_steps) is
+ * CRT_ERROR_LIMIT. If any ray is wrong, none is asked, and the message names its index. */
 CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                  crt_hit* hits, size_t hit_stride);
 /**
- * How far the nearest hit of each ray is, and of which entity: the same as crt_intersect() tells, in less
- * time, as nobody asks what the surface is like there. If any ray is wrong, nothing is written, and the
- * message names its index.
+ * How far the nearest hit of each ray is, and of which entity: the same as crt_intersect() tells, also of
+ * what is at its start, in less time, as nobody asks what the surface is like there. If any ray is wrong,
+ * nothing is written, and the message names its index.
  * @param distances   gets `count` numbers, in units of |direction|; INFINITY for a miss
  * @param entity_ids  gets as many, 0 for a miss; NULL if nobody asks
  */
 CRT_API crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                  double* distances, uint32_t* entity_ids);
-/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes. If any ray is
- * wrong, nothing is written, and the message names its index. */
+/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes; what is at its
+ * start counts as for crt_intersect(). If any ray is wrong, nothing is written, and the message names its
+ * index. */
 CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                 uint8_t* occluded);
 /**
- * Every crossing along a ray in order: of each entity, the solid intervals that CSG leaves.
+ * Every crossing along a ray in order: of each entity, the solid intervals that CSG leaves. What is at its
+ * start counts as for crt_intersect().
  * @param hits      room for `capacity`; NULL if that is 0
  * @param count     gets how many there are, which may be more than `capacity`; only so many are written
  */

@@ -32,6 +32,20 @@ struct ImageChannel {
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
+/// Values of a picture that are no finite numbers (NaN, infinities), as some image files have them. They
+/// count as 0.
+struct NotFiniteValues {
+  std::string file{};        ///< that they were in; empty for pixels that were filled in by hand
+  std::uint64_t pixels = 0;  ///< that have one or several; 0 if all is well
+  int x = 0;                 ///< column of the first of these pixels, row by row from the top left
+  int y = 0;                 ///< its row
+
+  /// A line that says so.
+  std::string message() const;
+
+  bool operator==(const NotFiniteValues&) const = default;
+};
+
 /// A picture: rows of linear RGBA floats from the top, alpha premultiplied. What rendering gives,
 /// and what panoramas and image maps take. It may have other channels beside them.
 class Image {
@@ -43,8 +57,8 @@ class Image {
 
   /// Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file; its content tells which. Grey
   /// becomes RGB, of several pictures in a file the first is taken, and values that are not finite
-  /// become 0. Throws Error: io if it is missing, broken or larger than a picture may be, unsupported
-  /// if OpenImageIO cannot be loaded, out_of_memory.
+  /// become 0, of which not_finite() tells. Throws Error: io if it is missing, broken or larger than a
+  /// picture may be, unsupported if OpenImageIO cannot be loaded, out_of_memory.
   static Image read(const std::filesystem::path& path);
 
   /// The same from a file's content in memory; `name` is for messages.
@@ -109,6 +123,13 @@ class Image {
   /// Says so of pixels that were filled in by hand.
   void set_display_encoded(bool encoded) { display_encoded_ = encoded; }
 
+  /// What of the file that it was read from was not finite, and is 0 here. A render of a scene with such a
+  /// picture (or with one that was filled in by hand and has such values) warns through RenderOptions::log,
+  /// once a picture; a script's diagnostics do where the picture is named, and then the render does not.
+  const NotFiniteValues& not_finite() const { return not_finite_; }
+  /// Replaces that: where the user has been told already, by {}.
+  void set_not_finite(NotFiniteValues values) { not_finite_ = std::move(values); }
+
   /// The settings it was rendered with: gamma and show_clip act when it is written, the texts and
   /// the rest go into the file.
   const Settings& settings() const { return settings_; }
@@ -126,6 +147,7 @@ class Image {
   bool display_encoded_ = false;
   std::vector<float> pixels_;
   std::vector<ImageChannel> channels_;
+  NotFiniteValues not_finite_;
   Settings settings_;
   RenderStats stats_;
 };

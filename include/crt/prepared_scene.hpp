@@ -2,6 +2,7 @@
 
 #include <crt/scene.hpp>
 #include <crt/stats.hpp>
+#include <functional>
 #include <memory>
 
 namespace crt {
@@ -37,5 +38,17 @@ PreparedScene prepare(const Scene& scene);
 /// a new camera, light, background or other setting costs next to nothing. The picture is the same either
 /// way.
 PreparedScene prepare(const Scene& scene, const PreparedScene& earlier);
+
+/// What preparing may be asked beyond that.
+struct PrepareOptions {
+  /// What was prepared earlier, as above, or null. Only looked at while prepare() runs.
+  const PreparedScene* earlier = nullptr;
+  /// Asked some tens of times a second, from one thread at a time, which may be any of those that work;
+  /// returning false ends it, within 0.1 s in scenes of up to a million primitives, with Error (cancelled).
+  std::function<bool()> go_on{};
+};
+
+/// The same with these.
+PreparedScene prepare(const Scene& scene, const PrepareOptions& options);
 
 }  // namespace crt

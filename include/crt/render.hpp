@@ -72,6 +72,10 @@ struct RenderOptions {
   /// That the file is of this picture is told by the settings that must stay (all but time budget and passes)
   /// and by the light of up to 1024 samples: what changes none of them is not noticed.
   std::filesystem::path checkpoint{};
+  /// The most things that a single ray may be tested against: objects, and primitives of CSG objects, whose
+  /// boxes it passes. It is looked at after every 1024 of them; a ray that takes more ends the render with
+  /// Error (limit). 0 is 4194304, about a second's work; a ray through an ordinary scene takes some hundred.
+  std::uint64_t max_ray_steps = 0;
   /// What the image gets beside the colours, which stay the same.
   Aovs aovs{};
   /// Gets what there is to tell of the render, a line each without its end. From the thread that calls
@@ -81,7 +85,7 @@ struct RenderOptions {
 
 /// Renders the picture. The pixels depend on the scene alone: not on threads, tiles or regions.
 /// Throws Error: cancelled, invalid_argument (a region outside the picture, a checkpoint of another one), io
-/// (a checkpoint that cannot be read), out_of_memory.
+/// (a checkpoint that cannot be read), limit (max_ray_steps), out_of_memory.
 Image render(const PreparedScene& scene, const RenderOptions& options = {});
 
 }  // namespace crt

@@ -100,6 +100,14 @@ crt_status crt_image_decode(const void* bytes, size_t count, const char* name, c
   });
 }
 
+uint64_t crt_image_not_finite(const crt_image* image, uint32_t* x, uint32_t* y) {
+  if (image == nullptr || image->value->not_finite().pixels == 0) return 0;
+  const crt::NotFiniteValues& values = image->value->not_finite();
+  if (x != nullptr) *x = static_cast<uint32_t>(values.x);
+  if (y != nullptr) *y = static_cast<uint32_t>(values.y);
+  return values.pixels;
+}
+
 uint32_t crt_image_width(const crt_image* image) {
   return image == nullptr ? 0 : static_cast<uint32_t>(image->value->width());
 }

@@ -30,6 +30,7 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   if (given.seed != 0) result.seed = given.seed;
   result.passes = given.passes;
   result.aovs = to_aovs(given.aovs);
+  result.max_ray_steps = given.max_ray_steps;
   if (given.checkpoint != nullptr) result.checkpoint = given.checkpoint;
   if (given.progress != nullptr) {
     result.progress = [call = given.progress, user = given.progress_user, cancel_value](double fraction) {

@@ -1,6 +1,9 @@
 // Scenes of the C interface.
 #include <fmt/format.h>
 
+#include <atomic>
+#include <optional>
+
 #include "capi/structs.hpp"
 #include "crt/validate.hpp"
 
@@ -151,13 +154,32 @@ crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings
 }
 
 crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out) {
-  return guarded([&] {
+  return crt_scene_prepare_with(scene, nullptr, out);
+}
+
+crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options, crt_prepared** out) {
+  std::atomic<int> cancel_value = 0;  // the callback may be called on another thread
+  const crt_status status = guarded([&] {
     require(scene, "scene");
     require(out, "out");
-    const auto earlier = scene->prepared.lock();
-    crt::PreparedScene prepared =
-        earlier ? crt::prepare(scene->value, crt::PreparedScene(earlier)) : crt::prepare(scene->value);
+    const auto given = taken_or_default(options, "options");
+    crt::PrepareOptions how;
+    if (given.poll != nullptr) {
+      how.go_on = [&cancel_value, call = given.poll, user = given.poll_user] {
+        const int answer = call(user);
+        if (answer != 0) cancel_value = answer;
+        return answer == 0;
+      };
+    }
+    std::optional<crt::PreparedScene> earlier;
+    if (auto data = scene->prepared.lock()) {
+      earlier.emplace(std::move(data));
+      how.earlier = &*earlier;
+    }
+    crt::PreparedScene prepared = crt::prepare(scene->value, how);
     scene->prepared = prepared.watched_data();
     *out = new crt_prepared(std::move(prepared));
   });
+  if (status == CRT_ERROR_CANCELLED) set_cancel_value(cancel_value);
+  return status;
 }

@@ -126,10 +126,17 @@ template <>
 std::span<const std::size_t> field_ends<crt_render_options>() {
   using S = crt_render_options;
   static constexpr std::array ends = {
-      CRT_END(S, threads),       CRT_END(S, region_x), CRT_END(S, region_y), CRT_END(S, region_width),
-      CRT_END(S, region_height), CRT_END(S, seed),     CRT_END(S, progress), CRT_END(S, progress_user),
-      CRT_END(S, log),           CRT_END(S, log_user), CRT_END(S, passes),   CRT_END(S, aovs),
-      CRT_END(S, checkpoint)};
+      CRT_END(S, threads),       CRT_END(S, region_x),     CRT_END(S, region_y), CRT_END(S, region_width),
+      CRT_END(S, region_height), CRT_END(S, seed),         CRT_END(S, progress), CRT_END(S, progress_user),
+      CRT_END(S, log),           CRT_END(S, log_user),     CRT_END(S, passes),   CRT_END(S, aovs),
+      CRT_END(S, checkpoint),    CRT_END(S, max_ray_steps)};
+  return ends;
+}
+
+template <>
+std::span<const std::size_t> field_ends<crt_prepare_options>() {
+  using S = crt_prepare_options;
+  static constexpr std::array ends = {CRT_END(S, reserved), CRT_END(S, poll), CRT_END(S, poll_user)};
   return ends;
 }
 
@@ -190,6 +197,10 @@ crt_render_options defaults<crt_render_options>() {
   return {};
 }
 template <>
+crt_prepare_options defaults<crt_prepare_options>() {
+  return {};
+}
+template <>
 crt_write_options defaults<crt_write_options>() {
   return {};
 }
@@ -236,6 +247,10 @@ crt_status crt_script_options_init(crt_script_options* options, size_t struct_si
 
 crt_status crt_render_options_init(crt_render_options* options, size_t struct_size) {
   return guarded([&] { initialise(options, struct_size, defaults<crt_render_options>()); });
+}
+
+crt_status crt_prepare_options_init(crt_prepare_options* options, size_t struct_size) {
+  return guarded([&] { initialise(options, struct_size, defaults<crt_prepare_options>()); });
 }
 
 crt_status crt_write_options_init(crt_write_options* options, size_t struct_size) {

@@ -185,6 +185,16 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
           "stops after so many passes: with what --stats told, the same picture again")
       ->type_name("N");
   command
+      .add_option_function<std::string>(
+          "--max-ray-steps",
+          [&request](const std::string& value) {
+            if (!parse_whole(value, request.render.max_ray_steps)) {
+              throw WrongValue("--max-ray-steps", "a whole number, 0 for the usual bound", value);
+            }
+          },
+          "things that one ray may be tested against before the render ends with an error (4194304)")
+      ->type_name("N");
+  command
       .add_option(
           "--checkpoint", request.render.checkpoint,
           "with --targeterror, --timebudget or --passes: keeps what is done there, also when interrupted, "

@@ -91,9 +91,8 @@ class RenderJob {
     if (region && !reporter_.accept_region(*region, scene->settings)) return false;
 
     const fs::path output = frame ? frame_path(request_.output, *frame) : request_.output;
-    const PreparedScene prepared = prepare(*scene);
     const InterruptScope interrupt;
-    Image image = trace(prepared, output.string(), interrupt);
+    Image image = trace(*scene, output.string(), interrupt);
     for (const std::string& warning : std::exchange(warnings_, {})) reporter_.note(warning);
     image.stats().parse_seconds = parse_seconds;
     const Stopwatch write_watch;
@@ -129,17 +128,20 @@ class RenderJob {
     return std::move(result.scene);
   }
 
-  Image trace(const PreparedScene& prepared, const std::string& name, const InterruptScope& interrupt) {
-    Progress progress(name, style_);
+  Image trace(const Scene& scene, const std::string& name, const InterruptScope& interrupt) {
+    PrepareOptions how;
+    how.go_on = [&] { return !interrupt.interrupted(); };
     RenderOptions options = request_.render;
     options.log = [&](LogLevel level, std::string_view line) {
       if (level == LogLevel::warning) warnings_.push_back(fmt::format("crt: warning: {}", line));
     };
-    options.progress = [&](double share) {
-      progress.update(share);
-      return !interrupt.interrupted();
-    };
     try {
+      const PreparedScene prepared = prepare(scene, how);
+      Progress progress(name, style_);
+      options.progress = [&](double share) {
+        progress.update(share);
+        return !interrupt.interrupted();
+      };
       Image image = render(prepared, options);
       if (!interrupt.interrupted()) return image;
     } catch (const Error& error) {

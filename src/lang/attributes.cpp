@@ -133,7 +133,7 @@ void convert(const Given& given, Context&, SharedMaterial& field) {
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field) {
   const std::string& name = get<String>(given)->text;
   const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
-  field = context.files.image(name, directory, given.value_span);
+  field = context.files.image(name, directory, given.value_span, context.reporter);
 }
 
 void convert(const Given& given, Context&, Projection& field) {

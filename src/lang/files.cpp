@@ -9,7 +9,6 @@
 #include <system_error>
 #include <utility>
 
-#include "lang/reporter.hpp"
 #include "lang/utf8.hpp"
 
 namespace crt::lang {
@@ -126,13 +125,19 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
   return std::move(*text);
 }
 
-std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory, Span span) {
+std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory, Span span,
+                                          Reporter& reporter) {
   const Found found = find(name, directory, span);
   std::shared_ptr<const Image>& image = images_[found.path];
   if (!image) {
     try {
-      image = std::make_shared<const Image>(
-          found.content ? Image::decode(*found.content, found.shown.string()) : Image::read(found.shown));
+      auto read = std::make_shared<Image>(found.content ? Image::decode(*found.content, found.shown.string())
+                                                        : Image::read(found.shown));
+      if (read->not_finite().pixels > 0) {
+        reporter.warning(span, printable(read->not_finite().message()));
+        read->set_not_finite({});
+      }
+      image = std::move(read);
     } catch (const Error& error) {
       throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
     }

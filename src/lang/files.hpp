@@ -12,6 +12,7 @@
 
 #include "crt/image.hpp"
 #include "crt/script.hpp"
+#include "lang/reporter.hpp"
 #include "lang/source_map.hpp"
 
 namespace crt::lang {
@@ -36,9 +37,9 @@ class Files {
   /// The text of a found file, of at most `most_bytes`.
   std::string read_text(Found found, std::size_t most_bytes, Span span) const;
 
-  /// An image, decoded once a run.
+  /// An image, decoded once a run; what it has that is not finite is told then.
   std::shared_ptr<const Image> image(const std::string& name, const std::filesystem::path& directory,
-                                     Span span);
+                                     Span span, Reporter& reporter);
 
  private:
   std::vector<std::filesystem::path> candidates(const std::string& name,

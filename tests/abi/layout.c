@@ -159,7 +159,7 @@ AT(crt_diagnostic_call, reserved, 12);
 AT(crt_diagnostic_call, name, 16);
 AT(crt_diagnostic_call, file, 24);
 
-SIZE(crt_render_options, 80);
+SIZE(crt_render_options, 88);
 AT(crt_render_options, struct_size, 0);
 AT(crt_render_options, threads, 4);
 AT(crt_render_options, region_x, 8);
@@ -174,6 +174,13 @@ AT(crt_render_options, log_user, 56);
 AT(crt_render_options, passes, 64);
 AT(crt_render_options, aovs, 68);
 AT(crt_render_options, checkpoint, 72);
+AT(crt_render_options, max_ray_steps, 80);
+
+SIZE(crt_prepare_options, 24);
+AT(crt_prepare_options, struct_size, 0);
+AT(crt_prepare_options, reserved, 4);
+AT(crt_prepare_options, poll, 8);
+AT(crt_prepare_options, poll_user, 16);
 
 SIZE(crt_render_stats, 264);
 AT(crt_render_stats, struct_size, 0);

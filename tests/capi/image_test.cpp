@@ -46,6 +46,23 @@ BufferHandle encoded(const crt_image* image, const char* format) {
 
 }  // namespace
 
+TEST_CASE("how many pixels of a file are not finite is told, and where the first is") {
+  std::string file = "PF\n2 1\n-1.0\n";
+  const float values[] = {1, 1, 1, 0, NAN, INFINITY};
+  file.append(reinterpret_cast<const char*>(values), sizeof values);
+  const ImageHandle image = made<ImageHandle>(
+      [&](crt_image** out) { return crt_image_decode(file.data(), file.size(), "a.pfm", out); });
+  std::uint32_t x = 7;
+  std::uint32_t y = 7;
+  CHECK(crt_image_not_finite(image.get(), &x, &y) == 1);
+  CHECK(x == 1);
+  CHECK(y == 0);
+  CHECK(crt_image_not_finite(image.get(), nullptr, nullptr) == 1);
+  CHECK(crt_image_not_finite(nullptr, &x, &y) == 0);
+  const float one[4] = {1, 1, 1, 1};
+  CHECK(crt_image_not_finite(from_pixels(1, 1, one).get(), nullptr, nullptr) == 0);
+}
+
 TEST_CASE("an image is made from rows with gaps and lends its pixels without") {
   const float rows[] = {1, 2, 3, 1, 9, 9, 4, 5, 6, 0.5f, 9, 9};
   const ImageHandle image = from_pixels(1, 2, rows, 6 * sizeof(float));

@@ -94,6 +94,52 @@ TEST_CASE("a progress callback cancels, and its number is handed back") {
   CHECK(image == nullptr);
 }
 
+TEST_CASE("preparing is cancelled by its callback, and its number is handed back") {
+  const SceneHandle scene = small_scene();
+  crt_prepare_options options;
+  REQUIRE(crt_prepare_options_init(&options, sizeof options) == CRT_OK);
+  int answer = -17;
+  options.poll = [](void* user) { return *static_cast<int*>(user); };
+  options.poll_user = &answer;
+  crt_prepared* prepared = nullptr;
+  CHECK(crt_scene_prepare_with(scene.get(), &options, &prepared) == CRT_ERROR_CANCELLED);
+  CHECK(prepared == nullptr);
+  CHECK(crt_cancel_value() == -17);
+  answer = 0;
+  const PreparedHandle asked = made<PreparedHandle>(
+      [&](crt_prepared** out) { return crt_scene_prepare_with(scene.get(), &options, out); });
+  const PreparedHandle not_asked = made<PreparedHandle>(
+      [&](crt_prepared** out) { return crt_scene_prepare_with(scene.get(), nullptr, out); });
+  CHECK(pixels_of(render(asked.get()).get()) == pixels_of(render(not_asked.get()).get()));
+  CHECK(crt_scene_prepare_with(scene.get(), nullptr, nullptr) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(crt_scene_prepare_with(nullptr, nullptr, &prepared) == CRT_ERROR_INVALID_ARGUMENT);
+}
+
+TEST_CASE("a ray of more steps than the options allow is an error") {
+  const SceneHandle scene = new_scene();
+  std::vector<EntityHandle> parts;
+  std::vector<crt_entity*> handles;
+  for (int i = 0; i < 5000; ++i) {
+    parts.push_back(sphere({0, 0, 5 + 1e-7 * i}, 1));
+    handles.push_back(parts.back().get());
+  }
+  const EntityHandle common = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_intersection_create(handles.data(), handles.size(), out); });
+  REQUIRE(crt_scene_add_entity(scene.get(), common.get()) == CRT_OK);
+  crt_settings settings;
+  REQUIRE(crt_settings_init(&settings, sizeof settings) == CRT_OK);
+  settings.width = settings.height = 1;
+  REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
+  const PreparedHandle prepared = prepare(scene.get());
+  crt_render_options options = options_with(nullptr, nullptr);
+  options.max_ray_steps = 2000;
+  crt_image* image = nullptr;
+  CHECK(crt_render(prepared.get(), &options, &image) == CRT_ERROR_LIMIT);
+  CHECK(says("max_ray_steps"));
+  options.max_ray_steps = 0;
+  render(prepared.get(), &options);
+}
+
 TEST_CASE("a job gives the picture that rendering at once gives") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());

@@ -1,7 +1,9 @@
 #include <doctest/doctest.h>
 
+#include <chrono>
 #include <csignal>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include "cli/command.hpp"
@@ -16,7 +18,56 @@ namespace {
 constexpr int interrupted = 130;
 const std::string first_sight_of_bar = "0 %";
 
+/// Says "made", and then takes long to prepare: half a million balls that overlap.
+const std::string crowd_script = R"(i = 0
+u = Sphere { center -> vec3(0, 0, 0) radius -> 1 }
+n = 19
+for (i in range(n)) { u = u + u <translate vec3(0.000000001 * pow(2, i), 0, 0)> }
+Settings {
+  width -> 4
+  height -> 4
+  camera -> Camera { position -> vec3(0, 0, -4) pointing -> vec3(0, 0, 0) }
+}
+Scene { u }
+print("made")
+)";
+
+/// Until the command has ended after a signal. Bounds below are generous: what is promised is 0.1 s.
+double seconds_to_end(CrtOnTerminal& crt, int signal) {
+  const auto begin = std::chrono::steady_clock::now();
+  crt.send(signal);
+  CHECK(crt.wait() == interrupted);
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+}
+
 }  // namespace
+
+TEST_CASE("an interrupt while preparing ends with 130 and leaves no file" * doctest::skip(!has_terminals())) {
+  const TemporaryFolder folder;
+  folder.write("crowd.crt", crowd_script);
+  // What the script prints goes to the terminal as well.
+  CrtOnTerminal crt(folder, {"render", "crowd.crt", "--stats", "-"});
+  REQUIRE(crt.shows("made"));
+  std::this_thread::sleep_for(std::chrono::milliseconds(300));
+  CHECK(seconds_to_end(crt, SIGTERM) < 5);
+  CHECK(crt.shown().find("not written") != std::string::npos);
+  CHECK(folder.names() == std::vector<std::string>{"crowd.crt"});
+}
+
+TEST_CASE("an interrupt in a ray that meets 100,000 things ends it at once" *
+          doctest::skip(!has_terminals())) {
+  for (const char* const setting : {"supersampling -> 1", "supersampling -> 64"}) {
+    const TemporaryFolder folder;
+    std::string script = crowd_script;
+    script.replace(script.find("n = 19"), 6, "n = 17");
+    script.replace(script.find("width -> 4"), 10, std::string("width -> 400 ") + setting);
+    folder.write("crowd.crt", script);
+    CrtOnTerminal crt(folder, {"render", "crowd.crt"});
+    REQUIRE(crt.shows(first_sight_of_bar));
+    CHECK(seconds_to_end(crt, SIGINT) < 2);
+    CHECK(crt.shown().find("not written") != std::string::npos);
+  }
+}
 
 TEST_CASE("an interrupt while rendering ends with 130 and leaves no file" * doctest::skip(!has_terminals())) {
   for (const int signal : {SIGINT, SIGTERM}) {

@@ -208,6 +208,26 @@ TEST_CASE("floats that are not finite become 0 when a file is read") {
   CHECK(image.at(1, 0) == Color{0, -0.5, 0.25, 1});
 }
 
+TEST_CASE("how many pixels of a file were not finite is told, and where the first is") {
+  Image image(5, 4);
+  CHECK(round_trip(image, "a.exr").not_finite() == NotFiniteValues{});
+  const float infinity = std::numeric_limits<float>::infinity();
+  std::string text = "PF\n3 2\n-1.0\n";  // rows from the bottom
+  std::vector<float> values(18, 0.5f);
+  values[0] = infinity;        // (0, 1)
+  values[1] = -infinity;       // the same pixel
+  values[17] = std::nanf("");  // (2, 0)
+  text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
+  const Image read = Image::decode(to_bytes(text), "sky.pfm");
+  CHECK(read.not_finite() == NotFiniteValues{.file = "sky.pfm", .pixels = 2, .x = 2, .y = 0});
+  CHECK(
+      read.not_finite().message() ==
+      "'sky.pfm' has 2 pixels with values that are not finite (NaN, infinity), the first at (2, 0) from the "
+      "top left: they count as 0");
+  CHECK(read.at(2, 0) == Color{0.5, 0.5, 0, 1});
+  CHECK(read.at(0, 1) == Color{0, 0, 0.5, 1});
+}
+
 TEST_CASE("the rows of every format come from the top") {
   for (const char* name : {"a.png", "a.tif", "a.jpg", "a.bmp", "a.ppm", "a.exr", "a.hdr"}) {
     CAPTURE(name);

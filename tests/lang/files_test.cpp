@@ -5,6 +5,7 @@
 
 #include <filesystem>
 #include <fstream>
+#include <limits>
 #include <string>
 
 #include "crt/image.hpp"
@@ -291,4 +292,22 @@ TEST_CASE("a script file that is longer than allowed is not read") {
   CHECK_FALSE(result.scene);
   REQUIRE(result.diagnostics.size() == 1);
   CHECK(result.diagnostics[0].code == ErrorCode::limit);
+}
+
+TEST_CASE("values of a picture that are not finite are warned of where it is named, once a picture") {
+  const Folder folder;
+  std::string file = "PF\n2 1\n-1.0\n";
+  const float values[] = {1, 1, 1, 0, std::numeric_limits<float>::quiet_NaN(), 0};
+  file.append(reinterpret_cast<const char*>(values), sizeof values);
+  folder.write("work/sky.pfm", file);
+  const auto run = run_in(folder,
+                          "a = ImageMap { image -> \"sky.pfm\" }\n"
+                          "b = Background { image -> \"sky.pfm\" }");
+  REQUIRE(run.ok());
+  REQUIRE(run.result.diagnostics.size() == 1);
+  const crt::Diagnostic& warning = run.result.diagnostics[0];
+  CHECK(warning.severity == crt::Severity::warning);
+  CHECK(warning.message.find("sky.pfm' has 1 pixel with values that are not finite") != std::string::npos);
+  CHECK(warning.message.find("at (1, 0)") != std::string::npos);
+  CHECK(warning.place.line == 1);
 }

@@ -86,6 +86,14 @@ class Rendering(unittest.TestCase):
         self.assertEqual(image._repr_png_()[1:4], b"PNG")
 
 
+    def test_values_of_a_file_that_are_not_finite_are_told(self):
+        values = np.array([1, 1, 1, 0, np.nan, np.inf], dtype="<f4")
+        image = crt.Image.decode(b"PF\n2 1\n-1.0\n" + values.tobytes(), "a.pfm")
+        self.assertEqual(image.not_finite, (1, 1, 0))
+        self.assertEqual(image.pixels[0, 1].tolist(), [0, 0, 0, 1])
+        self.assertEqual(small_scene(8).render().not_finite, (0, 0, 0))
+
+
 class Callbacks(unittest.TestCase):
     def test_progress_goes_from_0_to_1(self):
         told = []

@@ -8,8 +8,11 @@
 #include <crt/query.hpp>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <mutex>
 #include <stdexcept>
+#include <string>
+#include <string_view>
 #include <thread>
 #include <vector>
 
@@ -203,3 +206,34 @@ TEST_CASE("one thread means the calling one: none is started") {
   CHECK(always_here);
 }
 #endif
+
+TEST_CASE(
+    "values of a picture that are not finite are warned of once, whatever it serves for, and count as 0") {
+  auto image = std::make_shared<Image>(8, 4);
+  const float infinity = std::numeric_limits<float>::infinity();
+  for (int y = 0; y < 4; ++y) {
+    for (int x = 0; x < 8; ++x) image->set(x, y, {infinity, 0.5, 0.25, 1});
+  }
+  Scene scene = lit_scene(8, 6);
+  scene.background = PanoramaBackground{.image = image};
+  scene.entities = {Sphere{.material = Material{.color = Pattern(ImageMap{.image = image})}}};
+  scene.camera = {.position = {0, 0, -4}, .pointing = {0, 5, 0}};
+  std::vector<std::string> warnings;
+  const RenderOptions options{.log = [&](LogLevel level, std::string_view line) {
+    if (level == LogLevel::warning) warnings.emplace_back(line);
+  }};
+  const Image picture = render(prepare(scene), options);
+  REQUIRE(warnings.size() == 1);
+  CHECK(warnings[0].find("an image has 32 pixels with values that are not finite") != std::string::npos);
+  CHECK(warnings[0].find("(0, 0)") != std::string::npos);
+  CHECK(picture.at(4, 0) == Color{0, 0.5, 0.25, 1});
+
+  // A picture that is known to have had some in its file.
+  auto read = std::make_shared<Image>(8, 4);
+  read->set_not_finite({.file = "sky.exr", .pixels = 1, .x = 3, .y = 2});
+  scene.background = PanoramaBackground{.image = read};
+  scene.entities.clear();
+  render(prepare(scene), options);
+  REQUIRE(warnings.size() == 2);
+  CHECK(warnings[1] == read->not_finite().message());
+}

@@ -5,6 +5,7 @@
 
 #include <random>
 
+#include "core/csg/entity_node.hpp"
 #include "core/scene/surface_table.hpp"
 
 using namespace crt;
@@ -100,12 +101,18 @@ TEST_CASE("a scene is compiled to the same on any number of threads") {
 }
 
 TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
-  // Three of each ball in the union, and one of each by itself.
+  // Three of each ball in the union, brought to their place in different ways, and one of each by itself.
   Random random;
   const std::vector<Entity> balls = random.balls(10'000, 9, 1);
   std::vector<Entity> parts = balls;
-  parts.insert(parts.end(), balls.begin(), balls.end());
-  parts.insert(parts.end(), balls.begin(), balls.end());
+  for (const double moved : {0.5, 1.0}) {
+    for (const Entity& ball : balls) {
+      const auto& sphere = std::get<Sphere>(std::get<Primitive>(ball.node().content));
+      const Vec3 way = moved * sphere.center;
+      const Entity begun = Sphere{.center = sphere.center - way, .radius = sphere.radius};
+      parts.push_back(begun.transformed({.translation = way}));
+    }
+  }
   std::vector<Entity> entities{csg_union(parts)};
   entities.insert(entities.end(), balls.begin(), balls.end());
   const CompiledScene scene = compile(entities);

@@ -31,6 +31,25 @@ TEST_CASE("texels have their own colour at their centres") {
   }
 }
 
+TEST_CASE("texels that are not finite count as 0, and the pool tells of them once a picture") {
+  const auto image = ramp(4, 3);
+  image->set(2, 1, {NAN, 0.5, INFINITY, 1});
+  image->set(3, 2, {1, 1, 1, NAN});
+  TexturePool pool(2.2);
+  const auto texture = pool.get(image);
+  pool.get(image);
+  CHECK(texture->bilinear(2.5, 1.5, TextureWrap::repeat, TextureWrap::clamp) == Color{0, 0.5, 0, 1});
+  CHECK(texture->bilinear(3.5, 2.5, TextureWrap::repeat, TextureWrap::clamp) == Color{0, 0, 0, 0});
+  CHECK_FALSE(texture->opaque());
+  CHECK(texture->bytes() > image->pixels().size_bytes());
+  CHECK(std::isnan(image->at(2, 1).r));  // the user's stays as it is
+  const auto clean = ramp(2, 2);
+  pool.get(clean);
+  CHECK(pool.warnings() == std::vector<std::string>{"an image has 2 pixels with values that are not finite "
+                                                    "(NaN, infinity), the first at (2, 1) from the top left: "
+                                                    "they count as 0"});
+}
+
 TEST_CASE("between four texels a colour is the mean that is linear in x and in y") {
   const Texture texture(ramp(4, 3), 1);
   const Color color = texture.bilinear(1.75, 2, TextureWrap::clamp, TextureWrap::clamp);

@@ -56,6 +56,14 @@ class Image(Handle):
         return cls._adopt(create(function, width, height, pixels.ctypes.data, pixels.strides[0]))
 
     @property
+    def not_finite(self) -> tuple[int, int, int]:
+        """How many pixels of the file had values that are not finite (they count as 0), and the column and row
+        of the first; (0, 0, 0) if there are none."""
+        x, y = ctypes.c_uint32(), ctypes.c_uint32()
+        pixels = library.crt_image_not_finite(self._handle, ctypes.byref(x), ctypes.byref(y))
+        return int(pixels), x.value, y.value
+
+    @property
     def width(self) -> int:
         return int(library.crt_image_width(self._handle))
 

@@ -41,6 +41,7 @@ class Prepared(Handle):
         passes: int = 0,
         aovs: Iterable[str] = (),
         checkpoint: Path | None = None,
+        max_ray_steps: int = 0,
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> Image:
@@ -50,12 +51,13 @@ class Prepared(Handle):
         `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
         unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id",
         "albedo", "samples" and "error", become Image.channels. `checkpoint`: a file that keeps a picture which
-        is rendered by passes, and from which the next render goes on. `progress` is told the share that is
+        is rendered by passes, and from which the next render goes on. `max_ray_steps`: things that one ray may
+        be tested against, see crt_render_options. `progress` is told the share that is
         done, `log` what there is to tell; they may be called from other threads, one at a time. What
         progress raises cancels the render and comes out of here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, progress, log)
+        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log)
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
 
@@ -68,12 +70,13 @@ class Prepared(Handle):
         passes: int = 0,
         aovs: Iterable[str] = (),
         checkpoint: Path | None = None,
+        max_ray_steps: int = 0,
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> "Job":
         """Starts to render in the background; as render() otherwise."""
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, progress, log)
+        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log)
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
     def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
@@ -225,6 +228,7 @@ class _RenderOptions(Struct):
     passes: Int
     aovs: Unsigned
     checkpoint: Text
+    max_ray_steps: Long
 
 
 def _aov_bits(names: Iterable[str]) -> int:
@@ -244,6 +248,7 @@ def _options(
     passes: int,
     aovs: Iterable[str],
     checkpoint: Path | None,
+    max_ray_steps: int,
     progress: Progress | None,
     log: Log | None,
 ) -> _RenderOptions:
@@ -256,7 +261,12 @@ def _options(
             log(line.decode())
 
     options = _RenderOptions(
-        threads=threads, seed=seed, passes=passes, aovs=_aov_bits(aovs), checkpoint=checkpoint
+        threads=threads,
+        seed=seed,
+        passes=passes,
+        aovs=_aov_bits(aovs),
+        checkpoint=checkpoint,
+        max_ray_steps=max_ray_steps,
     )
     if region is not None:
         x, y, width, height = region

@@ -9,7 +9,7 @@ from typing import Annotated, Any
 from ._callbacks import OPEN_FILE, POLL, PRINT, Guard
 from ._handles import Handle
 from ._library import create, library, to_utf8
-from ._structs import Double, Int, Long, Pointer, Struct, growable, reference
+from ._structs import Double, Int, Long, Pointer, Struct, Unsigned, growable, reference
 from .diagnostics import diagnostics_of
 from .entities import Entity
 from .errors import Diagnostic, Error, ScriptError
@@ -167,13 +167,23 @@ class Scene(Handle):
             return Scene._adopt(create("crt_scene_copy", self._handle))
 
     def prepare(self) -> Prepared:
-        """Checks the scene and builds what rays need."""
-        with self._lock:
-            return Prepared._adopt(create("crt_scene_prepare", self._handle))
+        """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here."""
+        guard = Guard()
+        options = _PrepareOptions()
+        options.poll = POLL(lambda _user: guard.call(_nothing))
+        with self._lock, guard.raising():
+            return Prepared._adopt(create("crt_scene_prepare_with", self._handle, ctypes.byref(options)))
 
     def render(self, **options: Any) -> Image:
         """Prepares and renders; the options are those of Prepared.render()."""
         return self.prepare().render(**options)
+
+
+@growable("crt_prepare_options")
+class _PrepareOptions(Struct):
+    reserved: Unsigned
+    poll: Annotated[Any, POLL]
+    poll_user: Pointer
 
 
 @growable("crt_script_options")

@@ -91,6 +91,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   work_.to_come_.clear();
   work_.places_ = 0;
   for (const std::uint32_t leaf : program.tree.unbounded()) {
+    tick();
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
     if (!span.empty() && span.leave >= part_.enter && span.enter <= part_.leave) {
       put_off(LeafTree::Child::leaf(leaf), span.enter);
@@ -242,6 +243,7 @@ void CsgEvaluation::gather_near() {
 }
 
 void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
+  work_.steps.step();
   const Leaf& leaf = leaves_[index];
   // Leaves that are placed alike often follow one another: the ray is taken to their space once.
   if (leaf.placement != placement_) {
@@ -314,6 +316,7 @@ void CsgEvaluation::add_to_cluster(const CsgCrossing& crossing) {
 
 void CsgEvaluation::gather_shared() {
   auto& to_come = work_.to_come_;
+  work_.steps.poll();
   const auto others = std::partition(to_come.begin(), to_come.end(), [&](const auto& waiting) {
     const CsgCrossing& crossing = work_.met_[waiting.index];
     return crossing.shared == FaceSurface::not_shared || shared_state(crossing).cluster != work_.stamp_;
@@ -347,7 +350,10 @@ bool CsgEvaluation::leaf_inside(std::uint32_t leaf) const {
 bool CsgEvaluation::flip_cluster() {
   const bool before = root_value();
   if (paths_) paths_->begin_cluster();
-  for (const CsgCrossing* crossing : work_.cluster_) flip_leaf(crossing->leaf);
+  for (const CsgCrossing* crossing : work_.cluster_) {
+    tick();
+    flip_leaf(crossing->leaf);
+  }
   return root_value() != before;
 }
 
@@ -389,7 +395,9 @@ void CsgEvaluation::find_causes() {
   const bool now = root_value();
   auto& causes = work_.causes_;
   causes.clear();
+  std::uint64_t looked_at = 0;
   for (const CsgCrossing* crossing : work_.cluster_) {
+    if (++looked_at % steps_per_look == 0) work_.steps.poll();
     // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
     const std::uint32_t leaf = crossing->leaf;
     const bool inside = leaf_inside(leaf);

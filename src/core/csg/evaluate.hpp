@@ -9,6 +9,7 @@
 
 #include "core/csg/exact_order.hpp"
 #include "core/csg/program.hpp"
+#include "core/csg/ray_steps.hpp"
 
 namespace crt::core {
 
@@ -90,6 +91,8 @@ class CsgWorkspace {
   std::uint64_t events = 0;
   /// Questions of the exact tier that only exact arithmetic answered.
   std::uint64_t escalations = 0;
+  /// Of the ray that is followed now.
+  RaySteps steps;
 
  private:
   friend class CsgEvaluation;
@@ -232,6 +235,11 @@ class CsgEvaluation {
   bool is_near_next(double t) const;
   void gather_near();
   void open_leaf(std::uint32_t index, double enter);
+  /// Of handling one crossing: whoever may stop the ray is asked now and then.
+  void tick() {
+    if (++ticks_ % steps_per_look == 0) [[unlikely]]
+      work_.steps.poll();
+  }
   const CsgCrossing& next_crossing() const { return work_.met_[work_.to_come_.front().index]; }
   bool is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::ToCome& b) const;
   /// For the heap of what is to come.
@@ -269,6 +277,7 @@ class CsgEvaluation {
   const Placement* placement_ = nullptr;  ///< of object_ray_
   ObjectRay object_ray_;
   bool starts_inside_ = false;
+  std::uint64_t ticks_ = 0;
   bool exact_ = false;  ///< the tier
 };
 

@@ -173,7 +173,7 @@ struct Division {
 /// task a piece. Neither hangs on the number of threads.
 class LeafTree::Builder {
  public:
-  Builder(std::vector<Node>& nodes, int threads) : nodes_(nodes), threads_(threads) {}
+  Builder(std::vector<Node>& nodes, const Workers& workers) : nodes_(nodes), workers_(workers) {}
 
   void build(std::span<Item> items) {
     nodes_.emplace_back();
@@ -213,7 +213,7 @@ class LeafTree::Builder {
       }
     }
     std::vector<std::optional<Division>> divisions(large.size());
-    for_ranges(large.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(large.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) divisions[i].emplace(level[large[i]].part);
     });
     std::vector<Pending> next;
@@ -251,7 +251,7 @@ class LeafTree::Builder {
   /// The root of each lower part is there already; its other nodes go behind all there are.
   void build_lower_parts() {
     std::vector<std::vector<Node>> trees(lower_parts_.size());
-    for_ranges(trees.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(trees.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) trees[i] = tree_over(lower_parts_[i].part);
     });
     std::vector<std::size_t> places;
@@ -262,7 +262,7 @@ class LeafTree::Builder {
     }
     nodes_.reserve(count);
     nodes_.resize(count);
-    for_ranges(trees.size(), 1, threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(trees.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t i = begin; i < end; ++i) put(trees[i], lower_parts_[i].node, places[i]);
     });
   }
@@ -279,11 +279,11 @@ class LeafTree::Builder {
   }
 
   std::vector<Node>& nodes_;
-  int threads_;
+  Workers workers_;
   std::vector<Pending> lower_parts_;
 };
 
-LeafTree::LeafTree(std::span<const Bounds> boxes, int threads) {
+LeafTree::LeafTree(std::span<const Bounds> boxes, const Workers& workers) {
   std::vector<Item> items;
   items.reserve(boxes.size());
   for (std::uint32_t leaf = 0; leaf < boxes.size(); ++leaf) {
@@ -295,7 +295,7 @@ LeafTree::LeafTree(std::span<const Bounds> boxes, int threads) {
       unbounded_.push_back(leaf);
     }
   }
-  if (!items.empty()) Builder(nodes_, threads).build(items);
+  if (!items.empty()) Builder(nodes_, workers).build(items);
 }
 
 }  // namespace crt::core

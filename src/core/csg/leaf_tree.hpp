@@ -12,6 +12,7 @@
 
 #include "core/csg/ray_slabs.hpp"
 #include "core/geometry/bounds.hpp"
+#include "core/tasks/workers.hpp"
 
 namespace crt::core {
 
@@ -40,7 +41,7 @@ class LeafTree {
   LeafTree() = default;
   /// Over one box a leaf. Empty boxes are left out; infinite ones are kept apart. Built on up to `threads`
   /// threads (as run_tasks() has it); the tree is always the same.
-  explicit LeafTree(std::span<const Bounds> boxes, int threads = 0);
+  explicit LeafTree(std::span<const Bounds> boxes, const Workers& workers = {});
 
   /// The leaves that a line may meet anywhere.
   std::span<const std::uint32_t> unbounded() const { return unbounded_; }

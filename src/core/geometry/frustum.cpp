@@ -50,18 +50,22 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     clip_side_from_surface(ray, stretch);
     return stretch.finish(out);
   }
-  if (ray.start.face == no_face && stretch.empty()) return false;
-
-  if (!move_to_least(ray, line, stretch)) return false;
-  clip_side(ray, line, stretch);
+  // Squares of what is farther away could overflow. (What is closest is known to a few units.)
+  constexpr double far = 64;
+  const bool passes_far = largest_component(line.point) > far * (height_ + wide_radius_);
+  if (ray.start.face == no_face && (stretch.empty() || passes_far)) return false;
+  const SideRates rates = side_rates(line);
+  if (!move_to_least(ray, line, rates, stretch)) return false;
+  clip_side(ray, line, rates, stretch);
   return stretch.finish(out);
 }
 
 /// To where |P|^2 + s0^2 is least between the caps; false if t has no number there.
-bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const Stretch& stretch) const {
+bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const SideRates& rates,
+                                 const Stretch& stretch) const {
   // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a ball, and
   // between the caps.
-  const double least = where_least(line);
+  const double least = where_least(line, rates);
   double t = line.to_t(std::isfinite(least) ? least : 0);
   const double ball = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_speed));
   t = std::clamp(t, line.to_t(0) - ball, line.to_t(0) + ball);
@@ -141,7 +145,8 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
 
 /// Where the line grazes, the discriminant may be what is left of large numbers. From halfway between the
 /// roots it is a c with b nearly 0, and c the distance from the side there.
-void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const {
+void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, const SideRates& rates,
+                                     SideEquation& side) const {
   if (passes_plainly(line, side)) return;
   constexpr double nearly = 0x1p-4;
   const bool cancels = std::abs(side.discriminant) < nearly * (side.b * side.b);
@@ -149,17 +154,18 @@ void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, SideE
   const double farthest = (height_ + wide_radius_) * (height_ + wide_radius_);
   if (!(side.a > 0 && cancels && middle * middle * line.squared_speed < farthest)) return;
   line.move_to(ray, narrow_, line.to_precise_t(middle));
-  side = side_equation(line);
+  side = side_equation(line, rates);
 }
 
-void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const {
-  SideEquation side = side_equation(line);
-  center_on_grazing(ray, line, side);
+void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, const SideRates& rates,
+                             Stretch& stretch) const {
+  SideEquation side = side_equation(line, rates);
+  center_on_grazing(ray, line, rates, side);
   const auto enter = [&](double x, std::uint8_t number) {
-    stretch.enter(polished(ray, line, side, {x, true, number}, stretch));
+    stretch.enter(polished(ray, line, side, {side.on_nappe(x), true, number}, stretch));
   };
   const auto leave = [&](double x, std::uint8_t number) {
-    stretch.leave(polished(ray, line, side, {x, false, number}, stretch));
+    stretch.leave(polished(ray, line, side, {side.on_nappe(x), false, number}, stretch));
   };
   const bool is_within = side.is_within();
   if (side.a >= 0 && !(side.discriminant > 0)) {
@@ -186,7 +192,7 @@ void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, Stretch& stre
 /// is -2 b / a, on this nappe if a > 0.
 void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const {
   const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
-  SideEquation side = side_equation(line);
+  SideEquation side = side_equation(line, side_rates(line));
   side.discriminant = side.b * side.b;
   Crossing other = side_crossing(line, side, {}, reach_of(line.point));
   if (side.a != 0) {
@@ -213,13 +219,11 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
 /// wanted one if the line is entering here, else ahead.
 Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const {
   NearLine line = NearLine::at_closest(ray, narrow_, unit_);
-  move_to_least(ray, line, stretch);
-  const SideEquation side = side_equation(line);
+  const SideRates rates = side_rates(line);
+  move_to_least(ray, line, rates, stretch);
+  const SideEquation side = side_equation(line, rates);
   const auto [low, high] = SideRoots<double>(side);
-  // Not beyond the apex, whatever is left of a.
-  const double apex = -side.radius / side.radius_rate;
-  const double x = entering ? std::max(low, apex) : std::min(high, apex);
-  return polished(ray, line, side, {.x = x, .entering = entering}, stretch);
+  return polished(ray, line, side, {side.on_nappe(entering ? low : high), entering, 0}, stretch);
 }
 
 template <class Real>

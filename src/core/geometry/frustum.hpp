@@ -21,8 +21,9 @@
 // root, as it may be next to an apex, they would not be.) The discriminant must be that of these very
 // coefficients, b^2 - a c without another rounding: then what little is left of a, b and c next to a ruling
 // agrees with itself, and roots that leave the solid's reach do so on the right side. In exact arithmetic it
-// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones. The
-// set of points inside is convex, so a line cuts one stretch out of it.
+// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones.
+//
+// The set of points inside is convex, so a line cuts one stretch out of it.
 #pragma once
 
 #include <algorithm>
@@ -36,9 +37,6 @@
 
 namespace crt::core {
 
-/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
-/// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
-/// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
 /// Where a line, or as many as a Real has lanes, enters a cylinder or cone through its side.
 template <class Real>
 struct FrustumEntry {
@@ -50,6 +48,9 @@ struct FrustumEntry {
   Real error{};  ///< as in Crossing
 };
 
+/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
+/// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
+/// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
 class FrustumShape : public ShapeOfPoints<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
@@ -75,6 +76,14 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   static constexpr std::uint32_t side_face = 0;
 
  private:
+  /// What the line's direction alone says of the side.
+  template <class Real>
+  struct SideRatesOf {
+    Vec3Of<Real> m;
+    Real m_squared;
+    Real radius_rate;  ///< s1
+  };
+  using SideRates = SideRatesOf<double>;
   /// a x^2 + 2 b x + c = 0, and what else is known of the side along a line.
   template <class Real>
   struct SideEquationOf {
@@ -89,6 +98,8 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     MaskOf<Real> is_on_other_nappe() const {
       return either(both(is_within(), radius < 0.0), without(a * radius < b * radius_rate, is_within()));
     }
+    /// Of a root that is on this nappe: not beyond the apex, whatever is left of a and b.
+    Real on_nappe(const Real& x) const { return radius + radius_rate * x < 0.0 ? -radius / radius_rate : x; }
     /// Whether a step along the line that ends at such a radius strays from the tangent there by no more than
     /// the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1 x) at most.)
     MaskOf<Real> is_straight(const Real& step, const Real& radius_there, const Real& reach) const {
@@ -97,10 +108,12 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   };
   using SideEquation = SideEquationOf<double>;
   template <class Real>
-  SideEquationOf<Real> side_equation(const NearLineOf<Real>& line) const;
+  SideRatesOf<Real> side_rates(const NearLineOf<Real>& line) const;
+  template <class Real>
+  SideEquationOf<Real> side_equation(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const;
   /// x of the point where |P|^2 + s0^2 is least; no number if there is no such.
   template <class Real>
-  Real where_least(const NearLineOf<Real>& line) const;
+  Real where_least(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const;
   static double approach(const SideEquation& side, double x);
   /// Whether the line does not graze the side.
   template <class Real>
@@ -127,9 +140,11 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
     explicit SideRoots(const SideEquationOf<Real>& side);
   };
-  bool move_to_least(const ObjectRay& ray, NearLine& line, const Stretch& stretch) const;
-  void center_on_grazing(const ObjectRay& ray, NearLine& line, SideEquation& side) const;
-  void clip_side(const ObjectRay& ray, NearLine& line, Stretch& stretch) const;
+  bool move_to_least(const ObjectRay& ray, NearLine& line, const SideRates& rates,
+                     const Stretch& stretch) const;
+  void center_on_grazing(const ObjectRay& ray, NearLine& line, const SideRates& rates,
+                         SideEquation& side) const;
+  void clip_side(const ObjectRay& ray, NearLine& line, const SideRates& rates, Stretch& stretch) const;
   void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
   Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const;
   /// What is on the side at `offset` from the middle of the narrow end, or next to it.
@@ -162,30 +177,37 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 };
 
 template <class Real>
-Real FrustumShape::where_least(const NearLineOf<Real>& line) const {
+[[gnu::always_inline]] inline auto FrustumShape::side_rates(const NearLineOf<Real>& line) const
+    -> SideRatesOf<Real> {
   const Vec3Of<Real> axis = spread<Real>(axis_);
   const Vec3Of<Real> m = spread<Real>(cosine_) * accurate_cross(line.direction, axis);
-  const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
-  const Real s0 = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
-  const Real s1 = sine_ * dot(line.direction, axis);
-  return -(dot(p, m) + s0 * s1) / (dot(m, m) + s1 * s1);
+  return {.m = m, .m_squared = dot(m, m), .radius_rate = sine_ * dot(line.direction, axis)};
 }
 
 template <class Real>
-FrustumShape::SideEquationOf<Real> FrustumShape::side_equation(const NearLineOf<Real>& line) const {
+[[gnu::always_inline]] inline Real FrustumShape::where_least(const NearLineOf<Real>& line,
+                                                             const SideRatesOf<Real>& rates) const {
   const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Vec3Of<Real> m = spread<Real>(cosine_) * accurate_cross(line.direction, axis);
+  const Real across = cosine_ * dot(accurate_cross(line.point, axis), rates.m);
+  const Real s0 = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
+  const Real s1 = rates.radius_rate;
+  return -(across + s0 * s1) / (rates.m_squared + s1 * s1);
+}
+
+template <class Real>
+auto FrustumShape::side_equation(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const
+    -> SideEquationOf<Real> {
+  const Vec3Of<Real> axis = spread<Real>(axis_);
   const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
-  const auto length = [](const Vec3Of<Real>& v) { return square_root(dot(v, v)); };
-  const Real m_length = length(m);
-  const Real p_length = length(p);
+  const Real m_length = square_root(rates.m_squared);
+  const Real p_length = square_root(dot(p, p));
   SideEquationOf<Real> side{};
   side.radius = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
-  side.radius_rate = sine_ * dot(line.direction, axis);
+  side.radius_rate = rates.radius_rate;
   const Real s0 = side.radius;
   const Real s1 = side.radius_rate;
   side.a = (m_length - size_of(s1)) * (m_length + size_of(s1));
-  side.b = dot(p, m) - s0 * s1;
+  side.b = dot(p, rates.m) - s0 * s1;
   side.c = (p_length - size_of(s0)) * (p_length + size_of(s0));
   side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
   return side;

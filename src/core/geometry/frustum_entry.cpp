@@ -8,7 +8,8 @@ template <class Real, class Ray>
 FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   auto line = NearLineOf<Real>::at_closest(ray, narrow_, unit_);
   const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Real closest = line.to_t(where_least(line));
+  const SideRatesOf<Real> rates = side_rates(line);
+  const Real closest = line.to_t(where_least(line, rates));
   const Real ball = line.to_t_length((height_ + wide_radius_) / square_root(line.squared_speed));
   const Real origin = line.to_t(Real{});
   const auto is_near = both(closest >= origin - ball, closest <= origin + ball);
@@ -22,7 +23,7 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
     const Real height = dot(line.at(x), axis);
     return both(height > margin, height < height_ - margin);
   };
-  const SideEquationOf<Real> side = side_equation(line);
+  const SideEquationOf<Real> side = side_equation(line, rates);
   const auto plainly =
       both(both(is_near, is_between(Real{})), both(side.a > 0.0, passes_plainly(line, side)));
   FrustumEntry<Real> entry{.missed = both(plainly, side.discriminant < 0.0)};

@@ -25,6 +25,14 @@ std::size_t first_value(int x, int y, int width) {
 
 }  // namespace
 
+std::string NotFiniteValues::message() const {
+  return fmt::format(
+      "{} has {} pixel{} with values that are not finite (NaN, infinity), {} ({}, {}) from the "
+      "top left: they count as 0",
+      file.empty() ? "an image" : fmt::format("'{}'", file), pixels, pixels == 1 ? "" : "s",
+      pixels == 1 ? "at" : "the first at", x, y);
+}
+
 Image::Image(int width, int height) : width_(width), height_(height) {
   if (width < 1) throw Error(ErrorCode::invalid_argument, "a picture's width must be at least 1", "width");
   if (height < 1) throw Error(ErrorCode::invalid_argument, "a picture's height must be at least 1", "height");

@@ -14,6 +14,7 @@
 #include "core/image/image_limits.hpp"
 #include "core/image/module_loader.hpp"
 #include "core/image/pixel_conversion.hpp"
+#include "core/shading/not_finite.hpp"
 #include "crt/error.hpp"
 #include "crt/image.hpp"
 
@@ -90,6 +91,13 @@ Image decode_content(FileBytes content, const std::string& name) {
   Failure failure;
   const ImageFilesError error = failure.sink();
   failure.throw_if(image_files().decode(&file, &picture, &error), "read", name);
+  if (!image->display_encoded()) {  // else the file has integers
+    NotFiniteValues values = replace_not_finite(*image);
+    if (values.pixels > 0) {
+      values.file = name;
+      image->set_not_finite(std::move(values));
+    }
+  }
   return std::move(image).value();
 }
 

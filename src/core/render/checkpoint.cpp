@@ -8,6 +8,7 @@
 #include <limits>
 #include <span>
 #include <string_view>
+#include <system_error>
 #include <type_traits>
 #include <utility>
 #include <vector>
@@ -21,8 +22,8 @@ namespace {
 
 constexpr std::string_view magic = "CRT checkpoint 4 of " CRT_VERSION "\n";
 
-// In seconds. The first is to be there after 10, with the time that writing a large one takes; later on writing
-// is to take a small part of the time, whatever the size.
+// In seconds. The first is to be there after 10, with the time that writing a large one takes; later on
+// writing is to take a small part of the time, whatever the size.
 constexpr double first_break = 5;
 constexpr double shortest_break = 10;
 constexpr double break_per_writing = 20;
@@ -43,8 +44,9 @@ void add_settings(ByteHash& hash, const Settings& s) {
 }
 
 /// The light along rays through the middles of pixels that are spread over the region.
-void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress) {
-  WorkspacePool pool;
+void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress,
+               const StepRules& rules) {
+  WorkspacePool pool(rules);
   WorkspacePool::Loan work(pool);
   Tracer tracer(frame, *work, progress);
   constexpr double middle = 0.5;
@@ -77,19 +79,25 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
   trace();
 }
 
+/// Whether there is surely no file. (Where the system does not tell, reading will say why.)
+bool is_missing(const std::filesystem::path& path) {
+  std::error_code ignored;
+  return std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found;
+}
+
 }  // namespace
 
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
-                          Progress& progress) {
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress,
+                          const StepRules& rules) {
   ByteHash hash;
   add_settings(hash, frame.settings());
   add(hash, region.x, region.y, region.width, region.height, with_first_hits, frame.features().lens);
-  add_light(hash, frame, region, progress);
+  add_light(hash, frame, region, progress, rules);
   return hash.value();
 }
 
 void leave_empty_checkpoint(const std::filesystem::path& path) {
-  if (std::filesystem::exists(path)) return;
+  if (!is_missing(path)) return;
   write_state_file(path, [](StateWriter& out) { out.put_all(std::span<const char>(magic)); });
 }
 
@@ -147,7 +155,7 @@ std::string Checkpoint::take_complaint() {
 }
 
 void Checkpoint::take_up() {
-  if (std::filesystem::exists(path_)) read();
+  if (!is_missing(path_)) read();
   passes_.make_storable([&pool = pool_](Workspace& workspace) { pool.settle(workspace); });
   pool_.settle_all();
 }

@@ -12,9 +12,10 @@
 namespace crt::core {
 
 /// Tells pictures apart: a number from the settings that it takes to go on, and from the light of some
-/// samples that belong to no pixel's own.
+/// samples that belong to no pixel's own, whose rays go by `rules`.
 /// Throws Error (cancelled) if the progress says so.
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress);
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress,
+                          const StepRules& rules);
 
 /// Of a picture that nothing is known of yet: leaves a checkpoint from which any picture goes on, at its
 /// beginning, unless there is a file. Throws Error (io).

@@ -221,6 +221,7 @@ void Tracer::pass_company(std::size_t ray, Passage& passage) {
   std::vector<RayHit>& entered = work_.entered;
   entered.clear();
   const auto pass = [&](const RayHit& crossing, bool at_place) {
+    tick();
     const bool solid = data_.is_solid(crossing);
     const bool passed = solid ? data_.stay(behind, crossing.object, work_.rays).inside == crossing.entering
                               : at_place || crossing.t - hit.t <= behind.start.t_error;

@@ -50,12 +50,18 @@ void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) 
 /// Brings solids that are entered at one place into the order in which to enter them.
 template <class ExitOf>
 void sort_outermost_first(std::vector<RayHit>& entered, const ExitOf& exit_of) {
-  const auto is_outer = [&](const RayHit& a, const RayHit& b) {
-    const RayHit exit_a = exit_of(a.object);
-    const RayHit exit_b = exit_of(b.object);
-    return same_end(exit_a, exit_b) ? a.object < b.object : exit_a.t > exit_b.t;
+  if (entered.size() < 2) return;
+  struct Stretch {
+    RayHit enter;
+    RayHit exit;
   };
-  sort_by_insertion(entered, is_outer);
+  std::vector<Stretch> stretches;
+  stretches.reserve(entered.size());
+  for (const RayHit& enter : entered) stretches.push_back({enter, exit_of(enter.object)});
+  sort_by_insertion(stretches, [](const Stretch& a, const Stretch& b) {
+    return same_end(a.exit, b.exit) ? a.enter.object < b.enter.object : a.exit.t > b.exit.t;
+  });
+  for (std::size_t i = 0; i < entered.size(); ++i) entered[i] = stretches[i].enter;
 }
 
 }  // namespace crt::core

@@ -67,7 +67,8 @@ void Passes::restore(StateReader& in) {
   count_ = count;
   eighths_ = eighths;
   has_exchanged_notes_ = in.get<std::uint8_t>() != 0;
-  if (!has_exchanged_notes_ && count > frame_.settings().min_samples) in.fail();
+  const int at = frame_.settings().min_samples;
+  if (has_exchanged_notes_ ? count < at : count > at) in.fail();
   in.get_all(std::span<std::uint32_t>(measures_.samples));
   in.get_all(std::span<float>(measures_.half_widths));
   for (FirstHit& hit : measures_.first_hits) {

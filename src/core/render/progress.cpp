@@ -10,7 +10,7 @@ namespace {
 /// A share risen by this is news.
 constexpr double news = 0.01;
 /// Without news the callback is called this often, for callers who want to cancel.
-constexpr std::chrono::milliseconds longest_silence{100};
+constexpr std::chrono::milliseconds longest_silence{50};
 
 [[noreturn]] void throw_cancelled() {
   throw Error(ErrorCode::cancelled, "the render was cancelled");
@@ -55,6 +55,11 @@ void Progress::task_done() {
 void Progress::poll() {
   if (stopped_) throw_cancelled();
   if (chore_) chore_();
+  if (callback_) report(true);
+}
+
+void Progress::poll_in_ray() {
+  if (stopped_) throw_cancelled();
   if (callback_) report(true);
 }
 

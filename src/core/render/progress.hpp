@@ -34,6 +34,9 @@ class Progress {
   /// To be called often during a long task; throws like task_done().
   void poll();
 
+  /// The same from within a ray.
+  void poll_in_ray();
+
   /// Makes every thread's next call throw: the caller has cancelled, or something has gone wrong.
   void stop() { stopped_ = true; }
 

@@ -73,6 +73,8 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
       settings_(chosen_settings(options_, data.scene().settings)),
       canvas_(chosen_region(options_, settings_), settings_),
       progress_(options_.progress),
+      rules_{.most = options_.max_ray_steps == 0 ? usual_most_steps : options_.max_ray_steps,
+             .poll = [this] { progress_.poll_in_ray(); }},
       seconds_(std::move(seconds)) {
   if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
   allowed_threads(options_.threads);  // throws for a number that is none
@@ -153,7 +155,7 @@ void Rendering::put_aovs(const Frame& frame, const TaskRunner& run_tasks) {
 void Rendering::run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
                                     const TaskRunner& run_tasks, double begin) {
   const std::uint64_t picture =
-      fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs), progress_);
+      fingerprint(frame, canvas_.region(), ask_for_first_hits(options_.aovs), progress_, rules_);
   Checkpoint checkpoint(options_.checkpoint, picture, passes, canvas_, pool, seconds_, begin);
   checkpoint.take_up();
   const TaskRunner run_and_tell = [&](std::size_t count, double share_after, const auto& task) {
@@ -191,7 +193,8 @@ void Rendering::tell_of_checkpoint(const std::string& complaint) const {
 RenderStats Rendering::render_picture() {
   const double begin = seconds_();
   PassClock clock(settings_.time_budget, seconds_);
-  WorkspacePool pool;
+  WorkspacePool pool(rules_);
+  progress_.begin();
   const Frame frame = [&] {
     WorkspacePool::Loan work(pool);
     return Frame(data_, settings_, *work);
@@ -200,7 +203,6 @@ RenderStats Rendering::render_picture() {
     progress_.begin_part(count, share_after);
     run(count, pool, task);
   };
-  progress_.begin();
   int passes = 0;
   const bool by_passes = asks_for_passes(settings_, options_.passes);
   if (by_passes) {
@@ -257,6 +259,7 @@ void Rendering::run() {
 
 void Rendering::tell(const RenderStats& stats) const {
   if (!options_.log) return;
+  for (const std::string& warning : data_.warnings()) log(LogLevel::warning, warning);
   log(LogLevel::info, fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
                                   stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
   if (stats.passes > 0) {

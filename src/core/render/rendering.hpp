@@ -63,6 +63,7 @@ class Rendering {
   Settings settings_;
   Canvas canvas_;
   Progress progress_;
+  StepRules rules_;  ///< of every ray
   PassClock::Seconds seconds_;
   PixelMeasures measures_;
 };

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/render/media_order.hpp"
+#include "core/render/media_on_way.hpp"
 #include "core/render/surface_hit.hpp"
 
 namespace crt::core {
@@ -11,14 +11,16 @@ namespace crt::core {
 namespace {
 
 /// What the media along the ray absorb, between the crossings.
-class AbsorbedShare {
+class AbsorbedShare final : private MediaOnWay::Line {
  public:
   AbsorbedShare(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
-                MediaLists& lists, MediaLists::List media, Workspace& work)
-      : data_(data), ray_(ray), crossings_(crossings), lists_(lists), media_(media), work_(work) {}
+                Workspace& work)
+      : data_(data), ray_(ray), crossings_(crossings), work_(work), media_(work.media_on_way) {}
 
-  Rgb share() {
-    const std::uint32_t mark = lists_.mark();
+  /// Of a ray that starts within `media`.
+  Rgb share(const MediaLists& lists, MediaLists::List media) {
+    media_.begin(crossings_, *this);
+    for (; media != MediaLists::empty; media = lists.around(media)) media_.surround(lists.innermost(media));
     for (std::size_t begin = 0; begin < crossings_.size();) {
       std::size_t end = begin + 1;
       while (end < crossings_.size() && same_place(crossings_[begin], crossings_[end])) ++end;
@@ -27,14 +29,13 @@ class AbsorbedShare {
       begin = end;
     }
     go_on_to(ray_.t_max);
-    lists_.release(mark);
     return share_;
   }
 
  private:
   void go_on_to(double t) {
-    if (media_ != MediaLists::empty) {
-      share_ *= transmittance(data_.materials()[lists_.innermost(media_).material], t - reached_);
+    if (!media_.empty()) {
+      share_ *= transmittance(data_.materials()[media_.innermost().material], t - reached_);
     }
     reached_ = t;
   }
@@ -45,27 +46,21 @@ class AbsorbedShare {
     entered.clear();
     for (std::size_t i = begin; i < end; ++i) {
       const RayHit& crossing = crossings_[i];
+      if ((i + 1) % steps_per_look == 0) work_.rays.csg.steps.poll();
       if (!data_.is_solid(crossing)) continue;
       if (crossing.entering) {
         if (entered.size() < most_media_at_once) entered.push_back(crossing);
       } else {
-        media_ = lists_.left(media_, crossing.object);
+        media_.leave(crossing.object);
       }
     }
-    const auto exit_of = [&](std::uint32_t object) { return exit_after(end, object); };
-    sort_outermost_first(entered, exit_of);
+    sort_outermost_first(entered, [&](std::uint32_t object) { return media_.exit_of(object, end); });
     for (const RayHit& crossing : entered) {
-      const Medium medium{crossing.object, data_.hit_material(crossing)};
-      media_ = entered_in_order(lists_, media_, medium, exit_of);
+      media_.enter({crossing.object, data_.hit_material(crossing)}, end);
     }
   }
 
-  /// Where the ray's line leaves a solid, from a crossing on.
-  RayHit exit_after(std::size_t index, std::uint32_t object) const {
-    for (; index < crossings_.size(); ++index) {
-      const RayHit& crossing = crossings_[index];
-      if (crossing.object == object && !crossing.entering) return crossing;
-    }
+  RayHit exit_beyond(std::uint32_t object) const override {
     if (std::isinf(ray_.t_max)) return {};
     WorldRay beyond = ray_;
     beyond.t_min = ray_.t_max;
@@ -76,9 +71,8 @@ class AbsorbedShare {
   const PreparedData& data_;
   const WorldRay& ray_;
   std::span<const RayHit> crossings_;
-  MediaLists& lists_;
-  MediaLists::List media_;
   Workspace& work_;
+  MediaOnWay& media_;
   Rgb share_{1, 1, 1};
   double reached_ = 0;
 };
@@ -86,14 +80,14 @@ class AbsorbedShare {
 }  // namespace
 
 Rgb light_share(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
-                MediaLists& lists, MediaLists::List media, Workspace& work) {
+                const MediaLists& lists, MediaLists::List media, Workspace& work) {
   Rgb share(1);
   for (const RayHit& crossing : crossings) {
     const CrossingFilter filter = crossing_filter(data, ray, crossing, work.stats);
     share = bounded_share(share * (filter.transparency * filter.color));
     if (is_black(share)) return share;
   }
-  if (data.features().absorption) share *= AbsorbedShare(data, ray, crossings, lists, media, work).share();
+  if (data.features().absorption) share *= AbsorbedShare(data, ray, crossings, work).share(lists, media);
   return share;
 }
 

@@ -9,6 +9,6 @@ namespace crt::core {
 /// of transparent things. These tint it at each crossing, and where solids absorb (the innermost around the
 /// ray does) by the length inside. `media` are those around the ray's start, of `lists`.
 Rgb light_share(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
-                MediaLists& lists, MediaLists::List media, Workspace& work);
+                const MediaLists& lists, MediaLists::List media, Workspace& work);
 
 }  // namespace crt::core

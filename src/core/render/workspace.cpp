@@ -54,6 +54,7 @@ Workspace* WorkspacePool::take() {
   const std::lock_guard lock(mutex_);
   if (idle_.empty()) {
     all_.push_back(std::make_unique<Workspace>());
+    all_.back()->rays.csg.steps.rules = &rules_;
     idle_.reserve(all_.size());  // so that giving back never allocates
     return all_.back().get();
   }

@@ -9,7 +9,7 @@
 #include <span>
 #include <vector>
 
-#include "core/render/media.hpp"
+#include "core/render/media_on_way.hpp"
 #include "core/sampling/pixel_samples.hpp"
 #include "core/scene/prepared_data.hpp"
 #include "core/shading/rgb.hpp"
@@ -109,6 +109,7 @@ struct Workspace {
   std::vector<RayHit> crossings;
   std::vector<RayHit> entered;
   std::vector<Medium> surrounding;
+  MediaOnWay media_on_way;
   CrossingList scratch;
   SurfacePointLanes points;  ///< that are being looked up
   /// Of a tile's pixels, as long as they need not be kept.
@@ -133,6 +134,9 @@ class WorkspacePool {
     Workspace* workspace_;
   };
 
+  /// `rules` are for the rays of all of them; they must outlive the pool.
+  explicit WorkspacePool(const StepRules& rules) : rules_(rules) {}
+
   /// Sums of counts.
   struct Counts {
     RenderStats stats;
@@ -156,6 +160,7 @@ class WorkspacePool {
   Workspace* take();
   void give_back(Workspace* workspace);
 
+  const StepRules& rules_;
   mutable std::mutex mutex_;
   std::vector<std::unique_ptr<Workspace>> all_;
   std::vector<Workspace*> idle_;

@@ -43,10 +43,10 @@ double margin_of(const Bounds& total) {
   return of_extent * largest_component(extents) + of_place * total.farthest();
 }
 
-std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene) {
+std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Workers& workers) {
   std::vector<std::uint32_t> enclosed(scene.leaves.size(), nothing);
   const auto count = static_cast<std::uint32_t>(scene.objects.size());
-  for_ranges(count, items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+  for_ranges(count, items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       const SceneObject& object = scene.objects[i];
       const std::span<const Leaf> leaves = scene.leaves_of(object);
@@ -75,7 +75,8 @@ std::vector<Ball> balls_of(const Outlines& outlines) {
 
 }  // namespace
 
-Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials)
+Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials,
+                         const Workers& workers)
     : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
   Bounds total;
   std::vector<std::uint32_t> bounded;
@@ -90,17 +91,17 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
       unbounded.push_back(i);
     }
   }
-  sort_along_curve(compiled_, total, bounded);
-  bounded_ = Outlines(compiled_, bounded);
-  unbounded_ = Outlines(compiled_, unbounded);
-  enclosed_ = enclosed_objects(compiled_);
+  sort_along_curve(compiled_, total, bounded, workers);
+  bounded_ = Outlines(compiled_, bounded, workers);
+  unbounded_ = Outlines(compiled_, unbounded, workers);
+  enclosed_ = enclosed_objects(compiled_, workers);
   if (bounded.empty()) return;
   margin_ = margin_of(total);
-  apart_ = objects_apart(compiled_, materials, bounded, unbounded_, margin_);
+  apart_ = objects_apart(compiled_, materials, bounded, unbounded_, margin_, workers);
   std::vector<Bounds> boxes;
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
-  tree_ = std::make_unique<EmbreeTree>(boxes, total, balls_of(bounded_));
+  tree_ = std::make_unique<EmbreeTree>(boxes, total, balls_of(bounded_), workers.stop);
   if (boxes.size() > BoxRow::most_boxes) return;
   for (Bounds& box : boxes) box = box.grown(margin_);
   box_row_ = BoxRow(boxes);
@@ -171,11 +172,13 @@ template <class Kind>
 void Accelerator::traverse(Kind& query) const {
   for (const Outline& outline : unbounded_.list) {
     if (query.limit() <= query.ray().t_min) return;
+    query.step();
     query.test(outline.object);
   }
   if (query.limit() <= query.ray().t_min) return;
   constexpr bool from_near = false;
   visit_boxes<from_near>(query.ray(), query.limit(), [&](std::uint32_t box) {
+    query.step();
     query.test(bounded_.list[box].object);
     return query.limit();
   });

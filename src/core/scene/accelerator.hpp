@@ -23,7 +23,7 @@ namespace crt::core {
 class Accelerator {
  public:
   /// `materials` are those of the scene, which need not hold them itself.
-  Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials);
+  Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials, const Workers& workers = {});
   ~Accelerator();
   Accelerator(const Accelerator&) = delete;
   Accelerator& operator=(const Accelerator&) = delete;

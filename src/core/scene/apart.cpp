@@ -15,11 +15,6 @@ namespace {
 /// So many boxes are looked at for one object.
 constexpr int most_looks = 1024;
 
-bool lets_light_in(const Material& material) {
-  const auto* color = std::get_if<Color>(&material.color);
-  return material.transparency > 0 || color == nullptr || color->a < 1;
-}
-
 /// Boxes of objects that lie in memory as they lie in space, and boxes around every few of them, and so on.
 class BoxLevels {
  public:
@@ -77,10 +72,15 @@ bool passes_by(const Outline& plane, const OutlineAxis& axis, const Bounds& box)
 
 }  // namespace
 
+bool lets_light_in(const Material& material) {
+  const auto* color = std::get_if<Color>(&material.color);
+  return material.transparency > 0 || color == nullptr || color->a < 1;
+}
+
 std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
                                          std::span<const SharedMaterial> materials,
                                          std::span<const std::uint32_t> bounded, const Outlines& unbounded,
-                                         double margin) {
+                                         double margin, const Workers& workers) {
   const bool is_light_let_in = std::any_of(materials.begin(), materials.end(),
                                            [](const auto& material) { return lets_light_in(*material); });
   if (!is_light_let_in || bounded.empty()) return {};
@@ -104,7 +104,7 @@ std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
     }
     return !boxes.touches_other(room, index);
   };
-  for_ranges(bounded.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+  for_ranges(bounded.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t place = begin; place < end; ++place) {
       if (keeps_apart(bounded[place])) apart[bounded[place]] = static_cast<std::uint32_t>(place);
     }

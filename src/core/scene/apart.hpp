@@ -7,8 +7,12 @@
 
 #include "core/scene/compile.hpp"
 #include "core/scene/outline.hpp"
+#include "core/tasks/workers.hpp"
 
 namespace crt::core {
+
+/// Whether light may get through a surface of it somewhere, as far as its numbers tell.
+bool lets_light_in(const Material& material);
 
 /// By object: its place in `bounded` if light enters it and its box, grown by `margin`, touches no other
 /// object's, grown likewise; else nothing. `bounded` are the objects that have an end, in an order in which
@@ -17,6 +21,6 @@ namespace crt::core {
 std::vector<std::uint32_t> objects_apart(const CompiledScene& scene,
                                          std::span<const SharedMaterial> materials,
                                          std::span<const std::uint32_t> bounded, const Outlines& unbounded,
-                                         double margin);
+                                         double margin, const Workers& workers = {});
 
 }  // namespace crt::core

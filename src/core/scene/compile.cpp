@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <atomic>
 
+#include "core/scene/duplicates.hpp"
 #include "core/scene/flatten.hpp"
 #include "core/scene/surface_table.hpp"
 #include "core/tasks/parallel.hpp"
@@ -89,8 +90,8 @@ Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
 
 class Compiler {
  public:
-  Compiler(std::span<const Entity> entities, Precision precision, int threads)
-      : precision_(precision), threads_(threads), flat_(flatten(entities, precision, threads)) {
+  Compiler(std::span<const Entity> entities, Precision precision, const Workers& workers)
+      : precision_(precision), workers_(workers), flat_(flatten(entities, precision, workers)) {
     if (precision != Precision::exact) return;
     for (const Entity& entity : entities) result_.entities.push_back(entity.shared_node());
   }
@@ -106,18 +107,25 @@ class Compiler {
   void finish_objects();
 
   Precision precision_;
-  int threads_;
+  Workers workers_;
   FlatScene flat_;
   CompiledScene result_;
 };
 
 CompiledScene Compiler::compile() {
+  make_placements();
+  // They may take half of all memory, and nothing looks at them again.
+  flat_.placements = {};
+  flat_.transforms = {};
+  make_leaves();
+  make_faces();
+  if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_)) {
+    make_leaves();
+    make_faces();
+  }
   result_.materials = std::move(flat_.materials);
   result_.programs = std::move(flat_.programs);
   result_.programs.shrink_to_fit();
-  make_placements();
-  make_leaves();
-  make_faces();
   finish_programs();
   finish_objects();
   return std::move(result_);
@@ -126,7 +134,7 @@ CompiledScene Compiler::compile() {
 void Compiler::make_placements() {
   const bool exact = precision_ == Precision::exact;
   result_.placements.resize(flat_.placements.size());
-  for_ranges(flat_.placements.size(), items_for_a_thread / 4, threads_,
+  for_ranges(flat_.placements.size(), items_for_a_thread / 4, workers_,
              [&](std::size_t begin, std::size_t end) {
                for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) {
                  const TransformChain& to_world = *flat_.placements[i];
@@ -137,9 +145,10 @@ void Compiler::make_placements() {
 }
 
 void Compiler::make_leaves() {
+  result_.leaves.clear();
   result_.leaves.resize(flat_.leaves.size());
   std::atomic<std::uint64_t> shape_bytes = 0;
-  for_ranges(flat_.leaves.size(), items_for_a_thread / 4, threads_, [&](std::size_t begin, std::size_t end) {
+  for_ranges(flat_.leaves.size(), items_for_a_thread / 4, workers_, [&](std::size_t begin, std::size_t end) {
     std::uint64_t bytes = 0;
     for (std::size_t i = begin; i < end; ++i) {
       const LeafSource& source = flat_.leaves[i];
@@ -167,8 +176,8 @@ void Compiler::make_faces() {
     leaf.first_face = count;
     count += leaf.face_count;
   }
-  result_.face_surfaces.resize(count);
-  number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, threads_);
+  result_.face_surfaces.assign(count, {});
+  number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
 }
 
 void Compiler::finish_programs() {
@@ -183,23 +192,27 @@ void Compiler::finish_programs() {
     }
   }
   constexpr std::size_t programs_at_once = 64;
-  for_ranges(small.size(), programs_at_once, threads_, [&](std::size_t begin, std::size_t end) {
+  for_ranges(small.size(), programs_at_once, workers_, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) finish_program(*small[i]);
   });
 }
 
 void Compiler::finish_program(CsgProgram& program) {
   const std::span<Leaf> leaves = std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
+  workers_.poll();
   finish_nodes(program, leaves);
+  workers_.poll();
   program.paths = NodePaths(program.nodes);
+  workers_.poll();
   program.nodes.shrink_to_fit();
   program.leaf_parents.shrink_to_fit();
   program.shared_surfaces = number_shared(leaves, result_.face_surfaces);
   program.bounds = narrow_bounds(program, leaves);
+  workers_.poll();
   std::vector<Bounds> boxes;
   boxes.reserve(leaves.size());
   for (const Leaf& leaf : leaves) boxes.push_back(leaf.bounds);
-  program.tree = LeafTree(boxes, threads_);
+  program.tree = LeafTree(boxes, workers_);
   program.sketch = CsgSketch(program, leaves, result_.face_surfaces);
 }
 
@@ -216,8 +229,8 @@ void Compiler::finish_objects() {
 
 }  // namespace
 
-CompiledScene compile(std::span<const Entity> entities, Precision precision, int threads) {
-  return Compiler(entities, precision, threads).compile();
+CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers) {
+  return Compiler(entities, precision, workers).compile();
 }
 
 }  // namespace crt::core

@@ -12,6 +12,8 @@
 #include "crt/entity.hpp"
 #include "crt/settings.hpp"
 
+#include "core/tasks/workers.hpp"
+
 namespace crt::core {
 
 /// What the acceleration structure holds: a lone primitive, or a CSG object with several leaves.
@@ -44,9 +46,9 @@ struct CompiledScene {
 
 /// Flattens entities: unions at the top become objects of their own as far as their parts keep
 /// apart, transforms are composed once, materials and ids are resolved, faces that coincide get one
-/// surface. O(n log n), on up to `threads` threads (as run_tasks() has it); what comes out is always the
+/// surface. O(n log n), by as many threads as `workers` says; what comes out is always the
 /// same. Throws Error (limit) if there are more than 2^25 primitives.
 CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard,
-                      int threads = 0);
+                      const Workers& workers = {});
 
 }  // namespace crt::core

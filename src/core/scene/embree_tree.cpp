@@ -69,6 +69,24 @@ bool count_memory(void* embree_bytes, ssize_t bytes, bool /*done*/) {
   return true;
 }
 
+/// What Embree asks now and then while it builds. No exception may pass through it, so one is kept.
+struct StoppableBuild {
+  StopCheck* stop;
+  std::exception_ptr failure;
+  std::atomic_flag failed{};
+};
+
+bool may_go_on(void* stoppable_build, double /*share*/) {
+  auto& build = *static_cast<StoppableBuild*>(stoppable_build);
+  try {
+    build.stop->poll();
+    return true;
+  } catch (...) {
+    if (!build.failed.test_and_set()) build.failure = std::current_exception();
+    return false;
+  }
+}
+
 /// None if most of them are so small that floats hardly know them.
 std::vector<FloatBall> float_balls(std::span<const Ball> balls, const Vec3& center, double scale) {
   constexpr double smallest = 0x1p-12;
@@ -88,7 +106,8 @@ std::vector<FloatBall> float_balls(std::span<const Ball> balls, const Vec3& cent
 
 }  // namespace
 
-EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls) {
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls,
+                       StopCheck* stop) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
@@ -128,7 +147,11 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::
   rtcCommitGeometry(geometry);
   rtcAttachGeometry(handles->scene, geometry);
   rtcReleaseGeometry(geometry);
+  StoppableBuild stoppable{stop, nullptr};
+  if (stop != nullptr) rtcSetSceneProgressMonitorFunction(handles->scene, may_go_on, &stoppable);
   build(handles->scene, boxes.size());
+  rtcSetSceneProgressMonitorFunction(handles->scene, nullptr, nullptr);
+  if (stoppable.failure) std::rethrow_exception(stoppable.failure);
   check(handles->device);
   floats = {};
   handles->things.balls = float_balls(balls, center_, scale_);

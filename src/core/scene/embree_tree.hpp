@@ -7,6 +7,7 @@
 
 #include "core/geometry/bounds.hpp"
 #include "core/scene/ray_packet.hpp"
+#include "core/tasks/workers.hpp"
 
 namespace crt::core {
 
@@ -50,8 +51,9 @@ struct FirstBalls {
 class EmbreeTree {
  public:
   /// All boxes must be finite; `total` is the box around them. `balls` are what is in the boxes, if there is
-  /// a ball in each; else none.
-  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls);
+  /// a ball in each; else none. `stop` may stop the building.
+  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls,
+             StopCheck* stop = nullptr);
   ~EmbreeTree();
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;

@@ -15,9 +15,16 @@ namespace {
 
 constexpr std::uint64_t most_primitives = std::uint64_t{1} << 25;
 
+/// Whether a part is the one before it once more: without this a = a + a, done n times, would be 2^n parts.
+bool repeats(const CsgOperation& operation, std::size_t part) {
+  const std::size_t first = operation.op == CsgOperator::difference ? 1 : 0;
+  return part > first && operation.parts[part] == operation.parts[part - 1];
+}
+
 class Flattening {
  public:
-  Flattening(Precision precision, int threads) : exact_(precision == Precision::exact), threads_(threads) {}
+  Flattening(Precision precision, const Workers& workers)
+      : exact_(precision == Precision::exact), workers_(workers) {}
   FlatScene flatten(std::span<const Entity> entities);
 
  private:
@@ -37,7 +44,7 @@ class Flattening {
   std::uint32_t material_number(const Part& part);
 
   bool exact_;
-  int threads_;
+  Workers workers_;
   FlatScene result_;
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
@@ -86,10 +93,12 @@ void Flattening::add_entity(const Part& entity) {
   while (!open_.empty()) {
     const Part part = open_.back();
     open_.pop_back();
+    workers_.poll_at(solids_.size() + surfaces_.size());
     const CsgOperation* operation = part.operation();
     if (operation != nullptr && operation->op == CsgOperator::set_union) {
-      for (auto child = operation->parts.rbegin(); child != operation->parts.rend(); ++child) {
-        open_.push_back(part.child(*child, result_.transforms));
+      for (std::size_t i = operation->parts.size(); i-- > 0;) {
+        if (repeats(*operation, i)) continue;
+        open_.push_back(part.child(operation->parts[i], result_.transforms));
       }
     } else {
       (part.node->solid ? solids_ : surfaces_).push_back(part);
@@ -97,7 +106,7 @@ void Flattening::add_entity(const Part& entity) {
   }
   // Solids that cannot touch need not know of each other.
   std::size_t begin = 0;
-  for (const std::size_t end : group_apart(solids_, threads_)) {
+  for (const std::size_t end : group_apart(solids_, workers_)) {
     add_group(std::span<const Part>(solids_).subspan(begin, end - begin));
     begin = end;
   }
@@ -128,6 +137,7 @@ void Flattening::build_program(std::span<const Part> parts, CsgProgram& program)
   while (!stack_.empty()) {
     const Pending pending = stack_.back();
     stack_.pop_back();
+    workers_.poll_at(stack_.size());
     if (pending.part.operation() == nullptr) {
       add_leaf(pending.part, pending.complemented);
       program.leaf_parents.push_back(pending.parent);
@@ -151,6 +161,7 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
     program.nodes.push_back({.parent = pending.parent, .needed = needed, .count_outside = 0});
   }
   for (std::size_t i = operation.parts.size(); i-- > 0;) {
+    if (repeats(operation, i)) continue;
     const bool cutter = operation.op == CsgOperator::difference && i > 0;
     stack_.push_back(
         {pending.part.child(operation.parts[i], result_.transforms), node, pending.complemented != cutter});
@@ -158,6 +169,7 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
 }
 
 void Flattening::add_leaf(const Part& part, bool complemented) {
+  workers_.poll_at(result_.leaves.size());
   result_.leaves.push_back({.primitive = std::get_if<Primitive>(&part.node->content),
                             .placement = placement_number(part.to_world),
                             .material = material_number(part),
@@ -203,8 +215,8 @@ std::uint32_t Flattening::material_number(const Part& part) {
 
 }  // namespace
 
-FlatScene flatten(std::span<const Entity> entities, Precision precision, int threads) {
-  return Flattening(precision, threads).flatten(entities);
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers) {
+  return Flattening(precision, workers).flatten(entities);
 }
 
 }  // namespace crt::core

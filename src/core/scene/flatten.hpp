@@ -7,6 +7,8 @@
 #include "core/scene/compile.hpp"
 #include "core/scene/part.hpp"
 
+#include "core/tasks/workers.hpp"
+
 namespace crt::core {
 
 /// What a leaf is to be made of.
@@ -33,6 +35,6 @@ inline constexpr std::uint32_t all_children = 0xffffffffu;
 
 /// Walks through the entities without recursion, however deep they are. The entities must outlive the
 /// placements.
-FlatScene flatten(std::span<const Entity> entities, Precision precision, int threads);
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers);
 
 }  // namespace crt::core

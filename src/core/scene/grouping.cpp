@@ -34,8 +34,8 @@ constexpr int most_cuts = 64;
 
 class Grouping {
  public:
-  Grouping(const std::vector<Bounds>& bounds, int threads)
-      : bounds_(bounds), threads_(threads), extents_(bounds.size()) {
+  Grouping(const std::vector<Bounds>& bounds, const Workers& workers)
+      : bounds_(bounds), workers_(workers), extents_(bounds.size()) {
     for (std::size_t i = 0; i < extents_.size(); ++i) extents_[i].part = i;
   }
 
@@ -49,13 +49,13 @@ class Grouping {
       // Each set is cut along one axis after the other until no axis has cut it.
       if (set.size() == 1 || set.axes_without_gap == 3 || set.cuts == most_cuts) {
         const std::span<Extent> group = extents_of(set);
-        sort_in_parallel(group, threads_, [](const Extent& a, const Extent& b) { return a.part < b.part; });
+        sort_in_parallel(group, workers_, [](const Extent& a, const Extent& b) { return a.part < b.part; });
         result.emplace_back(group);
       } else {
         cut_at_gaps(set, open);
       }
     }
-    sort_in_parallel(std::span(result), threads_,
+    sort_in_parallel(std::span(result), workers_,
                      [](const auto& a, const auto& b) { return a.front().part < b.front().part; });
     return result;
   }
@@ -68,13 +68,13 @@ class Grouping {
   /// Cuts a set wherever there is a gap between boxes along its axis.
   void cut_at_gaps(const PartSet& set, std::vector<PartSet>& pieces) {
     const std::span<Extent> extents = extents_of(set);
-    for_ranges(extents.size(), items_for_a_thread, threads_, [&](std::size_t begin, std::size_t end) {
+    for_ranges(extents.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
       for (Extent& extent : extents.subspan(begin, end - begin)) {
         extent.lower = bounds_[extent.part].lower[set.axis];
         extent.upper = bounds_[extent.part].upper[set.axis];
       }
     });
-    sort_in_parallel(extents, threads_, [](const Extent& a, const Extent& b) {
+    sort_in_parallel(extents, workers_, [](const Extent& a, const Extent& b) {
       return std::tie(a.lower, a.part) < std::tie(b.lower, b.part);
     });
     const std::size_t first_piece = pieces.size();
@@ -97,7 +97,7 @@ class Grouping {
   }
 
   const std::vector<Bounds>& bounds_;
-  int threads_;
+  Workers workers_;
   std::vector<Extent> extents_;
 };
 
@@ -123,13 +123,13 @@ Bounds part_bounds(const Part& part) {
   return total;
 }
 
-std::vector<std::size_t> group_apart(std::vector<Part>& parts, int threads) {
+std::vector<std::size_t> group_apart(std::vector<Part>& parts, const Workers& workers) {
   if (parts.size() < 2) return std::vector<std::size_t>(parts.size(), parts.size());
   std::vector<Bounds> bounds(parts.size());
-  for_ranges(parts.size(), items_for_a_thread / 4, threads, [&](std::size_t begin, std::size_t end) {
+  for_ranges(parts.size(), items_for_a_thread / 4, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) bounds[i] = part_bounds(parts[i]);
   });
-  Grouping grouping(bounds, threads);
+  Grouping grouping(bounds, workers);
   std::vector<Part> grouped;
   grouped.reserve(parts.size());
   std::vector<std::size_t> ends;

@@ -36,6 +36,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
   const OutlinedRay outlined(*this, ray);
   const auto is_done = [&] { return query.limit() <= ray.t_min; };
   const auto test = [&](const Outline& outline, const Outlines& outlines) {
+    query.step();
     const Judgement judgement = outlined.judge(outline, outlines, query.limit(), Kind::any_will_do);
     if (judgement == Judgement::missed) return;
     if constexpr (Kind::any_will_do) {
@@ -52,6 +53,7 @@ void Accelerator::traverse_filtered(Kind& query) const {
   for (const Outline& outline : unbounded_.list) {
     if (is_done()) break;
     if (planes_last && outline.kind == Outline::Kind::plane) {
+      query.step();
       double last = 0;
       const Judgement judgement = outlined.judge(outline, unbounded_, query.limit(), false, last);
       if (judgement != Judgement::met) continue;

@@ -20,13 +20,17 @@ template <class Kind>
 class ObjectQuery {
  public:
   ObjectQuery(const Accelerator& accelerator, const WorldRay& ray, RayWorkspace& work)
-      : accelerator_(&accelerator), ray_(&ray), work_(&work), limit_(ray.t_max) {}
+      : accelerator_(&accelerator), ray_(&ray), work_(&work), limit_(ray.t_max) {
+    work.csg.steps.begin_ray();
+  }
 
   /// Nothing at t > limit() matters any more; below t_min, the query is done.
   double limit() const { return limit_; }
   void set_limit(double limit) { limit_ = limit; }
   const WorldRay& ray() const { return *ray_; }
   RayWorkspace& work() const { return *work_; }
+  /// Is to be told of every object that the ray is tested against.
+  void step() { work_->csg.steps.step(); }
 
   void test(std::uint32_t object_index) {
     const SceneObject& object = accelerator_->object(object_index);

@@ -209,10 +209,10 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
 
 }  // namespace
 
-Outlines::Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects)
+Outlines::Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects, const Workers& workers)
     : list(objects.size()) {
   std::vector<OutlineAxis> axis_of(objects.size());
-  for_ranges(objects.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+  for_ranges(objects.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       list[i] = outline_of(scene, scene.objects[objects[i]], axis_of[i]);
       list[i].object = objects[i];

@@ -57,7 +57,7 @@ struct Outlines {
 
   /// Those of some objects, in their order; of unknown kind where there is none.
   Outlines() = default;
-  Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects);
+  Outlines(const CompiledScene& scene, std::span<const std::uint32_t> objects, const Workers& workers = {});
 
   const OutlineAxis& axis(const Outline& outline) const { return axes[outline.detail]; }
   const OutlineBox& box(const Outline& outline) const { return boxes[outline.detail]; }

@@ -81,6 +81,8 @@ class PacketTests {
   /// Returns the rays whose limits it changed.
   RayMask test(const Outline& outline, const Outlines& outlines, RayMask rays) {
     changed_ = 0;
+    if (++visits_ >= steps_per_look) [[unlikely]]
+      count_steps(rays);
     rays &= ~outlined_.left(outline);
     if (rays == 0) return 0;
     const BoxStarts starts = outlined_.box_starts(outline, outlines, rays);
@@ -135,6 +137,8 @@ class PacketTests {
   /// A plane that is met bounds what else matters.
   void limit_by(const Outline& plane, const Outlines& outlines) {
     std::array<Lanes, RayPacket::group_count> last;
+    if (++visits_ >= steps_per_look) [[unlikely]]
+      count_steps(going_);
     const RayMask met =
         outlined_.judge(plane, outlines, going_ & ~outlined_.left(plane), any_will_do, last).met;
     RayPacket::for_each_group(met, [&](std::size_t group, RayMask lanes) {
@@ -173,6 +177,7 @@ class PacketTests {
     auto query = answers_.query(ray);
     query.set_limit(before);
     use(query);
+    add_steps(ray);
     if (query.limit() == before) return;
     packet_.set_limit(ray, query.limit());
     const RayMask bit = RayMask{1} << ray;
@@ -246,6 +251,7 @@ class PacketTests {
     for_each_ray(open, [&](std::size_t ray) {
       All query = answers_.all(ray);
       query.test(outline.object);
+      add_steps(ray);
       if (query.stopped) settle(RayMask{1} << ray);
     });
     return changed_;
@@ -341,11 +347,27 @@ class PacketTests {
     return open;
   }
 
+  /// Of rays that come to one object more, after so many others that it is worth counting.
+  void count_steps(RayMask rays) {
+    std::uint64_t most = 0;
+    for_each_ray(rays, [&](std::size_t ray) { most = std::max(most, ++steps_[ray]); });
+    if (visits_ % steps_per_look == 0) answers_.work.csg.steps.look(most);
+  }
+  /// Of a ray those that it has taken within an object.
+  void add_steps(std::size_t ray) {
+    const RaySteps& steps = answers_.work.csg.steps;
+    if (steps.taken() < steps_per_look) return;
+    steps_[ray] += steps.taken();
+    steps.look(steps_[ray]);
+  }
+
   RayPacket& packet_;
   OutlinedPacket outlined_;
   RayMask going_;
   RayMask changed_ = 0;
   Answers& answers_;
+  std::uint64_t visits_ = 0;
+  std::array<std::uint64_t, packet_size> steps_{};
 };
 
 }  // namespace crt::core

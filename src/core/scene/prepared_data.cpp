@@ -47,11 +47,11 @@ struct PreparedData::Geometry {
   Accelerator accelerator;
   std::vector<std::uint32_t> entity_ids;  ///< of leaves: users' queries ask for nothing else there
 
-  Geometry(const Scene& scene, CompiledScene compiled)
+  Geometry(const Scene& scene, CompiledScene compiled, const Workers& workers)
       : precision(scene.settings.precision),
         materials(std::move(compiled.materials)),
         has_csg(!compiled.programs.empty()),
-        accelerator(std::move(compiled), materials) {
+        accelerator(std::move(compiled), materials, workers) {
     entities.reserve(scene.entities.size());
     for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
     entity_ids.reserve(accelerator.compiled().leaves.size());
@@ -65,7 +65,7 @@ struct PreparedData::Geometry {
   }
 };
 
-PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
+PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, const Workers& workers)
     : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
@@ -78,13 +78,17 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier)
   if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
     geometry_ = earlier->geometry_;
   } else {
-    geometry_ = std::make_shared<const Geometry>(scene, compile(scene.entities, scene.settings.precision));
+    geometry_ = std::make_shared<const Geometry>(
+        scene, compile(scene.entities, scene.settings.precision, workers), workers);
   }
   accelerator_ = &geometry_->accelerator;
   leaves_ = accelerator_->compiled().leaves;
   face_surfaces_ = accelerator_->compiled().face_surfaces;
   entity_ids_ = geometry_->entity_ids;
-  for (const SharedMaterial& material : geometry_->materials) materials_.emplace_back(material, textures_);
+  for (const SharedMaterial& material : geometry_->materials) {
+    workers.poll();
+    materials_.emplace_back(material, textures_);
+  }
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
   background_ = std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
   textures_.settle();
@@ -238,14 +242,20 @@ MemoryUse PreparedScene::memory() const {
   return data_->memory();
 }
 
-PreparedScene prepare(const Scene& scene) {
+PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
   const core::FloatEnvironment ieee;
-  return PreparedScene(std::make_shared<const core::PreparedData>(scene));
+  core::StopCheck stop(options.go_on, "preparing the scene");
+  const core::Workers workers(0, options.go_on ? &stop : nullptr);
+  const core::PreparedData* earlier = options.earlier == nullptr ? nullptr : &options.earlier->data();
+  return PreparedScene(std::make_shared<const core::PreparedData>(scene, earlier, workers));
+}
+
+PreparedScene prepare(const Scene& scene) {
+  return prepare(scene, PrepareOptions{});
 }
 
 PreparedScene prepare(const Scene& scene, const PreparedScene& earlier) {
-  const core::FloatEnvironment ieee;
-  return PreparedScene(std::make_shared<const core::PreparedData>(scene, &earlier.data()));
+  return prepare(scene, PrepareOptions{.earlier = &earlier});
 }
 
 }  // namespace crt

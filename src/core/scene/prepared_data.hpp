@@ -17,6 +17,7 @@
 #include "core/scene/ray_packet.hpp"
 #include "core/shading/prepared_background.hpp"
 #include "core/shading/prepared_material.hpp"
+#include "core/tasks/workers.hpp"
 #include "crt/scene.hpp"
 #include "crt/stats.hpp"
 
@@ -117,7 +118,8 @@ struct LightWays {
 class PreparedData {
  public:
   /// Takes over of `earlier`, if there is one, what does not depend on what has changed since.
-  explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr);
+  explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr,
+                        const Workers& workers = {});
   ~PreparedData();
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;
@@ -243,6 +245,8 @@ class PreparedData {
   const Scene& scene() const { return scene_; }
   double prepare_seconds() const { return prepare_seconds_; }
   MemoryUse memory() const;
+  /// What the user should know of the scene, a line each.
+  std::vector<std::string> warnings() const { return textures_.warnings(); }
   /// Whether what rays meet was made once for both.
   bool shares_geometry_with(const PreparedData& other) const { return geometry_ == other.geometry_; }
 

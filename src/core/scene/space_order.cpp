@@ -59,15 +59,16 @@ struct Place {
 
 }  // namespace
 
-void sort_along_curve(const CompiledScene& scene, const Bounds& total, std::span<std::uint32_t> objects) {
+void sort_along_curve(const CompiledScene& scene, const Bounds& total, std::span<std::uint32_t> objects,
+                      const Workers& workers) {
   const Curve curve(total);
   std::vector<Place> places(objects.size());
-  for_ranges(objects.size(), items_for_a_thread, 0, [&](std::size_t begin, std::size_t end) {
+  for_ranges(objects.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
       places[i] = {curve.place(scene.objects[objects[i]].bounds), objects[i]};
     }
   });
-  sort_in_parallel(std::span(places), 0, [](const Place& a, const Place& b) {
+  sort_in_parallel(std::span(places), workers, [](const Place& a, const Place& b) {
     return std::tie(a.place, a.object) < std::tie(b.place, b.object);
   });
   for (std::size_t i = 0; i < places.size(); ++i) objects[i] = places[i].object;

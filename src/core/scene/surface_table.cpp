@@ -113,18 +113,18 @@ struct HashedFace {
 class Numbering {
  public:
   Numbering(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
-            std::span<FaceSurface> faces)
-      : leaves_(leaves), programs_(programs), faces_(faces), hashed_(faces.size()) {}
+            std::span<FaceSurface> faces, const Workers& workers)
+      : leaves_(leaves), programs_(programs), faces_(faces), workers_(workers), hashed_(faces.size()) {}
 
-  void run(int threads) {
-    for_ranges(leaves_.size(), items_for_a_thread, threads, [&](std::size_t begin, std::size_t end) {
+  void run() {
+    for_ranges(leaves_.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
       for (std::size_t leaf = begin; leaf < end; ++leaf) hash_faces(static_cast<std::uint32_t>(leaf));
     });
-    sort_in_parallel(std::span(hashed_), threads, [](const HashedFace& a, const HashedFace& b) {
+    sort_in_parallel(std::span(hashed_), workers_, [](const HashedFace& a, const HashedFace& b) {
       return std::tie(a.hash, a.face) < std::tie(b.hash, b.face);
     });
     // A range has the runs of equal hashes that begin in it.
-    for_ranges(hashed_.size(), items_for_a_thread, threads, [&](std::size_t begin, std::size_t end) {
+    for_ranges(hashed_.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
       while (begin > 0 && begin < end && hashed_[begin].hash == hashed_[begin - 1].hash) ++begin;
       while (begin < end) {
         const std::size_t first = begin;
@@ -152,7 +152,10 @@ class Numbering {
   /// Equal hashes are nearly always those of equal surfaces, but only their keys say so.
   void number_equal_hashes(std::span<const HashedFace> faces) {
     if (faces.size() == 1) return;
-    const auto key_of = [&](const HashedFace& hashed) { return surface_of(hashed.leaf, hashed.face).key; };
+    const auto key_of = [&](const HashedFace& hashed) {
+      workers_.poll_at(hashed.face);
+      return surface_of(hashed.leaf, hashed.face).key;
+    };
     const CanonicalSurface::Key first_key = key_of(faces[0]);
     if (std::all_of(faces.begin(), faces.end(),
                     [&](const HashedFace& face) { return key_of(face) == first_key; })) {
@@ -216,6 +219,7 @@ class Numbering {
   std::span<const Leaf> leaves_;
   std::span<const std::uint32_t> programs_;
   std::span<FaceSurface> faces_;
+  Workers workers_;
   std::vector<HashedFace> hashed_;
 };
 
@@ -266,8 +270,8 @@ std::uint64_t CanonicalSurface::hash() const {
 }
 
 void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
-                     std::span<FaceSurface> faces, int threads) {
-  Numbering(leaves, programs, faces).run(threads);
+                     std::span<FaceSurface> faces, const Workers& workers) {
+  Numbering(leaves, programs, faces, workers).run();
 }
 
 }  // namespace crt::core

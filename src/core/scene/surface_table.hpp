@@ -9,6 +9,8 @@
 #include "core/csg/program.hpp"
 #include "core/geometry/surface.hpp"
 
+#include "core/tasks/workers.hpp"
+
 namespace crt::core {
 
 /// A surface in a canonical form in the world: surfaces are equal if their forms are, bit for bit. Opposite
@@ -29,9 +31,9 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
 /// so on. A surface is called by the number of the first face on it. Where several faces of one program are
 /// on it, their `shared` is the number of the first of those. `programs` has the program of each leaf, or
 /// no_program. In the exact tier surfaces whose canonical forms are equal are one only if they are so without
-/// any rounding. O(n log n), on up to `threads` threads (as run_tasks() has it).
+/// any rounding. O(n log n), by as many threads as `workers` says.
 void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
-                     std::span<FaceSurface> faces, int threads);
+                     std::span<FaceSurface> faces, const Workers& workers);
 
 inline constexpr std::uint32_t no_program = 0xffffffffu;
 

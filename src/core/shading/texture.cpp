@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "core/math/power.hpp"
+#include "core/shading/not_finite.hpp"
 #include "core/shading/rgb.hpp"
 
 namespace crt::core {
@@ -60,7 +61,15 @@ Color straight(const Color& premultiplied) {
 
 }  // namespace
 
-Texture::Texture(std::shared_ptr<const Image> image, double gamma) : image_(std::move(image)) {
+Texture::Texture(std::shared_ptr<const Image> image, double gamma)
+    : image_(std::move(image)), not_finite_(image_->not_finite()) {
+  if (NotFiniteValues values = find_not_finite(*image_); values.pixels > 0) {
+    auto finite = std::make_shared<Image>(*image_);
+    replace_not_finite(*finite);
+    image_ = std::move(finite);
+    not_finite_ = std::move(values);
+    own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
+  }
   if (image_->display_encoded() && gamma != 1) {
     image_ = to_linear_light(*image_, gamma);
     own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
@@ -91,6 +100,15 @@ std::uint64_t TexturePool::bytes() const {
   std::uint64_t bytes = 0;
   for (const auto& [image, texture] : textures_) bytes += texture->bytes();
   return bytes;
+}
+
+std::vector<std::string> TexturePool::warnings() const {
+  std::vector<std::string> warnings;
+  for (const auto& [image, texture] : textures_) {
+    if (texture->not_finite().pixels > 0) warnings.push_back(texture->not_finite().message());
+  }
+  std::sort(warnings.begin(), warnings.end());
+  return warnings;
 }
 
 std::shared_ptr<const Texture> TexturePool::get(const std::shared_ptr<const Image>& image) {

@@ -4,6 +4,8 @@
 #include <cstdint>
 #include <map>
 #include <memory>
+#include <string>
+#include <vector>
 
 #include "crt/image.hpp"
 
@@ -12,8 +14,9 @@ namespace crt::core {
 /// What a lookup between texels does where the picture ends.
 enum class TextureWrap { repeat, clamp };
 
-/// A picture in linear light. One that is display-encoded is raised to the given gamma, once, into a
-/// copy; any other is shared as it is.
+/// A picture in linear light, of finite values. One that is display-encoded is raised to the given gamma,
+/// once, into a copy, and one with values that are not finite gets 0 there, likewise; any other is shared as
+/// it is.
 class Texture {
  public:
   /// `image` must not be null.
@@ -24,6 +27,9 @@ class Texture {
 
   /// Of memory, beside the picture as it was given.
   std::uint64_t bytes() const { return sizeof *this + own_bytes_; }
+
+  /// What in the picture, or in the file it is from, is not finite and counts as 0; for the user to know.
+  const NotFiniteValues& not_finite() const { return not_finite_; }
 
   /// Whether every texel covers fully.
   bool opaque() const { return opaque_; }
@@ -37,6 +43,7 @@ class Texture {
 
  private:
   std::shared_ptr<const Image> image_;
+  NotFiniteValues not_finite_;
   std::uint64_t own_bytes_ = 0;
   bool opaque_ = true;
   double brightest_ = 0;
@@ -52,6 +59,9 @@ class TexturePool {
   TexturePool(double gamma, const TexturePool* earlier)
       : gamma_(gamma), earlier_(earlier != nullptr && earlier->gamma_ == gamma ? earlier : nullptr) {}
   void settle() { earlier_ = nullptr; }
+
+  /// What NotFiniteValues::message() says of its textures; in no order that depends on anything else.
+  std::vector<std::string> warnings() const;
 
   /// Of memory, of all its textures.
   std::uint64_t bytes() const;

@@ -12,7 +12,7 @@
 namespace crt::core {
 
 /// Of what follows; a module of another version is refused.
-inline constexpr int image_files_version = 2;
+inline constexpr int image_files_version = 3;
 
 /// A name and a text that go into a file beside the pixels. Both end in 0.
 struct ImageFileText {
@@ -78,7 +78,7 @@ struct ImageFilesRequest {
 
 struct ImageFiles {
   int version;
-  /// Gives RGBA with premultiplied alpha; floats that are not finite become 0.
+  /// Gives RGBA with premultiplied alpha; floats that are not finite stay as they are.
   ImageFilesStatus (*decode)(const ImageFilesContent*, const ImageFilesPicture*, const ImageFilesError*);
   ImageFilesStatus (*encode)(const ImageFilesRequest*, const ImageFilesBytes*, const ImageFilesError*);
 };

@@ -78,17 +78,14 @@ ChannelUse channel_use(const OIIO::ImageSpec& spec) {
   return use;
 }
 
-float finite_or_zero(float value) {
-  return std::isfinite(value) ? value : 0.0f;
-}
-
-/// One pixel as the file has it to linear RGBA with premultiplied alpha.
+/// One pixel as the file has it to linear RGBA with premultiplied alpha; what is not finite stays so.
 void convert_pixel(const float* from, const ChannelUse& use, float* to) {
-  const float alpha = use.alpha < 0 ? 1.0f : std::clamp(finite_or_zero(from[use.alpha]), 0.0f, 1.0f);
+  const float given = use.alpha < 0 ? 1.0f : from[use.alpha];
+  const float alpha = std::isfinite(given) ? std::clamp(given, 0.0f, 1.0f) : given;
   const float factor = use.straight ? alpha : 1.0f;
-  to[0] = finite_or_zero(from[use.red] * factor);
-  to[1] = finite_or_zero(from[use.green] * factor);
-  to[2] = finite_or_zero(from[use.blue] * factor);
+  to[0] = from[use.red] * factor;
+  to[1] = from[use.green] * factor;
+  to[2] = from[use.blue] * factor;
   to[3] = alpha;
 }
 

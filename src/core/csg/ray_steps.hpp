@@ -1,0 +1,46 @@
+// How much one ray may do, and who may stop it while it does.
+#pragma once
+
+#include <cstdint>
+#include <functional>
+
+namespace crt::core {
+
+/// Of a ray, if nobody says otherwise: more than any picture needs, and about a second's work.
+inline constexpr std::uint64_t usual_most_steps = std::uint64_t{1} << 22;
+
+/// Steps between two looks at whether to go on: some ten microseconds.
+inline constexpr std::uint64_t steps_per_look = 1024;
+
+/// Shared by the threads of a render; does not change.
+struct StepRules {
+  std::uint64_t most = usual_most_steps;
+  std::function<void()> poll;  ///< is called often, and throws to end everything; or empty
+};
+
+/// The steps of the ray that a thread follows. A step is an object that the ray is tested against, or a leaf
+/// of a CSG object. Only rays with many steps are ever looked at.
+class RaySteps {
+ public:
+  const StepRules* rules = nullptr;  ///< none: the usual ones
+
+  void begin_ray() { taken_ = 0; }
+  std::uint64_t taken() const { return taken_; }
+
+  /// Throws Error (limit) soon after there have been too many, and what the rules' poll() throws.
+  void step() {
+    if (++taken_ % steps_per_look == 0) [[unlikely]]
+      look(taken_);
+  }
+
+  /// The same of a ray that has taken so many steps.
+  void look(std::uint64_t taken) const;
+
+  /// Of work that is not counted.
+  void poll() const;
+
+ private:
+  std::uint64_t taken_ = 0;
+};
+
+}  // namespace crt::core

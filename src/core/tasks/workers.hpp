@@ -1,0 +1,51 @@
+// Who does some work, and who may stop it.
+#pragma once
+
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <utility>
+
+namespace crt::core {
+
+/// Asks whoever waits for a long piece of work whether it is to go on. Any thread may ask.
+class StopCheck {
+ public:
+  /// `go_on` is called from one thread at a time; an empty one never stops anything. `what` names the work in
+  /// the error.
+  StopCheck(std::function<bool()> go_on, const char* what) : go_on_(std::move(go_on)), what_(what) {}
+
+  /// Throws Error (cancelled) if the answer is no, now or before. To be called often: asks now and then.
+  void poll();
+
+ private:
+  using Clock = std::chrono::steady_clock;
+
+  void ask();
+
+  std::function<bool()> go_on_;
+  const char* what_;
+  std::atomic<bool> stopped_ = false;
+  std::atomic_flag asking_;
+  Clock::time_point last_;  ///< guarded by asking_
+};
+
+/// How many threads may work, as run_tasks() has it, and who may stop them.
+struct Workers {
+  int threads = 0;
+  StopCheck* stop = nullptr;
+
+  // NOLINTNEXTLINE(google-explicit-constructor): a number of threads is enough to say
+  Workers(int most_threads = 0, StopCheck* stop_check = nullptr) : threads(most_threads), stop(stop_check) {}
+
+  void poll() const {
+    if (stop != nullptr) stop->poll();
+  }
+  /// The same of item number `index` of many that are little work each.
+  void poll_at(std::size_t index) const {
+    constexpr std::size_t items_per_poll = 4096;
+    if (index % items_per_poll == 0) poll();
+  }
+};
+
+}  // namespace crt::core
