@@ -323,7 +323,8 @@ typedef enum crt_falloff_model {
 /** How close a call the geometry settles. Both answer the same question. */
 typedef enum crt_precision {
   CRT_PRECISION_STANDARD = 0, /**< right at a silhouette the last bit is left to rounding */
-  CRT_PRECISION_EXACT         /**< hits are right, t within 0.51 ulp (tori: 1) */
+  CRT_PRECISION_EXACT         /**< hits and their order are right, t within 0.51 ulp (tori: 1); nested
+                                   transforms are their product without rounding, of up to 1024 bits */
 } crt_precision;
 
 /** How a scene is rendered. */
@@ -393,17 +394,18 @@ CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size)
 
 /** A solid ball of `radius` > 0. */
 CRT_API crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out);
-/** An axis-parallel box between any two opposite corners, which must differ in every coordinate. */
+/** An axis-parallel box between any two opposite corners, which must differ by at least 1e-100 in
+ * every coordinate. */
 CRT_API crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out);
 /** The half-space behind a plane: `normal` (any length but 0) points out of the solid. */
 CRT_API crt_status crt_plane_create(const double normal[3], const double position[3], crt_entity** out);
 /** A surface: the half of a plane on the `direction` side of the line through `position` across it. */
 CRT_API crt_status crt_half_plane_create(const double normal[3], const double position[3],
                                          const double direction[3], crt_entity** out);
-/** A solid cylinder of `radius` > 0 between the centres of its two caps, which must differ. */
+/** A solid cylinder of `radius` > 0 between the centres of its two caps, at least 1e-100 apart. */
 CRT_API crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
                                        crt_entity** out);
-/** A cone or frustum: `radius` at `from`, `radius2` (0 or more) at `to`. */
+/** A cone or frustum: `radius` at `from`, `radius2` (0 or more) at `to`, at least 1e-100 apart. */
 CRT_API crt_status crt_cone_create(const double from[3], const double to[3], double radius, double radius2,
                                    crt_entity** out);
 /** All points within `thickness` of the circle of `radius` about `center` across `axis`. */

@@ -14,7 +14,7 @@ enum class FalloffModel {
 /// How close a call the geometry settles: see docs/numerics.md. Both answer the same question.
 enum class Precision {
   standard,  ///< t within some roundings; the last bit is left to rounding right at a silhouette
-  exact,     ///< hits are right, t within 0.51 ulp (tori: 1)
+  exact,     ///< hits and their order are right, t within 0.51 ulp (tori: 1); transforms are not rounded
 };
 
 /// What a pixel is the mean of.

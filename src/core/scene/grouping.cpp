@@ -112,7 +112,8 @@ Bounds part_bounds(const Part& part) {
     open.pop_back();
     if (const auto* primitive = std::get_if<Primitive>(&next.node->content)) {
       const Bounds bounds = make_shape(*primitive)->bounds();
-      total.include(next.to_world == nullptr ? bounds : Placement(*next.to_world).bounds_to_world(bounds));
+      total.include(next.to_world == nullptr ? bounds
+                                             : Placement(next.to_world->product).bounds_to_world(bounds));
       continue;
     }
     // A difference lies within its first part, and so does an intersection.

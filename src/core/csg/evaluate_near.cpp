@@ -1,0 +1,76 @@
+// The part of CsgEvaluation about crossings of the exact tier that are so near to each other that t does not
+// tell which of them are at one place.
+#include <algorithm>
+
+#include "core/csg/evaluate.hpp"
+
+namespace crt::core {
+
+void CsgEvaluation::tell_apart_what_is_near() {
+  auto& openings = work_.openings_;
+  const auto& to_come = work_.to_come_;
+  while (!openings.empty() && is_near_next(openings.front().enter)) open_up_to(openings.front().enter);
+  if (next_crossing().place != 0) return;
+  // The second is one of the two below the first.
+  const bool has_company = (to_come.size() > 1 && is_near_next(to_come[1].t)) ||
+                           (to_come.size() > 2 && is_near_next(to_come[2].t));
+  if (has_company) gather_near();
+}
+
+bool CsgEvaluation::is_near_next(double t) const {
+  const double first = work_.to_come_.front().t;
+  return t <= first + looking_distance(first);
+}
+
+void CsgEvaluation::gather_near() {
+  auto& to_come = work_.to_come_;
+  auto& near = work_.near_;
+  auto& crossings = work_.near_crossings_;
+  near.clear();
+  crossings.clear();
+  bool is_one = true;
+  bool is_known = true;
+  double end = to_come.front().t;
+  // What one of them may be at the place of is among them, too.
+  while (true) {
+    while (!work_.openings_.empty() && work_.openings_.front().enter <= end) {
+      open_up_to(work_.openings_.front().enter);
+    }
+    if (to_come.empty() || to_come.front().t > end) break;
+    const CsgWorkspace::ToCome next = to_come.front();
+    std::pop_heap(to_come.begin(), to_come.end(), later());
+    to_come.pop_back();
+    end = std::max(end, next.t + looking_distance(next.t));
+    near.push_back(next);
+    const CsgCrossing& met = work_.met_[next.index];
+    is_known = is_known && !met.moved;
+    const NearCrossing& crossing = crossings.emplace_back(NearCrossing{.t = met.t,
+                                                                       .error = met.error,
+                                                                       .t_low = met.t_low,
+                                                                       .leaf = program_.first_leaf + met.leaf,
+                                                                       .face = met.face,
+                                                                       .surface = met.surface,
+                                                                       .root = met.root,
+                                                                       .item = next.index});
+    is_one = is_one && crossing.surface == crossings[0].surface && crossing.root == crossings[0].root;
+  }
+  if (!is_one && is_known &&
+      sort_exactly(crossings, leaves_of_scene_, face_surfaces_, ray_, work_.escalations)) {
+    near.clear();
+    for (const NearCrossing& crossing : crossings) {
+      CsgCrossing& met = work_.met_[crossing.item];
+      met.t = crossing.t;
+      met.t_low = crossing.t_low;
+      met.error = crossing.error;
+      met.place = work_.places_ + crossing.rank;
+      near.push_back({crossing.t, crossing.item});
+    }
+    work_.places_ += crossings.back().rank;
+  }
+  for (const CsgWorkspace::ToCome& crossing : near) {
+    to_come.push_back(crossing);
+    std::push_heap(to_come.begin(), to_come.end(), later());
+  }
+}
+
+}  // namespace crt::core
