@@ -180,6 +180,8 @@ std::uint32_t MediaOnWay::new_node(const Medium& medium, std::size_t index) {
   node.knows_exit = false;
   node.is_there = true;
   node.left = node.right = node.above = nothing;
+  node.least_object = medium.object;
+  node.farthest = infinity;
   return node_count_++;
 }
 
@@ -191,7 +193,6 @@ void MediaOnWay::insert_before(std::uint32_t place, std::uint32_t node) {
   if (place == innermost_) innermost_ = node;
   if (root_ == nothing) {
     root_ = node;
-    update(node);
     return;
   }
   std::uint32_t above = place == nothing ? root_ : place;
@@ -208,6 +209,10 @@ void MediaOnWay::insert_before(std::uint32_t place, std::uint32_t node) {
 }
 
 void MediaOnWay::remove(std::uint32_t node) {
+  if (node == root_ && nodes_[node].left == nothing && nodes_[node].right == nothing) {
+    root_ = innermost_ = nothing;  // as most often
+    return;
+  }
   if (node == innermost_) {
     if (nodes_[node].right != nothing) {
       for (innermost_ = nodes_[node].right; nodes_[innermost_].left != nothing;) {
