@@ -101,7 +101,7 @@ void MediaOnWay::leave(std::uint32_t object) {
   nodes_[node].is_there = false;
 }
 
-const RayHit& MediaOnWay::exit(Node& node) {
+const RayHit& MediaOnWay::known_exit(Node& node) {
   if (!node.knows_exit) {
     node.exit = exit_of(node.medium.object, node.index);
     node.knows_exit = true;
@@ -111,8 +111,8 @@ const RayHit& MediaOnWay::exit(Node& node) {
 
 bool MediaOnWay::is_inside_of(Node& inner, Node& outer) {
   if (inner.medium.object > outer.medium.object) return true;
-  const RayHit& own = exit(inner);
-  const RayHit& other = exit(outer);
+  const RayHit& own = known_exit(inner);
+  const RayHit& other = known_exit(outer);
   return own.t < other.t || same_end(own, other);
 }
 
