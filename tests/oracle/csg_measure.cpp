@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <atomic>
-#include <glm/geometric.hpp>
 #include <thread>
 
 #include "oracle/prepared_tree.hpp"
@@ -30,24 +29,6 @@ bool is_exactly(const FoundFlips& found, const TreeOracle::Flips& truth) {
                       const double error = std::abs((b.t - Ball<4>(a.t)).value());
                       return a.entering == b.entering && error <= ulp(b.t.value()) + b.t.radius();
                     });
-}
-
-/// The truth without what is shorter than the exact tier tells two places apart by (docs/numerics.md): some
-/// 100 bits of numbers of the scene's size, ten or so.
-TreeOracle::Flips without_slivers(const TreeOracle::Flips& truth, const GridRay& ray) {
-  constexpr double longest_sliver = 0x1p-90 * 16;
-  TreeOracle::Flips result{truth.inside_before, {}};
-  for (const TreeOracle::Flip& flip : truth.flips) {
-    const bool sliver =
-        !result.flips.empty() &&
-        std::abs((flip.t - result.flips.back().t).value()) * glm::length(ray.direction) < longest_sliver;
-    if (sliver) {
-      result.flips.pop_back();
-    } else {
-      result.flips.push_back(flip);
-    }
-  }
-  return result;
 }
 
 template <class FlipList, class Time>
@@ -109,12 +90,8 @@ void measure_tree(std::uint64_t number, std::uint64_t rays, CsgRecord& record) {
     }
     const FoundFlips fine = exact.flips(ray);
     if (is_exactly(fine, truth)) continue;
-    if (is_exactly(fine, without_slivers(truth, ray))) {
-      ++record.exact.close_calls;
-    } else {
-      ++record.exact.wrong;
-      fail("exact", i);
-    }
+    ++record.exact.wrong;
+    fail("exact", i);
   }
   record.exact.escalations += exact.escalations();
 }

@@ -4,6 +4,7 @@
 
 #include <glm/common.hpp>
 #include <glm/geometric.hpp>
+#include <span>
 
 #include "crt/transform.hpp"
 #include "oracle/number_vec.hpp"
@@ -49,10 +50,12 @@ Polynomial<Number> square(const Polynomial<Number>& a) {
 /// A line in the space of a primitive, without rounding, with t = shift + x: x is 0 near the primitive.
 template <class Number>
 struct ExactLine {
-  /// The primitive is where `to_world` has it; its inverse is taken by Cramer's rule.
+  /// The primitive is where `to_world` has it, and that where those around it have it, the innermost first;
+  /// inverses are taken by Cramer's rule.
   ExactLine(const Vec3& world_origin, const Vec3& world_direction, const Transform& to_world,
-            const Vec3& near)
+            const Vec3& near, std::span<const Transform> around = {})
       : origin(exactly<Number>(world_origin)), direction(exactly<Number>(world_direction)) {
+    for (std::size_t i = around.size(); i-- > 0;) enter(around[i]);
     if (to_world != Transform{}) enter(to_world);
     const Vec3 d = rounded(direction);
     move_to(-glm::dot(rounded(origin - exactly<Number>(near)), d) / glm::dot(d, d));

@@ -187,7 +187,7 @@ TrueLine solve(const Question& question, FirstTry first, bool anywhere) {
   return until_certain(
       [&]<class Number>(Using<Number>) {
         const ExactLine<Number> line(question.origin, question.direction, question.to_world,
-                                     center_of(question.primitive));
+                                     center_of(question.primitive), question.around);
         return std::visit(
             [&]<class P>(const P& primitive) {
               const Solution<Number, P> solution(question.primitive, primitive, line);

@@ -38,6 +38,7 @@ struct Question {
   Vec3 origin{0};
   Vec3 direction{0};
   Transform to_world{};
+  std::vector<Transform> around{};  ///< what that is in, the innermost first
 };
 
 /// What of the line is inside the primitive, or for a surface where it crosses.

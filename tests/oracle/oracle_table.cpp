@@ -222,8 +222,9 @@ std::string page(const std::vector<Measured>& all, const std::vector<Record>& pl
       "scaled and moved on it, with rays through its corners, along its edges and within its planes, against "
       "membership by exact roots. Of all faces {:.0f} % lie on a surface that another solid of the tree has "
       "too. "
-      "*wrong* is as above; a close call of the exact tier is a pair of crossings that 100 bits do not tell "
-      "apart.\n\n| | trees | rays | crossings | wrong | close calls | escalations "
+      "*wrong* is as above. The exact tier has no close calls: crossings are in the order in which they are, "
+      "however "
+      "near to each other.\n\n| | trees | rays | crossings | wrong | close calls | escalations "
       "|\n|---|---|---|---|---|---|---|\n",
       100 * share(csg.coincident_faces, csg.faces));
   return result + csg_rows(csg);
