@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "crt/error.hpp"
 #include "geometry/oracle.hpp"
 
 using namespace crt;

@@ -2,8 +2,10 @@
 // wrong, by name, and what must be true of any.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
+#include <vector>
 
 #include "core/geometry/frustum.hpp"
 #include "oracle/measure.hpp"
@@ -204,31 +206,51 @@ TEST_CASE("a ray that starts on a side next to a ruling is inside for as long as
   }
 }
 
+namespace {
+
+/// What first_entry() says of a ray, after a comparison with all crossings.
+core::FrustumEntry<double> checked_entry(const TestRay& ray) {
+  const auto shape = core::make_shape(ray.primitive);
+  const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
+  const auto entry = static_cast<const core::FrustumShape&>(*shape).first_entry<double>(object_ray);
+  core::CrossingList found;
+  const bool inside_before = shape->crossings(object_ray, found);
+  if (entry.missed) REQUIRE(found.empty());
+  if (entry.missed || entry.known) REQUIRE_FALSE(inside_before);
+  if (entry.known) {
+    REQUIRE(!found.empty());
+    REQUIRE(found[0].t == entry.t);
+    REQUIRE(found[0].error == entry.error);
+    REQUIRE(found[0].face == core::FrustumShape::side_face);
+  }
+  return entry;
+}
+
+}  // namespace
+
 TEST_CASE("where a ray plainly enters a side, or misses the solid, is told as all its crossings are") {
   for (const std::size_t kind : {cylinder_kind, cone_kind}) {
     std::uint64_t known = 0;
     std::uint64_t missed = 0;
     for (std::uint64_t i = 0; i < rays; ++i) {
-      const TestRay ray = make_ray(kind, i);
-      const auto shape = core::make_shape(ray.primitive);
-      const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
-      const auto entry = static_cast<const core::FrustumShape&>(*shape).first_entry<double>(object_ray);
-      core::CrossingList found;
-      const bool inside_before = shape->crossings(object_ray, found);
       CAPTURE(kind);
       CAPTURE(i);
-      if (entry.missed) REQUIRE(found.empty());
-      if (entry.missed || entry.known) REQUIRE_FALSE(inside_before);
-      if (entry.known) {
-        REQUIRE(!found.empty());
-        REQUIRE(found[0].t == entry.t);
-        REQUIRE(found[0].error == entry.error);
-        REQUIRE(found[0].face == core::FrustumShape::side_face);
-      }
+      const auto entry = checked_entry(make_ray(kind, i));
       known += entry.known ? 1 : 0;
       missed += entry.missed ? 1 : 0;
     }
     CHECK(known > rays / 10);
     CHECK(missed > rays / 20);
   }
+}
+
+TEST_CASE("a ray is not said to enter a cone from so far away that t does not tell where it leaves") {
+  const Cone cone{.from = {0x1.459324afccdf7p+1, -0x1.58f98780a6457p+1, -0x1.2c146990db89dp+1},
+                  .to = {0x1.5a36ae8421773p+1, -0x1.58f98780a6457p+1, -0x1.2c146990db89dp+1},
+                  .radius = 0x1.ead260ced97ecp-20,
+                  .radius2 = 0x1.0841905d7058dp-39};
+  const TestRay ray{.primitive = cone,
+                    .origin = {0x1.24065a816a2b1p+32, 0x1.2c0b0b6dd69fcp+24, 0x1.f31c3c9519bcep+23},
+                    .direction = {-0x1.24065a7eb5c0ap+32, -0x1.2c0b0e1fc9aecp+24, -0x1.f31c41456b632p+23}};
+  CHECK_FALSE(checked_entry(ray).known);
 }

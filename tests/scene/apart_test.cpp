@@ -238,7 +238,8 @@ TEST_CASE("transparent solids keep apart whose boxes do not touch") {
   CHECK_FALSE(keeps_apart({ball, next_to(1e-9)}));
   CHECK_FALSE(keeps_apart({ball, next_to(-0.1)}));
   CHECK_FALSE(keeps_apart({ball, Sphere{.radius = 0.1}}));
-  CHECK_FALSE(keeps_apart({ball, ball}));
+  CHECK_FALSE(keeps_apart({ball, ball.transformed({.translation = {0, 1e-9, 0}})}));
+  CHECK(keeps_apart({ball, ball}));  // which are one
   CHECK(keeps_apart({ball, above(0)}));
   CHECK_FALSE(keeps_apart({ball, above(-0.5)}));
   CHECK(keeps_apart({ball, Plane{.normal = {0, 1, 0}, .position = {0, -1.1, 0}}}));

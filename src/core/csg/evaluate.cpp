@@ -87,6 +87,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     work_.shared_.resize(most_roots * program.shared_surfaces);
   }
   work_.openings_.clear();
+  work_.to_open_.clear();  // holds something where the ray before was stopped
   work_.met_.clear();
   work_.to_come_.clear();
   work_.places_ = 0;

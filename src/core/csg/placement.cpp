@@ -1,5 +1,6 @@
 #include "core/csg/placement.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -65,6 +66,20 @@ Placement::Placement(const TransformChain& to_world) {
 
 DyadicTransform Placement::exactly() const {
   return more_ ? exact_product(*more_->chain) : core::exactly(to_world_);
+}
+
+bool Placement::has_map_of(const Placement& other) const {
+  if (this == &other) return true;
+  if (to_world_ != other.to_world_ || is_more_than_doubles() != other.is_more_than_doubles()) return false;
+  if (!more_) return true;
+  const DyadicTransform one = exactly();
+  const DyadicTransform another = other.exactly();
+  const auto are_equal = [](const DyadicVector& a, const DyadicVector& b) {
+    const auto& [x, y, z] = a - b;
+    return x.sign() == 0 && y.sign() == 0 && z.sign() == 0;
+  };
+  return are_equal(one.translation, another.translation) &&
+         std::ranges::equal(one.rows, another.rows, are_equal);
 }
 
 void Placement::take_inverse(const PreciseTransform& inverse) {

@@ -30,6 +30,8 @@ class Placement {
   /// The map itself.
   DyadicTransform exactly() const;
   bool is_more_than_doubles() const { return more_ != nullptr; }
+  /// Whether both are the same map, without any rounding.
+  bool has_map_of(const Placement& other) const;
 
   /// The ray origin + t * direction in object space, with the same t.
   ObjectRay to_object(const Vec3& origin, const Vec3& direction) const {

@@ -52,8 +52,11 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   // So squarely that no rounding takes one root near the other.
   constexpr double squarely = 0x1p-10;
   const Real most_reach = wide_radius_ + 2.0 * largest;
-  const auto is_square = both(rate > squarely * ray_speed, root / side.a * ray_speed > squarely * most_reach);
-  entry.known = both(meets, both(is_square, side.is_straight(step, at_root, most_reach)));
+  const Real half_chord = root / side.a;
+  const auto is_square = both(rate > squarely * ray_speed, half_chord * ray_speed > squarely * most_reach);
+  // And so that t tells where it enters from where it leaves.
+  const auto is_long = line.to_t_length(half_chord) > 4.0 * rounding_of(t);
+  entry.known = both(both(meets, is_long), both(is_square, side.is_straight(step, at_root, most_reach)));
   return entry;
 }
 template FrustumEntry<double> FrustumShape::first_entry<double>(const PlainRay<double>&) const;

@@ -101,7 +101,7 @@ void MediaOnWay::leave(std::uint32_t object) {
   nodes_[node].is_there = false;
 }
 
-const RayHit& MediaOnWay::exit(Node& node) {
+const RayHit& MediaOnWay::known_exit(Node& node) {
   if (!node.knows_exit) {
     node.exit = exit_of(node.medium.object, node.index);
     node.knows_exit = true;
@@ -111,8 +111,8 @@ const RayHit& MediaOnWay::exit(Node& node) {
 
 bool MediaOnWay::is_inside_of(Node& inner, Node& outer) {
   if (inner.medium.object > outer.medium.object) return true;
-  const RayHit& own = exit(inner);
-  const RayHit& other = exit(outer);
+  const RayHit& own = known_exit(inner);
+  const RayHit& other = known_exit(outer);
   return own.t < other.t || same_end(own, other);
 }
 
@@ -180,6 +180,8 @@ std::uint32_t MediaOnWay::new_node(const Medium& medium, std::size_t index) {
   node.knows_exit = false;
   node.is_there = true;
   node.left = node.right = node.above = nothing;
+  node.least_object = medium.object;
+  node.farthest = infinity;
   return node_count_++;
 }
 
@@ -191,7 +193,6 @@ void MediaOnWay::insert_before(std::uint32_t place, std::uint32_t node) {
   if (place == innermost_) innermost_ = node;
   if (root_ == nothing) {
     root_ = node;
-    update(node);
     return;
   }
   std::uint32_t above = place == nothing ? root_ : place;
@@ -208,6 +209,10 @@ void MediaOnWay::insert_before(std::uint32_t place, std::uint32_t node) {
 }
 
 void MediaOnWay::remove(std::uint32_t node) {
+  if (node == root_ && nodes_[node].left == nothing && nodes_[node].right == nothing) {
+    root_ = innermost_ = nothing;  // as most often
+    return;
+  }
   if (node == innermost_) {
     if (nodes_[node].right != nothing) {
       for (innermost_ = nodes_[node].right; nodes_[innermost_].left != nothing;) {

@@ -69,7 +69,7 @@ class MediaOnWay {
   bool is_inside_of(Node& inner, Node& outer);
   /// The innermost node of a subtree that `entering` is inside of.
   std::uint32_t first_around(std::uint32_t subtree, Node& entering);
-  const RayHit& exit(Node& node);
+  const RayHit& known_exit(Node& node);
   /// One that is in no tree yet. (What is known of its exit means nothing.)
   std::uint32_t new_node(const Medium& medium, std::size_t index);
   void insert_before(std::uint32_t place, std::uint32_t node);

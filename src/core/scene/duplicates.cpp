@@ -142,10 +142,8 @@ std::uint64_t Duplicates::hash(std::uint32_t leaf) const {
 bool Duplicates::equal(std::uint32_t a, std::uint32_t b) const {
   const Primitive& one = *scene_.leaves[a].primitive;
   const Primitive& other = *scene_.leaves[b].primitive;
-  const Placement& place = *leaves_[a].placement;
-  const Placement& other_place = *leaves_[b].placement;
   return one.index() == other.index() && leaves_[a].complemented == leaves_[b].complemented &&
-         (&place == &other_place || place.to_world() == other_place.to_world()) &&
+         leaves_[a].placement->has_map_of(*leaves_[b].placement) &&
          (&one == &other || std::ranges::equal(description_of(one), description_of(other)));
 }
 
