@@ -2,9 +2,9 @@
 // checkpoint may be made in between, and a render may end.
 #pragma once
 
-#include <algorithm>
 #include <array>
 #include <span>
+#include <utility>
 
 #include "core/render/pixel.hpp"
 #include "core/render/tiles.hpp"
@@ -19,31 +19,32 @@ class PixelsAside {
   /// they have some already.
   PixelsAside(std::span<PixelPlace> places, bool have_samples, Workspace& work) : places_(places) {
     work.pixel_samples.resize(Tiles::most_pixels);
-    std::copy(places.begin(), places.end(), originals_.begin());
+    work.first_hits.resize(Tiles::most_pixels);
     for (std::size_t i = 0; i < places.size(); ++i) {
       PixelPlace& place = places[i];
-      if (have_samples) work.pixel_samples[i] = *place.samples;
-      place.samples = &work.pixel_samples[i];
+      samples_[i] = std::exchange(place.samples, &work.pixel_samples[i]);
+      if (have_samples) *place.samples = *samples_[i];
+      first_hits_[i] = place.first_hits;
       if (place.first_hits == nullptr) continue;
-      first_hits_[i] = *place.first_hits;
-      place.first_hits = &first_hits_[i];
+      place.first_hits = &work.first_hits[i];
+      *place.first_hits = *first_hits_[i];
     }
   }
 
   /// Puts the copies where the originals are, and the places as they were.
   void put_back() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
-      const PixelPlace& original = originals_[i];
-      *original.samples = *places_[i].samples;
-      if (original.first_hits != nullptr) *original.first_hits = first_hits_[i];
-      places_[i] = original;
+      PixelPlace& place = places_[i];
+      *samples_[i] = *std::exchange(place.samples, samples_[i]);
+      if (first_hits_[i] != nullptr) *first_hits_[i] = *std::exchange(place.first_hits, first_hits_[i]);
     }
   }
 
  private:
   std::span<PixelPlace> places_;
-  std::array<PixelPlace, Tiles::most_pixels> originals_;
-  std::array<FirstHit, Tiles::most_pixels> first_hits_;
+  // The originals:
+  std::array<PixelSamples*, Tiles::most_pixels> samples_;
+  std::array<FirstHit*, Tiles::most_pixels> first_hits_;
 };
 
 }  // namespace crt::core

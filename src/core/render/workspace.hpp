@@ -9,6 +9,7 @@
 #include <span>
 #include <vector>
 
+#include "core/render/first_hit.hpp"
 #include "core/render/media_on_way.hpp"
 #include "core/sampling/pixel_samples.hpp"
 #include "core/scene/prepared_data.hpp"
@@ -112,8 +113,9 @@ struct Workspace {
   MediaOnWay media_on_way;
   CrossingList scratch;
   SurfacePointLanes points;  ///< that are being looked up
-  /// Of a tile's pixels, as long as they need not be kept.
+  // Of a tile's pixels, as long as they need not be kept, or are not whole.
   std::vector<PixelSamples> pixel_samples;
+  std::vector<FirstHit> first_hits;
 };
 
 /// The workspaces of a render: as many as there ever are tasks running at once.
