@@ -54,9 +54,8 @@ void sort_stably(std::vector<RayHit>& crossings) {
 
 /// Of crossings at one place, those of one object side by side: what is left comes before what is entered. An
 /// object that has several takes its turns: it leaves or enters, then enters or leaves, and so on.
-void sort_one_place(std::span<RayHit> crossings) {
-  std::vector<std::pair<std::uint32_t, RayHit>> turns;
-  turns.reserve(crossings.size());
+void sort_one_place(std::span<RayHit> crossings, std::vector<std::pair<std::uint32_t, RayHit>>& turns) {
+  turns.clear();
   for (const RayHit& crossing : crossings) {
     const bool goes_on = !turns.empty() && turns.back().second.object == crossing.object;
     const std::uint32_t first_turn = crossing.entering ? 1 : 0;
@@ -80,9 +79,9 @@ void each_run(std::span<RayHit> crossings, const Belong& belong, const Take& tak
   }
 }
 
-void sort_places(std::span<RayHit> crossings) {
-  each_run(
-      crossings, [](const RayHit& a, const RayHit& b) { return !is_before(a, b); }, sort_one_place);
+void sort_places(std::span<RayHit> crossings, RayWorkspace& work) {
+  const auto are_at_one = [](const RayHit& a, const RayHit& b) { return !is_before(a, b); };
+  each_run(crossings, are_at_one, [&](std::span<RayHit> some) { sort_one_place(some, work.turns); });
 }
 
 /// Sorts what is too near to each other for t to tell, of the exact tier, and unifies what is at one place.
@@ -128,7 +127,7 @@ void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_
     const auto are_near = [](const RayHit& a, const RayHit& b) { return b.t <= a.t + looking_distance(a.t); };
     each_run(crossings, are_near, [&](std::span<RayHit> some) { sort_near(scene, ray, some, work); });
   }
-  sort_places(crossings);
+  sort_places(crossings, work);
 }
 
 }  // namespace crt::core

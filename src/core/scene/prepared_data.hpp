@@ -8,6 +8,7 @@
 #include <memory>
 #include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "core/csg/evaluate.hpp"
@@ -86,7 +87,8 @@ struct RayWorkspace {
   /// written, and those so near that rounding may put a ray which starts there on either side of them.
   std::vector<RayHit> here;
   std::vector<RayHit> near;
-  std::vector<std::uint32_t> numbers;  ///< of what is sorted
+  std::vector<std::uint32_t> numbers;                   ///< of what is sorted
+  std::vector<std::pair<std::uint32_t, RayHit>> turns;  ///< of what is at one place
   /// By ray of a packet: what ways_to_light() finds.
   std::array<std::vector<RayHit>, packet_size> on_ways;
 
