@@ -287,9 +287,9 @@ typedef struct crt_camera {
 
 /** Kinds of backgrounds. */
 typedef enum crt_background_type {
-  CRT_BACKGROUND_SOLID = 0,  /**< `color` in every direction */
-  CRT_BACKGROUND_GRADIENT,   /**< from `horizon` (level) to `sky` (straight up and down) */
-  CRT_BACKGROUND_SPHERICAL,  /**< `image` all around, equirectangular */
+  CRT_BACKGROUND_SOLID = 0,   /**< `color` in every direction */
+  CRT_BACKGROUND_GRADIENT,    /**< from `horizon` (level) to `sky` (straight up and down) */
+  CRT_BACKGROUND_SPHERICAL,   /**< `image` all around, equirectangular */
   CRT_BACKGROUND_CYLINDRICAL, /**< `image` all around on a cylinder */
   CRT_BACKGROUND_EQUAL_AREA   /**< `image` all around; down goes (1 - y) / 2 of the unit direction */
 } crt_background_type;
@@ -355,8 +355,8 @@ typedef struct crt_settings {
   int32_t max_samples; /**< likewise; default 1024 */
   int32_t filter;      /**< a crt_pixel_filter; default CRT_FILTER_BOX */
   int32_t reserved_2;  /**< must be 0 */
-  /** 0 (default), or 2015: the picture is formed as the program of that year formed it: lens, panoramas, places
-   * of the grid's samples, levels of 8-bit files; see docs/compat.md */
+  /** 0 (default), or 2015: the picture is formed as the program of that year formed it: lens, panoramas,
+   * places of the grid's samples, levels of 8-bit files; see docs/compat.md */
   int32_t compat;
   int32_t reserved_3; /**< must be 0 */
 } crt_settings;
@@ -425,8 +425,8 @@ CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], con
 CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
                                    size_t triangle_count, crt_entity** out);
 
-/** Nothing: the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No ray meets
- * it; in combinations it is what the empty set is, and no transform, material or id changes it. */
+/** Nothing: the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No ray
+ * meets it; in combinations it is what the empty set is, and no transform, material or id changes it. */
 CRT_API crt_status crt_empty_create(crt_entity** out);
 
 /** What is in any of the parts (at least one), which may be surfaces too. */
@@ -449,7 +449,8 @@ CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entit
 
 /** 1 if the entity has an inside, 0 if a part of it is a mere surface (or it is NULL). */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
-/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL and for the empty one. */
+/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL and for the empty
+ * one. */
 CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 
 /** @} */
@@ -586,7 +587,7 @@ typedef struct crt_script_options {
   void* print_user;
   crt_poll_fn poll; /**< NULL: only the limits end a script */
   void* poll_user;
-  int32_t compat;   /**< 0: as the script's Settings say; 2015: it is a script of that year (docs/compat.md) */
+  int32_t compat; /**< 0: as the script's Settings say; 2015: it is a script of that year (docs/compat.md) */
   int32_t reserved; /**< 0 */
 } crt_script_options;
 
@@ -722,7 +723,8 @@ typedef struct crt_render_options {
   const char* checkpoint;
   /** The most things that a single ray may be tested against: objects, and primitives of CSG objects, whose
    * boxes it passes; looked at after every 1024 of them. A ray that takes more ends the render with
-   * CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary scene takes some hundred. */
+   * CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary scene takes some hundred.
+   */
   uint64_t max_ray_steps;
 } crt_render_options;
 
@@ -901,8 +903,8 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * A surface at the start of a ray, for all four queries: with CRT_PRECISION_STANDARD it counts as behind the
  * ray unless it is ahead of t_min by more than rounding may be off there. Of a lone primitive that is at most
  * 32 u times the sum of its size and the largest coordinate of the start (u = 2^-53), measured across the
- * surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that was
- * computed to be on a surface does not meet that surface there again, and what is nearer than that is not
+ * surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that
+ * was computed to be on a surface does not meet that surface there again, and what is nearer than that is not
  * seen. What is behind the start is never told as ahead of it. With CRT_PRECISION_EXACT the origin is taken
  * for the point that its doubles say: a surface is met if t_min < t holds for the exact t, and not otherwise,
  * so that a ray from a point which rounding has put just below a surface meets it at once.
@@ -959,8 +961,8 @@ CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, si
  */
 CRT_API crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                  double* distances, uint32_t* entity_ids);
-/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes; what is at its
- * start counts as for crt_intersect(). If any ray is wrong, nothing is written, and the message names its
+/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes; what is at
+ * its start counts as for crt_intersect(). If any ray is wrong, nothing is written, and the message names its
  * index. */
 CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
                                 uint8_t* occluded);

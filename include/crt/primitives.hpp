@@ -44,8 +44,8 @@ struct HalfPlane {
   std::optional<SharedMaterial> material{};
 };
 
-/// A solid cylinder between the centres of its two caps, at least 1e-100 apart. (u, v): angle about the axis and height on
-/// the side, both in [0, 1]; angle and distance from the axis on the caps.
+/// A solid cylinder between the centres of its two caps, at least 1e-100 apart. (u, v): angle about the axis
+/// and height on the side, both in [0, 1]; angle and distance from the axis on the caps.
 struct Cylinder {
   Vec3 from{0, 0, 0};
   Vec3 to{0, 1, 0};

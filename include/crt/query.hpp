@@ -5,13 +5,13 @@
 // out_of_memory.
 //
 // A surface at the start of a ray, all queries alike: with Precision::standard it counts as behind the ray
-// unless it is ahead of t_min by more than rounding may be off there. Of a lone primitive that is at most 32 u
-// times the sum of its size and the largest coordinate of the start (u = 2^-53), measured across the surface; a
-// ray that is flat to it passes what is farther along it accordingly. So a ray from a point that was computed
-// to be on a surface does not meet that surface there again, and what is nearer than that is not seen. What is
-// behind the start is never told as ahead of it. With Precision::exact the origin is taken for the point that
-// its doubles say: a surface is met if t_min < t holds for the exact t, and not otherwise, so that a ray from a
-// point which rounding has put just below a surface meets it at once.
+// unless it is ahead of t_min by more than rounding may be off there. Of a lone primitive that is at most 32
+// u times the sum of its size and the largest coordinate of the start (u = 2^-53), measured across the
+// surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that
+// was computed to be on a surface does not meet that surface there again, and what is nearer than that is not
+// seen. What is behind the start is never told as ahead of it. With Precision::exact the origin is taken for
+// the point that its doubles say: a surface is met if t_min < t holds for the exact t, and not otherwise, so
+// that a ray from a point which rounding has put just below a surface meets it at once.
 #pragma once
 
 #include <crt/prepared_scene.hpp>

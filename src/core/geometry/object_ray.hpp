@@ -50,8 +50,8 @@ struct ObjectRay {
   RayStart start = {};
   /// Crossings with t below this only count: where they are may be told roughly, with an error that says so.
   double begin = -std::numeric_limits<double>::infinity();
-  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it may be left
-  /// out. What is nearer than that to where the ray begins may be at its start and not count.
+  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it may be
+  /// left out. What is nearer than that to where the ray begins may be at its start and not count.
   double first_above = std::numeric_limits<double>::infinity();
 
   /// Whether a crossing is surely ahead of `first_above`, whatever its error.
