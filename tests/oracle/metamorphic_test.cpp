@@ -125,8 +125,9 @@ TEST_CASE("a primitive and a ray that are scaled by a power of two meet at the s
   constexpr std::uint64_t rays = 10'000;
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
     for (std::uint64_t number = 0; number < rays; ++number) {
-      TestRay ray = make_ray(kind, number);
-      ray.stretch = 1;  // A factor more would take it out of what doubles hold.
+      const TestRay ray = make_ray(kind, number);
+      // A factor more would take these out of what doubles hold.
+      if (ray.kind == RayKind::extreme_length) continue;
       Counted random(300, number);
       const int exponent = random.integer(-300, 300);
       const double factor = std::ldexp(1.0, exponent);
