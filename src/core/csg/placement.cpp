@@ -60,8 +60,9 @@ Placement::Placement(const TransformChain& to_world) {
   // vector.
   vector_error_ = 4 * precise_roundoff * inverse_size();
   const auto low = [](const PreciseVec3& v) { return Vec3(v[0].lo, v[1].lo, v[2].lo); };
-  more_ = std::make_shared<const More>(&to_world, Transform{low(precise.rows[0]), low(precise.rows[1]),
-                                                            low(precise.rows[2]), low(precise.translation)});
+  more_ = std::make_shared<const More>(More{
+      .chain = &to_world,
+      .low = {low(precise.rows[0]), low(precise.rows[1]), low(precise.rows[2]), low(precise.translation)}});
 }
 
 DyadicTransform Placement::exactly() const {

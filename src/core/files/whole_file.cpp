@@ -170,7 +170,7 @@ class TemporaryFile {
   /// As far as the system lets us, which it need not: the content is what counts.
   void keep_owner_and_permissions() const {
     constexpr mode_t permissions = 0777;
-    constexpr uid_t same_owner = -1;
+    constexpr auto same_owner = static_cast<uid_t>(-1);
     const struct stat& old = place_.status;
     std::ignore = ::fchown(file_.get(), same_owner, old.st_gid);
     std::ignore = ::fchown(file_.get(), old.st_uid, old.st_gid);

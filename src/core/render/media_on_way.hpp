@@ -76,7 +76,7 @@ class MediaOnWay {
   void remove(std::uint32_t node);
   std::uint32_t& link_to(std::uint32_t node);
   void lift(std::uint32_t node);
-  void update(std::uint32_t node);
+  void update(std::uint32_t index);
   void update_up(std::uint32_t node);
 
   std::span<const RayHit> crossings_;
