@@ -103,7 +103,7 @@ ChainPointer transformed_more(ChainPointer earlier, const Transform& transform) 
   const core::TransformChain later(transform);
   const core::TransformChain all = core::compose(later, *earlier);
   if (all.is_product()) return std::make_shared<const core::TransformChain>(all);
-  const auto both = std::make_shared<Both>(std::move(earlier), later, core::TransformChain{});
+  const auto both = std::make_shared<Both>(Both{std::move(earlier), later, core::TransformChain{}});
   both->all = core::compose(both->later, *both->earlier);
   return {both, &both->all};
 }
