@@ -171,7 +171,7 @@ class ExactFrustumShape final : public ExactShape {
       if (!dips || !*dips) return dips;
     }
     const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
-    if (first && first->t > first_above) {
+    if (first && first->t - first->error > first_above) {
       piece.enter = *first;
       return true;
     }

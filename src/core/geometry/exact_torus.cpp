@@ -198,7 +198,7 @@ class ExactTorusShape final : public ExactShape {
           if (!exact->find(line.to_precise_t(x), line.to_t_length(share * room), crossing)) return false;
         }
         out.push_back(crossing);
-        if (crossing.t > ray.near.first_above) return true;
+        if (ray.near.is_first_asked(crossing)) return true;
       }
     }
     return true;
