@@ -29,7 +29,7 @@ NotFiniteValues find_not_finite(const Image& image) {
 }
 
 NotFiniteValues replace_not_finite(Image& image) {
-  const NotFiniteValues found = find_not_finite(image);
+  NotFiniteValues found = find_not_finite(image);
   const std::span<float> values = image.pixels();
   if (found.pixels > 0) std::replace_if(values.begin(), values.end(), is_not_finite, 0.0f);
   return found;
