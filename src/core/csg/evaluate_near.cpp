@@ -44,14 +44,8 @@ void CsgEvaluation::gather_near() {
     near.push_back(next);
     const CsgCrossing& met = work_.met_[next.index];
     is_known = is_known && !met.moved;
-    const NearCrossing& crossing = crossings.emplace_back(NearCrossing{.t = met.t,
-                                                                       .error = met.error,
-                                                                       .t_low = met.t_low,
-                                                                       .leaf = program_.first_leaf + met.leaf,
-                                                                       .face = met.face,
-                                                                       .surface = met.surface,
-                                                                       .root = met.root,
-                                                                       .item = next.index});
+    crossings.push_back(near_crossing(met, program_.first_leaf + met.leaf, next.index));
+    const NearCrossing& crossing = crossings.back();
     is_one = is_one && crossing.surface == crossings[0].surface && crossing.root == crossings[0].root;
   }
   if (!is_one && is_known &&

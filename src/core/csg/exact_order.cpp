@@ -8,10 +8,35 @@
 #include <tuple>
 
 #include "core/csg/evaluate.hpp"
+#include "core/math/stable_sort.hpp"
 #include "core/math/real_root.hpp"
 
 namespace crt::core {
 namespace {
+
+bool is_before(const NearCrossing& a, const NearCrossing& b) {
+  return std::tie(a.t, a.t_low) < std::tie(b.t, b.t_low);
+}
+
+/// Below 0, 0 or above it, if their bounds or surfaces tell; nothing if only the roots do.
+std::optional<int> order_by_bounds(const NearCrossing& a, const NearCrossing& b) {
+  if (a.surface == b.surface && a.root == b.root) return 0;
+  const double way = (a.t - b.t) + (a.t_low - b.t_low);
+  // The rounding of the way is far less than what the errors have in them beside what they must.
+  if (std::abs(way) > a.error + b.error) return way > 0 ? 1 : -1;
+  return std::nullopt;
+}
+
+/// Gives crossings that are sorted by t their ranks, if it takes no roots.
+bool rank_by_bounds(std::span<NearCrossing> crossings) {
+  crossings[0].rank = 1;
+  for (std::size_t i = 1; i < crossings.size(); ++i) {
+    const std::optional<int> order = order_by_bounds(crossings[i - 1], crossings[i]);
+    if (!order) return false;
+    crossings[i].rank = crossings[i - 1].rank + (*order < 0 ? 1 : 0);
+  }
+  return true;
+}
 
 class ExactOrder {
  public:
@@ -34,12 +59,7 @@ class ExactOrder {
   }
 
   int compare(std::size_t a, std::size_t b) {
-    const NearCrossing& one = crossings_[a];
-    const NearCrossing& other = crossings_[b];
-    if (one.surface == other.surface && one.root == other.root) return 0;
-    const double way = (one.t - other.t) + (one.t_low - other.t_low);
-    // The rounding of the way is far less than what the errors have in them beside what they must.
-    if (std::abs(way) > one.error + other.error) return way > 0 ? 1 : -1;
+    if (const std::optional<int> order = order_by_bounds(crossings_[a], crossings_[b])) return *order;
     std::optional<RealRoot>& first = place(a);
     std::optional<RealRoot>& second = place(b);
     return first && second ? order(*first, *second) : 0;
@@ -82,7 +102,7 @@ class ExactOrder {
 
 /// Moves a crossing beyond those of lower ranks, of which `last` is told to be the farthest, if it is not.
 void move_beyond(const NearCrossing& last, NearCrossing& crossing) {
-  if (std::tie(crossing.t, crossing.t_low) > std::tie(last.t, last.t_low)) return;
+  if (is_before(last, crossing)) return;
   const double t_low = std::nextafter(last.t_low, std::numeric_limits<double>::infinity());
   crossing.error += std::abs((last.t - crossing.t) + (t_low - crossing.t_low));
   crossing.t = last.t;
@@ -94,6 +114,8 @@ void move_beyond(const NearCrossing& last, NearCrossing& crossing) {
 bool sort_exactly(std::vector<NearCrossing>& crossings, std::span<const Leaf> leaves,
                   std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
                   std::uint64_t& escalations) {
+  sort_stably(crossings, is_before);
+  if (rank_by_bounds(crossings)) return true;
   ExactOrder order(crossings, leaves, face_surfaces, ray, escalations);
   const std::vector<std::size_t> numbers = order.sorted();
   std::vector<NearCrossing> result;
@@ -108,8 +130,7 @@ bool sort_exactly(std::vector<NearCrossing>& crossings, std::span<const Leaf> le
       last = farthest;
     }
     if (crossing.rank > 1) move_beyond(last, crossing);
-    const bool is_farther = std::tie(crossing.t, crossing.t_low) > std::tie(farthest.t, farthest.t_low);
-    if (i == 0 || is_farther) farthest = crossing;
+    if (i == 0 || is_before(farthest, crossing)) farthest = crossing;
   }
   if (!order.all_known()) return false;
   crossings = std::move(result);

@@ -6,6 +6,8 @@
 #include <tuple>
 #include <utility>
 
+#include "core/math/stable_sort.hpp"
+
 namespace crt::core {
 namespace {
 
@@ -37,18 +39,6 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     const bool of_one = crossings[i].object == crossings[i - 1].object;
     if (of_one && is_before(crossings[i], crossings[i - 1])) take_place(crossings[i], crossings[i - 1]);
-  }
-}
-
-/// For some hundred and more the sort that is made for them; it allocates.
-void sort_stably(std::vector<RayHit>& crossings) {
-  constexpr std::size_t few = 32;
-  if (crossings.size() > few) {
-    std::stable_sort(crossings.begin(), crossings.end(), is_before);
-    return;
-  }
-  for (auto next = crossings.begin(); next != crossings.end(); ++next) {
-    std::rotate(std::upper_bound(crossings.begin(), next, *next, is_before), next, next + 1);
   }
 }
 
@@ -87,20 +77,14 @@ void sort_places(std::span<RayHit> crossings, RayWorkspace& work) {
 /// Sorts what is too near to each other for t to tell, of the exact tier, and unifies what is at one place.
 void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit> crossings,
                RayWorkspace& work) {
-  std::vector<NearCrossing> near;
-  near.reserve(crossings.size());
+  std::vector<NearCrossing>& near = work.near_crossings;
+  near.clear();
   for (const RayHit& hit : crossings) {
-    near.push_back({.t = hit.t,
-                    .error = hit.error,
-                    .t_low = hit.t_low,
-                    .leaf = hit.leaf,
-                    .face = hit.face,
-                    .surface = hit.surface,
-                    .root = hit.root,
-                    .item = static_cast<std::uint32_t>(near.size())});
+    near.push_back(near_crossing(hit, hit.leaf, static_cast<std::uint32_t>(near.size())));
   }
   if (!sort_exactly(near, scene.leaves, scene.face_surfaces, ray, work.leaf_escalations)) return;
-  const std::vector<RayHit> before(crossings.begin(), crossings.end());
+  std::vector<RayHit>& before = work.unsorted;
+  before.assign(crossings.begin(), crossings.end());
   const NearCrossing* best = nullptr;
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     if (i == 0 || near[i].rank != near[i - 1].rank) {
@@ -122,7 +106,7 @@ void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_
                     std::vector<RayHit>& crossings, RayWorkspace& work) {
   if (crossings.size() < 2) return;
   if (share_surfaces) unify_coincident(crossings, work.numbers);
-  sort_stably(crossings);
+  sort_stably(crossings, is_before);
   if (scene.leaves[crossings[0].leaf].exact) {
     const auto are_near = [](const RayHit& a, const RayHit& b) { return b.t <= a.t + looking_distance(a.t); };
     each_run(crossings, are_near, [&](std::span<RayHit> some) { sort_near(scene, ray, some, work); });

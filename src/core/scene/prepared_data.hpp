@@ -89,6 +89,8 @@ struct RayWorkspace {
   std::vector<RayHit> near;
   std::vector<std::uint32_t> numbers;                   ///< of what is sorted
   std::vector<std::pair<std::uint32_t, RayHit>> turns;  ///< of what is at one place
+  std::vector<NearCrossing> near_crossings;             ///< of what t does not tell apart
+  std::vector<RayHit> unsorted;                         ///< the same as it was before that is sorted
   /// By ray of a packet: what ways_to_light() finds.
   std::array<std::vector<RayHit>, packet_size> on_ways;
 
