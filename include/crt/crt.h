@@ -349,7 +349,9 @@ typedef struct crt_settings {
   /** Above 0: a pixel gets samples until it is this near the truth, in 95 of 100 cases; 1/255 is a step of
    * 8 bits; in [0, 1]; default 0 */
   double target_error;
-  double time_budget;  /**< above 0: the seconds that tracing may take; in [0, 1e6]; default 0 */
+  /** above 0: the seconds that tracing may take; it stops at the end of a pass, the first of which takes what it
+   * takes, so that there is a picture; in [0, 1e6]; default 0 */
+  double time_budget;
   double filter_width; /**< pixels across, of filters other than the box; in [1, 16]; default 3 */
   int32_t min_samples; /**< of a pixel, with one of these two: a power of 2 in [4, 65536]; default 16 */
   int32_t max_samples; /**< likewise; default 1024 */
@@ -515,6 +517,11 @@ typedef struct crt_prepare_options {
    * CRT_ERROR_CANCELLED. May be called on any of the threads that work. */
   crt_poll_fn poll;
   void* poll_user;
+  /** The most primitives that the scene may have; with more preparing it ends with CRT_ERROR_LIMIT before it
+   * takes any memory. 0: as many as the memory of the machine (or container) may be enough for, at 1350 bytes
+   * each and 2700 in the exact tier, which is what the greedy ones take: spheres by themselves take 600. More
+   * than 33554432 there can never be. */
+  uint64_t max_primitives;
 } crt_prepare_options;
 
 /** The defaults, which are all 0. */
@@ -906,8 +913,8 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that
  * was computed to be on a surface does not meet that surface there again, and what is nearer than that is not
  * seen. What is behind the start is never told as ahead of it. With CRT_PRECISION_EXACT the origin is taken
- * for the point that its doubles say: a surface is met if t_min < t holds for the exact t, and not otherwise,
- * so that a ray from a point which rounding has put just below a surface meets it at once.
+ * for the point that its doubles say: a surface is met if t_min < t holds for the exact t, rounded to a
+ * double, and not otherwise, so that a ray from a point which rounding has put just below a surface meets it at once.
  *
  * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one after the
  * other. Any alignment will do, and hits may take the place of their own rays.
@@ -921,8 +928,10 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * @{ */
 
 /**
- * The points origin + t * direction with t_min < t < t_max. The direction may have any length but 0; t_min
- * may be -INFINITY, t_max INFINITY. The layout is fixed for ever: 64 bytes.
+ * The points origin + t * direction with t_min < t < t_max. The direction may have any length but 0 (if its
+ * components are more than 2^1022 apart, the smaller ones count for as many digits as doubles have at 2^-1022
+ * of the largest). A hit whose place is beyond the largest double is none. t_min may be -INFINITY, t_max
+ * INFINITY. The layout is fixed for ever: 64 bytes.
  */
 typedef struct crt_ray {
   double origin[3];

@@ -10,8 +10,8 @@
 // surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that
 // was computed to be on a surface does not meet that surface there again, and what is nearer than that is not
 // seen. What is behind the start is never told as ahead of it. With Precision::exact the origin is taken for
-// the point that its doubles say: a surface is met if t_min < t holds for the exact t, and not otherwise, so
-// that a ray from a point which rounding has put just below a surface meets it at once.
+// the point that its doubles say: a surface is met if t_min < t holds for the exact t, rounded to a double,
+// and not otherwise, so that a ray from a point which rounding has put just below a surface meets it at once.
 #pragma once
 
 #include <crt/prepared_scene.hpp>
@@ -26,8 +26,9 @@
 
 namespace crt {
 
-/// The points origin + t * direction with t_min < t < t_max; t is in units of the direction's
-/// length, which may be any but 0.
+/// The points origin + t * direction with t_min < t < t_max; t is in units of the direction's length, which may
+/// be any but 0. Of a direction whose components are more than 2^1022 apart the smaller ones count for as many
+/// digits as doubles have at 2^-1022 of the largest. A hit whose place is beyond the largest double is none.
 struct Ray {
   Vec3 origin{0, 0, 0};
   Vec3 direction{0, 0, 1};

@@ -163,7 +163,7 @@ crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* o
     require(scene, "scene");
     require(out, "out");
     const auto given = taken_or_default(options, "options");
-    crt::PrepareOptions how;
+    crt::PrepareOptions how{.max_primitives = given.max_primitives};
     if (given.poll != nullptr) {
       how.go_on = [&cancel_value, call = given.poll, user = given.poll_user] {
         const int answer = call(user);

@@ -136,7 +136,8 @@ std::span<const std::size_t> field_ends<crt_render_options>() {
 template <>
 std::span<const std::size_t> field_ends<crt_prepare_options>() {
   using S = crt_prepare_options;
-  static constexpr std::array ends = {CRT_END(S, reserved), CRT_END(S, poll), CRT_END(S, poll_user)};
+  static constexpr std::array ends = {CRT_END(S, reserved), CRT_END(S, poll), CRT_END(S, poll_user),
+                                      CRT_END(S, max_primitives)};
   return ends;
 }
 

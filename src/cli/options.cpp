@@ -195,6 +195,16 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
           "things that one ray may be tested against before the render ends with an error (4194304)")
       ->type_name("N");
   command
+      .add_option_function<std::string>(
+          "--max-primitives",
+          [&request](const std::string& value) {
+            if (!parse_whole(value, request.max_primitives)) {
+              throw WrongValue("--max-primitives", "a whole number, 0 for what memory is enough for", value);
+            }
+          },
+          "primitives that the scene may have before it ends with an error (what memory is enough for)")
+      ->type_name("N");
+  command
       .add_option(
           "--checkpoint", request.render.checkpoint,
           "with --targeterror, --timebudget or --passes: keeps what is done there, also when interrupted, "

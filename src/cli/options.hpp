@@ -42,6 +42,7 @@ struct RenderRequest : CommonRequest {
   std::filesystem::path output;
   std::optional<FrameRange> frames;
   RenderOptions render;
+  std::uint64_t max_primitives = 0;  ///< see PrepareOptions
   /// Where statistics go: a file, "-" for standard output, or nowhere.
   std::string stats;
   bool reproducible = false;

@@ -129,7 +129,7 @@ class RenderJob {
   }
 
   Image trace(const Scene& scene, const std::string& name, const InterruptScope& interrupt) {
-    PrepareOptions how;
+    PrepareOptions how{.max_primitives = request_.max_primitives};
     how.go_on = [&] { return !interrupt.interrupted(); };
     RenderOptions options = request_.render;
     options.log = [&](LogLevel level, std::string_view line) {

@@ -176,11 +176,12 @@ AT(crt_render_options, aovs, 68);
 AT(crt_render_options, checkpoint, 72);
 AT(crt_render_options, max_ray_steps, 80);
 
-SIZE(crt_prepare_options, 24);
+SIZE(crt_prepare_options, 32);
 AT(crt_prepare_options, struct_size, 0);
 AT(crt_prepare_options, reserved, 4);
 AT(crt_prepare_options, poll, 8);
 AT(crt_prepare_options, poll_user, 16);
+AT(crt_prepare_options, max_primitives, 24);
 
 SIZE(crt_render_stats, 264);
 AT(crt_render_stats, struct_size, 0);

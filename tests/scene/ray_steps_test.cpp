@@ -1,5 +1,6 @@
 // Where one ray meets very many things: what it costs, and who may stop it.
 #include <doctest/doctest.h>
+#include <unistd.h>
 
 #include <array>
 #include <vector>
@@ -157,4 +158,21 @@ TEST_CASE("preparing asks whether to go on, and ends with an error if not") {
   // With what was prepared earlier at hand there is little left to ask about.
   const PreparedScene earlier = prepare(scene);
   CHECK_NOTHROW(prepare(scene, {.earlier = &earlier}));
+}
+
+TEST_CASE("a scene of more primitives than are allowed, or than can be numbered, is an error") {
+  const Scene scene = scene_of({csg_union(crowd(40)), Sphere{}, Sphere{}});
+  CHECK_NOTHROW(prepare(scene, {.max_primitives = 42}));
+  CHECK(code_of([&] { prepare(scene, {.max_primitives = 41}); }) == ErrorCode::limit);
+  Entity many = Sphere{};
+  for (int doubling = 0; doubling < 60; ++doubling) many = many + many;
+  CHECK(code_of([&] { prepare(scene_of({many})); }) == ErrorCode::limit);
+  // Two to the 25 can be numbered, but take some 90 GB.
+  Entity much = Box{};
+  for (int doubling = 0; doubling < 25; ++doubling) much = much + much;
+  Scene exact = scene_of({much});
+  exact.settings.precision = Precision::exact;
+  if (::sysconf(_SC_PHYS_PAGES) < (std::int64_t{1} << 36) / ::sysconf(_SC_PAGESIZE)) {
+    CHECK(code_of([&] { prepare(exact); }) == ErrorCode::limit);
+  }
 }

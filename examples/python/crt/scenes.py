@@ -166,10 +166,14 @@ class Scene(Handle):
         with self._lock:
             return Scene._adopt(create("crt_scene_copy", self._handle))
 
-    def prepare(self) -> Prepared:
-        """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here."""
+    def prepare(self, max_primitives: int = 0) -> Prepared:
+        """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here.
+
+        A scene of more than max_primitives is an error; 0 is as many as memory is enough for.
+        """
         guard = Guard()
         options = _PrepareOptions()
+        options.max_primitives = max_primitives
         options.poll = POLL(lambda _user: guard.call(_nothing))
         with self._lock, guard.raising():
             return Prepared._adopt(create("crt_scene_prepare_with", self._handle, ctypes.byref(options)))
@@ -184,6 +188,7 @@ class _PrepareOptions(Struct):
     reserved: Unsigned
     poll: Annotated[Any, POLL]
     poll_user: Pointer
+    max_primitives: Long
 
 
 @growable("crt_script_options")

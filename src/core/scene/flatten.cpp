@@ -7,13 +7,10 @@
 #include "core/scene/grouping.hpp"
 #include "core/scene/part.hpp"
 #include "core/scene/surface_table.hpp"
-#include "crt/error.hpp"
 
 namespace crt::core {
 
 namespace {
-
-constexpr std::uint64_t most_primitives = std::uint64_t{1} << 25;
 
 /// Whether a part is the one before it once more: without this a = a + a, done n times, would be 2^n parts.
 bool repeats(const CsgOperation& operation, std::size_t part) {
@@ -63,11 +60,7 @@ class Flattening {
 FlatScene Flattening::flatten(std::span<const Entity> entities) {
   std::uint64_t count = 0;
   for (const Entity& entity : entities) {
-    const std::uint64_t primitives = entity.primitive_count();
-    count += std::min(primitives, most_primitives);
-    if (primitives > most_primitives || count > most_primitives) {
-      throw Error(ErrorCode::limit, "the scene has more than 33554432 primitives", "entities");
-    }
+    count += entity.primitive_count();
   }
   result_.leaves.reserve(count);
   result_.programs_of_leaves.reserve(count);

@@ -10,6 +10,7 @@
 #include "core/math/float_environment.hpp"
 #include "core/scene/accelerator.hpp"
 #include "core/scene/memory.hpp"
+#include "core/scene/primitive_limit.hpp"
 #include "core/shading/texture.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/validate.hpp"
@@ -65,7 +66,8 @@ struct PreparedData::Geometry {
   }
 };
 
-PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, const Workers& workers)
+PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, const Workers& workers,
+                           std::uint64_t max_primitives)
     : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
@@ -78,6 +80,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
     geometry_ = earlier->geometry_;
   } else {
+    check_primitive_count(scene.entities, scene.settings.precision, max_primitives);
     geometry_ = std::make_shared<const Geometry>(
         scene, compile(scene.entities, scene.settings.precision, workers), workers);
   }
@@ -247,7 +250,8 @@ PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
   core::StopCheck stop(options.go_on, "preparing the scene");
   const core::Workers workers(0, options.go_on ? &stop : nullptr);
   const core::PreparedData* earlier = options.earlier == nullptr ? nullptr : &options.earlier->data();
-  return PreparedScene(std::make_shared<const core::PreparedData>(scene, earlier, workers));
+  return PreparedScene(
+      std::make_shared<const core::PreparedData>(scene, earlier, workers, options.max_primitives));
 }
 
 PreparedScene prepare(const Scene& scene) {

@@ -121,9 +121,10 @@ struct LightWays {
 /// Immutable after prepare(); every member function is safe from any number of threads.
 class PreparedData {
  public:
-  /// Takes over of `earlier`, if there is one, what does not depend on what has changed since.
+  /// Takes over of `earlier`, if there is one, what does not depend on what has changed since. Of the number
+  /// of primitives see PrepareOptions.
   explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr,
-                        const Workers& workers = {});
+                        const Workers& workers = {}, std::uint64_t max_primitives = 0);
   ~PreparedData();
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;

@@ -1,0 +1,275 @@
+#include "oracle/accuracy_page.hpp"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
+#include <utility>
+
+namespace crt::test {
+namespace {
+
+std::string number(double value) {
+  if (value == 0) return "0";
+  if (value >= 1000) return fmt::format("{:.1e}", value);
+  return value < 0.001 ? fmt::format("{:.1e}", value) : fmt::format("{:.3g}", value);
+}
+
+double share(std::uint64_t part, std::uint64_t whole) {
+  return static_cast<double>(part) / static_cast<double>(std::max<std::uint64_t>(1, whole));
+}
+
+std::string heading_by_kind() {
+  std::string result = "| primitive |";
+  for (std::size_t i = 0; i < ray_kinds; ++i)
+    result += fmt::format(" {} |", name_of(static_cast<RayKind>(i)));
+  result += "\n|---|";
+  for (std::size_t i = 0; i < ray_kinds; ++i) result += "---|";
+  return result + "\n";
+}
+
+std::string ulps_by_kind(const Measured& of) {
+  std::string result = fmt::format("| {} |", name_of_primitive(of.kind));
+  for (std::size_t i = 0; i < ray_kinds; ++i) {
+    std::string cell;
+    for (const MeasuredTier& tier : of.tiers) {
+      if (tier.record.rays_by_kind[i] == 0) continue;
+      cell += (cell.empty() ? " " : " / ") + number(tier.record.ulps_by_kind[i].quantile(0.999));
+    }
+    result += cell + " |";
+  }
+  return result + "\n";
+}
+
+std::string close_calls_by_kind(const Measured& of) {
+  std::string result = fmt::format("| {} |", name_of_primitive(of.kind));
+  const Record& record = of.tiers[0].record;
+  for (std::size_t i = 0; i < ray_kinds; ++i) {
+    if (record.rays_by_kind[i] > 0)
+      result += " " + number(share(record.close_calls_by_kind[i], record.rays_by_kind[i]));
+    result += " |";
+  }
+  return result + "\n";
+}
+
+std::string placed_row(std::size_t kind, const Record& record) {
+  return fmt::format("| {} | {} | {} | {} | {} |\n", name_of_primitive(kind), record.rays, record.wrong,
+                     number(record.largest_ratio), number(share(record.escalations, record.rays)));
+}
+
+constexpr const char* introduction = R"(# Accuracy, measured
+
+This page is written by `./dev oracle`: every primitive against an oracle that solves its implicit
+equation along the line, in sums of a few doubles that carry a bound on their error, and where
+that leaves anything open in MPFR arithmetic, with precision raised until the answer is certain
+(`tests/oracle`).
+
+Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the ray's origin
+10^-3 to 10^12 sizes. Half of the rays are plain. A tenth each: grazing (along a tangent, moved in
+or out by 10^-16 to 0.1 sizes), parallel to a coordinate axis, aimed at edges and corners,
+starting on the surface, and 10^-16 to 0.1 off parallel to a face or an axis. Of the rays at
+cylinders and cones a tenth more is along a ruling, a straight line of the side (turned off it by
+10^-16 to 0.1, shifted by as many sizes, both or neither), and another tenth is of all these
+kinds; both are at solids whose height and radius, or two radii, are up to 10^6 apart.
+
+*standard* and *exact* are the two tiers of [what the geometry promises](numerics.md). *naive* are
+the formulas that everyone writes first, in plain doubles (`tests/oracle/naive.cpp`); it is
+measured with a million rays at most.
+
+- **wrong**: rays that are told to be inside (or outside) of the solid at a point that is farther
+  from its surface than 8 u (R + |x|) and the spacing of t's doubles there; for surfaces, rays
+  whose hit or miss differs from the true one though they meet the plane farther from the rim than
+  the bound of t (below) and 8 u (R + |x|). In the exact tier: rays with any other crossings than
+  the true ones.
+- **close calls**: rays decided otherwise than the truth, but within that. The exact tier has
+  none, by definition.
+- **error / bound**: the largest |t - true t|, over what is promised, of all kinds of rays that
+  were decided right. The standard tier promises 0.5 ulp(t) + 8 u (R + |x|) / |n . d|, and the
+  naive formulas are held against the same; the exact tier 0.51 ulp(t), of a torus 1 ulp(t).
+- **ulps**: |t - true t| in units of the last place of t, for plain rays. What is above one half
+  in the standard tier is what the place and the slant of the ray make unavoidable in doubles: the
+  bound's second term. A start on the surface itself, where t is but rounding, is not counted.
+- **ns**: nanoseconds a ray on one core, over all kinds of rays, each of another primitive; the
+  best of many rounds.
+- **escalations**: how often a ray asked for exact arithmetic, on average over all kinds, half of
+  which are hard on purpose.
+
+u is 2^-53; R the radius of a ball that holds the primitive (0 for planes); x the point relative
+to its centre; n . d the cosine of the slant.
+
+)";
+
+constexpr const char* tiers_table = R"(
+| primitive | | rays | wrong | close calls | error / bound | ulps, 99.9 % | ulps, largest | ns | escalations |
+|---|---|---|---|---|---|---|---|---|---|
+)";
+
+constexpr const char* by_kind = R"(
+## By kind of ray
+
+The error in ulps that 99.9 % of the crossings stay below, standard / exact / naive:
+
+)";
+
+constexpr const char* close_calls = R"(
+The share of close calls in the standard tier:
+
+)";
+
+constexpr const char* by_distance = R"(
+## By distance
+
+The error of plain rays that 99.9 % stay below, by the distance of the origin, in sizes:
+
+![Error against distance](accuracy.svg)
+)";
+
+constexpr const char* placed_table = R"(
+## Transformed primitives
+
+The exact tier, with transforms that rotate, scale by factors up to 10^8 apart, mirror and shift:
+
+| primitive | rays | wrong | error / bound | escalations |
+|---|---|---|---|---|
+)";
+
+constexpr const char* trees_table = R"(
+## Trees of solids
+
+Random unions, differences and intersections of up to 27 solids on a grid, turned, scaled and moved
+on it, with rays through its corners, along its edges and within its planes, against membership by
+exact roots. Of all faces about {:.0f} % lie on a surface that another solid of the tree has too.
+*wrong* is as above. The exact tier has no close calls: crossings are in the order in which they are,
+however near to each other.
+
+| | trees | rays | crossings | wrong | close calls | escalations |
+|---|---|---|---|---|---|---|
+)";
+
+constexpr const char* agreement_table = R"(
+## Do all queries agree?
+
+Each ray is asked in every way there is: its nearest hit, its distance, whether it is blocked, all
+its crossings; alone and in a batch of others. Subjects are every primitive, trees of two or three
+solids and crowds of solids, of the sizes and offsets above, a quarter of them transformed; rays are
+of all kinds, one in five with a direction whose length or components are near the ends of what
+doubles hold, and parts of these that begin or end at a crossing or a double beside it.
+A *disagreement* is a ray of which two answers, as they are promised, cannot both be true.
+
+| subject | | rays | with hits | disagreements |
+|---|---|---|---|---|
+)";
+
+/// Puts rows in the place of those of a table (that comes after `heading`) which begin like them.
+class RowReplacement {
+ public:
+  RowReplacement(std::string heading, std::string rows)
+      : heading_(std::move(heading)),
+        rows_(std::move(rows)),
+        begin_(rows_.substr(0, rows_.find('|', 2) + 1)) {}
+
+  void apply(std::string& page) const {
+    const std::size_t table = page.find("\n" + heading_);
+    const std::size_t first = table == std::string::npos ? table : page.find("\n" + begin_, table + 1);
+    if (first == std::string::npos) {
+      throw std::runtime_error(fmt::format("the page has no rows \"{}\" after \"{}\"", begin_, heading_));
+    }
+    std::size_t end = first + 1;
+    while (page.compare(end, begin_.size(), begin_) == 0) end = page.find('\n', end) + 1;
+    page.replace(first + 1, end - first - 1, rows_);
+  }
+
+ private:
+  std::string heading_;
+  std::string rows_;
+  std::string begin_;
+};
+
+/// The first line of a part of the page that has one.
+std::string heading_of(std::string_view part) {
+  const std::size_t begin = part.find_first_not_of('\n');
+  return std::string(part.substr(begin, part.find('\n', begin) - begin));
+}
+
+}  // namespace
+
+std::string tier_rows(const Measured& of) {
+  std::string result;
+  for (const MeasuredTier& tier : of.tiers) {
+    const Record& record = tier.record;
+    const Histogram& plain = record.ulps_by_kind[0];
+    const std::string escalations =
+        tier.name == "exact" ? number(share(record.escalations, record.rays)) : "";
+    result +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} | {} |\n", name_of_primitive(of.kind),
+                    tier.name, record.rays, record.wrong, record.close_calls, number(record.largest_ratio),
+                    number(plain.quantile(0.999)), number(plain.largest()), tier.nanoseconds, escalations);
+  }
+  return result;
+}
+
+std::string tree_rows(const CsgRecord& record) {
+  std::string result;
+  for (const auto& [name, tier] : {std::pair{"standard", record.standard}, {"exact", record.exact}}) {
+    result += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, record.trees, record.rays,
+                          record.crossings, tier.wrong, tier.close_calls,
+                          tier.escalations == 0 ? "" : number(share(tier.escalations, record.rays)));
+  }
+  return result;
+}
+
+std::string agreement_rows(const MeasuredAgreement& of) {
+  std::string result;
+  for (const auto& [name, record] : {std::pair{"standard", &of.standard}, {"exact", &of.exact}}) {
+    result += fmt::format("| {} | {} | {} | {} | {} |\n", name_of_agreement(of.kind), name, record->rays,
+                          record->hits, record->disagreements);
+  }
+  return result;
+}
+
+std::string accuracy_page(const MeasuredAll& all) {
+  std::string page = introduction;
+  const auto add_table = [&](std::string_view before, const auto& items, const auto& rows_of) {
+    page += before;
+    for (const auto& item : items) page += rows_of(item);
+  };
+  add_table(std::string_view(tiers_table).substr(1), all.primitives,
+            [](const MeasuredPrimitive& one) { return tier_rows(one.in_place); });
+  add_table(by_kind + heading_by_kind(), all.primitives,
+            [](const MeasuredPrimitive& one) { return ulps_by_kind(one.in_place); });
+  add_table(close_calls + heading_by_kind(), all.primitives,
+            [](const MeasuredPrimitive& one) { return close_calls_by_kind(one.in_place); });
+  page += by_distance;
+  add_table(placed_table, all.primitives,
+            [](const MeasuredPrimitive& one) { return placed_row(one.in_place.kind, one.placed); });
+  page += fmt::format(trees_table, 100 * share(all.trees.coincident_faces, all.trees.faces));
+  page += tree_rows(all.trees);
+  add_table(agreement_table, all.agreement, agreement_rows);
+  return page;
+}
+
+std::string with_rows_replaced(const std::string& page, const MeasuredAll& some) {
+  std::vector<RowReplacement> replacements;
+  for (const MeasuredPrimitive& one : some.primitives) {
+    replacements.emplace_back("| primitive | | rays", tier_rows(one.in_place));
+    replacements.emplace_back(heading_of(by_kind), ulps_by_kind(one.in_place));
+    replacements.emplace_back(heading_of(close_calls), close_calls_by_kind(one.in_place));
+    replacements.emplace_back(heading_of(placed_table), placed_row(one.in_place.kind, one.placed));
+  }
+  if (some.trees.trees > 0) {
+    std::istringstream rows(tree_rows(some.trees));
+    for (std::string row; std::getline(rows, row);) {
+      replacements.emplace_back(heading_of(trees_table), row + "\n");
+    }
+  }
+  for (const MeasuredAgreement& one : some.agreement) {
+    replacements.emplace_back(heading_of(agreement_table), agreement_rows(one));
+  }
+  std::string result = page;
+  for (const RowReplacement& replacement : replacements) replacement.apply(result);
+  return result;
+}
+
+}  // namespace crt::test

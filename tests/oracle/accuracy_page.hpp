@@ -1,0 +1,46 @@
+// docs/accuracy.md: what was measured, as a page of text.
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "oracle/accuracy_plot.hpp"
+#include "oracle/agreement.hpp"
+#include "oracle/csg_measure.hpp"
+
+namespace crt::test {
+
+/// All about a primitive.
+struct MeasuredPrimitive {
+  Measured in_place;
+  Record placed;  ///< of the exact tier, transformed
+};
+
+/// What all queries told of subjects of a kind.
+struct MeasuredAgreement {
+  std::size_t kind = 0;
+  AgreementRecord standard;
+  AgreementRecord exact;
+};
+
+struct MeasuredAll {
+  std::vector<MeasuredPrimitive> primitives;
+  CsgRecord trees;
+  std::vector<MeasuredAgreement> agreement;
+};
+
+/// The page, whole.
+std::string accuracy_page(const MeasuredAll& all);
+
+/// The rows of a primitive in the table that compares the tiers.
+std::string tier_rows(const Measured& of);
+/// Those of trees, and of the queries' agreement.
+std::string tree_rows(const CsgRecord& record);
+std::string agreement_rows(const MeasuredAgreement& of);
+
+/// Puts the rows of primitives, and of trees and the agreement if any were measured, in the place of those in
+/// a page that is there already. Throws std::runtime_error, and changes nothing, if there is one without.
+std::string with_rows_replaced(const std::string& page, const MeasuredAll& some);
+
+}  // namespace crt::test
