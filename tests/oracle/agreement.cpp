@@ -4,6 +4,7 @@
 
 #include <array>
 #include <atomic>
+#include <bit>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -81,6 +82,42 @@ std::string difference(RayQueries& queries, const Ray& ray, const BatchAnswers& 
   if (batch.distances[i] != batch.plain[i].t) return "distances differs from intersect";
   if (batch.occluded[i] != nearest.has_value()) return "occluded differs in a batch";
   return "";
+}
+
+/// FNV-1a over the bits of numbers (Fowler, Noll, Vo).
+class Digest {
+ public:
+  void add(std::uint64_t bits) {
+    constexpr std::uint64_t prime = 0x100000001b3;
+    for (int byte = 0; byte < 8; ++byte) value_ = (value_ ^ (bits >> (8 * byte) & 0xff)) * prime;
+  }
+  void add(double number) { add(std::bit_cast<std::uint64_t>(number)); }
+  void add(const Vec3& v) {
+    for (int axis = 0; axis < 3; ++axis) add(v[axis]);
+  }
+  void add(const Hit& hit) {
+    add(hit.t);
+    add(hit.position);
+    add(hit.normal);
+    add(hit.u);
+    add(hit.v);
+    add(std::uint64_t{hit.entity_id} << 1 | (hit.entering ? 1 : 0));
+  }
+  std::uint64_t value() const { return value_; }
+
+ private:
+  std::uint64_t value_ = 0xcbf29ce484222325;
+};
+
+/// Of a ray and of what it crosses, of which all other answers are parts.
+std::uint64_t digest_of(const Ray& ray, const std::vector<Hit>& crossings) {
+  Digest digest;
+  digest.add(ray.origin);
+  digest.add(ray.direction);
+  digest.add(ray.t_min);
+  digest.add(ray.t_max);
+  for (const Hit& hit : crossings) digest.add(hit);
+  return digest.value();
 }
 
 std::string text_of(const Ray& ray) {
@@ -249,6 +286,7 @@ void AgreementRecord::add(const AgreementRecord& other) {
   rays += other.rays;
   hits += other.hits;
   disagreements += other.disagreements;
+  digest += other.digest;
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   if (failures.size() > most_failures) failures.resize(most_failures);
 }
@@ -261,6 +299,7 @@ void compare_queries(const PreparedScene& scene, const std::string& subject, std
   for (std::size_t i = 0; i < rays.size(); ++i) {
     const std::string what = difference(queries, rays[i], batch, i, crossings);
     ++record.rays;
+    record.digest += digest_of(rays[i], crossings);
     if (!crossings.empty()) ++record.hits;
     if (what.empty()) continue;
     ++record.disagreements;
