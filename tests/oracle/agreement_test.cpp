@@ -82,3 +82,22 @@ TEST_CASE("a ray along the axis of a spindle torus meets it") {
   CHECK(occluded(scene, ray));
   CHECK(crossings(scene, ray).size() == 2);
 }
+
+TEST_CASE("what a ray meets where points have no numbers any more is nothing") {
+  const PreparedScene scene = alone(Plane{.normal = {0, -1, 0}, .position = {0, -0x1.3f03d8a3f9066p+24, 0}});
+  std::vector<Ray> rays;
+  for (int exponent = -360; exponent < -330; ++exponent) {
+    rays.push_back(
+        {.origin = {0x1.250247e009544p+18, -0x1.627d25886c4b3p+24, -0x1.0f18c0056b427p+23},
+         .direction = {-0x1.f08197608d847p+654, std::ldexp(1.0, exponent), -0x1.5c0f94997241fp+655}});
+  }
+  AgreementRecord record;
+  compare_queries(scene, "plane", rays, record);
+  CHECK(record.hits > 0);
+  CHECK(record.hits < rays.size());
+  for (const std::string& failure : record.failures) FAIL_CHECK(failure);
+  CHECK(record.disagreements == 0);
+  for (const Ray& ray : rays) {
+    if (const std::optional<Hit> hit = intersect(scene, ray)) CHECK(std::isfinite(hit->position.z));
+  }
+}

@@ -10,10 +10,11 @@ using namespace crt::test;
 namespace {
 
 /// Whether the ray's answer is right, and within its bound.
-bool holds(const Primitive& primitive, const Vec3& origin, const Vec3& direction) {
+bool holds(const Primitive& primitive, const Vec3& origin, const Vec3& direction,
+           const Contestant& tier = standard_tier()) {
   Record record;
-  return measure(truth_of({.primitive = primitive, .origin = origin, .direction = direction}),
-                 standard_tier(), 0, record);
+  return measure(truth_of({.primitive = primitive, .origin = origin, .direction = direction}), tier, 0,
+                 record);
 }
 
 }  // namespace
@@ -146,4 +147,29 @@ TEST_CASE("a cone is left beside its apex where it is") {
                   .radius2 = 0};
   CHECK(holds(cone, {0x1.2ba9805bc679bp+22, 0x1.a63de67aa2f22p+23, -0x1.19371b627fe32p+21},
               {0x1.d04b12657cd4ap-2, -0x1.6b8171170c82bp-1, 0x1.13e3fba30ea81p-1}));
+}
+
+TEST_CASE("a line that all but meets a torus's axis goes through the tube twice") {
+  const Torus across{.center = {0x1.b3773a43904dp+26, 0x1.641cab9adcdb9p+26, -0x1.61167a65298a7p+22},
+                     .axis = {-0x1.f7a53756b2484p+0, 0, 0},
+                     .radius = 0x1.431c20a64ce88p-28,
+                     .thickness = 0x1.f2f8830c7fda4p-30};
+  const Torus horn{.center = {-0x1.a2d4fd3a6caaep+21, 0x1.8ccaa9ed76f3fp+24, 0x1.0db27d6e1b63ap+22},
+                   .axis = {0, 0, 0x1.1f519e8d70736p-1},
+                   .radius = 0x1.0ef208bdc373dp-28,
+                   .thickness = 0x1.0ef208bdc373dp-28};
+  for (const Contestant& tier : {standard_tier(), exact_tier()}) {
+    CAPTURE(tier.name);
+    CHECK(holds(across, {0x1.b3773a43904dp+26, 0x1.641cab9adcdb9p+26, -0x1.61167a65298a8p+22},
+                {-0x1.c25204b98c0ccp-792, -0x1.686d00c449945p-808, -0x1.833e8457c8c66p+0}, tier));
+    CHECK(holds(horn, {-0x1.a2d4fd3a6caaep+21, 0x1.8ccaa9ed76f3fp+24, 0x1.0db27d6e1b639p+22},
+                {-0x1.0b390e1f346bfp-905, 0x1.cb244eab1f074p+0, 0x1.0718eff968b57p+0}, tier));
+    for (const double passing : {0.0, 1e-300, 1e-200, 1e-160, 1e-150, 1e-100, 1e-30, 1e-10}) {
+      CAPTURE(passing);
+      CHECK(
+          holds(Torus{.axis = {0, 0, 1}, .radius = 2, .thickness = 0.5}, {passing, -5, 0}, {0, 1, 0}, tier));
+      CHECK(
+          holds(Torus{.axis = {0, 0, 1}, .radius = 2, .thickness = 0.5}, {0, -5, 0}, {passing, 1, 0}, tier));
+    }
+  }
 }

@@ -20,7 +20,8 @@ class TorusLineOf {
         ring_(ring),
         tube_(tube),
         squared_speed_(dot(direction, direction)),
-        passing_(size_of(difference_of_products(point.x, direction.y, point.y, direction.x))),
+        passing_(without_what_vanishes(
+            size_of(difference_of_products(point.x, direction.y, point.y, direction.x)))),
         turning_(ring * passing_ * passing_),
         on_surface_(on_surface) {}
 
@@ -91,6 +92,11 @@ class TorusLineOf {
   double inflection_error_ = 0;
 
  private:
+  /// A line so near to the axis passes through it: of its square doubles would leave nothing.
+  static Real without_what_vanishes(const Real& passing) {
+    constexpr double smallest = 0x1p-500;
+    return passing > smallest ? passing : Real{};
+  }
   Real value_from_start(const Real& x, const Vec3Of<Real>& p, const Real& rho) const;
   Real half_curvature(const Level& here) const;
   Real first_guess(const Bracket& bracket) const;

@@ -100,18 +100,21 @@ MaskOf<Real> are_without_t(const Real& t_min, const Real& t_max) {
   return t_max - t_min == std::numeric_limits<double>::denorm_min();
 }
 
+/// Along a direction near length 1: beyond that a point may have no numbers, and there is no hit. Nor is
+/// there one beyond the largest t.
+inline constexpr double farthest = 0x1p1022;
+
 /// Makes of the user's ray one that can be followed: its direction is brought near length 1 by a power of
 /// two, which makes any length safe and changes no digit of t; see users_t().
 inline void follow(const Ray& users, WorldRay& ray) {
-  // Beyond the largest number there is no t to tell of, and so no hit.
   constexpr double largest = std::numeric_limits<double>::max();
   const int exponent = exponent_of(largest_component(users.direction));
   const PowerOfTwo shorten(-exponent);
   const PowerOfTwo lengthen(exponent);
   ray.origin = users.origin;
   ray.direction = shorten * users.direction;
-  ray.t_min = lengthen * std::max(users.t_min, -largest);
-  ray.t_max = lengthen * std::min(users.t_max, largest);
+  ray.t_min = std::max(lengthen * std::max(users.t_min, -largest), -farthest);
+  ray.t_max = std::min(lengthen * std::min(users.t_max, largest), farthest);
   if (are_without_t(users.t_min, users.t_max)) ray.t_max = ray.t_min;
 }
 
@@ -126,8 +129,8 @@ inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lan
   if (any(are_without_t(users.t_min, users.t_max))) return false;
   to_users_t = inverse_of_power(lengthen);
   rays.lines[group] = {users.origin, to_users_t * users.direction};
-  rays.t_min[group] = lengthen * max(users.t_min, lanes_of(-largest));
-  rays.t_max[group] = lengthen * min(users.t_max, lanes_of(largest));
+  rays.t_min[group] = max(lengthen * max(users.t_min, lanes_of(-largest)), lanes_of(-farthest));
+  rays.t_max[group] = min(lengthen * min(users.t_max, lanes_of(largest)), lanes_of(farthest));
   rays.start_errors[group] = Lanes{};
   return true;
 }
