@@ -14,9 +14,9 @@
 namespace crt::core {
 namespace {
 
-bool is_before(const NearCrossing& a, const NearCrossing& b) {
+constexpr auto is_before = [](const NearCrossing& a, const NearCrossing& b) {
   return std::tie(a.t, a.t_low) < std::tie(b.t, b.t_low);
-}
+};
 
 /// Below 0, 0 or above it, if their bounds or surfaces tell; nothing if only the roots do.
 std::optional<int> order_by_bounds(const NearCrossing& a, const NearCrossing& b) {

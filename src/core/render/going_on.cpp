@@ -172,8 +172,13 @@ void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split
   });
 }
 
-inline VectorLanes Tracer::most_weights(std::size_t group, const VectorLanes& weights) const {
-  if (frame_.features().gain == 1) return weights;
+RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights) {
+  if (frame_.features().gain == 1) return heavy_enough(group, lanes, deep, weights);
+  return heavy_enough(group, lanes, deep, most_weights(group, weights));
+}
+
+/// Its place on the stack is of no use to most scenes.
+[[gnu::noinline]] VectorLanes Tracer::most_weights(std::size_t group, const VectorLanes& weights) const {
   Lanes gains{};
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     gains[static_cast<int>(lane)] = frame_.gain_behind(round_->paths[group * lane_count + lane].bounces);
@@ -181,8 +186,7 @@ inline VectorLanes Tracer::most_weights(std::size_t group, const VectorLanes& we
   return gains * weights;
 }
 
-RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights) {
-  const VectorLanes most = most_weights(group, weights);
+inline RayMask Tracer::heavy_enough(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& most) {
   const RayMask weak = lanes & mask_of(is_weaker(most, frame_.settings().min_weight));
   deep &= lanes & ~weak;
   const RayMask dropped = weak | deep;

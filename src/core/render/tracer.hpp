@@ -118,6 +118,8 @@ class Tracer {
   RayMask worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights);
   /// What they may weigh after all that brightens light on their further ways.
   VectorLanes most_weights(std::size_t group, const VectorLanes& weights) const;
+  /// worth_it() by these.
+  RayMask heavy_enough(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& most);
   /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
   /// fills in its media.
   PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction, const StartPoint& start,

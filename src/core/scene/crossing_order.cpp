@@ -11,9 +11,9 @@
 namespace crt::core {
 namespace {
 
-bool is_before(const RayHit& a, const RayHit& b) {
+constexpr auto is_before = [](const RayHit& a, const RayHit& b) {
   return std::tie(a.t, a.t_low) < std::tie(b.t, b.t_low);
-}
+};
 
 void take_place(RayHit& hit, const RayHit& from) {
   hit.t = from.t;
