@@ -349,8 +349,8 @@ typedef struct crt_settings {
   /** Above 0: a pixel gets samples until it is this near the truth, in 95 of 100 cases; 1/255 is a step of
    * 8 bits; in [0, 1]; default 0 */
   double target_error;
-  /** above 0: the seconds that tracing may take; it stops at the end of a pass, the first of which takes what it
-   * takes, so that there is a picture; in [0, 1e6]; default 0 */
+  /** above 0: the seconds that tracing may take; it stops at the end of a pass, the first of which takes what
+   * it takes, so that there is a picture; in [0, 1e6]; default 0 */
   double time_budget;
   double filter_width; /**< pixels across, of filters other than the box; in [1, 16]; default 3 */
   int32_t min_samples; /**< of a pixel, with one of these two: a power of 2 in [4, 65536]; default 16 */
@@ -914,7 +914,8 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * was computed to be on a surface does not meet that surface there again, and what is nearer than that is not
  * seen. What is behind the start is never told as ahead of it. With CRT_PRECISION_EXACT the origin is taken
  * for the point that its doubles say: a surface is met if t_min < t holds for the exact t, rounded to a
- * double, and not otherwise, so that a ray from a point which rounding has put just below a surface meets it at once.
+ * double, and not otherwise, so that a ray from a point which rounding has put just below a surface meets it
+ * at once.
  *
  * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one after the
  * other. Any alignment will do, and hits may take the place of their own rays.

@@ -26,9 +26,10 @@
 
 namespace crt {
 
-/// The points origin + t * direction with t_min < t < t_max; t is in units of the direction's length, which may
-/// be any but 0. Of a direction whose components are more than 2^1022 apart the smaller ones count for as many
-/// digits as doubles have at 2^-1022 of the largest. A hit whose place is beyond the largest double is none.
+/// The points origin + t * direction with t_min < t < t_max; t is in units of the direction's length, which
+/// may be any but 0. Of a direction whose components are more than 2^1022 apart the smaller ones count for as
+/// many digits as doubles have at 2^-1022 of the largest. A hit whose place is beyond the largest double is
+/// none.
 struct Ray {
   Vec3 origin{0, 0, 0};
   Vec3 direction{0, 0, 1};

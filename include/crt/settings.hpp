@@ -47,8 +47,8 @@ struct Settings {
   /// Above 0, each pixel gets samples until it is this near the truth: half of the width of the interval that
   /// holds it in 95 of 100 cases, in what a display shows, where 1/255 is a step of 8 bits. In [0, 1].
   double target_error = 0;
-  /// Above 0, the seconds that tracing may take: it stops at the end of a pass, the first of which takes what it
-  /// takes, so that there is a picture. In [0, 1e6].
+  /// Above 0, the seconds that tracing may take: it stops at the end of a pass, the first of which takes what
+  /// it takes, so that there is a picture. In [0, 1e6].
   double time_budget = 0;
   /// With one of them: how many samples a pixel gets at least and at most; powers of 2 in [4, 65536].
   int min_samples = 16;

@@ -20,7 +20,8 @@ int main(int argc, char** argv) {
     for (const auto& [name, precision] :
          {std::pair{"standard", crt::Precision::standard}, {"exact", crt::Precision::exact}}) {
       const AgreementRecord record = measure_agreement(kind, precision, rays);
-      fmt::print("{:016x}  queries {} {}, {} rays\n", record.digest, name_of_agreement(kind), name, record.rays);
+      fmt::print("{:016x}  queries {} {}, {} rays\n", record.digest, name_of_agreement(kind), name,
+                 record.rays);
     }
   }
 }

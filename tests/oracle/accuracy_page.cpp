@@ -72,7 +72,9 @@ or out by 10^-16 to 0.1 sizes), parallel to a coordinate axis, aimed at edges an
 starting on the surface, and 10^-16 to 0.1 off parallel to a face or an axis. Of the rays at
 cylinders and cones a tenth more is along a ruling, a straight line of the side (turned off it by
 10^-16 to 0.1, shifted by as many sizes, both or neither), and another tenth is of all these
-kinds; both are at solids whose height and radius, or two radii, are up to 10^6 apart.
+kinds; both are at solids whose height and radius, or two radii, are up to 10^6 apart. At all
+primitives one ray in ten, of whatever kind, has a direction of extreme length (2^-850 to 2^850), or
+components up to 10^280 apart, and is counted as that.
 
 *standard* and *exact* are the two tiers of [what the geometry promises](numerics.md). *naive* are
 the formulas that everyone writes first, in plain doubles (`tests/oracle/naive.cpp`); it is

@@ -17,7 +17,7 @@ struct AgreementRecord {
   std::uint64_t rays = 0;
   std::uint64_t hits = 0;  ///< rays that meet anything
   std::uint64_t disagreements = 0;
-  std::uint64_t digest = 0;             ///< of all answers: equal ones have equal bits, in whatever order
+  std::uint64_t digest = 0;           ///< of all answers: equal ones have equal bits, in whatever order
   std::vector<std::string> failures;  ///< the first of them, in full
 
   void add(const AgreementRecord& other);

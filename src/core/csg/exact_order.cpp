@@ -8,8 +8,8 @@
 #include <tuple>
 
 #include "core/csg/evaluate.hpp"
-#include "core/math/stable_sort.hpp"
 #include "core/math/real_root.hpp"
+#include "core/math/stable_sort.hpp"
 
 namespace crt::core {
 namespace {
