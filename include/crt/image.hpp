@@ -105,8 +105,9 @@ class Image {
   std::span<const float> channel(std::string_view name) const;
   /// The same of a channel of whole numbers.
   std::span<const std::uint32_t> integer_channel(std::string_view name) const;
-  // The same, to change them.
+  /// The same numbers, to change them.
   std::span<float> channel(std::string_view name);
+  /// The same of a channel of whole numbers, to change them.
   std::span<std::uint32_t> integer_channel(std::string_view name);
   /// Replaces all channels. Throws Error (invalid_argument) for a name that is empty, taken (also by R, G, B
   /// or A) or has a character that is not printable ASCII, and for a wrong number of numbers.

@@ -103,7 +103,9 @@ class RayQueries {
   /// another, such as those through neighbouring pixels, are answered together, and faster than one by one;
   /// the answers are the same. Throws Error (invalid_argument) also where there are fewer places than rays.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
+  /// The same, as plain numbers.
   void intersect(std::span<const Ray> rays, std::span<PlainHit> hits);
+  /// Whether anything at all is hit, likewise for each of several rays.
   void occluded(std::span<const Ray> rays, std::span<bool> occluded);
 
   /// How far the nearest hits are, in units of |direction|, and of which entities, which is all that a depth

@@ -13,6 +13,7 @@ struct MemoryUse {
   std::uint64_t tree = 0;        ///< the tree of boxes over all objects
   std::uint64_t materials = 0;   ///< and pictures that had to be taken to linear light
 
+  /// All of them together.
   std::uint64_t total() const { return primitives + csg + tree + materials; }
 };
 
