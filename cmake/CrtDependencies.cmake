@@ -4,7 +4,7 @@ find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 
-# Embree 4 where there is one, else 3: src/core/scene/ compiles with both.
+# Embree 4 where there is one, else 3: src/core/accel/ compiles with both.
 find_package(embree 4 QUIET)
 if(NOT embree_FOUND)
   find_package(embree 3 REQUIRED)

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <glm/common.hpp>
 
+#include "core/compile/compile.hpp"
 #include "core/csg/evaluate.hpp"
-#include "core/scene/compile.hpp"
 
 namespace crt::test {
 

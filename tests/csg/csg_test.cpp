@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "core/scene/prepared_data.hpp"
+#include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
 #include "support/solids.hpp"
 

@@ -13,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-#include "core/scene/prepared_data.hpp"
+#include "core/prepare/prepared_data.hpp"
 #include "support/solids.hpp"
 
 using namespace crt;

@@ -4,8 +4,8 @@
 
 #include <vector>
 
+#include "core/compile/compile.hpp"
 #include "core/csg/evaluate.hpp"
-#include "core/scene/compile.hpp"
 
 namespace crt::test {
 

@@ -7,10 +7,10 @@
 #include <glm/geometric.hpp>
 #include <limits>
 
-#include "core/scene/accelerator.hpp"
-#include "core/scene/line_of_ray.hpp"
+#include "core/intersect/accelerator.hpp"
+#include "core/ray/line_of_ray.hpp"
 #include "csg/continued_ray.hpp"
-#include "scene/same_answers.hpp"
+#include "support/same_answers.hpp"
 #include "support/solids.hpp"
 
 using namespace crt;

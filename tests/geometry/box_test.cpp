@@ -1,4 +1,4 @@
-#include "core/geometry/box.hpp"
+#include "core/geometry/box/box.hpp"
 
 #include <doctest/doctest.h>
 

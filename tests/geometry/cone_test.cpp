@@ -1,11 +1,11 @@
-#include "core/geometry/cone.hpp"
+#include "core/geometry/cone/cone.hpp"
 
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <glm/geometric.hpp>
 
-#include "core/geometry/cylinder.hpp"
+#include "core/geometry/cylinder/cylinder.hpp"
 #include "geometry/frustum_oracle.hpp"
 
 using namespace crt;

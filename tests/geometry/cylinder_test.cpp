@@ -1,4 +1,4 @@
-#include "core/geometry/cylinder.hpp"
+#include "core/geometry/cylinder/cylinder.hpp"
 
 #include <doctest/doctest.h>
 

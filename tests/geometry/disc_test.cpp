@@ -1,4 +1,4 @@
-#include "core/geometry/disc.hpp"
+#include "core/geometry/disc/disc.hpp"
 
 #include <doctest/doctest.h>
 

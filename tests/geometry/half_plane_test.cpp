@@ -1,4 +1,4 @@
-#include "core/geometry/half_plane.hpp"
+#include "core/geometry/half_plane/half_plane.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/plane.hpp"
+#include "core/geometry/plane/plane.hpp"
 
 #include <doctest/doctest.h>
 

@@ -1,4 +1,4 @@
-#include "core/geometry/sphere.hpp"
+#include "core/geometry/sphere/sphere.hpp"
 
 #include <doctest/doctest.h>
 

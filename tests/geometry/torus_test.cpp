@@ -1,4 +1,4 @@
-#include "core/geometry/torus.hpp"
+#include "core/geometry/torus/torus.hpp"
 
 #include <doctest/doctest.h>
 

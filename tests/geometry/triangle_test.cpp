@@ -1,4 +1,4 @@
-#include "core/geometry/triangle.hpp"
+#include "core/geometry/triangle/triangle.hpp"
 
 #include <doctest/doctest.h>
 

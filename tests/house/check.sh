@@ -40,7 +40,7 @@ code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h'
 users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h' 'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
 
 # A folder of src/core uses those before it in this list, and itself.
-layers=(math files sampling tasks geometry csg shading camera scene render image)
+layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect prepare render image)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do
@@ -111,9 +111,9 @@ check_ends() {
   done
 }
 
-check_layers | complain "A layer uses one above it (math files sampling tasks geometry csg shading camera scene render image)"
-only_in 'embree' src/core/scene | complain "Embree outside src/core/scene"
-only_in 'tbb|oneapi/tbb' src/core/tasks src/core/scene | complain "TBB outside src/core/tasks and src/core/scene"
+check_layers | complain "A layer uses one above it (${layers[*]})"
+only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
+only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel | complain "TBB outside src/core/tasks and src/core/accel"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"

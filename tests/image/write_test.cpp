@@ -9,7 +9,7 @@
 #include <thread>
 #include <vector>
 
-#include "core/files/whole_file.hpp"
+#include "core/base/whole_file.hpp"
 #include "crt/error.hpp"
 #include "crt/image.hpp"
 #include "picture_files.hpp"

@@ -5,9 +5,9 @@
 #include <cmath>
 #include <glm/geometric.hpp>
 
+#include "core/compile/compile.hpp"
+#include "core/intersect/outline.hpp"
 #include "core/math/vector.hpp"
-#include "core/scene/compile.hpp"
-#include "core/scene/outline.hpp"
 #include "oracle/line_oracle.hpp"
 #include "oracle/ray_maker.hpp"
 

@@ -4,7 +4,7 @@
 #include <limits>
 #include <vector>
 
-#include "core/scene/prepared_data.hpp"
+#include "core/prepare/prepared_data.hpp"
 #include "oracle/solid_tree.hpp"
 
 namespace crt::test {

@@ -7,7 +7,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
-#include "core/geometry/frustum.hpp"
+#include "core/geometry/frustum/frustum.hpp"
 #include "oracle/measure.hpp"
 #include "oracle/ruling_rays.hpp"
 

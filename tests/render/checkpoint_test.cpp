@@ -11,7 +11,7 @@
 #include <optional>
 #include <string>
 
-#include "core/files/state_file.hpp"
+#include "core/base/state_file.hpp"
 #include "core/render/rendering.hpp"
 #include "pictures.hpp"
 #include "support/temporary_directory.hpp"

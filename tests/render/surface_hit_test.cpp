@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "core/shading/bump.hpp"
-#include "scene/numbers.hpp"
+#include "support/numbers.hpp"
 
 using namespace crt;
 using namespace crt::core;

@@ -10,7 +10,7 @@
 #include <span>
 
 #include "core/camera/aperture_shape.hpp"
-#include "core/geometry/plain_ray.hpp"
+#include "core/ray/plain_ray.hpp"
 #include "crt/camera.hpp"
 #include "crt/vec.hpp"
 

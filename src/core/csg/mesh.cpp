@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "core/geometry/checks.hpp"
-#include "core/geometry/triangle.hpp"
+#include "core/geometry/triangle/triangle.hpp"
 #include "crt/entity.hpp"
 #include "crt/error.hpp"
 

@@ -6,9 +6,9 @@
 
 #include "core/geometry/bounds.hpp"
 #include "core/geometry/exact_ray.hpp"
-#include "core/geometry/object_ray.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/precise_transform.hpp"
+#include "core/ray/object_ray.hpp"
 #include "crt/transform.hpp"
 
 namespace crt::core {

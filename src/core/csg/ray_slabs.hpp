@@ -9,10 +9,10 @@
 #include <cstring>
 #include <limits>
 
-#include "core/csg/outline_line.hpp"
 #include "core/geometry/bounds.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/vector.hpp"
+#include "core/ray/outline_line.hpp"
 
 namespace crt::core {
 

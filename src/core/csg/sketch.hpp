@@ -17,7 +17,7 @@
 #include <span>
 #include <vector>
 
-#include "core/csg/outline_line.hpp"
+#include "core/ray/outline_line.hpp"
 
 namespace crt::core {
 

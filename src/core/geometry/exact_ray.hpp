@@ -4,9 +4,9 @@
 #include <array>
 #include <limits>
 
-#include "core/geometry/object_ray.hpp"
 #include "core/math/dyadic_vector.hpp"
 #include "core/math/transform_chain.hpp"
+#include "core/ray/object_ray.hpp"
 #include "crt/transform.hpp"
 
 namespace crt::core {

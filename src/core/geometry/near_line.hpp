@@ -7,9 +7,9 @@
 
 #include <cmath>
 
-#include "core/geometry/object_ray.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/vector.hpp"
+#include "core/ray/object_ray.hpp"
 
 namespace crt::core {
 

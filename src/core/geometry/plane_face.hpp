@@ -6,11 +6,11 @@
 #include <type_traits>
 
 #include "core/geometry/angles.hpp"
-#include "core/geometry/object_ray.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/geometry/stretch.hpp"
 #include "core/math/vector.hpp"
 #include "core/math/vector_lanes.hpp"
+#include "core/ray/object_ray.hpp"
 
 namespace crt::core {
 

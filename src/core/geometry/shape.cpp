@@ -2,15 +2,15 @@
 // validate(), is_solid() and make_shape(); the variant Primitive is the one list of them.
 #include "core/geometry/shape.hpp"
 
-#include "core/geometry/box.hpp"
-#include "core/geometry/cone.hpp"
-#include "core/geometry/cylinder.hpp"
-#include "core/geometry/disc.hpp"
-#include "core/geometry/half_plane.hpp"
-#include "core/geometry/plane.hpp"
-#include "core/geometry/sphere.hpp"
-#include "core/geometry/torus.hpp"
-#include "core/geometry/triangle.hpp"
+#include "core/geometry/box/box.hpp"
+#include "core/geometry/cone/cone.hpp"
+#include "core/geometry/cylinder/cylinder.hpp"
+#include "core/geometry/disc/disc.hpp"
+#include "core/geometry/half_plane/half_plane.hpp"
+#include "core/geometry/plane/plane.hpp"
+#include "core/geometry/sphere/sphere.hpp"
+#include "core/geometry/torus/torus.hpp"
+#include "core/geometry/triangle/triangle.hpp"
 #include "crt/validate.hpp"
 
 namespace crt {

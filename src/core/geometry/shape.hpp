@@ -15,8 +15,8 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
-#include "core/geometry/object_ray.hpp"
 #include "core/geometry/surface.hpp"
+#include "core/ray/object_ray.hpp"
 #include "crt/primitives.hpp"
 
 namespace crt::core {

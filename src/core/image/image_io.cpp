@@ -7,7 +7,7 @@
 #include <string>
 #include <utility>
 
-#include "core/files/whole_file.hpp"
+#include "core/base/whole_file.hpp"
 #include "core/image/essential_bytes.hpp"
 #include "core/image/file_format.hpp"
 #include "core/image/file_texts.hpp"

@@ -9,8 +9,8 @@
 #include <utility>
 #include <vector>
 
+#include "core/prepare/prepared_data.hpp"
 #include "core/render/media.hpp"
-#include "core/scene/prepared_data.hpp"
 
 namespace crt::core {
 

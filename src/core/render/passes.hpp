@@ -17,7 +17,7 @@
 #include <shared_mutex>
 #include <vector>
 
-#include "core/files/state_file.hpp"
+#include "core/base/state_file.hpp"
 #include "core/render/canvas.hpp"
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"

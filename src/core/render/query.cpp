@@ -7,9 +7,9 @@
 #include <new>
 
 #include "core/math/float_environment.hpp"
+#include "core/prepare/prepared_data.hpp"
 #include "core/render/query_packet.hpp"
 #include "core/render/users_rays.hpp"
-#include "core/scene/prepared_data.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 

@@ -10,9 +10,9 @@
 #include <optional>
 #include <span>
 
+#include "core/prepare/prepared_data.hpp"
+#include "core/render/hit_faces.hpp"
 #include "core/render/users_rays.hpp"
-#include "core/scene/hit_faces.hpp"
-#include "core/scene/prepared_data.hpp"
 #include "crt/query.hpp"
 
 namespace crt::core {

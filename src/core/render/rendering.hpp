@@ -3,12 +3,12 @@
 
 #include <string>
 
+#include "core/prepare/prepared_data.hpp"
 #include "core/render/canvas.hpp"
 #include "core/render/frame.hpp"
 #include "core/render/passes.hpp"
 #include "core/render/progress.hpp"
 #include "core/render/tiles.hpp"
-#include "core/scene/prepared_data.hpp"
 #include "crt/render.hpp"
 
 namespace crt::core {

@@ -6,9 +6,9 @@
 #include <optional>
 #include <utility>
 
+#include "core/compile/compile.hpp"
 #include "core/math/vector.hpp"
 #include "core/render/tiles.hpp"
-#include "core/scene/compile.hpp"
 
 namespace crt::core {
 

@@ -3,7 +3,7 @@
 
 #include <array>
 
-#include "core/scene/prepared_data.hpp"
+#include "core/prepare/prepared_data.hpp"
 #include "core/shading/phong.hpp"
 
 namespace crt::core {

@@ -5,11 +5,11 @@
 #include <array>
 #include <span>
 
+#include "core/ray/ray_packet.hpp"
 #include "core/render/first_hit.hpp"
 #include "core/render/frame.hpp"
 #include "core/render/progress.hpp"
 #include "core/render/surface_group.hpp"
-#include "core/scene/ray_packet.hpp"
 #include "core/shading/phong.hpp"
 
 namespace crt::core {

@@ -12,7 +12,7 @@
 #include <type_traits>
 
 #include "core/math/vector_lanes.hpp"
-#include "core/scene/ray_packet.hpp"
+#include "core/ray/ray_packet.hpp"
 #include "crt/query.hpp"
 
 namespace crt::core {

@@ -9,10 +9,10 @@
 #include <span>
 #include <vector>
 
+#include "core/prepare/prepared_data.hpp"
 #include "core/render/first_hit.hpp"
 #include "core/render/media_on_way.hpp"
 #include "core/sampling/pixel_samples.hpp"
-#include "core/scene/prepared_data.hpp"
 #include "core/shading/rgb.hpp"
 
 namespace crt::core {

@@ -1,0 +1,179 @@
+// Packets of rays in the tree.
+#include <array>
+#include <cstring>
+#include <exception>
+
+#include "core/accel/embree_traversals.hpp"
+#include "core/csg/ray_slabs.hpp"
+#include "core/math/vector_lanes.hpp"
+
+namespace crt::core {
+
+void EmbreeTree::traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const {
+  if (handles_->takes_sixteen) {
+    traverse_part<RTCRayHit16>(packet, rays, 0, visitor);
+    return;
+  }
+  traverse_part<RTCRayHit8>(packet, rays, 0, visitor);
+  traverse_part<RTCRayHit8>(packet, rays, packet_size / 2, visitor);
+}
+
+bool EmbreeTree::knows_balls() const {
+  return !handles_->things.balls.empty();
+}
+
+FirstBalls EmbreeTree::first_balls(const RayBatch& rays, const RayBatch::Numbers& limits,
+                                   RayMask some) const {
+  FirstBalls known;
+  if (handles_->takes_sixteen) {
+    find_first_balls<RTCRayHit16>(rays, limits, some, 0, known);
+  } else {
+    find_first_balls<RTCRayHit8>(rays, limits, some, 0, known);
+    find_first_balls<RTCRayHit8>(rays, limits, some, packet_size / 2, known);
+  }
+  return known;
+}
+
+/// Where Embree's rays of a group start, and end.
+struct EmbreeTree::Entry {
+  Lanes start;        ///< t there
+  Lanes end;          ///< and t where they end
+  VectorLanes place;  ///< where they start, in Embree's units
+  RayMask coming;     ///< those that come to the box around all
+  RayMask near;       ///< among balls: that start where BallSearch takes them
+};
+
+/// Some rays of a packet as Embree takes them.
+template <class RayHits>
+struct EmbreeTree::Part {
+  static constexpr std::size_t count = sizeof(RayHits::ray.tfar) / sizeof(float);
+
+  std::size_t first_ray;  ///< of the packet
+  RayHits ray_hits;
+  alignas(64) std::array<int, count> valid{};
+  RayBatch::Numbers t_start;  ///< t where Embree's rays start, by the packet's groups
+  RayMask followed = 0;       ///< of the packet
+
+  explicit Part(std::size_t first) : first_ray(first) {}
+
+  /// put(group, lanes) of each group that is in the part.
+  template <class Put>
+  void fill(RayMask rays, const Put& put) {
+    for (std::size_t first = 0; first < count; first += lane_count) {
+      const std::size_t group = (first_ray + first) / lane_count;
+      const RayMask lanes = RayPacket::lanes(rays, group);
+      if (lanes != 0) put(group, lanes);
+    }
+    if (followed == 0) return;
+    for (std::size_t ray = 0; ray < count; ++ray) {
+      ray_hits.ray.tnear[ray] = 0;
+      ray_hits.ray.time[ray] = 0;
+      ray_hits.ray.mask[ray] = ~0u;
+      ray_hits.ray.id[ray] = static_cast<unsigned>(first_ray + ray);
+      ray_hits.ray.flags[ray] = 0;
+      ray_hits.hit.geomID[ray] = RTC_INVALID_GEOMETRY_ID;
+    }
+  }
+
+  /// Some lanes of a group.
+  void put(std::size_t group, RayMask lanes, const Entry& entry, const VectorLanes& direction, double scale) {
+    const std::size_t first = group * lane_count - first_ray;
+    auto& to_trace = ray_hits.ray;
+    followed |= lanes << (group * lane_count);
+    t_start[group] = entry.start;
+    put_lanes(int_lanes_with(lanes), valid, first);
+    put_lanes(to_floats(entry.place.x), to_trace.org_x, first);
+    put_lanes(to_floats(entry.place.y), to_trace.org_y, first);
+    put_lanes(to_floats(entry.place.z), to_trace.org_z, first);
+    put_lanes(direction_floats(direction.x), to_trace.dir_x, first);
+    put_lanes(direction_floats(direction.y), to_trace.dir_y, first);
+    put_lanes(direction_floats(direction.z), to_trace.dir_z, first);
+    put_lanes(round_up_length((entry.end - entry.start) * scale), to_trace.tfar, first);
+  }
+};
+
+inline void EmbreeTree::enter(const OutlineLine<Lanes>& lines, const Lanes& limits, RayMask lanes,
+                              Entry& entry) const {
+  const LineSpanLanes inside = RaySlabs::spans(lines, total_, lanes);
+  entry.start = max(lines.begin, inside.enter);
+  entry.end = min(limits, inside.leave);
+  const VectorLanes place = plain_ray(lines).from_center(center_, entry.start);
+  const Lanes far = lanes_of(farthest_place);
+  for (int axis = 0; axis < 3; ++axis) entry.place[axis] = clamp(place[axis] * scale_, -far, far);
+  entry.coming = lanes & mask_of(entry.start <= entry.end);
+}
+
+template <class RayHits>
+void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
+                               PacketVisitor& visitor) const {
+  Part<RayHits> part(first_ray);
+  part.fill(rays, [&](std::size_t group, RayMask lanes) {
+    const OutlineLine<Lanes>& lines = packet.groups[group];
+    Entry entry;
+    enter(lines, packet.limits[group], lanes, entry);
+    part.put(group, entry.coming, entry, plain_ray(lines).direction, scale_);
+  });
+  if (part.followed == 0) return;
+  PacketTraversal traversal{.visitor = &visitor, .packet = &packet, .t_start = part.t_start, .scale = scale_};
+  init_context(traversal.any.context);
+  embree_intersect(handles_->scene, traversal.any.context, part.valid.data(), part.ray_hits);
+  if (traversal.failure) std::rethrow_exception(traversal.failure);
+}
+
+/// Rays that start near enough are not moved to the box around all.
+inline void EmbreeTree::enter_among_balls(const RayBatch& rays, const RayBatch::Numbers& limits,
+                                          std::size_t group, RayMask lanes, Entry& entry) const {
+  const RayLanes& lines = rays.lines[group];
+  const Lanes& begin = rays.t_min[group];
+  for (int axis = 0; axis < 3; ++axis) {
+    entry.place[axis] = (lines.origin[axis] - center_[axis] + begin * lines.direction[axis]) * scale_;
+  }
+  entry.near = lanes & mask_of(BallSearch::is_near(entry.place, begin * scale_));
+  if (entry.near == lanes) {
+    entry.start = begin;
+    entry.end = min(limits[group], begin + BallSearch::farthest * (1 / scale_));
+    entry.coming = lanes & mask_of(begin <= entry.end);
+    return;
+  }
+  OutlineLine<Lanes> line;
+  line.origin = {lines.origin.x, lines.origin.y, lines.origin.z};
+  line.direction = {lines.direction.x, lines.direction.y, lines.direction.z};
+  for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
+  line.begin = begin;
+  enter(line, limits[group], lanes, entry);
+  entry.near = lanes & mask_of(BallSearch::is_near(entry.place, entry.start * scale_));
+}
+
+template <class RayHits>
+void EmbreeTree::find_first_balls(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some,
+                                  std::size_t first_ray, FirstBalls& known) const {
+  Part<RayHits> part(first_ray);
+  BallTraversal traversal(first_ray);
+  BallSearch& search = traversal.search;
+  part.fill(some, [&](std::size_t group, RayMask lanes) {
+    const VectorLanes& direction = rays.lines[group].direction;
+    Entry entry;
+    enter_among_balls(rays, limits, group, lanes, entry);
+    known.missing |= (lanes & ~entry.coming) << (group * lane_count);
+    const Lanes squared_speed = dot(direction, direction);
+    search.set_squared_speeds(group * lane_count - first_ray, to_floats(squared_speed));
+    const LaneMask is_plain = BallSearch::is_plain(squared_speed, rays.start_errors[group] * scale_);
+    part.put(group, entry.coming & entry.near & mask_of(is_plain), entry, direction, scale_);
+  });
+  if (part.followed == 0) return;
+  embree_intersect(handles_->scene, traversal.any.context, part.valid.data(), part.ray_hits);
+
+  const auto& ends = part.ray_hits.ray.tfar;
+  const BallSearch::Outcome outcome = search.outcome(ends);
+  const RayMask known_rays = part.followed & outcome.known << first_ray;
+  const RayMask meeting = outcome.meeting << first_ray;
+  known.meeting |= known_rays & meeting;
+  known.missing |= known_rays & ~meeting;
+  std::memcpy(&known.boxes[first_ray], search.first().data(), part.count * sizeof(std::uint32_t));
+  for (std::size_t first = 0; first < part.count; first += lane_count) {
+    const std::size_t group = (first_ray + first) / lane_count;
+    known.to[group] = part.t_start[group] + to_doubles(lanes_at<FloatLanes>(&ends[first])) * (1 / scale_);
+  }
+}
+
+}  // namespace crt::core

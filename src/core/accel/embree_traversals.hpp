@@ -1,0 +1,96 @@
+// What Embree's callbacks are told, by those who let it go through the tree.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <exception>
+#include <limits>
+#include <vector>
+
+#include "core/accel/ball_search.hpp"
+#include "core/accel/embree_compat.hpp"
+#include "core/accel/embree_floats.hpp"
+#include "core/accel/embree_tree.hpp"
+
+namespace crt::core {
+
+inline constexpr float float_infinity = std::numeric_limits<float>::infinity();
+
+/// In units in which the half extent of all is below 1: Embree takes no ray that starts farther away. None
+/// that does so where it should enter the box around all meets anything, but rounding may put it there.
+inline constexpr double farthest_place = 0x1p60;
+
+/// What the callbacks get of Embree: the context is the first member, so that the two have one address.
+struct AnyTraversal {
+  enum class Kind { of_ray, of_packet, among_balls };
+
+  EmbreeContext context;
+  Kind kind = Kind::of_ray;
+};
+
+/// A ray on its way.
+struct Traversal {
+  AnyTraversal any;
+  BoxVisitor* visitor = nullptr;
+  double t_start = 0;  ///< t where Embree's ray starts
+  double scale = 1;    ///< Embree's t for each unit of t
+  std::exception_ptr failure;
+
+  /// Embree's end of the ray for the caller's.
+  float far_end(double t) const { return round_up_length((t - t_start) * scale); }
+};
+
+/// A packet's likewise.
+struct PacketTraversal {
+  AnyTraversal any{.context = {}, .kind = AnyTraversal::Kind::of_packet};
+  PacketVisitor* visitor = nullptr;
+  const RayPacket* packet = nullptr;
+  std::array<Lanes, RayPacket::group_count> t_start{};
+  double scale = 1;
+  std::exception_ptr failure{};
+
+  FloatLanes far_ends(std::size_t group) const {
+    const Lanes& start = t_start[group];
+    const Lanes& limit = packet->limits[group];
+    const auto is_over = __builtin_convertvector(limit < start, IntLanes);
+    return is_over ? FloatLanes{} - float_infinity : round_up_length((limit - start) * scale);
+  }
+};
+
+/// A packet's whose rays are looked for by floats alone.
+struct BallTraversal {
+  AnyTraversal any;
+  std::size_t first_ray;  ///< of the packet, that the search has as its first
+  BallSearch search;
+
+  explicit BallTraversal(std::size_t first) : first_ray(first) {
+    init_context(any.context);
+    any.kind = AnyTraversal::Kind::among_balls;
+  }
+};
+
+/// What Embree's geometry is of.
+struct Things {
+  std::vector<RTCBounds> boxes;  ///< until Embree has built its tree
+  std::vector<FloatBall> balls;
+};
+
+struct EmbreeTree::Handles {
+  std::atomic<std::int64_t> embree_bytes = 0;
+  RTCDevice device = nullptr;
+  RTCScene scene = nullptr;
+  Things things;
+  bool takes_sixteen = false;  ///< rays at once, without taking them one by one
+
+  ~Handles() {
+    if (scene != nullptr) rtcReleaseScene(scene);
+    if (device != nullptr) rtcReleaseDevice(device);
+  }
+};
+
+void bounds_callback(const RTCBoundsFunctionArguments* arguments);
+void intersect_callback(const RTCIntersectFunctionNArguments* arguments);
+void occluded_callback(const RTCOccludedFunctionNArguments* arguments);
+
+}  // namespace crt::core

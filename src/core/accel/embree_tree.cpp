@@ -1,0 +1,215 @@
+#include "core/accel/embree_tree.hpp"
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <limits>
+#include <string>
+#include <vector>
+
+#ifndef CRT_TASKS_THREADS
+#include <oneapi/tbb/task_arena.h>
+#endif
+
+#include "core/accel/embree_traversals.hpp"
+#include "core/csg/ray_slabs.hpp"
+#include "core/math/vector.hpp"
+#include "core/ray/object_ray.hpp"
+#include "crt/error.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// How much boxes grow by, in units in which the whole scene's half extent is between 1/2 and 1: as much as
+/// roundings may put a ray next to where it is, u = 2^-24 being a float's.
+///
+/// Embree gets the ray's start o and direction d as floats, which moves its points by u and, for each unit of
+/// the way, by u again: rays start within 2 of the middle, so that is 9 u. It finds where they meet the plane
+/// x = l at l r - o r, with r = 1 / d known to 4 u (a processor's estimate, and a step of Newton's method):
+/// another 2 u for the product and 5 u of |l - o| < 3. RTC_SCENE_FLAG_ROBUST, which would spare the latter,
+/// makes no difference to boxes of users (Embree 3.13).
+constexpr double box_margin = 0x1p-19;  // 32 u
+
+/// And by more than rays' starts may be off what they are on, relative to their coordinates: beside a scene
+/// that is far from the origin that is no small part of it.
+constexpr double place_margin = 2 * start_rounding;
+
+/// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
+/// worth starting any for.
+void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
+#ifndef CRT_TASKS_THREADS
+  constexpr std::size_t worth_threads = 2048;
+  if (box_count < worth_threads) {
+    tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
+    return;
+  }
+#endif
+  rtcCommitScene(scene);
+}
+
+[[noreturn]] void fail(RTCError error) {
+  if (error == RTC_ERROR_OUT_OF_MEMORY) {
+    throw Error(ErrorCode::out_of_memory, "not enough memory for the acceleration structure");
+  }
+  if (error == RTC_ERROR_UNSUPPORTED_CPU) {
+    throw Error(ErrorCode::unsupported, "this processor is too old for Embree");
+  }
+  throw Error(ErrorCode::internal, "Embree failed with error " + std::to_string(static_cast<int>(error)));
+}
+
+void check(RTCDevice device) {
+  const RTCError error = rtcGetDeviceError(device);
+  if (error != RTC_ERROR_NONE) fail(error);
+}
+
+/// Is told of what Embree takes (or, as a negative number, gives back); true lets it.
+bool count_memory(void* embree_bytes, ssize_t bytes, bool /*done*/) {
+  *static_cast<std::atomic<std::int64_t>*>(embree_bytes) += bytes;
+  return true;
+}
+
+/// What Embree asks now and then while it builds. No exception may pass through it, so one is kept.
+struct StoppableBuild {
+  StopCheck* stop;
+  std::exception_ptr failure;
+  std::atomic_flag failed{};
+};
+
+bool may_go_on(void* stoppable_build, double /*share*/) {
+  auto& build = *static_cast<StoppableBuild*>(stoppable_build);
+  try {
+    build.stop->poll();
+    return true;
+  } catch (...) {
+    if (!build.failed.test_and_set()) build.failure = std::current_exception();
+    return false;
+  }
+}
+
+/// None if most of them are so small that floats hardly know them.
+std::vector<FloatBall> float_balls(std::span<const Ball> balls, const Vec3& center, double scale) {
+  constexpr double smallest = 0x1p-12;
+  const auto is_small = [&](const Ball& ball) { return ball.radius * scale < smallest; };
+  const auto small_balls = std::count_if(balls.begin(), balls.end(), is_small);
+  std::vector<FloatBall> floats;
+  if (static_cast<std::size_t>(small_balls) > balls.size() / 8) return floats;
+  floats.reserve(balls.size());
+  const auto to_float = [](double value) { return static_cast<float>(value); };
+  for (const Ball& ball : balls) {
+    const Vec3 place = (ball.center - center) * scale;
+    floats.push_back(
+        {{to_float(place.x), to_float(place.y), to_float(place.z)}, to_float(ball.radius * scale)});
+  }
+  return floats;
+}
+
+}  // namespace
+
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls,
+                       StopCheck* stop) {
+  double extent = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
+    extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
+  }
+  if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
+  const double margin = box_margin + place_margin * total.farthest() * scale_;
+  total_ = total.grown(2 * margin / scale_);
+
+  auto handles = std::make_unique<Handles>();
+#ifdef CRT_TASKS_THREADS
+  // Builds for ThreadSanitizer: it does not see how Embree's own threads agree.
+  handles->device = rtcNewDevice("threads=1");
+#else
+  handles->device = rtcNewDevice(nullptr);
+#endif
+  if (handles->device == nullptr) fail(rtcGetDeviceError(nullptr));
+  rtcSetDeviceMemoryMonitorFunction(handles->device, count_memory, &handles->embree_bytes);
+  std::vector<RTCBounds>& floats = handles->things.boxes;
+  floats.reserve(boxes.size());
+  for (const Bounds& box : boxes) {
+    const auto lower = [&](int axis) {
+      return round_down((box.lower[axis] - center_[axis]) * scale_ - margin);
+    };
+    const auto upper = [&](int axis) {
+      return round_up((box.upper[axis] - center_[axis]) * scale_ + margin);
+    };
+    floats.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
+  }
+  handles->scene = rtcNewScene(handles->device);
+  RTCGeometry geometry = rtcNewGeometry(handles->device, RTC_GEOMETRY_TYPE_USER);
+  rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
+  rtcSetGeometryUserData(geometry, &handles->things);
+  rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
+  rtcSetGeometryIntersectFunction(geometry, intersect_callback);
+  rtcSetGeometryOccludedFunction(geometry, occluded_callback);
+  rtcCommitGeometry(geometry);
+  rtcAttachGeometry(handles->scene, geometry);
+  rtcReleaseGeometry(geometry);
+  StoppableBuild stoppable{stop, nullptr};
+  if (stop != nullptr) rtcSetSceneProgressMonitorFunction(handles->scene, may_go_on, &stoppable);
+  build(handles->scene, boxes.size());
+  rtcSetSceneProgressMonitorFunction(handles->scene, nullptr, nullptr);
+  if (stoppable.failure) std::rethrow_exception(stoppable.failure);
+  check(handles->device);
+  floats = {};
+  handles->things.balls = float_balls(balls, center_, scale_);
+  handles->takes_sixteen =
+      rtcGetDeviceProperty(handles->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+  handles_ = std::move(handles);
+}
+
+EmbreeTree::~EmbreeTree() = default;
+
+std::uint64_t EmbreeTree::bytes() const {
+  return static_cast<std::uint64_t>(handles_->embree_bytes) +
+         handles_->things.balls.capacity() * sizeof(FloatBall);
+}
+
+void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+                          bool from_near, BoxVisitor& visitor) const {
+  // A distant origin is moved up to the scene first, where floats are fine enough.
+  const LineSpan span = RaySlabs::span(origin, direction, total_);
+  const double t_start = std::max(t_min, span.enter);
+  const double t_end = std::min(t_max, span.leave);
+  if (t_start > t_end) return;
+
+  const double length = power_of_two_below(largest_component(direction));
+  Traversal traversal;
+  init_context(traversal.any.context);
+  traversal.visitor = &visitor;
+  traversal.t_start = t_start;
+  traversal.scale = scale_ * length;
+
+  // Axes side by side, and the start as ObjectRay::from_center() has it.
+  const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 0}; };
+  const Lanes way = by_axis(direction);
+  const DoubleDoubleLanes offset = two_sum(by_axis(origin), -by_axis(center_));
+  const Lanes place = (fma(lanes_of(t_start), way, offset.hi) + offset.lo) * scale_;
+  const Lanes far = lanes_of(farthest_place);
+  const FloatLanes place_floats = to_floats(clamp(place, -far, far));
+  const FloatLanes way_floats = to_floats(way * (1 / length));
+  RTCRayHit ray_hit;
+  RTCRay& ray = ray_hit.ray;
+  ray = {};
+  ray.org_x = place_floats[0];
+  ray.org_y = place_floats[1];
+  ray.org_z = place_floats[2];
+  ray.dir_x = way_floats[0];
+  ray.dir_y = way_floats[1];
+  ray.dir_z = way_floats[2];
+  ray.tnear = 0;
+  ray.tfar = traversal.far_end(t_end);
+  ray.mask = ~0u;
+  if (from_near) {
+    ray_hit.hit = {};
+    ray_hit.hit.geomID = RTC_INVALID_GEOMETRY_ID;
+    embree_intersect(handles_->scene, traversal.any.context, ray_hit);
+  } else {
+    embree_occluded(handles_->scene, traversal.any.context, ray);
+  }
+  if (traversal.failure) std::rethrow_exception(traversal.failure);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,84 @@
+#include "core/base/output_place.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <charconv>
+#include <optional>
+#include <system_error>
+
+#include "crt/error.hpp"
+
+namespace crt::core {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+/// As many as Linux itself follows.
+constexpr int most_links = 40;
+
+fs::path folder_of(const fs::path& path) {
+  return path.has_parent_path() ? path.parent_path() : fs::path(".");
+}
+
+/// The number that the file system shows one of this process's own descriptors under. The name is a link to
+/// the file that is open, but whoever names the descriptor means what is open, with its place in the file.
+std::optional<int> own_descriptor(const fs::path& path) {
+  const std::string name = path.filename().string();
+  int number = -1;
+  const auto [end, error] = std::from_chars(name.data(), name.data() + name.size(), number);
+  if (name.empty() || error != std::errc{} || end != name.data() + name.size()) return std::nullopt;
+  std::error_code failed;
+  const fs::path folder = fs::canonical(folder_of(path), failed);
+  if (failed) return std::nullopt;
+  for (const char* own : {"/proc/self/fd", "/proc/thread-self/fd"}) {
+    if (folder == fs::canonical(own, failed) && !failed) return number;
+  }
+  return std::nullopt;
+}
+
+/// There is nothing at a path: whether there can be.
+void check_folder(const fs::path& path) {
+  if (path.empty()) fail_to_write(path, "a file needs a name");
+  const fs::path folder = folder_of(path);
+  std::error_code unreachable;
+  if (fs::is_directory(folder, unreachable)) return;
+  fail_to_write(path,
+                fmt::format("there is no folder '{}'; make it first, or name another", folder.string()));
+}
+
+}  // namespace
+
+std::string system_message(int error) {
+  return std::generic_category().message(error);
+}
+
+void fail_to_write(const fs::path& path, const std::string& reason) {
+  throw Error(ErrorCode::io, fmt::format("cannot write '{}': {}", path.string(), reason));
+}
+
+OutputPlace output_place(const fs::path& path) {
+  using Kind = OutputPlace::Kind;
+  fs::path at = path;
+  for (int links = 0; links <= most_links; ++links) {
+    if (const std::optional<int> number = own_descriptor(at)) return {Kind::descriptor, path, *number};
+    struct stat status {};
+    if (::lstat(at.c_str(), &status) != 0) {
+      if (errno != ENOENT && errno != ENOTDIR) fail_to_write(path, system_message(errno));
+      check_folder(at);
+      return {Kind::new_file, at};
+    }
+    if (S_ISDIR(status.st_mode)) fail_to_write(path, "it is a folder; add a file's name to it");
+    if (S_ISREG(status.st_mode)) return {Kind::regular_file, at, -1, status};
+    if (!S_ISLNK(status.st_mode)) return {Kind::special, at};
+    std::error_code failed;
+    const fs::path target = fs::read_symlink(at, failed);
+    if (failed) fail_to_write(path, failed.message());
+    at = at.parent_path() / target;
+  }
+  fail_to_write(path, "its symbolic links lead in a circle");
+}
+
+}  // namespace crt::core

@@ -1,0 +1,284 @@
+#include "core/base/whole_file.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <poll.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cerrno>
+#include <csignal>
+#include <string>
+#include <tuple>
+#include <utility>
+
+#include "core/base/output_place.hpp"
+#include "crt/error.hpp"
+#include "crt/file.hpp"
+
+namespace crt::core {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+[[noreturn]] void fail_to_read(const fs::path& path, const std::string& reason) {
+  throw Error(ErrorCode::io, fmt::format("cannot read '{}': {}", path.string(), reason));
+}
+
+/// Closes a file on the way out.
+class Descriptor {
+ public:
+  explicit Descriptor(int value) : value_(value) {}
+  Descriptor(const Descriptor&) = delete;
+  Descriptor& operator=(const Descriptor&) = delete;
+  Descriptor(Descriptor&& other) noexcept : value_(std::exchange(other.value_, -1)) {}
+  Descriptor& operator=(Descriptor&&) = delete;
+  ~Descriptor() {
+    if (value_ >= 0) ::close(value_);
+  }
+
+  int get() const { return value_; }
+  bool valid() const { return value_ >= 0; }
+  /// Whether all that was written has been taken.
+  bool close() { return ::close(std::exchange(value_, -1)) == 0; }
+
+ private:
+  int value_;
+};
+
+/// Keeps SIGPIPE, which would end the process, from the calling thread as long as it lives.
+class NoPipeSignal {
+ public:
+  NoPipeSignal() {
+    sigemptyset(&pipe_);
+    sigaddset(&pipe_, SIGPIPE);
+    was_pending_ = is_pending();
+    pthread_sigmask(SIG_BLOCK, &pipe_, &before_);
+  }
+  NoPipeSignal(const NoPipeSignal&) = delete;
+  NoPipeSignal& operator=(const NoPipeSignal&) = delete;
+  ~NoPipeSignal() {
+    if (!was_pending_ && is_pending()) {  // our own writing has raised it
+      int signal = 0;
+      sigwait(&pipe_, &signal);
+    }
+    pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  }
+
+ private:
+  static bool is_pending() {
+    sigset_t pending;
+    return sigpending(&pending) == 0 && sigismember(&pending, SIGPIPE) == 1;
+  }
+
+  sigset_t pipe_{};
+  sigset_t before_{};
+  bool was_pending_ = false;
+};
+
+/// How many bytes there were, 0 at the end.
+std::size_t read_some(const Descriptor& file, std::span<std::byte> bytes, const fs::path& path) {
+  for (;;) {
+    const ssize_t count = ::read(file.get(), bytes.data(), bytes.size());
+    if (count >= 0) return static_cast<std::size_t>(count);
+    if (errno != EINTR) fail_to_read(path, system_message(errno));
+  }
+}
+
+/// Waits until a file that was opened not to wait takes more.
+void wait_to_write(int file) {
+  pollfd ready = {.fd = file, .events = POLLOUT, .revents = 0};
+  ::poll(&ready, 1, -1);
+}
+
+/// `path` is for messages.
+void write_all(const Descriptor& file, std::span<const std::byte> content, const fs::path& path) {
+  while (!content.empty()) {
+    const ssize_t written = ::write(file.get(), content.data(), content.size());
+    if (written < 0 && errno == EINTR) continue;
+    if (written < 0 && (errno == EAGAIN || errno == EWOULDBLOCK)) {
+      wait_to_write(file.get());
+      continue;
+    }
+    if (written < 0) fail_to_write(path, system_message(errno));
+    content = content.subspan(static_cast<std::size_t>(written));
+  }
+}
+
+/// Writes to what is open, without going about by another file.
+void write_straight(Descriptor file, const fs::path& path, const FilePieces& produce) {
+  if (!file.valid()) fail_to_write(path, system_message(errno));
+  const NoPipeSignal no_signal;
+  produce([&](std::span<const std::byte> piece) { write_all(file, piece, path); });
+  if (!file.close()) fail_to_write(path, system_message(errno));
+}
+
+Descriptor open_as_it_is(const fs::path& path, int further_flags = 0) {
+  return Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | further_flags));
+}
+
+/// Whether the system refuses to change a folder, which says nothing of the files in it.
+bool is_refusal(int error) {
+  return error == EACCES || error == EPERM || error == EROFS || error == EBUSY;
+}
+
+/// A new file in the folder of a place that vanishes unless it is moved there.
+class TemporaryFile {
+ public:
+  explicit TemporaryFile(const OutputPlace& place)
+      : place_(place), file_(create()), is_made_(file_.valid()) {}
+  TemporaryFile(const TemporaryFile&) = delete;
+  TemporaryFile& operator=(const TemporaryFile&) = delete;
+  ~TemporaryFile() {
+    if (is_made_ && !is_moved_) ::unlink(name_.c_str());
+  }
+
+  /// If not, errno says why.
+  bool is_made() const { return is_made_; }
+
+  void write(std::span<const std::byte> content) { write_all(file_, content, place_.path); }
+
+  void move_to_place() {
+    if (is_replacement()) keep_owner_and_permissions();
+    if (!file_.close()) fail_to_write(place_.path, system_message(errno));
+    is_moved_ = ::rename(name_.c_str(), place_.path.c_str()) == 0;
+    if (is_moved_) return;
+    if (!is_replacement() || !is_refusal(errno)) fail_to_write(place_.path, system_message(errno));
+    copy_to_place();
+  }
+
+ private:
+  bool is_replacement() const { return place_.kind == OutputPlace::Kind::regular_file; }
+
+  /// Tries names until there is none of it: O_EXCL makes each attempt safe from other writers.
+  Descriptor create() {
+    constexpr int most_attempts = 10000;
+    constexpr mode_t readable_by_all = 0666;
+    // What replaces a file that others may not read must not be read by them while it is written.
+    constexpr mode_t private_at_first = 0600;
+    for (int attempt = 0; attempt < most_attempts; ++attempt) {
+      name_ = place_.path.parent_path() / fmt::format(".crt-{}-{}.part", ::getpid(), attempt);
+      Descriptor file(::open(name_.c_str(), O_CREAT | O_EXCL | O_WRONLY | O_CLOEXEC,
+                             is_replacement() ? private_at_first : readable_by_all));
+      if (file.valid() || errno != EEXIST) return file;
+    }
+    return Descriptor(-1);
+  }
+
+  /// As far as the system lets us, which it need not: the content is what counts.
+  void keep_owner_and_permissions() const {
+    constexpr mode_t permissions = 0777;
+    constexpr auto same_owner = static_cast<uid_t>(-1);
+    const struct stat& old = place_.status;
+    std::ignore = ::fchown(file_.get(), same_owner, old.st_gid);
+    std::ignore = ::fchown(file_.get(), old.st_uid, old.st_gid);
+    std::ignore = ::fchmod(file_.get(), old.st_mode & permissions);
+  }
+
+  /// Where nothing takes the place of the file that is there, but it takes other content.
+  void copy_to_place() const {
+    const Descriptor source(::open(name_.c_str(), O_RDONLY | O_CLOEXEC));
+    if (!source.valid()) fail_to_write(place_.path, system_message(errno));
+    write_straight(open_as_it_is(place_.path, O_TRUNC), place_.path, [&](const auto& write) {
+      std::array<std::byte, std::size_t{1} << 16> buffer;
+      while (const std::size_t count = read_some(source, buffer, place_.path)) {
+        write(std::span(buffer).first(count));
+      }
+    });
+  }
+
+  const OutputPlace& place_;
+  fs::path name_;
+  Descriptor file_;
+  bool is_made_;
+  bool is_moved_ = false;
+};
+
+/// For a file that may be written though its folder may not.
+bool may_write_in_place(const OutputPlace& place, int refusal) {
+  return place.kind == OutputPlace::Kind::regular_file && is_refusal(refusal);
+}
+
+/// A new file is not to take the place of one that is protected.
+void check_protection(const OutputPlace& place) {
+  if (place.kind == OutputPlace::Kind::new_file || place.kind == OutputPlace::Kind::descriptor) return;
+  if (::faccessat(AT_FDCWD, place.path.c_str(), W_OK, AT_EACCESS) != 0) {
+    fail_to_write(place.path, system_message(errno));
+  }
+}
+
+}  // namespace
+
+std::vector<std::byte> read_whole_file(const fs::path& path, std::size_t max_bytes) {
+  // O_NONBLOCK: a pipe without a writer must not hang us; for a regular file it means nothing.
+  const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
+  if (!file.valid()) fail_to_read(path, system_message(errno));
+  struct stat status {};
+  if (::fstat(file.get(), &status) != 0) fail_to_read(path, system_message(errno));
+  if (S_ISDIR(status.st_mode)) fail_to_read(path, "it is a directory");
+  if (!S_ISREG(status.st_mode)) fail_to_read(path, "it is not a regular file");
+  const auto size = static_cast<std::size_t>(status.st_size);
+  if (size > max_bytes) fail_to_read(path, fmt::format("it is longer than {} bytes", max_bytes));
+  std::vector<std::byte> content(size);
+  std::size_t filled = 0;
+  while (filled < size) {
+    const std::size_t count = read_some(file, std::span(content).subspan(filled), path);
+    if (count == 0) break;
+    filled += count;
+  }
+  content.resize(filled);
+  return content;
+}
+
+void write_whole_file(const fs::path& path, std::span<const std::byte> content) {
+  write_whole_file(path, [&](const auto& write) { write(content); });
+}
+
+void write_whole_file(const fs::path& path, const FilePieces& produce) {
+  const OutputPlace place = output_place(path);
+  check_protection(place);
+  switch (place.kind) {
+    case OutputPlace::Kind::descriptor:
+      write_straight(Descriptor(::fcntl(place.descriptor, F_DUPFD_CLOEXEC, 0)), path, produce);
+      return;
+    case OutputPlace::Kind::special:
+      write_straight(open_as_it_is(place.path), path, produce);
+      return;
+    case OutputPlace::Kind::new_file:
+    case OutputPlace::Kind::regular_file:
+      break;
+  }
+  TemporaryFile file(place);
+  if (file.is_made()) {
+    produce([&](std::span<const std::byte> piece) { file.write(piece); });
+    file.move_to_place();
+    return;
+  }
+  if (!may_write_in_place(place, errno)) fail_to_write(path, system_message(errno));
+  write_straight(open_as_it_is(place.path, O_TRUNC), path, produce);
+}
+
+}  // namespace crt::core
+
+namespace crt {
+
+void write_file(const std::filesystem::path& path, std::span<const std::byte> content) {
+  core::write_whole_file(path, content);
+}
+
+void write_file(const std::filesystem::path& path, std::string_view content) {
+  write_file(path, std::as_bytes(std::span(content)));
+}
+
+void check_writable(const std::filesystem::path& path) {
+  using namespace core;
+  const OutputPlace place = output_place(path);
+  check_protection(place);
+  if (place.kind == OutputPlace::Kind::special || place.kind == OutputPlace::Kind::descriptor) return;
+  const TemporaryFile probe(place);
+  if (!probe.is_made() && !may_write_in_place(place, errno)) fail_to_write(path, system_message(errno));
+}
+
+}  // namespace crt

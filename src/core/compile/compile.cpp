@@ -1,0 +1,236 @@
+#include "core/compile/compile.hpp"
+
+#include <algorithm>
+#include <atomic>
+
+#include "core/compile/duplicates.hpp"
+#include "core/compile/flatten.hpp"
+#include "core/compile/surface_table.hpp"
+#include "core/tasks/parallel.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Counts children, and their values where every leaf is outside.
+void finish_nodes(CsgProgram& program, std::span<const Leaf> leaves) {
+  std::vector<CsgNode>& nodes = program.nodes;
+  std::vector<std::uint32_t> children(nodes.size(), 0);
+  for (std::size_t node = 1; node < nodes.size(); ++node) ++children[nodes[node].parent];
+  for (const std::uint32_t parent : program.leaf_parents) ++children[parent];
+  for (std::size_t node = 0; node < nodes.size(); ++node) {
+    if (nodes[node].needed == all_children) nodes[node].needed = children[node];
+  }
+  for (std::size_t i = 0; i < leaves.size(); ++i) {
+    if (leaves[i].complemented) ++nodes[program.leaf_parents[i]].count_outside;
+  }
+  // Children come after their parents.
+  for (std::size_t node = nodes.size(); node-- > 1;) {
+    const CsgNode& child = nodes[node];
+    if (child.count_outside >= child.needed) ++nodes[child.parent].count_outside;
+  }
+}
+
+/// Numbers the surfaces that several faces of a program are on; so far they are called by the first such
+/// face.
+std::uint32_t number_shared(std::span<const Leaf> leaves, std::span<FaceSurface> faces) {
+  std::uint32_t count = 0;
+  for (const Leaf& leaf : leaves) {
+    for (std::uint32_t face = leaf.first_face; face < leaf.first_face + leaf.face_count; ++face) {
+      std::uint32_t& shared = faces[face].shared;
+      if (shared == FaceSurface::not_shared) continue;
+      shared = shared == face ? count++ : faces[shared].shared;
+    }
+  }
+  return count;
+}
+
+/// Narrows the boxes of the leaves to where they matter; returns the box around the object.
+//
+// Every node has a box outside of which it has the value that it has where all leaves are outside
+// of their primitives, whatever its leaves do there. If one child's having that value is enough for it,
+// the boxes of such children are all boxes of the node, and so is what they have in common. What a
+// leaf does outside of the boxes of all nodes above it does not matter: a ray that misses what
+// they leave of the leaf's own box may leave out the leaf.
+Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
+  const auto outside_value = [&](std::size_t node) {
+    return program.nodes[node].count_outside >= program.nodes[node].needed;
+  };
+  const auto one_is_enough = [&](std::size_t node) {
+    return outside_value(node) == (program.nodes[node].needed == 1);
+  };
+  std::vector<Bounds> bounds(program.nodes.size());
+  for (std::size_t node = 0; node < bounds.size(); ++node) {
+    if (one_is_enough(node)) bounds[node] = Bounds::everything();
+  }
+  const auto add = [&](std::uint32_t node, const Bounds& child, bool child_value) {
+    if (!one_is_enough(node)) {
+      if (!child.empty()) bounds[node].include(child);
+    } else if (child_value == outside_value(node)) {
+      bounds[node] = bounds[node].clipped(child);
+    }
+  };
+  // Children come after their parents.
+  for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
+    const Leaf& leaf = leaves[i];
+    add(program.leaf_parents[i], leaf.bounds, leaf.complemented);
+  }
+  for (std::size_t node = bounds.size(); node-- > 1;) {
+    add(program.nodes[node].parent, bounds[node], outside_value(node));
+  }
+  for (std::size_t node = 1; node < bounds.size(); ++node) {
+    bounds[node] = bounds[node].clipped(bounds[program.nodes[node].parent]);
+  }
+  for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
+    Leaf& leaf = leaves[i];
+    leaf.bounds = leaf.bounds.clipped(bounds[program.leaf_parents[i]]);
+  }
+  return bounds[0];
+}
+
+class Compiler {
+ public:
+  Compiler(std::span<const Entity> entities, Precision precision, const Workers& workers)
+      : precision_(precision), workers_(workers), flat_(flatten(entities, precision, workers)) {
+    if (precision != Precision::exact) return;
+    for (const Entity& entity : entities) result_.entities.push_back(entity.shared_node());
+  }
+
+  CompiledScene compile();
+
+ private:
+  void make_placements();
+  void make_leaves();
+  void make_faces();
+  void finish_program(CsgProgram& program);
+  void finish_programs();
+  void finish_objects();
+
+  Precision precision_;
+  Workers workers_;
+  FlatScene flat_;
+  CompiledScene result_;
+};
+
+CompiledScene Compiler::compile() {
+  make_placements();
+  // They may take half of all memory, and nothing looks at them again.
+  flat_.placements = {};
+  flat_.transforms = {};
+  make_leaves();
+  make_faces();
+  if (remove_duplicates(flat_, result_.leaves, result_.face_surfaces, workers_)) {
+    make_leaves();
+    make_faces();
+  }
+  result_.materials = std::move(flat_.materials);
+  result_.programs = std::move(flat_.programs);
+  result_.programs.shrink_to_fit();
+  finish_programs();
+  finish_objects();
+  return std::move(result_);
+}
+
+void Compiler::make_placements() {
+  const bool exact = precision_ == Precision::exact;
+  result_.placements.resize(flat_.placements.size());
+  for_ranges(flat_.placements.size(), items_for_a_thread / 4, workers_,
+             [&](std::size_t begin, std::size_t end) {
+               for (std::size_t i = std::max<std::size_t>(begin, 1); i < end; ++i) {
+                 const TransformChain& to_world = *flat_.placements[i];
+                 result_.placements[i] = exact ? Placement(to_world) : Placement(to_world.product);
+               }
+             });
+  if (exact) result_.transforms = std::move(flat_.transforms);
+}
+
+void Compiler::make_leaves() {
+  result_.leaves.clear();
+  result_.leaves.resize(flat_.leaves.size());
+  std::atomic<std::uint64_t> shape_bytes = 0;
+  for_ranges(flat_.leaves.size(), items_for_a_thread / 4, workers_, [&](std::size_t begin, std::size_t end) {
+    std::uint64_t bytes = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const LeafSource& source = flat_.leaves[i];
+      Leaf& leaf = result_.leaves[i];
+      leaf.shape = make_shape(*source.primitive);
+      if (precision_ == Precision::exact) leaf.exact = make_exact_shape(*source.primitive);
+      leaf.placement = &result_.placements[source.placement];
+      leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
+      leaf.material = source.material;
+      leaf.entity_id = source.entity_id;
+      leaf.complemented = source.complemented;
+      leaf.plain_sphere = std::holds_alternative<Sphere>(*source.primitive) && !leaf.complemented &&
+                          leaf.placement->is_identity();
+      leaf.face_count = leaf.shape->face_count();
+      bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
+    }
+    shape_bytes += bytes;
+  });
+  result_.shape_bytes = shape_bytes;
+}
+
+void Compiler::make_faces() {
+  std::uint32_t count = 0;
+  for (Leaf& leaf : result_.leaves) {
+    leaf.first_face = count;
+    count += leaf.face_count;
+  }
+  result_.face_surfaces.assign(count, {});
+  number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
+}
+
+void Compiler::finish_programs() {
+  // A large one uses all threads by itself, many small ones are done side by side.
+  constexpr std::uint32_t large = 2 * items_for_a_thread;
+  std::vector<CsgProgram*> small;
+  for (CsgProgram& program : result_.programs) {
+    if (program.leaf_count() >= large) {
+      finish_program(program);
+    } else {
+      small.push_back(&program);
+    }
+  }
+  constexpr std::size_t programs_at_once = 64;
+  for_ranges(small.size(), programs_at_once, workers_, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) finish_program(*small[i]);
+  });
+}
+
+void Compiler::finish_program(CsgProgram& program) {
+  const std::span<Leaf> leaves = std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
+  workers_.poll();
+  finish_nodes(program, leaves);
+  workers_.poll();
+  program.paths = NodePaths(program.nodes);
+  workers_.poll();
+  program.nodes.shrink_to_fit();
+  program.leaf_parents.shrink_to_fit();
+  program.shared_surfaces = number_shared(leaves, result_.face_surfaces);
+  program.bounds = narrow_bounds(program, leaves);
+  workers_.poll();
+  std::vector<Bounds> boxes;
+  boxes.reserve(leaves.size());
+  for (const Leaf& leaf : leaves) boxes.push_back(leaf.bounds);
+  program.tree = LeafTree(boxes, workers_);
+  program.sketch = CsgSketch(program, leaves, result_.face_surfaces);
+}
+
+void Compiler::finish_objects() {
+  result_.objects.reserve(flat_.objects.size());
+  for (SceneObject& object : flat_.objects) {
+    object.bounds =
+        object.is_csg() ? result_.programs[object.program].bounds : result_.leaves[object.first_leaf].bounds;
+    // A surface that is no solid is an object by itself.
+    if (!object.solid) result_.leaves[object.first_leaf].of_solid = false;
+    if (!object.bounds.empty()) result_.objects.push_back(object);
+  }
+}
+
+}  // namespace
+
+CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers) {
+  return Compiler(entities, precision, workers).compile();
+}
+
+}  // namespace crt::core

@@ -1,0 +1,215 @@
+#include "core/compile/flatten.hpp"
+
+#include <algorithm>
+#include <optional>
+#include <unordered_map>
+
+#include "core/compile/grouping.hpp"
+#include "core/compile/part.hpp"
+#include "core/compile/surface_table.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Whether a part is the one before it once more: without this a = a + a, done n times, would be 2^n parts.
+bool repeats(const CsgOperation& operation, std::size_t part) {
+  const std::size_t first = operation.op == CsgOperator::difference ? 1 : 0;
+  return part > first && operation.parts[part] == operation.parts[part - 1];
+}
+
+class Flattening {
+ public:
+  Flattening(Precision precision, const Workers& workers)
+      : exact_(precision == Precision::exact), workers_(workers) {}
+  FlatScene flatten(std::span<const Entity> entities);
+
+ private:
+  /// A place in a program still to be filled: `part`, negated if `complemented`, below node `parent`.
+  struct Pending {
+    Part part;
+    std::uint32_t parent = 0;
+    bool complemented = false;
+  };
+
+  void add_entity(const Part& entity);
+  void add_group(std::span<const Part> parts);
+  void build_program(std::span<const Part> parts, CsgProgram& program);
+  void expand(const Pending& pending, CsgProgram& program);
+  void add_leaf(const Part& part, bool complemented);
+  std::uint32_t placement_number(const TransformChain* to_world);
+  std::uint32_t material_number(const Part& part);
+
+  bool exact_;
+  Workers workers_;
+  FlatScene result_;
+  std::uint32_t program_ = no_program;  ///< that leaves are added to
+  Transform last_map_;                  ///< of the last placement
+  bool last_is_all_ = true;             ///< whether it is no more than that
+  std::unordered_map<const Material*, std::uint32_t> material_numbers_;
+  const Material* last_material_ = nullptr;
+  std::uint32_t last_material_number_ = 0;
+  std::optional<SharedMaterial> default_material_;
+  // Reused from one entity to the next.
+  std::vector<Pending> stack_;
+  std::vector<Part> open_;
+  std::vector<Part> solids_;
+  std::vector<Part> surfaces_;
+};
+
+FlatScene Flattening::flatten(std::span<const Entity> entities) {
+  std::uint64_t count = 0;
+  for (const Entity& entity : entities) {
+    count += entity.primitive_count();
+  }
+  result_.leaves.reserve(count);
+  result_.programs_of_leaves.reserve(count);
+  result_.objects.reserve(entities.size());
+  result_.placements.push_back(nullptr);
+  for (std::size_t i = 0; i < entities.size(); ++i) {
+    if (entities[i].is_empty()) continue;
+    const Part part{.node = &entities[i].node(), .id = static_cast<std::uint32_t>(i)};
+    add_entity(part.unwrapped(result_.transforms));
+  }
+  return std::move(result_);
+}
+
+void Flattening::add_entity(const Part& entity) {
+  if (entity.operation() == nullptr) {
+    add_group(std::span(&entity, 1));
+    return;
+  }
+  // The parts of nested unions, left to right.
+  solids_.clear();
+  surfaces_.clear();
+  open_.assign(1, entity);
+  while (!open_.empty()) {
+    const Part part = open_.back();
+    open_.pop_back();
+    workers_.poll_at(solids_.size() + surfaces_.size());
+    const CsgOperation* operation = part.operation();
+    if (operation != nullptr && operation->op == CsgOperator::set_union) {
+      for (std::size_t i = operation->parts.size(); i-- > 0;) {
+        if (repeats(*operation, i)) continue;
+        open_.push_back(part.child(operation->parts[i], result_.transforms));
+      }
+    } else {
+      (part.node->solid ? solids_ : surfaces_).push_back(part);
+    }
+  }
+  // Solids that cannot touch need not know of each other.
+  std::size_t begin = 0;
+  for (const std::size_t end : group_apart(solids_, workers_)) {
+    add_group(std::span<const Part>(solids_).subspan(begin, end - begin));
+    begin = end;
+  }
+  for (const Part& surface : surfaces_) add_group(std::span(&surface, 1));
+}
+
+void Flattening::add_group(std::span<const Part> parts) {
+  SceneObject object;
+  object.first_leaf = static_cast<std::uint32_t>(result_.leaves.size());
+  object.solid = parts[0].node->solid;
+  program_ = no_program;
+  if (parts.size() == 1 && parts[0].operation() == nullptr) {
+    add_leaf(parts[0], false);
+  } else {
+    object.program = program_ = static_cast<std::uint32_t>(result_.programs.size());
+    CsgProgram program;
+    program.first_leaf = object.first_leaf;
+    build_program(parts, program);
+    result_.programs.push_back(std::move(program));
+  }
+  result_.objects.push_back(object);
+}
+
+void Flattening::build_program(std::span<const Part> parts, CsgProgram& program) {
+  program.nodes.push_back({.parent = 0, .needed = 1, .count_outside = 0});
+  stack_.clear();
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part) stack_.push_back({*part, 0, false});
+  while (!stack_.empty()) {
+    const Pending pending = stack_.back();
+    stack_.pop_back();
+    workers_.poll_at(stack_.size());
+    if (pending.part.operation() == nullptr) {
+      add_leaf(pending.part, pending.complemented);
+      program.leaf_parents.push_back(pending.parent);
+    } else {
+      expand(pending, program);
+    }
+  }
+}
+
+void Flattening::expand(const Pending& pending, CsgProgram& program) {
+  const CsgOperation& operation = *pending.part.operation();
+  // De Morgan: a complement turns OR into AND and moves on to the children; a - b is a AND NOT b.
+  const bool is_or = (operation.op == CsgOperator::set_union) != pending.complemented;
+  const std::uint32_t needed = is_or ? 1 : all_children;
+  std::uint32_t node = pending.parent;
+  const bool only_root = program.leaf_parents.empty() && program.nodes.size() == 1 && stack_.empty();
+  if (only_root) {
+    program.nodes[0].needed = needed;
+  } else if (program.nodes[node].needed != needed) {
+    node = static_cast<std::uint32_t>(program.nodes.size());
+    program.nodes.push_back({.parent = pending.parent, .needed = needed, .count_outside = 0});
+  }
+  for (std::size_t i = operation.parts.size(); i-- > 0;) {
+    if (repeats(operation, i)) continue;
+    const bool cutter = operation.op == CsgOperator::difference && i > 0;
+    stack_.push_back(
+        {pending.part.child(operation.parts[i], result_.transforms), node, pending.complemented != cutter});
+  }
+}
+
+void Flattening::add_leaf(const Part& part, bool complemented) {
+  workers_.poll_at(result_.leaves.size());
+  result_.leaves.push_back({.primitive = std::get_if<Primitive>(&part.node->content),
+                            .placement = placement_number(part.to_world),
+                            .material = material_number(part),
+                            .entity_id = part.id,
+                            .complemented = complemented});
+  result_.programs_of_leaves.push_back(program_);
+}
+
+std::uint32_t Flattening::placement_number(const TransformChain* to_world) {
+  // Most leaves are not moved at all, or together with the one before.
+  if (to_world == nullptr) return 0;
+  if (to_world != result_.placements.back()) {
+    const Transform map = to_world->product.rounded();
+    // In the exact tier that may not be all of it.
+    const bool is_all = !exact_ || to_world->is_plain();
+    if (is_all && map == Transform{}) return 0;
+    if (!is_all || !last_is_all_ || !(map == last_map_)) {
+      last_map_ = map;
+      last_is_all_ = is_all;
+      result_.placements.push_back(to_world);
+    }
+  }
+  return static_cast<std::uint32_t>(result_.placements.size() - 1);
+}
+
+std::uint32_t Flattening::material_number(const Part& part) {
+  const auto& primitive = std::get<Primitive>(part.node->content);
+  const auto& own = std::visit(
+      [](const auto& shape) -> const auto& { return shape.material; }, primitive);
+  const SharedMaterial* material = own ? &*own : part.material;
+  if (material == nullptr) {
+    if (!default_material_) default_material_.emplace(Material{});
+    material = &*default_material_;
+  }
+  if (&**material == last_material_) return last_material_number_;
+  const auto [entry, added] =
+      material_numbers_.try_emplace(&**material, static_cast<std::uint32_t>(result_.materials.size()));
+  if (added) result_.materials.push_back(*material);
+  last_material_ = &**material;
+  last_material_number_ = entry->second;
+  return entry->second;
+}
+
+}  // namespace
+
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers) {
+  return Flattening(precision, workers).flatten(entities);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,40 @@
+// From the tree of entities to flat lists: the first step of compile().
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "core/compile/compile.hpp"
+#include "core/compile/part.hpp"
+
+#include "core/tasks/workers.hpp"
+
+namespace crt::core {
+
+/// What a leaf is to be made of.
+struct LeafSource {
+  const Primitive* primitive = nullptr;
+  std::uint32_t placement = 0;  ///< index into FlatScene::placements
+  std::uint32_t material = 0;
+  std::uint32_t entity_id = 0;
+  bool complemented = false;
+};
+
+struct FlatScene {
+  TransformPool transforms;
+  std::vector<LeafSource> leaves;
+  std::vector<std::uint32_t> programs_of_leaves;  ///< or no_program
+  std::vector<const TransformChain*> placements;
+  std::vector<SceneObject> objects;  ///< without bounds
+  std::vector<CsgProgram> programs;  ///< nodes and parents of leaves only; an AND needs all_children
+  std::vector<SharedMaterial> materials;
+};
+
+/// Marks a node that is an AND until its children are counted.
+inline constexpr std::uint32_t all_children = 0xffffffffu;
+
+/// Walks through the entities without recursion, however deep they are. The entities must outlive the
+/// placements.
+FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers);
+
+}  // namespace crt::core

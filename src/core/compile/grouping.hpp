@@ -1,0 +1,22 @@
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "core/compile/part.hpp"
+#include "core/geometry/bounds.hpp"
+
+#include "core/tasks/workers.hpp"
+
+namespace crt::core {
+
+/// Brings the parts of a union into groups such that a plane across an axis separates any two: their
+/// boxes do not even touch, so the union of the groups is just all of them side by side. The order
+/// within a group is kept; groups come in the order of their first parts. Returns where each ends. O(n log
+/// n), by as many threads as `workers` says; what comes out is always the same.
+std::vector<std::size_t> group_apart(std::vector<Part>& parts, const Workers& workers);
+
+/// A box around a part in the world.
+Bounds part_bounds(const Part& part);
+
+}  // namespace crt::core

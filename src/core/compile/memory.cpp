@@ -1,0 +1,19 @@
+#include "core/compile/memory.hpp"
+
+namespace crt::core {
+
+std::uint64_t primitive_bytes(const CompiledScene& scene) {
+  return bytes_of(scene.placements) + bytes_of(scene.leaves) + bytes_of(scene.face_surfaces) +
+         bytes_of(scene.objects) + scene.shape_bytes + scene.transforms.bytes();
+}
+
+std::uint64_t csg_bytes(const CompiledScene& scene) {
+  std::uint64_t bytes = bytes_of(scene.programs);
+  for (const CsgProgram& program : scene.programs) {
+    bytes += bytes_of(program.nodes) + bytes_of(program.leaf_parents) + program.tree.bytes() +
+             program.paths.bytes() + program.sketch.bytes();
+  }
+  return bytes;
+}
+
+}  // namespace crt::core

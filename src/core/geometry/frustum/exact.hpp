@@ -1,0 +1,137 @@
+// Cylinders and cones of the exact tier.
+//
+// With p from the centre of the narrower end, W the way from there to the wider end, r the narrower radius
+// and D how much wider the other is, a point between the caps is inside if
+//     g = |W|^2 |p x W|^2 - (r |W|^2 + D p . W)^2 < 0:
+// no root is taken and nothing divided, so g is a polynomial in the inputs. Between the planes of the caps
+// the second square is of a radius that is not negative, so the cone's other nappe never matters; and as what
+// is inside is convex, the signs of g where the line meets the two planes tell nearly all.
+//
+// The signs come from doubles, then double-doubles, with bounds on the error (FilteredSide), and where those
+// leave one open from the quadratic without rounding (ExactSide, in the source file).
+// Tests: tests/geometry/exact_frustum_test.cpp
+#pragma once
+
+#include <optional>
+
+#include "core/geometry/exact_plane.hpp"
+#include "core/geometry/frustum/start.hpp"
+#include "core/geometry/near_line.hpp"
+
+namespace crt::core {
+
+/// The solid, in the numbers that the filters and the exact polynomial need.
+struct ExactFrustum {
+  Vec3 narrow;    ///< the centre of the narrower end
+  Vec3 wide;      ///< and of the other
+  double radius;  ///< r
+  double wide_radius;
+  double unit;
+
+  PreciseVec3 way;              ///< W
+  DoubleDouble squared_length;  ///< |W|^2
+  DoubleDouble narrow_part;     ///< r |W|^2
+  DoubleDouble growth;          ///< D
+
+  ExactFrustum(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
+};
+
+/// The plane of a cap where the line meets it.
+struct CapMeeting {
+  ExactPlane::Meeting meeting;
+  const ExactPlane* plane = nullptr;  ///< none if the line is parallel to the caps
+  std::uint32_t face = no_face;
+  bool within_rim = false;  ///< known, and not to be asked
+  bool at_start = false;    ///< at t = 0 by identity
+
+  bool found() const { return plane != nullptr; }
+  Crossing crossing() const { return meeting.crossing(face); }
+};
+
+/// g along a line in rounded arithmetic. Every answer may be "unknown".
+class FilteredSide {
+ public:
+  FilteredSide(const ExactFrustum& frustum, const ExactRay& ray)
+      : frustum_(frustum), ray_(ray), way_(frustum.way[0].hi, frustum.way[1].hi, frustum.way[2].hi) {}
+
+  /// The sign of g where the line meets the plane of a cap; far away it is outside.
+  std::optional<int> sign_at(const CapMeeting& end) const;
+
+  /// Whether g, positive at both ends, is negative in between.
+  std::optional<bool> dips_between(const CapMeeting& enter, const CapMeeting& leave);
+
+  /// Where g changes its sign into the solid or out of it.
+  std::optional<Crossing> root(bool entering, const CapMeeting& enter, const CapMeeting& leave);
+
+  /// What a line that starts on the side is decided by.
+  std::optional<SideStart> start() const;
+
+ private:
+  /// What g is made of at a point p, or without r along a direction: p x W and r |W|^2 + D p . W.
+  struct PointAt {
+    PreciseVec3 across;
+    double across_size = 0;
+    double across_error = 0;  ///< of each component
+    DoubleDouble radius;
+    double radius_error = 0;
+  };
+
+  /// g in double-double, and its rate along the line.
+  struct Precise {
+    DoubleDouble value;
+    double error = 0;
+    double rate = 0;
+    double rate_error = 0;
+    double half_curvature = 0;
+
+    std::optional<int> sign() const {
+      if (!(std::abs(value.hi) > error)) return std::nullopt;
+      return value.hi > 0 ? 1 : -1;
+    }
+  };
+
+  /// a x^2 + 2 b x + c about the middle, in doubles.
+  struct Local {
+    double curvature, slope, value;  ///< a, b and c
+    double curvature_error, slope_error;
+    double inner, outer;    ///< at least what c is the difference of the squares of
+    double rate_of_points;  ///< of inner and outer, at most, for each component of p
+  };
+
+  double point_error(DoubleDouble t) const { return ray_.point_error(frustum_.narrow, t.hi) / frustum_.unit; }
+
+  std::optional<int> rough_sign_at(DoubleDouble t, double off) const;
+
+  /// `error` is what each component of p is off by.
+  PointAt part_of(const PreciseVec3& p, double error, DoubleDouble offset) const;
+
+  PointAt point_at(DoubleDouble t, double off) const;
+
+  /// What |W|^2 a.across . b.across - a.radius b.radius is off by.
+  double difference_error(const PointAt& a, const PointAt& b) const;
+
+  Precise precise_at(DoubleDouble t, double off) const;
+
+  /// The line from where g is lowest between the ends, or nearly.
+  void find_middle(const CapMeeting& enter, const CapMeeting& leave);
+
+  /// From the middle to an end, in t.
+  double way_to(const CapMeeting& end) const;
+
+  Local local() const;
+
+  /// A bound from below on g between the ends, from its parabola about the middle.
+  double lowest_between(const CapMeeting& enter, const CapMeeting& leave) const;
+
+  /// Newton's iteration until t is certain to the last bit; false if that fails.
+  bool polish(DoubleDouble t, Crossing& crossing) const;
+
+  const ExactFrustum& frustum_;
+  const ExactRay& ray_;
+  Vec3 way_;                      ///< rounded
+  std::optional<NearLine> line_;  ///< from the middle
+  DoubleDouble middle_t_;
+  Local middle_{};
+};
+
+}  // namespace crt::core

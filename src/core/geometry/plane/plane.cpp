@@ -1,0 +1,53 @@
+#include "core/geometry/plane/plane.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "core/geometry/checks.hpp"
+
+namespace crt::core {
+
+PlaneShape::PlaneShape(const Plane& plane)
+    : face_(plane.normal, plane.position), axes_(plane_axes(plane.normal)) {}
+
+Bounds PlaneShape::bounds() const {
+  Bounds result = Bounds::everything();
+  if (face_.axis() >= 0) {
+    const int axis = face_.axis();
+    (face_.normal()[axis] > 0 ? result.upper : result.lower)[axis] = face_.position()[axis];
+  }
+  return result;
+}
+
+bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  if (ray.start.face == 0) {
+    const bool entering = ray.start.side == Side::inside;
+    if (face_.meet(ray).rate == 0) return entering;
+    out.push_back({.entering = entering});
+    return !entering;
+  }
+  const PlaneFace::Meeting meeting = face_.meet(ray);
+  if (!meeting.found) return face_.behind(ray);
+  PlaneFace::emit(meeting, out);
+  return meeting.rate > 0;
+}
+
+template <class Real>
+void PlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                             SurfacePointOf<Real>& point) const {
+  const Vec3Of<Real> relative = face_.onto_plane(offset);
+  face_.write_point(relative, point);
+  if (!with_uv) return;
+  point.u = dot(relative, spread<Real>(axes_.u));
+  point.v = dot(relative, spread<Real>(axes_.v));
+}
+
+void validate(const Plane& plane) {
+  check_direction("normal", plane.normal);
+  check_coordinates("position", plane.position);
+}
+
+std::unique_ptr<const Shape> make_shape(const Plane& plane) {
+  return std::make_unique<PlaneShape>(plane);
+}
+
+}  // namespace crt::core

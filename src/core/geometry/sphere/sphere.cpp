@@ -1,0 +1,93 @@
+#include "core/geometry/sphere/sphere.hpp"
+
+#include <numbers>
+
+#include "core/geometry/angles.hpp"
+#include "core/geometry/checks.hpp"
+#include "core/geometry/stretch.hpp"
+
+namespace crt::core {
+
+SphereShape::SphereShape(const Sphere& sphere)
+    : center_(sphere.center), radius_(sphere.radius), unit_(power_of_two_below(sphere.radius)) {}
+
+Bounds SphereShape::bounds() const {
+  Bounds result;
+  result.include_around(center_, Vec3(radius_));
+  return result;
+}
+
+bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  if (ray.start.face == 0) return crossings_from_surface(ray, out);
+  const auto chord = this->chord<double>(ray);
+  if (!chord.found) return false;
+  const double enter = chord.enter;
+  const double leave = chord.leave;
+  out.push_back({.t = enter, .error = chord.error_of(enter), .root = 0, .entering = true});
+  out.push_back({.t = leave, .error = chord.error_of(leave), .root = 1, .entering = false});
+  return false;
+}
+
+bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out) const {
+  const auto end = SphereOtherEnd<double>::of(ray, center_, radius_, unit_);
+  Stretch stretch(ray.start, end.least_way);
+  if (ray.start.side == Side::outside) {
+    stretch.enter({.t = end.t, .error = end.error, .root = 0});
+    stretch.leave({.root = 1});
+  } else {
+    stretch.enter({.root = 0});
+    stretch.leave({.t = end.t, .error = end.error, .root = 1});
+  }
+  return stretch.finish(out);
+}
+
+namespace {
+
+/// On a sphere, or on one for each lane; next to where a line of that direction crosses it, which is at
+/// `offset` from the center.
+template <class Real>
+inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius, const Vec3Of<Real>& offset,
+                               const Vec3Of<Real>& direction, bool with_uv, SurfacePointOf<Real>& point) {
+  const auto is_apart = largest_component(offset) > 0.0;
+  const Vec3Of<Real> n = unit_vector(chosen(is_apart, offset, -direction));
+  point.position = center + radius * n;
+  point.normal = n;
+  if (!with_uv) return;
+  point.u = turn(n.z, n.x);
+  point.v = rise(square_root(n.x * n.x + n.z * n.z), n.y);
+}
+
+}  // namespace
+
+template <class Real>
+void SphereShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t,
+                              bool with_uv, SurfacePointOf<Real>& point) const {
+  write_sphere_point<Real>(spread<Real>(center_), spread<Real>(radius_), offset, direction, with_uv, point);
+}
+
+void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
+                                 const RayLanes& rays, const Lanes& t, bool with_uv,
+                                 SurfacePointLanes& points) {
+  const auto row = [&](std::size_t lane) {
+    const SphereShape& sphere = *spheres[lane];
+    return Lanes{sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_};
+  };
+  const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});
+  const VectorLanes center = {x, y, z};
+  write_sphere_point<Lanes>(center, radius, rays.from_center(center, t), rays.direction, with_uv, points);
+}
+
+Surface SphereShape::surface(std::uint32_t) const {
+  return {.kind = SurfaceKind::sphere, .position = center_ + Vec3(0.0), .sizes = {radius_, 0}};
+}
+
+void validate(const Sphere& sphere) {
+  check_coordinates("center", sphere.center);
+  check_radius("radius", sphere.radius);
+}
+
+std::unique_ptr<const Shape> make_shape(const Sphere& sphere) {
+  return std::make_unique<SphereShape>(sphere);
+}
+
+}  // namespace crt::core

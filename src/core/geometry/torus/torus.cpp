@@ -1,0 +1,196 @@
+#include "core/geometry/torus/torus.hpp"
+
+#include <numbers>
+
+#include "core/geometry/checks.hpp"
+#include "core/geometry/disc/disc.hpp"
+#include "core/geometry/torus/dips.hpp"
+
+namespace crt::core {
+
+TorusShape::TorusShape(const Torus& torus)
+    : center_(torus.center),
+      frame_(frame_about(torus.axis)),
+      radius_(torus.radius),
+      thickness_(torus.thickness),
+      unit_(power_of_two_below(torus.radius + torus.thickness)),
+      ring_(torus.radius / unit_),
+      tube_(torus.thickness / unit_) {}
+
+Bounds TorusShape::bounds() const {
+  Bounds result;
+  result.include_around(center_, disc_extents(frame_.along, radius_) + Vec3(thickness_));
+  return result;
+}
+
+template <class Vector>
+Vector TorusShape::in_frame(const Vector& v) const {
+  using Real = RealOf<Vector>;
+  return {dot(v, spread<Real>(frame_.zero)), dot(v, spread<Real>(frame_.quarter)),
+          dot(v, spread<Real>(frame_.along))};
+}
+
+template <class Real>
+TorusLineOf<Real> TorusShape::in_frame(const NearLineOf<Real>& line, bool on_surface) const {
+  return {in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface};
+}
+
+template <class Real>
+[[gnu::always_inline]] inline TorusShape::Meeting<Real> TorusShape::meeting(const NearLineOf<Real>& line,
+                                                                            const TorusLineOf<Real>& torus,
+                                                                            const Real& x,
+                                                                            const Real& length) const {
+  const double size = ring_ + tube_;
+  const Vec3Of<Real> place = line.at(x);
+  const Real reach = size + square_root(dot(place, place));
+  // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
+  return {.reach = reach,
+          .approach = size_of(torus.half_slope(x)) / tube_,
+          .longest = length + grazing_error(line, reach, size)};
+}
+
+template <class Real>
+TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
+                                         const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto entry = torus.first_entry(wanted);
+  TorusEntry<Real> result{.found = entry.found};
+  if (!any(entry.found)) return result;
+  const Real x = torus.root(entry.bracket, entry.found);
+  result.t = line.to_t(x);
+  // From there on the line is inside for at least as long as up to that point, and where that is not next to
+  // nothing it does not matter how much longer.
+  const Real inside = entry.bracket.negative;
+  const Meeting<Real> at = meeting<Real>(line, torus, x, inside - x);
+  const auto is_steep = standard_error_across(at.reach) < at.longest * at.approach;
+  result.known = both(entry.found, both(is_steep, result.t < line.to_t(inside)));
+  result.error = standard_error(line, result.t, at.reach, at.approach, at.longest);
+  return result;
+}
+
+template <class Real, class Ray>
+TorusEntry<Real> TorusShape::first_entry(const Ray& ray,
+                                         const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto line = NearLineOf<Real>::at_closest(ray, center_, unit_);
+  return first_entry<Real>(line, in_frame<Real>(line, false), wanted);
+}
+template TorusEntry<double> TorusShape::first_entry(const ObjectRay&, const bool&) const;
+template TorusEntry<Lanes> TorusShape::first_entry(const ObjectRayLanes&, const LaneMask&) const;
+
+template <class Real, class Ray>
+typename TorusEntry<Real>::Mask TorusShape::comes_back(const Ray& ray,
+                                                       const typename TorusEntry<Real>::Mask& wanted) const {
+  const auto line = NearLineOf<Real>::at_origin(ray, center_, unit_);
+  return in_frame<Real>(line, true).comes_back(wanted);
+}
+template bool TorusShape::comes_back<double>(const ObjectRay&, const bool&) const;
+template LaneMask TorusShape::comes_back<Lanes>(const ObjectRayLanes&, const LaneMask&) const;
+
+bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  const bool on_surface = ray.start.face == 0;
+  const NearLine line =
+      on_surface ? NearLine::at_origin(ray, center_, unit_) : NearLine::at_closest(ray, center_, unit_);
+  TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
+  if (!on_surface && ray.first_above < std::numeric_limits<double>::infinity()) {
+    const auto first = first_entry<double>(line, torus, true);
+    if (!first.found) return false;
+    const Crossing crossing{.t = first.t, .error = first.error, .entering = true};
+    if (first.known && ray.is_first_asked(crossing)) {
+      out.push_back(crossing);
+      return false;
+    }
+  }
+  // Of one end of a dip, whose length is known so far.
+  const auto crossing = [&](double x, std::size_t dip, bool entering, double length) {
+    Crossing end{.root = static_cast<std::uint8_t>(2 * dip + (entering ? 0 : 1)), .entering = entering};
+    if (on_surface && x == 0) return end;
+    end.t = line.to_t(x);
+    // The speed is at least 1, and no dip longer than the torus is wide.
+    if (end.t < ray.begin) {
+      end.error = line.to_t_length(2 * (ring_ + tube_));
+      return end;
+    }
+    const auto& [reach, approach, longest] = meeting<double>(line, torus, x, length);
+    // A start that rounding has moved off the surface takes the whole level of G along.
+    const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
+    const double along = off_surface < longest * approach ? off_surface / approach : longest;
+    end.error = standard_error(line, end.t, reach, approach, longest) + line.to_t_length(along);
+    return end;
+  };
+  const auto add = [&](const TorusLine::Dip& ends, std::size_t dip) {
+    const Crossing enter = crossing(ends.enter, dip, true, ends.leave - ends.enter);
+    const Crossing leave = crossing(ends.leave, dip, false, ends.leave - ends.enter);
+    if (!(enter.t < leave.t)) return;
+    out.push_back(enter);
+    out.push_back(leave);
+  };
+
+  if (on_surface) {
+    TorusLine::Dips dips = torus.dips(ray.begin >= 0 ? 0 : -std::numeric_limits<double>::infinity());
+    obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
+    for (std::size_t i = 0; i < dips.count; ++i) add(dips.dip[i], i);
+    return false;
+  }
+  const TorusLine::Stretches stretches = torus.stretches();
+  for (std::size_t i = 0; i < stretches.count; ++i) {
+    const auto& [enter, leave] = stretches.stretch[i];
+    const double first = torus.root(enter, true);
+    // The stretch goes on to where it is known to be inside: its end needs not be known if it is not asked
+    // for.
+    const Crossing entry = crossing(first, i, true, leave.positive - first);
+    if (ray.is_first_asked(entry) && entry.t < line.to_t(leave.negative)) {
+      out.push_back(entry);
+      return false;
+    }
+    add({first, torus.root(leave, true)}, i);
+    if (!out.empty() && ray.is_first_asked(out.back())) return false;
+  }
+  return false;
+}
+
+template <class Real>
+TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Real>& offset) {
+  const Vec3Of<Real> along = spread<Real>(torus.frame_.along);
+  const Vec3Of<Real> p = spread<Real>(1 / torus.unit_) * offset;
+  height = dot(p, along);
+  // Twice: the second time removes what the first one's rounding left along the axis.
+  Vec3Of<Real> across = p - height * along;
+  across = across - dot(across, along) * along;
+  radial = chosen(largest_component(across) > 0.0, unit_vector(across), spread<Real>(torus.frame_.zero));
+  outward = dot(across, radial) - torus.ring_;
+}
+
+template <class Real>
+void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                             SurfacePointOf<Real>& point) const {
+  const TubePlace<Real> place(*this, offset);
+  const Vec3Of<Real>& radial = place.radial;
+  const Vec3Of<Real> from_ring = place.outward * radial + place.height * spread<Real>(frame_.along);
+  const Vec3Of<Real> normal = chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
+  const Vec3Of<Real> from_center = spread<Real>(ring_) * radial + spread<Real>(tube_) * normal;
+  point.position = spread<Real>(center_) + spread<Real>(unit_) * from_center;
+  point.normal = normal;
+  if (!with_uv) return;
+  point.u = turn(dot(radial, spread<Real>(frame_.zero)), dot(radial, spread<Real>(frame_.quarter)));
+  point.v = turn(place.outward, place.height);
+}
+
+Surface TorusShape::surface(std::uint32_t) const {
+  // A torus is the same about its axis turned round.
+  return {.kind = SurfaceKind::torus,
+          .position = center_,
+          .direction = canonical_axis(frame_.along),
+          .sizes = {radius_, thickness_}};
+}
+
+void validate(const Torus& torus) {
+  check_coordinates("center", torus.center);
+  check_direction("axis", torus.axis);
+  check_radius("radius", torus.radius);
+  check_radius("thickness", torus.thickness);
+}
+
+std::unique_ptr<const Shape> make_shape(const Torus& torus) {
+  return std::make_unique<TorusShape>(torus);
+}
+
+}  // namespace crt::core

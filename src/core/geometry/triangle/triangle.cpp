@@ -1,0 +1,180 @@
+#include "core/geometry/triangle/triangle.hpp"
+
+#include "core/geometry/checks.hpp"
+#include "core/math/vector.hpp"
+
+namespace crt::core {
+namespace {
+
+/// to - from exactly, times `scale` (a power of two).
+PreciseVec3 difference(const Vec3& to, const Vec3& from, double scale) {
+  PreciseVec3 result;
+  for (int axis = 0; axis < 3; ++axis) {
+    const DoubleDouble exact = two_sum(to[axis], -from[axis]);
+    result[static_cast<std::size_t>(axis)] = {exact.hi * scale, exact.lo * scale};
+  }
+  return result;
+}
+
+double inverse_length_scale(const Vec3& v) {
+  return 1 / power_of_two_below(largest_component(v));
+}
+
+/// (b - a) x (c - a) up to a power of two.
+PreciseVec3 precise_normal_of(const Triangle& triangle) {
+  const Vec3 ab = triangle.b - triangle.a;
+  const Vec3 ac = triangle.c - triangle.a;
+  if (largest_component(ab) == 0 || largest_component(ac) == 0) return {};
+  return cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
+               difference(triangle.c, triangle.a, inverse_length_scale(ac)));
+}
+
+/// The same good to a rounding even for slivers; 0 if it is within the rounding of double-double, so that the
+/// corners are on a line for all we can tell.
+Vec3 rounded_normal(const PreciseVec3& product) {
+  constexpr double rounding = 0x1p-98;
+  const Vec3 normal = rounded(product);
+  return largest_component(normal) > rounding ? normal : Vec3(0.0);
+}
+
+/// Along which side of the edge from `from` to `to` the line passes: the sign of from . (edge x d),
+/// seen from the line's point at t; 0 if it is closer to the edge than can be told.
+int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double t) {
+  const Vec3 d = scaled_to_one(ray.direction);
+  const Vec3 edge = to - from;
+  const Vec3 start = -ray.from_center(from, t);
+  const double volume = glm::dot(start, accurate_cross(edge, d));
+  constexpr double filter = 16 * unit_roundoff;
+  if (std::abs(volume) > filter * largest_component(start) * largest_component(edge) * largest_component(d)) {
+    return volume > 0 ? 1 : -1;
+  }
+
+  const double scale = 1 / power_of_two_below(std::max(largest_component(edge), largest_component(start)));
+  const double direction_scale = 1 / power_of_two_below(largest_component(ray.direction));
+  PreciseVec3 direction;
+  PreciseVec3 offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    direction[i] = two_sum(ray.direction[axis] * direction_scale, ray.direction_low[axis] * direction_scale);
+    const DoubleDouble exact = two_sum(ray.origin[axis], -from[axis]);
+    const DoubleDouble origin =
+        DoubleDouble(exact.hi * scale, exact.lo * scale) + DoubleDouble(ray.origin_low[axis] * scale);
+    offset[i] = -(origin + direction[i] * DoubleDouble(t / direction_scale * scale));
+  }
+  const PreciseVec3 moment = cross(difference(to, from, scale), direction);
+  const DoubleDouble precise = dot(offset, moment);
+  constexpr double rounding = 0x1p-96;
+  if (std::abs(precise.hi) <= rounding) return 0;
+  return precise.hi > 0 ? 1 : -1;
+}
+
+}  // namespace
+
+TriangleShape::TriangleShape(const Triangle& triangle)
+    : corners_{triangle.a, triangle.b, triangle.c},
+      precise_normal_(precise_normal_of(triangle)),
+      face_(rounded_normal(precise_normal_), triangle.a) {}
+
+Bounds TriangleShape::bounds() const {
+  Bounds result;
+  for (const Vec3& corner : corners_) result.include(corner);
+  return result;
+}
+
+bool TriangleShape::passes_edges(const ObjectRay& ray) const {
+  // Seen from a point of the line next to the triangle: where a line nearly in its plane meets that plane
+  // may be so far away that no side could be told.
+  const double scale = inverse_length_scale(ray.direction);
+  const Vec3 d = ray.direction * scale;
+  const double t = -glm::dot(ray.from_center(corners_[0], 0), d) / glm::dot(d, d) * scale;
+  bool left = false;
+  bool right = false;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const int side = side_of_edge(ray, corners_[i], corners_[(i + 1) % 3], t);
+    left = left || side > 0;
+    right = right || side < 0;
+  }
+  return !(left && right);
+}
+
+/// Of a line that is parallel to the triangle but for little more than the rounding of the normal, the
+/// normal's further digits decide.
+PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
+  const PlaneFace::Meeting meeting = face_.meet_surface(ray);
+  constexpr double nearly_parallel = 0x1p-40;
+  const double size = largest_component(face_.normal()) * largest_component(ray.direction);
+  if (ray.start.face == 0 || !(std::abs(meeting.rate) < nearly_parallel * size)) return meeting;
+  PreciseVec3 direction;
+  PreciseVec3 offset;
+  for (int axis = 0; axis < 3; ++axis) {
+    const auto i = static_cast<std::size_t>(axis);
+    direction[i] = two_sum(ray.direction[axis], ray.direction_low[axis]);
+    const DoubleDouble exact = two_sum(ray.origin[axis], -corners_[0][axis]);
+    offset[i] = exact + DoubleDouble(ray.origin_low[axis]);
+  }
+  const PreciseVec3& n = precise_normal_;
+  const DoubleDouble rate = dot(n, direction);
+  const DoubleDouble height = dot(n, offset);
+  PlaneFace::Meeting result = meeting;
+  result.rate = rate.hi;
+  const DoubleDouble t = -height / rate;
+  result.found = rate.hi != 0 && std::isfinite(t.hi);
+  if (!result.found) return result;
+  result.t = t.hi;
+  result.t_low = t.lo;
+  const double reach = glm::length(ray.from_center(corners_[0], t.hi, t.lo));
+  result.error = PlaneFace::meeting_error(t.hi, reach, glm::length(rounded(n)), rate.hi);
+  return result;
+}
+
+bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
+  const PlaneFace::Meeting meeting = meet(ray);
+  if (!meeting.found) return false;
+  if (PlaneFace::starts_here(ray) || passes_edges(ray)) PlaneFace::emit(meeting, out);
+  return false;
+}
+
+template <class Real>
+void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
+                                SurfacePointOf<Real>& point) const {
+  using Vector = Vec3Of<Real>;
+  const Vector relative = face_.onto_plane(offset);
+  face_.write_point(relative, point);
+  const Bounds box = bounds();
+  point.position = clamp(point.position, spread<Real>(box.lower), spread<Real>(box.upper));
+  if (!with_uv) return;
+  const Vec3 ab = corners_[1] - corners_[0];
+  const Vec3 ac = corners_[2] - corners_[0];
+  const double scale = inverse_length_scale(ab);
+  const double scale_c = inverse_length_scale(ac);
+  const Vec3 area = accurate_cross(ab * scale, ac * scale_c);
+  const double squared_area = glm::dot(area, area);
+  if (!(squared_area > 0)) {
+    point.u = point.v = Real{};
+    return;
+  }
+  const Vector across = spread<Real>(area);
+  const Vector scaled = spread<Real>(scale) * relative;
+  const Real u = dot(accurate_cross(scaled, spread<Real>(ac * scale_c)), across) / squared_area;
+  const Real v =
+      dot(accurate_cross(spread<Real>(ab * scale), spread<Real>(scale_c) * relative), across) / squared_area;
+  point.u = clamp(u, Real{}, spread<Real>(1));
+  point.v = clamp(v, Real{}, 1 - point.u);
+}
+
+bool has_area(const Triangle& triangle) {
+  return largest_component(rounded_normal(precise_normal_of(triangle))) != 0;
+}
+
+void validate(const Triangle& triangle) {
+  check_coordinates("a", triangle.a);
+  check_coordinates("b", triangle.b);
+  check_coordinates("c", triangle.c);
+  if (!has_area(triangle)) reject("c", "must not be on a line with a and b (the triangle has no area)");
+}
+
+std::unique_ptr<const Shape> make_shape(const Triangle& triangle) {
+  return std::make_unique<TriangleShape>(triangle);
+}
+
+}  // namespace crt::core

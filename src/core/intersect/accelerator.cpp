@@ -1,0 +1,246 @@
+#include "core/intersect/accelerator.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+#include <span>
+
+#include "core/accel/embree_tree.hpp"
+#include "core/accel/space_order.hpp"
+#include "core/compile/memory.hpp"
+#include "core/intersect/all_crossings.hpp"
+#include "core/intersect/apart.hpp"
+#include "core/math/vector.hpp"
+#include "core/tasks/parallel.hpp"
+
+namespace crt::core {
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+bool any_surface_is_shared(const CompiledScene& scene) {
+  std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
+  for (std::uint32_t object = 0; object < scene.objects.size(); ++object) {
+    const SceneObject& solid = scene.objects[object];
+    for (const Leaf& leaf : scene.leaves_of(solid)) {
+      for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
+        std::uint32_t& owner = owners[scene.face_surfaces[leaf.first_face + face].surface];
+        if (owner != nothing && owner != object) return true;
+        owner = object;
+      }
+    }
+  }
+  return false;
+}
+
+/// More than what boxes grow by for Embree, and more than the roundings of places.
+double margin_of(const Bounds& total) {
+  constexpr double of_extent = 0x1p-17;
+  constexpr double of_place = 0x1p-40;
+  const Vec3 extents = total.upper / 2.0 - total.lower / 2.0;
+  return of_extent * largest_component(extents) + of_place * total.farthest();
+}
+
+std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Workers& workers) {
+  std::vector<std::uint32_t> enclosed(scene.leaves.size(), nothing);
+  const auto count = static_cast<std::uint32_t>(scene.objects.size());
+  for_ranges(count, items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const SceneObject& object = scene.objects[i];
+      const std::span<const Leaf> leaves = scene.leaves_of(object);
+      for (std::uint32_t k = 0; k < leaves.size(); ++k) {
+        const Leaf& leaf = leaves[k];
+        const bool holds = !object.is_csg() || scene.programs[object.program].is_within(k, leaf);
+        if (holds && leaf.shape->is_convex()) enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
+      }
+    }
+  });
+  return enclosed;
+}
+
+/// The balls that some objects are; none if one is something else.
+std::vector<Ball> balls_of(const Outlines& outlines) {
+  std::vector<Ball> balls;
+  if (outlines.list.size() <= BoxRow::most_boxes) return balls;
+  const auto is_ball = [](const Outline& outline) {
+    return outline.kind == Outline::Kind::sphere && outline.detail != nothing;
+  };
+  if (!std::all_of(outlines.list.begin(), outlines.list.end(), is_ball)) return balls;
+  balls.reserve(outlines.list.size());
+  for (const Outline& outline : outlines.list) balls.push_back({outline.place, outline.radius});
+  return balls;
+}
+
+}  // namespace
+
+Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials,
+                         const Workers& workers)
+    : compiled_(std::move(compiled)), objects_share_surfaces_(any_surface_is_shared(compiled_)) {
+  Bounds total;
+  std::vector<std::uint32_t> bounded;
+  std::vector<std::uint32_t> unbounded;
+  bounded.reserve(compiled_.objects.size());
+  for (std::uint32_t i = 0; i < compiled_.objects.size(); ++i) {
+    const Bounds& bounds = compiled_.objects[i].bounds;
+    if (bounds.finite()) {
+      bounded.push_back(i);
+      total.include(bounds);
+    } else {
+      unbounded.push_back(i);
+    }
+  }
+  sort_along_curve(compiled_, total, bounded, workers);
+  bounded_ = Outlines(compiled_, bounded, workers);
+  unbounded_ = Outlines(compiled_, unbounded, workers);
+  enclosed_ = enclosed_objects(compiled_, workers);
+  if (bounded.empty()) return;
+  margin_ = margin_of(total);
+  apart_ = objects_apart(compiled_, materials, bounded, unbounded_, margin_, workers);
+  std::vector<Bounds> boxes;
+  boxes.reserve(bounded.size());
+  for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
+  tree_ = std::make_unique<EmbreeTree>(boxes, total, balls_of(bounded_), workers.stop);
+  if (boxes.size() > BoxRow::most_boxes) return;
+  for (Bounds& box : boxes) box = box.grown(margin_);
+  box_row_ = BoxRow(boxes);
+}
+
+Accelerator::~Accelerator() = default;
+
+MemoryUse Accelerator::memory() const {
+  MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
+  for (const Outlines* outlines : {&bounded_, &unbounded_}) {
+    use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes) + bytes_of(outlines->boxes);
+  }
+  use.tree += bytes_of(enclosed_) + bytes_of(apart_) + box_row_.bytes() + (tree_ ? tree_->bytes() : 0);
+  return use;
+}
+
+ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) const {
+  const Leaf& leaf = compiled_.leaves[index];
+  ObjectRay result = leaf.placement->to_object(ray.origin, ray.direction);
+  result.start = start_on_leaf(leaf, index, compiled_.face_surfaces, ray.start);
+  return result;
+}
+
+SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+  const Leaf& leaf = compiled_.leaves[hit.leaf];
+  const Crossing crossing{.t = hit.t,
+                          .error = hit.error,
+                          .face = hit.face,
+                          .root = 0,
+                          .entering = hit.entering != leaf.complemented};
+  return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing, with_uv);
+}
+
+void Accelerator::expect_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
+  constexpr std::size_t in_cache = 64;
+  if (compiled_.leaves.size() <= in_cache) return;
+  for_each_ray(some, [&](std::size_t i) {
+    if (hits[i].found()) __builtin_prefetch(&compiled_.leaves[hits[i].leaf].complemented);
+  });
+  for_each_ray(some, [&](std::size_t i) {
+    if (hits[i].found()) __builtin_prefetch(compiled_.leaves[hits[i].leaf].shape.get());
+  });
+}
+
+std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
+  if (start.leaf == nothing || enclosed_[start.leaf] == nothing) return nothing;
+  const Leaf& start_leaf = leaf(start.leaf);
+  const bool outwards = (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
+  return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : nothing;
+}
+
+std::uint32_t Accelerator::entered_apart(const StartPoint& start) const {
+  if (apart_.empty() || start.leaf == nothing) return nothing;
+  const std::uint32_t object = enclosed_[start.leaf];
+  const bool enters = object != nothing && apart_[object] != nothing && left_for_good(start) == nothing;
+  return enters ? apart_[object] : nothing;
+}
+
+bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
+  if (!(ray.end_error > 0)) return false;
+  const Vec3 normal =
+      compiled_.leaves[hit.leaf].placement->normal_to_world(surface_point(ray, hit, false).normal);
+  const double slope = std::abs(glm::dot(normal, ray.direction));
+  return (ray.t_max - hit.t - hit.error) * slope <= ray.end_error;
+}
+
+template <class Kind>
+void Accelerator::traverse(Kind& query) const {
+  for (const Outline& outline : unbounded_.list) {
+    if (query.limit() <= query.ray().t_min) return;
+    query.step();
+    query.test(outline.object);
+  }
+  if (query.limit() <= query.ray().t_min) return;
+  constexpr bool from_near = false;
+  visit_boxes<from_near>(query.ray(), query.limit(), [&](std::uint32_t box) {
+    query.step();
+    query.test(bounded_.list[box].object);
+    return query.limit();
+  });
+}
+
+namespace {
+
+class Stayed final : public ObjectQuery<Stayed> {
+ public:
+  using ObjectQuery::ObjectQuery;
+  static constexpr bool takes_one = false;
+  Stay result;
+
+  bool begin(std::uint32_t /*object*/, bool starts_inside) {
+    result.inside = starts_inside;
+    return starts_inside;
+  }
+  bool take(const RayHit& hit) {
+    result.exit = hit;
+    return false;
+  }
+};
+
+class Surrounding final : public ObjectQuery<Surrounding> {
+ public:
+  static constexpr bool takes_one = false;
+
+  Surrounding(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace,
+              std::vector<RayHit>& hits)
+      : ObjectQuery(accelerator, world_ray, workspace), out_(hits) {}
+
+  bool begin(std::uint32_t /*object*/, bool starts_inside) { return starts_inside; }
+  bool take(const RayHit& hit) {
+    out_.push_back(hit);
+    return false;
+  }
+  void end(std::uint32_t object, std::uint32_t leaf, bool inside) {
+    if (inside) out_.push_back({.t = infinity, .error = 0, .object = object, .leaf = leaf, .face = no_face});
+  }
+
+ private:
+  std::vector<RayHit>& out_;
+};
+
+}  // namespace
+
+bool Accelerator::all(const WorldRay& ray, const Opacity* opacity, std::vector<RayHit>& out,
+                      RayWorkspace& work) const {
+  All query(*this, ray, work, opacity, out);
+  traverse(query);
+  return !query.stopped;
+}
+
+Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
+  Stayed query(*this, ray, work);
+  query.test(object);
+  return query.result;
+}
+
+void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+  Surrounding query(*this, ray, work, out);
+  traverse(query);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,117 @@
+#include "core/intersect/crossing_order.hpp"
+
+#include <algorithm>
+#include <numeric>
+#include <span>
+#include <tuple>
+#include <utility>
+
+#include "core/math/stable_sort.hpp"
+
+namespace crt::core {
+namespace {
+
+constexpr auto is_before = [](const RayHit& a, const RayHit& b) {
+  return std::tie(a.t, a.t_low) < std::tie(b.t, b.t_low);
+};
+
+void take_place(RayHit& hit, const RayHit& from) {
+  hit.t = from.t;
+  hit.error = from.error;
+  hit.t_low = from.t_low;
+}
+
+/// Gives crossings of one surface one t, whosever they are.
+void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>& numbers) {
+  numbers.resize(crossings.size());
+  std::iota(numbers.begin(), numbers.end(), 0u);
+  std::sort(numbers.begin(), numbers.end(), [&](std::uint32_t i, std::uint32_t k) {
+    const RayHit& a = crossings[i];
+    const RayHit& b = crossings[k];
+    return std::tie(a.surface, a.root, a.object) < std::tie(b.surface, b.root, b.object);
+  });
+  for (std::size_t i = 1; i < numbers.size(); ++i) {
+    const RayHit& first = crossings[numbers[i - 1]];
+    RayHit& next = crossings[numbers[i]];
+    if (next.surface == first.surface && next.root == first.root) take_place(next, first);
+  }
+  // An object's own are still in order, whatever another knows of one of them.
+  for (std::size_t i = 1; i < crossings.size(); ++i) {
+    const bool of_one = crossings[i].object == crossings[i - 1].object;
+    if (of_one && is_before(crossings[i], crossings[i - 1])) take_place(crossings[i], crossings[i - 1]);
+  }
+}
+
+/// Of crossings at one place, those of one object side by side: what is left comes before what is entered. An
+/// object that has several takes its turns: it leaves or enters, then enters or leaves, and so on.
+void sort_one_place(std::span<RayHit> crossings, std::vector<std::pair<std::uint32_t, RayHit>>& turns) {
+  turns.clear();
+  for (const RayHit& crossing : crossings) {
+    const bool goes_on = !turns.empty() && turns.back().second.object == crossing.object;
+    const std::uint32_t first_turn = crossing.entering ? 1 : 0;
+    turns.emplace_back(goes_on ? turns.back().first + 1 : first_turn, crossing);
+  }
+  std::sort(turns.begin(), turns.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.first, a.second.object) < std::tie(b.first, b.second.object);
+  });
+  for (std::size_t i = 0; i < crossings.size(); ++i) crossings[i] = turns[i].second;
+}
+
+/// Calls take(piece) for pieces of two and more that follow one another: each with the one before it as
+/// `belong` says.
+template <class Belong, class Take>
+void each_run(std::span<RayHit> crossings, const Belong& belong, const Take& take) {
+  std::size_t begin = 0;
+  for (std::size_t end = 1; end <= crossings.size(); ++end) {
+    if (end < crossings.size() && belong(crossings[end - 1], crossings[end])) continue;
+    if (end - begin > 1) take(crossings.subspan(begin, end - begin));
+    begin = end;
+  }
+}
+
+void sort_places(std::span<RayHit> crossings, RayWorkspace& work) {
+  const auto are_at_one = [](const RayHit& a, const RayHit& b) { return !is_before(a, b); };
+  each_run(crossings, are_at_one, [&](std::span<RayHit> some) { sort_one_place(some, work.turns); });
+}
+
+/// Sorts what is too near to each other for t to tell, of the exact tier, and unifies what is at one place.
+void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit> crossings,
+               RayWorkspace& work) {
+  std::vector<NearCrossing>& near = work.near_crossings;
+  near.clear();
+  for (const RayHit& hit : crossings) {
+    near.push_back(near_crossing(hit, hit.leaf, static_cast<std::uint32_t>(near.size())));
+  }
+  if (!sort_exactly(near, scene.leaves, scene.face_surfaces, ray, work.leaf_escalations)) return;
+  std::vector<RayHit>& before = work.unsorted;
+  before.assign(crossings.begin(), crossings.end());
+  const NearCrossing* best = nullptr;
+  for (std::size_t i = 0; i < crossings.size(); ++i) {
+    if (i == 0 || near[i].rank != near[i - 1].rank) {
+      best = &near[i];
+      for (std::size_t k = i + 1; k < near.size() && near[k].rank == near[i].rank; ++k) {
+        if (near[k].error < best->error) best = &near[k];
+      }
+    }
+    crossings[i] = before[near[i].item];
+    crossings[i].t = best->t;
+    crossings[i].error = best->error;
+    crossings[i].t_low = best->t_low;
+  }
+}
+
+}  // namespace
+
+void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_surfaces,
+                    std::vector<RayHit>& crossings, RayWorkspace& work) {
+  if (crossings.size() < 2) return;
+  if (share_surfaces) unify_coincident(crossings, work.numbers);
+  sort_stably(crossings, is_before);
+  if (scene.leaves[crossings[0].leaf].exact) {
+    const auto are_near = [](const RayHit& a, const RayHit& b) { return b.t <= a.t + looking_distance(a.t); };
+    each_run(crossings, are_near, [&](std::span<RayHit> some) { sort_near(scene, ray, some, work); });
+  }
+  sort_places(crossings, work);
+}
+
+}  // namespace crt::core

@@ -1,0 +1,84 @@
+#include "core/intersect/first_crossing.hpp"
+
+#include "core/geometry/frustum/frustum.hpp"
+#include "core/geometry/torus/torus.hpp"
+
+namespace crt::core {
+
+namespace {
+
+ObjectRay object_ray(const Placement& placement, const PlainRay<double>& ray) {
+  return placement.to_object(ray.origin, ray.direction);
+}
+ObjectRayLanes object_ray(const Placement& placement, const RayLanes& rays) {
+  return placement.to_object(rays);
+}
+
+/// Of all shapes only the torus has such an outline.
+const TorusShape& shape_of(const OutlineAxis& torus) {
+  return static_cast<const TorusShape&>(*torus.moved->shape);
+}
+
+template <class Real>
+auto object_ray(const OutlineAxis& object, const OutlineLine<Real>& line) {
+  return object_ray(*object.moved->placement, plain_ray(line));
+}
+
+}  // namespace
+
+template <class Real>
+SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const OutlineLine<Real>& line) {
+  const auto& shape = static_cast<const SphereShape&>(*sphere.moved->shape);
+  return shape.chord<Real>(object_ray(sphere, line));
+}
+template SphereChord<double> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<double>&);
+template SphereChord<Lanes> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<Lanes>&);
+
+template <class Real>
+FirstCrossing<Real> first_crossing_of_rod(const OutlineAxis& rod, const OutlineLine<Real>& line) {
+  const auto& shape = static_cast<const FrustumShape&>(*rod.moved->shape);
+  const auto entry = rod.moved->placement->is_identity() ? shape.first_entry<Real>(plain_ray(line))
+                                                         : shape.first_entry<Real>(object_ray(rod, line));
+  // What is not plainly after the start may be where the line has entered before.
+  const auto known = both(entry.known, after_start(line, entry.t, entry.error).surely);
+  return {.found = known,
+          .unknown = neither(entry.missed, known),
+          .entering = known,
+          .t = entry.t,
+          .error = entry.error};
+}
+template FirstCrossing<double> first_crossing_of_rod(const OutlineAxis&, const OutlineLine<double>&);
+template FirstCrossing<Lanes> first_crossing_of_rod(const OutlineAxis&, const OutlineLine<Lanes>&);
+
+template <class Real>
+FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+                                            const typename FirstCrossing<Real>::Mask& asked) {
+  const auto entry = shape_of(torus).template first_entry<Real>(object_ray(torus, line), asked);
+  // What is not plainly after the start may be one of several crossings, of which others count.
+  const auto ahead =
+      both(after_start(line, entry.t, entry.error).surely, entry.t > asked_above(line.certain_from));
+  const auto known = both(entry.known, ahead);
+  return {.found = known,
+          .unknown = without(entry.found, known),
+          .entering = known,
+          .t = entry.t,
+          .error = entry.error};
+}
+template FirstCrossing<double> first_crossing_of_torus(const OutlineAxis&, const OutlineLine<double>&,
+                                                       const bool&);
+template FirstCrossing<Lanes> first_crossing_of_torus(const OutlineAxis&, const OutlineLine<Lanes>&,
+                                                      const LaneMask&);
+
+template <class Real>
+FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+                                              const typename FirstCrossing<Real>::Mask& asked) {
+  const auto told = both(asked, line.begin >= 0.0);
+  const auto comes_back = shape_of(torus).template comes_back<Real>(object_ray(torus, line), told);
+  return {.unknown = either(comes_back, without(asked, told))};
+}
+template FirstCrossing<double> first_crossing_from_torus(const OutlineAxis&, const OutlineLine<double>&,
+                                                         const bool&);
+template FirstCrossing<Lanes> first_crossing_from_torus(const OutlineAxis&, const OutlineLine<Lanes>&,
+                                                        const LaneMask&);
+
+}  // namespace crt::core

@@ -1,0 +1,265 @@
+#include "core/prepare/prepared_data.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <climits>
+#include <cmath>
+#include <tuple>
+
+#include "core/compile/memory.hpp"
+#include "core/compile/primitive_limit.hpp"
+#include "core/geometry/sphere/sphere.hpp"
+#include "core/intersect/accelerator.hpp"
+#include "core/math/float_environment.hpp"
+#include "core/shading/texture.hpp"
+#include "crt/prepared_scene.hpp"
+#include "crt/validate.hpp"
+
+namespace crt::core {
+
+namespace {
+
+void check_scene(const Scene& scene) {
+  for (const Light& light : scene.lights) validate(light);
+  validate(scene.camera);
+  validate(scene.background);
+  validate(scene.settings);
+}
+
+Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
+  Opacity opacity;
+  for (const PreparedMaterial& material : materials) opacity.of_materials.push_back(material.opaque);
+  for (const SceneObject& object : scene.objects) {
+    const std::span<const Leaf> leaves = scene.leaves_of(object);
+    opacity.of_objects.push_back(std::all_of(
+        leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return opacity.of_materials[leaf.material]; }));
+  }
+  return opacity;
+}
+
+}  // namespace
+
+/// What depends on the entities and on nothing else in the scene but the precision.
+struct PreparedData::Geometry {
+  std::vector<std::shared_ptr<const EntityNode>> entities;  ///< held, so that their addresses stay theirs
+  Precision precision;
+  std::vector<SharedMaterial> materials;
+  bool has_csg;
+  Accelerator accelerator;
+  std::vector<std::uint32_t> entity_ids;  ///< of leaves: users' queries ask for nothing else there
+
+  Geometry(const Scene& scene, CompiledScene compiled, const Workers& workers)
+      : precision(scene.settings.precision),
+        materials(std::move(compiled.materials)),
+        has_csg(!compiled.programs.empty()),
+        accelerator(std::move(compiled), materials, workers) {
+    entities.reserve(scene.entities.size());
+    for (const Entity& entity : scene.entities) entities.push_back(entity.shared_node());
+    entity_ids.reserve(accelerator.compiled().leaves.size());
+    for (const Leaf& leaf : accelerator.compiled().leaves) entity_ids.push_back(leaf.entity_id);
+  }
+
+  bool is_of(const Scene& scene) const {
+    return precision == scene.settings.precision &&
+           std::equal(entities.begin(), entities.end(), scene.entities.begin(), scene.entities.end(),
+                      [](const auto& node, const Entity& entity) { return node == entity.shared_node(); });
+  }
+};
+
+PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, const Workers& workers,
+                           std::uint64_t max_primitives)
+    : textures_(scene.settings.gamma, earlier == nullptr ? nullptr : &earlier->textures_) {
+  const auto begin = std::chrono::steady_clock::now();
+  check_scene(scene);
+  scene_ = {.entities = {},
+            .lights = scene.lights,
+            .camera = scene.camera,
+            .background = scene.background,
+            .settings = scene.settings};
+
+  if (earlier != nullptr && earlier->geometry_->is_of(scene)) {
+    geometry_ = earlier->geometry_;
+  } else {
+    check_primitive_count(scene.entities, scene.settings.precision, max_primitives);
+    geometry_ = std::make_shared<const Geometry>(
+        scene, compile(scene.entities, scene.settings.precision, workers), workers);
+  }
+  accelerator_ = &geometry_->accelerator;
+  leaves_ = accelerator_->compiled().leaves;
+  face_surfaces_ = accelerator_->compiled().face_surfaces;
+  entity_ids_ = geometry_->entity_ids;
+  for (const SharedMaterial& material : geometry_->materials) {
+    workers.poll();
+    materials_.emplace_back(material, textures_);
+  }
+  opacity_ = opacity_of(accelerator_->compiled(), materials_);
+  background_ = std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
+  textures_.settle();
+  features_ = find_features(scene_, materials_, geometry_->has_csg);
+
+  const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
+  prepare_seconds_ = elapsed.count();
+}
+
+PreparedData::~PreparedData() = default;
+
+MemoryUse PreparedData::memory() const {
+  MemoryUse use = accelerator_->memory();
+  use.primitives += bytes_of(geometry_->entities) + bytes_of(geometry_->entity_ids);
+  use.materials = bytes_of(geometry_->materials) + bytes_of(materials_) + textures_.bytes() +
+                  (opacity_.of_materials.capacity() + opacity_.of_objects.capacity()) / CHAR_BIT;
+  return use;
+}
+
+RayHit PreparedData::intersect(const WorldRay& ray, RayWorkspace& work) const {
+  return accelerator_->nearest(ray, work);
+}
+
+bool PreparedData::occluded(const WorldRay& ray, RayWorkspace& work) const {
+  return accelerator_->any(ray, work);
+}
+
+bool PreparedData::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
+  return accelerator_->first_leaves(rays, some, first);
+}
+
+void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
+                                  RayWorkspace& work, Packets packets) const {
+  accelerator_->nearest_each(rays, some, hits, packets, work);
+}
+
+void PreparedData::expect_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
+  accelerator_->expect_surface_points(hits, some);
+}
+
+RayMask PreparedData::occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
+                                    Packets packets) const {
+  return accelerator_->any_each(rays, noted_starts(rays, some), some, packets, work);
+}
+
+RayMask PreparedData::occluded_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                                    RayWorkspace& work) const {
+  return accelerator_->any_each(rays, starts, some, Packets::where_they_pay, work);
+}
+
+PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) const {
+  return accelerator_->noted_starts(rays, some);
+}
+
+LightWays PreparedData::ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                                      RayWorkspace& work, Packets packets) const {
+  const LightWays ways = accelerator_->ways_to_light(rays, starts, some, opacity_, packets, work);
+  for_each_ray(ways.filtered, [&](std::size_t i) { accelerator_->sort(rays.ray(i), work.on_ways[i], work); });
+  return ways;
+}
+
+void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+  out.clear();
+  accelerator_->all(ray, nullptr, out, work);
+  accelerator_->sort(ray, out, work);
+}
+
+void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+  out.clear();
+  accelerator_->surrounding(ray, out, work);
+  std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
+    return std::make_tuple(-a.t, a.object) < std::make_tuple(-b.t, b.object);
+  });
+}
+
+Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
+  return accelerator_->stay(ray, object, work);
+}
+
+void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const {
+  const Leaf& leaf = leaves_[hit.leaf];
+  const SurfacePoint surface = object_point(ray, hit, with_uv);
+  point.t = hit.t;
+  point.position = leaf.placement->point_to_world(surface.position);
+  point.object_position = surface.position;
+  point.object_normal = surface.normal;
+  point.normal = leaf.placement->normal_to_world(point.object_normal);
+  point.u = surface.u;
+  point.v = surface.v;
+  point.material = leaf.material;
+  point.entity_id = leaf.entity_id;
+  point.object = hit.object;
+  point.leaf = hit.leaf;
+  point.face = hit.face;
+  point.entering = hit.entering;
+  point.solid = is_solid(hit);
+}
+
+SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+  SurfacePoint point = accelerator_->surface_point(ray, hit, with_uv);
+  // A cutter's surface bounds what is left of the solid from the other side.
+  if (leaves_[hit.leaf].complemented) point.normal = -point.normal;
+  return point;
+}
+
+RayMask PreparedData::on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
+                                      RayMask some) const {
+  const Leaf& like = leaves_[first.leaf];
+  if (!like.plain_sphere) return 0;
+  RayMask result = 0;
+  for_each_ray(some, [&](std::size_t lane) {
+    const Leaf& leaf = leaves_[hits[lane].leaf];
+    const bool is_like =
+        leaf.plain_sphere && leaf.material == like.material && hits[lane].entering == first.entering;
+    result |= static_cast<RayMask>(is_like) << lane;
+  });
+  return result;
+}
+
+void PreparedData::sphere_points(std::span<const RayHit, lane_count> hits, RayMask some,
+                                 const RayLanes& lines, const Lanes& t, bool with_uv,
+                                 SurfacePointLanes& points) const {
+  const std::size_t first = first_ray(some);
+  std::array<const SphereShape*, lane_count> spheres;
+  for (std::size_t lane = 0; lane < lane_count; ++lane) {
+    const RayHit& hit = hits[(some >> lane & 1u) != 0 ? lane : first];
+    spheres[lane] = static_cast<const SphereShape*>(leaves_[hit.leaf].shape.get());
+  }
+  SphereShape::points_on_each(spheres, lines, t, with_uv, points);
+}
+
+StartPoint PreparedData::start_point(const WorldRay& ray, const RayHit& hit, Side side) const {
+  StartPoint start = start_face(hit, side);
+  double farthest = 0;
+  for (int axis = 0; axis < 3; ++axis) {
+    farthest = std::max(farthest, std::abs(std::fma(hit.t, ray.direction[axis], ray.origin[axis])));
+  }
+  start.t_error = start_rounding * farthest;
+  return start;
+}
+
+const CompiledScene& PreparedData::compiled() const {
+  return accelerator_->compiled();
+}
+
+}  // namespace crt::core
+
+namespace crt {
+
+MemoryUse PreparedScene::memory() const {
+  return data_->memory();
+}
+
+PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
+  const core::FloatEnvironment ieee;
+  core::StopCheck stop(options.go_on, "preparing the scene");
+  const core::Workers workers(0, options.go_on ? &stop : nullptr);
+  const core::PreparedData* earlier = options.earlier == nullptr ? nullptr : &options.earlier->data();
+  return PreparedScene(
+      std::make_shared<const core::PreparedData>(scene, earlier, workers, options.max_primitives));
+}
+
+PreparedScene prepare(const Scene& scene) {
+  return prepare(scene, PrepareOptions{});
+}
+
+PreparedScene prepare(const Scene& scene, const PreparedScene& earlier) {
+  return prepare(scene, PrepareOptions{.earlier = &earlier});
+}
+
+}  // namespace crt

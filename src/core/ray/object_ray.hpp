@@ -1,0 +1,87 @@
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/math/double_double.hpp"
+#include "core/ray/plain_ray.hpp"
+#include "crt/vec.hpp"
+
+namespace crt::core {
+
+inline constexpr std::uint32_t no_face = 0xffffffffu;
+
+/// Which side of a face a ray leaves to: where the outward normal points, or into the solid.
+enum class Side : std::uint8_t { outside, inside };
+
+inline Side opposite(Side side) {
+  return side == Side::outside ? Side::inside : Side::outside;
+}
+
+/// Where a ray starts, if it starts on a surface and not in free space: on the face itself, or merely
+/// on the surface that the face is a piece of (on another primitive's face that lies on it too).
+struct RayStart {
+  std::uint32_t face = no_face;
+  Side side = Side::outside;  ///< of the face's surface
+  bool on_face = true;
+};
+
+/// See ObjectRay::from_center().
+template <class Real, class Ray>
+Vec3Of<Real> point_from_center(const Ray& ray, const Vec3& center, const Real& t, const Real& t_low) {
+  const auto component = [&](const Real& from, const Real& from_low, const Real& along, const Real& along_low,
+                             double place) {
+    const auto offset = two_sum(from, spread<Real>(-place));
+    return fma(t, along, offset.hi) + (offset.lo + from_low + t * along_low + t_low * along);
+  };
+  const auto& o = ray.origin;
+  const auto& o_low = ray.origin_low;
+  const auto& d = ray.direction;
+  const auto& d_low = ray.direction_low;
+  return {component(o.x, o_low.x, d.x, d_low.x, center.x), component(o.y, o_low.y, d.y, d_low.y, center.y),
+          component(o.z, o_low.z, d.z, d_low.z, center.z)};
+}
+
+/// A ray in the object space of one primitive. Origin and direction are unevaluated sums of two
+/// doubles (the second far smaller), so that entering the space loses nothing; without a transform
+/// the low parts are 0.
+struct ObjectRay {
+  Vec3 origin{0, 0, 0};
+  Vec3 origin_low{0, 0, 0};
+  Vec3 direction{0, 0, 1};
+  Vec3 direction_low{0, 0, 0};
+  RayStart start = {};
+  /// Crossings with t below this only count: where they are may be told roughly, with an error that says so.
+  double begin = -std::numeric_limits<double>::infinity();
+  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it may be
+  /// left out. What is nearer than that to where the ray begins may be at its start and not count.
+  double first_above = std::numeric_limits<double>::infinity();
+
+  /// Whether a crossing is surely ahead of `first_above`, whatever its error.
+  template <class Crossing>
+  bool is_first_asked(const Crossing& crossing) const {
+    return crossing.t - crossing.error > first_above;
+  }
+
+  /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
+  /// is about one rounding of the result, not of the way there, if the point is near the center.
+  Vec3 from_center(const Vec3& center, double t, double t_low = 0) const {
+    return point_from_center<double>(*this, center, t, t_low);
+  }
+};
+
+/// As many of them as there are lanes, without where they start.
+struct ObjectRayLanes {
+  VectorLanes origin;
+  VectorLanes origin_low;
+  VectorLanes direction;
+  VectorLanes direction_low;
+
+  /// The same, to the last bit.
+  VectorLanes from_center(const Vec3& center, const Lanes& t, const Lanes& t_low = Lanes{}) const {
+    return point_from_center<Lanes>(*this, center, t, t_low);
+  }
+};
+
+}  // namespace crt::core

@@ -1,0 +1,35 @@
+// What a ray meets, as found along it.
+#pragma once
+
+#include <cmath>
+#include <cstdint>
+#include <limits>
+
+#include "core/ray/world_ray.hpp"
+
+namespace crt::core {
+
+/// A crossing, as found: numbers only, no shading data yet.
+struct RayHit {
+  double t = std::numeric_limits<double>::infinity();
+  double error = 0;
+  double t_low = 0;                ///< t + t_low is what the exact tier knows of t
+  std::uint32_t object = nothing;  ///< what Embree knows: a lone primitive or a CSG object
+  std::uint32_t leaf = nothing;    ///< the primitive that the face belongs to
+  std::uint32_t face = no_face;
+  std::uint32_t surface = nothing;  ///< the whole surface that the face is a piece of
+  std::uint8_t root = 0;            ///< as in Crossing
+  bool entering = false;
+  bool has_company = false;  ///< other objects have crossings there: RayWorkspace::here and near
+
+  bool found() const { return object != nothing; }
+};
+
+/// Whether two crossings of one ray count as being at one place: of one surface by identity, of others where
+/// their error bounds cannot tell them apart.
+inline bool same_place(const RayHit& a, const RayHit& b) {
+  if (a.surface == b.surface && a.surface != nothing) return a.root == b.root;
+  return std::abs((a.t - b.t) + (a.t_low - b.t_low)) <= a.error + b.error;
+}
+
+}  // namespace crt::core

@@ -1,0 +1,66 @@
+#include "core/ray/ray_packet.hpp"
+
+#include <glm/geometric.hpp>
+
+#include "core/ray/certain_end.hpp"
+
+namespace crt::core {
+
+WorldRay RayBatch::ray(std::size_t index) const {
+  const std::size_t group = index / lane_count;
+  const std::size_t lane = index % lane_count;
+  const auto i = static_cast<int>(lane);
+  WorldRay ray{.origin = lines[group].origin.lane(lane),
+               .direction = lines[group].direction.lane(lane),
+               .t_min = t_min[group][i],
+               .t_max = t_max[group][i],
+               .end_error = end_errors[group][i]};
+  if ((with_starts >> index & 1u) != 0) ray.start = starts[index];
+  ray.start.t_error = start_errors[group][i];
+  return ray;
+}
+
+void RayBatch::set(std::size_t index, const WorldRay& ray) {
+  const std::size_t group = index / lane_count;
+  const auto i = static_cast<int>(index % lane_count);
+  set(index, ray.origin, ray.direction, ray.start);
+  t_min[group][i] = ray.t_min;
+  t_max[group][i] = ray.t_max;
+  end_errors[group][i] = ray.end_error;
+}
+
+RayPacket::RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some) : starts(of_rays) {
+  for_each_group(some, [&](std::size_t group, RayMask) {
+    const auto& [origin, direction] = rays.lines[group];
+    OutlineLine<Lanes>& lines = groups[group];
+    lines.origin = {origin.x, origin.y, origin.z};
+    lines.direction = {direction.x, direction.y, direction.z};
+    lines.squared_speed = dot(lines.direction, lines.direction);
+    lines.inverse_squared_speed = 1.0 / lines.squared_speed;
+    lines.inverse_speed = sqrt(lines.inverse_squared_speed);
+    for (std::size_t axis = 0; axis < 3; ++axis) lines.inverse[axis] = 1.0 / lines.direction[axis];
+    lines.begin = rays.t_min[group];
+    lines.start_error = rays.start_errors[group];
+    lines.certain_from = farthest_start(lines.begin, lines.start_error);
+    limits[group] = rays.t_max[group];
+    lines.certain_to = finite_end(certain_end(rays.lines[group], limits[group], rays.end_errors[group]));
+  });
+}
+
+bool go_together(const RayBatch& rays, RayMask some) {
+  if (std::popcount(some) < fewest_together) return false;
+  constexpr double widest = 0.9;  // the cosine of the angle with the first ray
+  const Vec3 direction = rays.direction(first_ray(some));
+  const VectorLanes first_lanes = lanes_of(direction);
+  const double first_square = widest * widest * glm::dot(direction, direction);
+  RayMask astray = 0;
+  RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
+    const VectorLanes& others = rays.lines[group].direction;
+    const Lanes along = dot(others, first_lanes);
+    const LaneMask is_near = (along > 0.0) & (along * along > first_square * dot(others, others));
+    astray |= lanes & ~mask_of(is_near);
+  });
+  return astray == 0;
+}
+
+}  // namespace crt::core

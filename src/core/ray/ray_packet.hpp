@@ -1,0 +1,140 @@
+// Rays that go through a scene side by side.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <limits>
+
+#include "core/ray/outline_line.hpp"
+#include "core/ray/plain_ray.hpp"
+#include "core/ray/world_ray.hpp"
+
+namespace crt::core {
+
+/// So many rays at most travel together. It pays where they go nearly the same way.
+inline constexpr std::size_t packet_size = 16;
+
+/// A bit for each ray of a packet.
+using RayMask = std::uint32_t;
+
+/// Of the bits that are set, of which there must be one.
+inline std::size_t first_ray(RayMask mask) {
+  return static_cast<std::size_t>(std::countr_zero(mask));
+}
+
+/// Calls use(index) for each bit that is set.
+template <class Use>
+void for_each_ray(RayMask mask, const Use& use) {
+  for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
+}
+
+/// On what rays start.
+struct PacketStarts {
+  std::array<std::uint32_t, packet_size> surfaces;
+  std::array<std::uint32_t, packet_size> leaves;
+  RayMask on_surface = 0;  ///< that start on one
+  RayMask outwards = 0;    ///< of those
+  /// The object that a ray has left for good.
+  std::array<std::uint32_t, packet_size> left_objects;
+  RayMask left_some = 0;  ///< that have left one
+
+  PacketStarts() {
+    surfaces.fill(nothing);
+    leaves.fill(nothing);
+    left_objects.fill(nothing);
+  }
+};
+
+/// Up to packet_size rays by component. A mask that comes with them says which of them there are; the others
+/// may hold anything.
+struct RayBatch {
+  static constexpr std::size_t group_count = packet_size / lane_count;
+  /// One for each ray.
+  using Numbers = std::array<Lanes, group_count>;
+
+  std::array<RayLanes, group_count> lines;
+  Numbers t_min{};
+  Numbers t_max;            ///< infinity unless it is set
+  Numbers start_errors;     ///< StartPoint::t_error
+  Numbers end_errors{};     ///< as in WorldRay
+  RayMask with_starts = 0;  ///< the others start in free space
+  std::array<StartPoint, packet_size> starts;
+
+  RayBatch() { t_max.fill(lanes_of(std::numeric_limits<double>::infinity())); }
+
+  /// One of them.
+  WorldRay ray(std::size_t index) const;
+  Vec3 direction(std::size_t index) const {
+    return lines[index / lane_count].direction.lane(index % lane_count);
+  }
+  void set(std::size_t index, const WorldRay& ray);
+  /// All but t_min, t_max and end_errors.
+  void set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start);
+};
+
+inline void RayBatch::set(std::size_t index, const Vec3& origin, const Vec3& direction,
+                          const StartPoint& start) {
+  const std::size_t group = index / lane_count;
+  const std::size_t lane = index % lane_count;
+  lines[group].origin.set(lane, origin);
+  lines[group].direction.set(lane, direction);
+  start_errors[group][static_cast<int>(lane)] = start.t_error;
+  starts[index] = start;
+  with_starts |= RayMask{1} << index;
+}
+
+/// Up to packet_size rays as vector instructions take them.
+struct RayPacket {
+  static constexpr std::size_t group_count = packet_size / lane_count;
+  static constexpr RayMask group_mask = (1u << lane_count) - 1;
+
+  /// Of some of a batch, and what their starts mean, which must outlive the packet.
+  RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some);
+
+  /// Groups without a ray hold nothing.
+  std::array<OutlineLine<Lanes>, group_count> groups;
+  /// Beyond it nothing matters any more to a ray.
+  std::array<Lanes, group_count> limits;
+  const PacketStarts& starts;
+
+  /// A group's rays, by lane.
+  static RayMask lanes(RayMask rays, std::size_t group) { return rays >> (group * lane_count) & group_mask; }
+
+  /// Calls use(group, lanes) for each group that has some of the rays.
+  template <class Use>
+  static void for_each_group(RayMask rays, const Use& use) {
+    for (std::size_t group = 0; group < group_count; ++group) {
+      if (lanes(rays, group) != 0) use(group, lanes(rays, group));
+    }
+  }
+
+  static RayMask all(std::size_t count) { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
+  double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
+  void set_limit(std::size_t ray, double limit) {
+    limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
+  }
+};
+
+/// Those whose value is that one.
+inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, std::uint32_t value) {
+  RayMask mask = 0;
+  for (std::size_t first = 0; first < packet_size; first += 8) {
+    mask |= which_of_eight(&values[first], value) << first;
+  }
+  return mask;
+}
+
+/// Which rays of a batch are followed together.
+enum class Packets {
+  where_they_pay,
+  always  ///< it makes no difference to what they find
+};
+
+/// A packet of fewer rays does not pay.
+inline constexpr int fewest_together = 3;
+
+/// Whether some rays go so nearly the same way that a packet of them pays.
+bool go_together(const RayBatch& rays, RayMask some);
+
+}  // namespace crt::core

@@ -1,0 +1,60 @@
+// Which hits of a few rays can be told of together.
+#pragma once
+
+#include <cstdint>
+#include <span>
+
+#include "core/math/lanes.hpp"
+#include "core/prepare/prepared_data.hpp"
+
+namespace crt::core {
+
+/// Rays whose hits are alike: all from the same side and of one material.
+struct AlikeRays {
+  RayMask on_face = 0;     ///< on the face that the first of them hits
+  RayMask on_spheres = 0;  ///< on other spheres, if that is on one; see PreparedData::on_spheres_like()
+
+  RayMask all() const { return on_face | on_spheres; }
+};
+
+/// The hits of as many rays as there are lanes.
+class HitFaces {
+ public:
+  HitFaces(const PreparedData& data, std::span<const RayHit, lane_count> hits)
+      : data_(data),
+        hits_(hits),
+        faces_{of(hits[0]), of(hits[1]), of(hits[2]), of(hits[3])},
+        entering_{hits[0].entering, hits[1].entering, hits[2].entering, hits[3].entering} {}
+
+  /// Of some rays those that are like the first of them.
+  AlikeRays alike(RayMask some) const {
+    const RayHit& first = hits_[first_ray(some)];
+    const LaneMask like_first =
+        (faces_ == of(first)) & (entering_ == static_cast<std::int64_t>(first.entering));
+    const RayMask on_face = mask_of(like_first) & some;
+    const RayMask others = some & ~on_face;
+    return {on_face, others == 0 ? 0 : data_.on_spheres_like(first, hits_, others)};
+  }
+
+  /// In object space where they are hit, each at its t. Of other rays the point is of no use.
+  void object_points(const AlikeRays& alike, const RayLanes& lines, const Lanes& t, bool with_uv,
+                     SurfacePointLanes& points) const {
+    if (alike.on_spheres == 0) {
+      data_.object_points(hits_[first_ray(alike.on_face)], lines, t, with_uv, points);
+    } else {
+      data_.sphere_points(hits_, alike.all(), lines, t, with_uv, points);
+    }
+  }
+
+ private:
+  static std::int64_t of(const RayHit& hit) {
+    return static_cast<std::int64_t>(std::uint64_t{hit.face} << 32 | hit.leaf);
+  }
+
+  const PreparedData& data_;
+  std::span<const RayHit, lane_count> hits_;
+  LaneMask faces_;
+  LaneMask entering_;
+};
+
+}  // namespace crt::core

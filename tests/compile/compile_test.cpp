@@ -1,0 +1,193 @@
+// What compiling a scene makes of it, however large, deep or many threads.
+#include "core/compile/compile.hpp"
+
+#include <doctest/doctest.h>
+
+#include <random>
+
+#include "core/compile/surface_table.hpp"
+#include "core/csg/entity_node.hpp"
+
+using namespace crt;
+using namespace crt::core;
+
+namespace {
+
+class Random {
+ public:
+  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  Vec3 point(double size) { return {real(-size, size), real(-size, size), real(-size, size)}; }
+  Entity ball(double size, double radius) { return Sphere{.center = point(size), .radius = radius}; }
+  std::vector<Entity> balls(int count, double size, double radius) {
+    std::vector<Entity> result;
+    for (int i = 0; i < count; ++i) result.push_back(ball(size, radius));
+    return result;
+  }
+
+ private:
+  std::mt19937 engine_{1};
+};
+
+/// Enough of everything that more than one thread has something to do.
+std::vector<Entity> mixed_entities() {
+  Random random;
+  std::vector<Entity> entities = random.balls(20'000, 50, 0.1);
+  const Entity block = Box{.corner_a = {-9, -9, -9}, .corner_b = {9, 9, 9}};
+  entities.push_back(csg_difference(block, random.balls(20'000, 9, 0.2)));
+  entities.push_back(csg_union(random.balls(20'000, 9, 0.05)));
+  for (int i = 0; i < 3000; ++i) {
+    const Entity pair = random.ball(1, 1) ^ random.ball(1, 1);
+    entities.push_back((pair - Box{}).transformed(rotate(random.point(180))).with_material(Material{}));
+    entities.push_back(Entity(Box{}).transformed(translate(random.point(3))));
+  }
+  Entity chain = block;
+  for (int i = 0; i < 10'000; ++i) {
+    const Entity ball = random.ball(9, 1);
+    chain = i % 2 == 0 ? chain - ball : chain + ball;
+  }
+  entities.push_back(chain);
+  return entities;
+}
+
+bool same_box(const Bounds& a, const Bounds& b) {
+  return a.lower == b.lower && a.upper == b.upper;
+}
+
+bool same_leaf(const Leaf& a, const Leaf& b) {
+  return same_box(a.bounds, b.bounds) && a.placement->to_world() == b.placement->to_world() &&
+         a.material == b.material && a.entity_id == b.entity_id && a.first_face == b.first_face &&
+         a.face_count == b.face_count && a.complemented == b.complemented;
+}
+
+bool same_face(const FaceSurface& a, const FaceSurface& b) {
+  return a.surface == b.surface && a.flipped == b.flipped && a.shared == b.shared;
+}
+
+bool same_node(const CsgNode& a, const CsgNode& b) {
+  return a.parent == b.parent && a.needed == b.needed && a.count_outside == b.count_outside;
+}
+
+bool same_program(const CsgProgram& a, const CsgProgram& b) {
+  return std::equal(a.nodes.begin(), a.nodes.end(), b.nodes.begin(), b.nodes.end(), same_node) &&
+         a.leaf_parents == b.leaf_parents && a.first_leaf == b.first_leaf && a.tree == b.tree &&
+         a.shared_surfaces == b.shared_surfaces && same_box(a.bounds, b.bounds);
+}
+
+bool same_object(const SceneObject& a, const SceneObject& b) {
+  return a.first_leaf == b.first_leaf && a.program == b.program && same_box(a.bounds, b.bounds) &&
+         a.solid == b.solid;
+}
+
+template <class Item, class Same>
+bool all_same(const std::vector<Item>& a, const std::vector<Item>& b, const Same& same) {
+  return std::equal(a.begin(), a.end(), b.begin(), b.end(), same);
+}
+
+}  // namespace
+
+TEST_CASE("a scene is compiled to the same on any number of threads") {
+  const std::vector<Entity> entities = mixed_entities();
+  const CompiledScene scene = compile(entities, Precision::standard, 1);
+  CHECK(scene.leaves.size() > 80'000);
+  for (const int threads : {0, 2, 5}) {
+    const CompiledScene other = compile(entities, Precision::standard, threads);
+    CHECK(all_same(scene.leaves, other.leaves, same_leaf));
+    CHECK(all_same(scene.face_surfaces, other.face_surfaces, same_face));
+    CHECK(all_same(scene.objects, other.objects, same_object));
+    CHECK(all_same(scene.programs, other.programs, same_program));
+    CHECK(scene.placements.size() == other.placements.size());
+    CHECK(scene.materials.size() == other.materials.size());
+  }
+}
+
+TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
+  // Three of each ball in the union, brought to their place in different ways, and one of each by itself.
+  Random random;
+  const std::vector<Entity> balls = random.balls(10'000, 9, 1);
+  std::vector<Entity> parts = balls;
+  for (const double moved : {0.5, 1.0}) {
+    for (const Entity& ball : balls) {
+      const auto& sphere = std::get<Sphere>(std::get<Primitive>(ball.node().content));
+      const Vec3 way = moved * sphere.center;
+      const Entity begun = Sphere{.center = sphere.center - way, .radius = sphere.radius};
+      parts.push_back(begun.transformed({.translation = way}));
+    }
+  }
+  std::vector<Entity> entities{csg_union(parts)};
+  entities.insert(entities.end(), balls.begin(), balls.end());
+  const CompiledScene scene = compile(entities);
+  REQUIRE(scene.objects.size() == 10'001);
+  REQUIRE(scene.programs[0].shared_surfaces == 10'000);
+  std::vector<bool> seen(10'000, false);
+  for (std::uint32_t ball = 0; ball < 10'000; ++ball) {
+    for (std::uint32_t copy = 0; copy < 4; ++copy) {
+      const FaceSurface& face = scene.face_surfaces[scene.leaves[ball + copy * 10'000].first_face];
+      REQUIRE(face.surface == scene.face_surfaces[scene.leaves[ball].first_face].surface);
+      if (copy == 3) {
+        REQUIRE(face.shared == FaceSurface::not_shared);  // not in its own object
+      } else {
+        REQUIRE(face.shared == scene.face_surfaces[scene.leaves[ball].first_face].shared);
+      }
+    }
+    const std::uint32_t shared = scene.face_surfaces[scene.leaves[ball].first_face].shared;
+    REQUIRE(shared < 10'000);
+    REQUIRE_FALSE(seen[shared]);
+    seen[shared] = true;
+  }
+}
+
+TEST_CASE("surfaces whose hashes agree by chance are different surfaces") {
+  const Sphere a{.center = {1, 2, 0}};
+  const Sphere b{.center = {117699.125, -0x1.b630a802b630ap+3, 0}};
+  const auto hash = [](const Sphere& ball) {
+    return canonical_surface(make_shape(ball)->surface(0), Placement()).hash();
+  };
+  REQUIRE(hash(a) == hash(b));
+  const CompiledScene scene = compile(std::vector<Entity>{a, b, a, b, a});
+  const auto surface = [&](std::size_t leaf) {
+    return scene.face_surfaces[scene.leaves[leaf].first_face].surface;
+  };
+  CHECK(surface(0) != surface(1));
+  CHECK(surface(0) == surface(2));
+  CHECK(surface(0) == surface(4));
+  CHECK(surface(1) == surface(3));
+}
+
+TEST_CASE("a hundred thousand operations in one another are compiled") {
+  for (const bool first : {true, false}) {
+    Random random;
+    Entity chain = Box{.corner_a = {-9, -9, -9}, .corner_b = {9, 9, 9}};
+    for (int i = 0; i < 100'000; ++i) {
+      const Entity ball = random.ball(9, 0.3);
+      if (first) {
+        chain = i % 2 == 0 ? chain - ball : chain + ball;
+      } else {
+        chain = i % 2 == 0 ? ball - chain : ball + chain;
+      }
+    }
+    CHECK(chain.primitive_count() == 100'001);
+    CHECK(compile(std::span(&chain, 1)).leaves.size() == 100'001);
+  }
+}
+
+TEST_CASE("parts that come apart one by one only take no longer for that") {
+  // Around a core, slabs on six sides in turn: each plane that misses all boxes has but one of them behind
+  // it.
+  std::vector<Entity> parts{Sphere{}};
+  double size = 1;
+  for (int i = 0; i < 20'000; ++i) {
+    const double next = size * (1 + 0x1p-8);
+    const int axis = i / 2 % 3;
+    const double sign = i % 2 == 0 ? 1 : -1;
+    Vec3 near{-size, -size, -size};
+    Vec3 far{size, size, size};
+    near[axis] = sign * (size + next) / 2;
+    far[axis] = sign * next;
+    parts.emplace_back(Box{.corner_a = near, .corner_b = far});
+    size = next;
+  }
+  const Entity all = csg_union(parts);
+  const CompiledScene scene = compile(std::span(&all, 1));
+  CHECK(scene.leaves.size() == parts.size());
+  CHECK(scene.objects.size() > 10);
+}
