@@ -160,8 +160,8 @@ void Compiler::make_leaves() {
       leaf.material = source.material;
       leaf.entity_id = source.entity_id;
       leaf.complemented = source.complemented;
-      leaf.plain_sphere = std::holds_alternative<Sphere>(*source.primitive) && !leaf.complemented &&
-                          leaf.placement->is_identity();
+      const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
+      leaf.plain_sphere = is_plain ? proxy_as<SphereShape>(leaf.shape->proxy()) : nullptr;
       leaf.face_count = leaf.shape->face_count();
       bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
     }

@@ -32,17 +32,16 @@ struct FaceSurface {
 /// A primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
-  std::unique_ptr<const ExactShape> exact;  ///< the same in the exact tier; none in the standard one
-  const Placement* placement = nullptr;     ///< shared by leaves that are placed alike; the scene owns it
-  Bounds bounds;                            ///< in the world, of what can matter of it
+  std::unique_ptr<const ExactShape> exact;    ///< the same in the exact tier; none in the standard one
+  const Placement* placement = nullptr;       ///< shared by leaves that are placed alike; the scene owns it
+  const SphereShape* plain_sphere = nullptr;  ///< its shape, of a sphere neither complemented nor moved
+  Bounds bounds;                              ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
   std::uint32_t face_count = 0;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
-  /// Its shape is a SphereShape, neither complemented nor placed anywhere else.
-  bool plain_sphere = false;
 };
 
 struct CsgNode {

@@ -30,16 +30,19 @@ std::uint32_t take_bit(std::uint32_t& bits) {
 
 /// A leaf in the world; none if it is no sphere, or not where doubles tell exactly.
 std::optional<CsgSketch::Sphere> sphere_of(const Leaf& leaf) {
+  if (proxy_as<SphereShape>(leaf.shape->proxy()) == nullptr) return {};
   const Surface surface = leaf.shape->surface(0);
   const std::optional<Vec3> place = leaf.placement->exactly_to_world(surface.position);
-  if (surface.kind != SurfaceKind::sphere || !place || !has_fair_size(surface.sizes[0])) return {};
+  if (!place || !has_fair_size(surface.sizes[0])) return {};
   return CsgSketch::Sphere{*place, surface.sizes[0]};
 }
 
-/// Likewise of a box.
+bool is_box(const Leaf& leaf) {
+  return proxy_as<BoxShape>(leaf.shape->proxy()) != nullptr;
+}
+
+/// The same of a box, whose faces are two across each axis.
 std::optional<CsgSketch::Box> box_of(const Leaf& leaf) {
-  // Of all shapes only the box has six faces, two across each axis.
-  if (leaf.face_count != 6) return {};
   CsgSketch::Box box{};
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
     const std::optional<Vec3> place = leaf.placement->exactly_to_world(leaf.shape->surface(face).position);
@@ -70,7 +73,7 @@ CsgSketch::CsgSketch(const CsgProgram& program, std::span<const Leaf> leaves,
 bool CsgSketch::place_leaves(std::span<const Leaf> leaves) {
   for (const bool boxes : {false, true}) {
     for (std::uint32_t i = 0; i < leaves.size(); ++i) {
-      if ((leaves[i].face_count != 1) != boxes) continue;
+      if (is_box(leaves[i]) != boxes) continue;
       const std::optional<Sphere> sphere = boxes ? std::nullopt : sphere_of(leaves[i]);
       const std::optional<Box> box = boxes ? box_of(leaves[i]) : std::nullopt;
       if (!sphere && !box) return false;

@@ -75,17 +75,4 @@ inline std::optional<RealRoot> root_at(const ExactRay& ray, const Crossing& cros
   return RealRoot::of_index(polynomial, crossing.root);
 }
 
-std::unique_ptr<const ExactShape> make_exact_shape(const Plane& plane);
-std::unique_ptr<const ExactShape> make_exact_shape(const HalfPlane& half_plane);
-std::unique_ptr<const ExactShape> make_exact_shape(const Disc& disc);
-std::unique_ptr<const ExactShape> make_exact_shape(const Triangle& triangle);
-std::unique_ptr<const ExactShape> make_exact_shape(const Box& box);
-std::unique_ptr<const ExactShape> make_exact_shape(const Sphere& sphere);
-std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder);
-std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone);
-std::unique_ptr<const ExactShape> make_exact_shape(const Torus& torus);
-
-/// Makes the exact shape of a (valid) primitive.
-std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive);
-
 }  // namespace crt::core

@@ -1,11 +1,12 @@
-// From the public description of a primitive to its shape. Each primitive has overloads of
-// validate(), is_solid() and make_shape(); the variant Primitive is the one list of them.
+// From the public description of a primitive to its shape. The variant Primitive is the one list of all
+// primitives; each has overloads of validate(), is_solid(), make_shape() and make_exact_shape() of its own.
 #include "core/geometry/shape.hpp"
 
 #include "core/geometry/box/box.hpp"
 #include "core/geometry/cone/cone.hpp"
 #include "core/geometry/cylinder/cylinder.hpp"
 #include "core/geometry/disc/disc.hpp"
+#include "core/geometry/exact_shape.hpp"
 #include "core/geometry/half_plane/half_plane.hpp"
 #include "core/geometry/plane/plane.hpp"
 #include "core/geometry/sphere/sphere.hpp"
@@ -21,6 +22,28 @@ void validate(const Primitive& primitive) {
 
 namespace core {
 
+namespace {
+
+/// Holds if all functions of a primitive are declared for its own struct. (An overload that is missing would
+/// else be found in those for a Primitive below, which would call themselves.)
+template <class Description>
+constexpr bool has_all_functions = requires {
+  static_cast<void (*)(const Description&)>(&validate);
+  static_cast<bool (*)(const Description&)>(&is_solid);
+  static_cast<std::unique_ptr<const Shape> (*)(const Description&)>(&make_shape);
+  static_cast<std::unique_ptr<const ExactShape> (*)(const Description&)>(&make_exact_shape);
+};
+
+template <class... Descriptions>
+constexpr bool have_all_functions(std::variant<Descriptions...>*) {
+  return (has_all_functions<Descriptions> && ...);
+}
+
+static_assert(have_all_functions(static_cast<Primitive*>(nullptr)),
+              "a primitive lacks one of validate, is_solid, make_shape, make_exact_shape");
+
+}  // namespace
+
 void validate(const Primitive& primitive) {
   std::visit([](const auto& description) { validate(description); }, primitive);
 }
@@ -31,6 +54,10 @@ bool is_solid(const Primitive& primitive) {
 
 std::unique_ptr<const Shape> make_shape(const Primitive& primitive) {
   return std::visit([](const auto& description) { return make_shape(description); }, primitive);
+}
+
+std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive) {
+  return std::visit([](const auto& description) { return make_exact_shape(description); }, primitive);
 }
 
 }  // namespace core

@@ -15,6 +15,7 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
+#include "core/geometry/proxy.hpp"
 #include "core/geometry/surface.hpp"
 #include "core/ray/object_ray.hpp"
 #include "crt/primitives.hpp"
@@ -83,6 +84,10 @@ class Shape {
   /// A box in object space that holds the shape, rounded outwards; infinite where the shape is.
   virtual Bounds bounds() const = 0;
 
+  /// Itself, if there are fast tests for its type. A shape without is asked for its crossings wherever a ray
+  /// comes near.
+  virtual Proxy proxy() const { return {}; }
+
   /// In object space; none of shapes that are about as long as wide.
   virtual std::optional<Spine> spine() const { return std::nullopt; }
 
@@ -144,6 +149,10 @@ class ShapeOfPoints : public Shape {
   const Derived& derived() const { return static_cast<const Derived&>(*this); }
 };
 
+class ExactShape;
+
+// Each primitive's header has these four for its own public struct; shape.cpp checks that none is missing.
+
 /// Checks a primitive's parameters; throws Error (invalid_argument) naming the field.
 void validate(const Primitive& primitive);
 
@@ -152,5 +161,8 @@ bool is_solid(const Primitive& primitive);
 
 /// Makes the shape of a (valid) primitive.
 std::unique_ptr<const Shape> make_shape(const Primitive& primitive);
+
+/// Makes what the exact tier asks (exact_shape.hpp) of a (valid) primitive.
+std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive);
 
 }  // namespace crt::core

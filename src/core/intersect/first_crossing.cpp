@@ -14,9 +14,10 @@ ObjectRayLanes object_ray(const Placement& placement, const RayLanes& rays) {
   return placement.to_object(rays);
 }
 
-/// Of all shapes only the torus has such an outline.
-const TorusShape& shape_of(const OutlineAxis& torus) {
-  return static_cast<const TorusShape&>(*torus.moved->shape);
+/// The shape of an object of that kind.
+template <class Kind>
+const Kind& shape_of(const OutlineAxis& object) {
+  return *proxy_as<Kind>(object.proxy);
 }
 
 template <class Real>
@@ -28,7 +29,7 @@ auto object_ray(const OutlineAxis& object, const OutlineLine<Real>& line) {
 
 template <class Real>
 SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const OutlineLine<Real>& line) {
-  const auto& shape = static_cast<const SphereShape&>(*sphere.moved->shape);
+  const auto& shape = shape_of<SphereShape>(sphere);
   return shape.chord<Real>(object_ray(sphere, line));
 }
 template SphereChord<double> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<double>&);
@@ -36,7 +37,7 @@ template SphereChord<Lanes> chord_of_moved_sphere(const OutlineAxis&, const Outl
 
 template <class Real>
 FirstCrossing<Real> first_crossing_of_rod(const OutlineAxis& rod, const OutlineLine<Real>& line) {
-  const auto& shape = static_cast<const FrustumShape&>(*rod.moved->shape);
+  const auto& shape = shape_of<FrustumShape>(rod);
   const auto entry = rod.moved->placement->is_identity() ? shape.first_entry<Real>(plain_ray(line))
                                                          : shape.first_entry<Real>(object_ray(rod, line));
   // What is not plainly after the start may be where the line has entered before.
@@ -53,7 +54,7 @@ template FirstCrossing<Lanes> first_crossing_of_rod(const OutlineAxis&, const Ou
 template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked) {
-  const auto entry = shape_of(torus).template first_entry<Real>(object_ray(torus, line), asked);
+  const auto entry = shape_of<TorusShape>(torus).template first_entry<Real>(object_ray(torus, line), asked);
   // What is not plainly after the start may be one of several crossings, of which others count.
   const auto ahead =
       both(after_start(line, entry.t, entry.error).surely, entry.t > asked_above(line.certain_from));
@@ -73,7 +74,8 @@ template <class Real>
 FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked) {
   const auto told = both(asked, line.begin >= 0.0);
-  const auto comes_back = shape_of(torus).template comes_back<Real>(object_ray(torus, line), told);
+  const auto comes_back =
+      shape_of<TorusShape>(torus).template comes_back<Real>(object_ray(torus, line), told);
   return {.unknown = either(comes_back, without(asked, told))};
 }
 template FirstCrossing<double> first_crossing_from_torus(const OutlineAxis&, const OutlineLine<double>&,

@@ -81,9 +81,8 @@ Outline outline_of_csg(const CompiledScene& scene, const SceneObject& object) {
   const CsgProgram& program = scene.programs[object.program];
   for (std::uint32_t i = 0; i < program.leaf_count(); ++i) {
     const Leaf& leaf = scene.leaves[program.first_leaf + i];
-    if (!program.is_within(i, leaf) || leaf.face_count != 1) continue;
+    if (!program.is_within(i, leaf) || proxy_as<SphereShape>(leaf.shape->proxy()) == nullptr) continue;
     const Surface surface = leaf.shape->surface(0);
-    if (surface.kind != SurfaceKind::sphere) continue;
     Outline outline;
     constexpr double room = 1 + 0x1p-20;
     outline.radius = surface.sizes[0] * room;
@@ -119,6 +118,7 @@ struct LoneLeaf {
   const CompiledScene& scene;
   std::uint32_t index;
   const Leaf& leaf;
+  Proxy proxy;
   Surface surface;  ///< of the first face
 };
 
@@ -126,12 +126,12 @@ struct LoneLeaf {
 void tell(const LoneLeaf& lone, OutlineAxis& axis) {
   axis.leaf = lone.index;
   axis.moved = &lone.leaf;
+  axis.proxy = lone.proxy;
 }
 
 void outline_rod(const LoneLeaf& lone, Outline& outline, OutlineAxis& axis) {
   outline.is_judged = place_rod(*lone.leaf.shape, *lone.leaf.placement, outline, axis);
-  const bool is_round = lone.surface.kind == SurfaceKind::cylinder || lone.surface.kind == SurfaceKind::cone;
-  const bool is_told = is_round && !lone.leaf.exact;
+  const bool is_told = proxy_as<FrustumShape>(lone.proxy) != nullptr && !lone.leaf.exact;
   if (!outline.is_judged && !is_told) return;
   outline.kind = Outline::Kind::rod;
   if (!is_told) return;
@@ -181,29 +181,18 @@ Outline outline_of(const CompiledScene& scene, const SceneObject& object, Outlin
   Outline outline;
   const Leaf& leaf = scene.leaves[object.first_leaf];
   if (!leaf.shape->is_solid()) return outline;
-  // Of all shapes only the box has six faces.
-  if (leaf.face_count == OutlineBox::face_count && leaf.placement->is_identity()) {
+  const Proxy proxy = leaf.shape->proxy();
+  if (proxy_as<BoxShape>(proxy) != nullptr && leaf.placement->is_identity()) {
     outline.kind = Outline::Kind::box;
     outline.is_judged = true;
     return outline;
   }
   outline.surface = scene.face_surfaces[leaf.first_face].surface;
-  const LoneLeaf lone{scene, object.first_leaf, leaf, leaf.shape->surface(0)};
+  const LoneLeaf lone{scene, object.first_leaf, leaf, proxy, leaf.shape->surface(0)};
   outline_rod(lone, outline, axis);
-  if (leaf.face_count != 1 || outline.kind == Outline::Kind::rod) return outline;
-  switch (lone.surface.kind) {
-    case SurfaceKind::sphere:
-      outline_sphere(lone, outline, axis);
-      break;
-    case SurfaceKind::plane:
-      outline_plane(lone, outline, axis);
-      break;
-    case SurfaceKind::torus:
-      outline_torus(lone, outline, axis);
-      break;
-    default:
-      break;
-  }
+  if (proxy_as<SphereShape>(proxy) != nullptr) outline_sphere(lone, outline, axis);
+  if (proxy_as<PlaneShape>(proxy) != nullptr) outline_plane(lone, outline, axis);
+  if (proxy_as<TorusShape>(proxy) != nullptr) outline_torus(lone, outline, axis);
   return outline;
 }
 

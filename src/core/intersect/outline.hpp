@@ -46,6 +46,7 @@ struct OutlineAxis {
   /// Of a cylinder or cone the surfaces of the caps, if it has them.
   std::array<std::uint32_t, 2> caps = {nothing, nothing};
   const Leaf* moved = nullptr;  ///< that leaf, but for planes, moved or not; the scene owns it
+  Proxy proxy;                  ///< its shape
 };
 
 struct CompiledScene;

@@ -200,12 +200,12 @@ SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, 
 RayMask PreparedData::on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
                                       RayMask some) const {
   const Leaf& like = leaves_[first.leaf];
-  if (!like.plain_sphere) return 0;
+  if (like.plain_sphere == nullptr) return 0;
   RayMask result = 0;
   for_each_ray(some, [&](std::size_t lane) {
     const Leaf& leaf = leaves_[hits[lane].leaf];
-    const bool is_like =
-        leaf.plain_sphere && leaf.material == like.material && hits[lane].entering == first.entering;
+    const bool is_like = leaf.plain_sphere != nullptr && leaf.material == like.material &&
+                         hits[lane].entering == first.entering;
     result |= static_cast<RayMask>(is_like) << lane;
   });
   return result;
@@ -218,7 +218,7 @@ void PreparedData::sphere_points(std::span<const RayHit, lane_count> hits, RayMa
   std::array<const SphereShape*, lane_count> spheres;
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const RayHit& hit = hits[(some >> lane & 1u) != 0 ? lane : first];
-    spheres[lane] = static_cast<const SphereShape*>(leaves_[hit.leaf].shape.get());
+    spheres[lane] = leaves_[hit.leaf].plain_sphere;
   }
   SphereShape::points_on_each(spheres, lines, t, with_uv, points);
 }

@@ -20,6 +20,7 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   explicit BoxShape(const Box& box);
 
   bool is_solid() const override { return true; }
+  Proxy proxy() const override { return this; }
   std::optional<Spine> spine() const final;
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
@@ -47,5 +48,6 @@ inline bool is_solid(const Box&) {
   return true;
 }
 std::unique_ptr<const Shape> make_shape(const Box& box);
+std::unique_ptr<const ExactShape> make_exact_shape(const Box& box);
 
 }  // namespace crt::core

@@ -2,6 +2,7 @@
 // left.
 #include <array>
 
+#include "core/geometry/box/box.hpp"
 #include "core/geometry/exact_plane.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/stretch.hpp"

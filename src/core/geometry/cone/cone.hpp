@@ -18,5 +18,6 @@ inline bool is_solid(const Cone&) {
   return true;
 }
 std::unique_ptr<const Shape> make_shape(const Cone& cone);
+std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone);
 
 }  // namespace crt::core

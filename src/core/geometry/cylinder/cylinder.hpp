@@ -18,5 +18,6 @@ inline bool is_solid(const Cylinder&) {
   return true;
 }
 std::unique_ptr<const Shape> make_shape(const Cylinder& cylinder);
+std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder);
 
 }  // namespace crt::core

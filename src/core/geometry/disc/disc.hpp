@@ -40,5 +40,6 @@ inline bool is_solid(const Disc&) {
   return false;
 }
 std::unique_ptr<const Shape> make_shape(const Disc& disc);
+std::unique_ptr<const ExactShape> make_exact_shape(const Disc& disc);
 
 }  // namespace crt::core

@@ -1,4 +1,5 @@
 // Discs of the exact tier.
+#include "core/geometry/disc/disc.hpp"
 #include "core/geometry/exact_flat.hpp"
 
 namespace crt::core {

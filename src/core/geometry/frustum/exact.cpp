@@ -1,4 +1,6 @@
 #include "core/geometry/frustum/exact.hpp"
+#include "core/geometry/cone/cone.hpp"
+#include "core/geometry/cylinder/cylinder.hpp"
 
 #include <limits>
 

@@ -56,6 +56,7 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
 
   bool is_solid() const final { return true; }
+  Proxy proxy() const final { return this; }
   Bounds bounds() const final;
   std::optional<Spine> spine() const final { return Spine{from_, to_, radii_[0], radii_[1]}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;

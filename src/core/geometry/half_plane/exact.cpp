@@ -1,5 +1,6 @@
 // Half planes of the exact tier.
 #include "core/geometry/exact_flat.hpp"
+#include "core/geometry/half_plane/half_plane.hpp"
 
 namespace crt::core {
 namespace {

@@ -36,5 +36,6 @@ inline bool is_solid(const HalfPlane&) {
   return false;
 }
 std::unique_ptr<const Shape> make_shape(const HalfPlane& half_plane);
+std::unique_ptr<const ExactShape> make_exact_shape(const HalfPlane& half_plane);
 
 }  // namespace crt::core

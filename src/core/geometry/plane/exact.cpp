@@ -1,5 +1,6 @@
 // Planes of the exact tier.
 #include "core/geometry/exact_flat.hpp"
+#include "core/geometry/plane/plane.hpp"
 
 namespace crt::core {
 namespace {

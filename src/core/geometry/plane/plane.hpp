@@ -16,6 +16,7 @@ class PlaneShape final : public ShapeOfPoints<PlaneShape> {
   explicit PlaneShape(const Plane& plane);
 
   bool is_solid() const override { return true; }
+  Proxy proxy() const override { return this; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }
@@ -36,5 +37,6 @@ inline bool is_solid(const Plane&) {
   return true;
 }
 std::unique_ptr<const Shape> make_shape(const Plane& plane);
+std::unique_ptr<const ExactShape> make_exact_shape(const Plane& plane);
 
 }  // namespace crt::core

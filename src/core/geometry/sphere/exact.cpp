@@ -4,6 +4,7 @@
 #include "core/geometry/exact_quadratic.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/near_line.hpp"
+#include "core/geometry/sphere/sphere.hpp"
 #include "core/geometry/stretch.hpp"
 #include "core/math/precise_transform.hpp"
 

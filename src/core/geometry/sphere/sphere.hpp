@@ -104,6 +104,7 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   explicit SphereShape(const Sphere& sphere);
 
   bool is_solid() const override { return true; }
+  Proxy proxy() const override { return this; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   /// Of rays that do not start on the surface, each an ObjectRay or as many side by side.
@@ -135,5 +136,6 @@ inline bool is_solid(const Sphere&) {
   return true;
 }
 std::unique_ptr<const Shape> make_shape(const Sphere& sphere);
+std::unique_ptr<const ExactShape> make_exact_shape(const Sphere& sphere);
 
 }  // namespace crt::core

@@ -41,6 +41,7 @@ class TorusShape final : public ShapeOfPoints<TorusShape> {
   explicit TorusShape(const Torus& torus);
 
   bool is_solid() const override { return true; }
+  Proxy proxy() const override { return this; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
@@ -107,5 +108,6 @@ inline bool is_solid(const Torus&) {
   return true;
 }
 std::unique_ptr<const Shape> make_shape(const Torus& torus);
+std::unique_ptr<const ExactShape> make_exact_shape(const Torus& torus);
 
 }  // namespace crt::core

@@ -1,5 +1,6 @@
 // Triangles of the exact tier.
 #include "core/geometry/exact_flat.hpp"
+#include "core/geometry/triangle/triangle.hpp"
 
 namespace crt::core {
 namespace {

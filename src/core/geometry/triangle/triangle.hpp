@@ -51,5 +51,6 @@ inline bool is_solid(const Triangle&) {
   return false;
 }
 std::unique_ptr<const Shape> make_shape(const Triangle& triangle);
+std::unique_ptr<const ExactShape> make_exact_shape(const Triangle& triangle);
 
 }  // namespace crt::core

@@ -1,0 +1,234 @@
+// What must hold of every primitive, checked over the list of all: a new one is tested by being listed.
+// Instances are made at random from the fields alone, so no primitive needs a line here.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <glm/geometric.hpp>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "core/geometry/description.hpp"
+#include "core/geometry/shape.hpp"
+#include "core/math/vector.hpp"
+#include "crt/error.hpp"
+#include "crt/prepared_scene.hpp"
+#include "crt/query.hpp"
+#include "crt/scene.hpp"
+#include "crt/transform.hpp"
+#include "crt/validate.hpp"
+#include "geometry/exact_tools.hpp"
+#include "geometry/oracle.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+/// Fields as a user writes them (small whole numbers, halves) or any, of either sign.
+double random_field(Random& random) {
+  if (random.one_in(2)) return std::floor(random.uniform(-4, 5)) / 2;
+  return random.uniform(-2, 2);
+}
+
+/// A valid instance of the primitive that stands at this place in the list.
+Primitive random_instance(std::size_t kind, Random& random) {
+  Primitive primitive;
+  const auto make = [&]<std::size_t... places>(std::index_sequence<places...>) {
+    ((places == kind ? void(primitive.emplace<places>()) : void()), ...);
+  };
+  make(std::make_index_sequence<std::variant_size_v<Primitive>>());
+  while (true) {
+    std::visit(
+        [&](auto& description) {
+          const std::size_t bytes = core::description_of(primitive).size();
+          std::vector<double> fields(bytes / sizeof(double));
+          for (double& field : fields) field = random_field(random);
+          std::memcpy(static_cast<void*>(&description), fields.data(), bytes);
+        },
+        primitive);
+    try {
+      validate(primitive);
+      return primitive;
+    } catch (const Error&) {
+      continue;
+    }
+  }
+}
+
+/// From around the instance to near its middle; some along a coordinate axis.
+core::ObjectRay random_ray(Random& random) {
+  const Vec3 aim = 1.5 * random.in_cube();
+  const Vec3 direction = random.direction() * random.power_of_ten(-1, 1);
+  return {.origin = aim - random.uniform(-1, 6) * direction, .direction = direction};
+}
+
+std::string name_of(std::size_t kind) {
+  return "primitive " + std::to_string(kind) + " of the list";
+}
+
+struct Crossings {
+  core::CrossingList list;
+  bool starts_inside = false;
+};
+
+Crossings crossings_of(const core::Shape& shape, const core::ObjectRay& ray) {
+  Crossings result;
+  result.starts_inside = shape.crossings(ray, result.list);
+  return result;
+}
+
+/// Calls check(kind, primitive, shape, random) for `count` instances of every primitive.
+template <class Check>
+void for_instances(int count, const Check& check) {
+  for (std::size_t kind = 0; kind < std::variant_size_v<Primitive>; ++kind) {
+    INFO(name_of(kind));
+    Random random(100 + kind);
+    for (int i = 0; i < count; ++i) {
+      const Primitive primitive = random_instance(kind, random);
+      check(primitive, *core::make_shape(primitive), random);
+    }
+  }
+}
+
+Transform scaling(double factor) {
+  return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {0, 0, 0}};
+}
+
+PreparedScene scene_of(const Entity& entity, Precision precision = Precision::standard) {
+  Scene scene;
+  scene.entities = {entity};
+  scene.settings.precision = precision;
+  return prepare(scene);
+}
+
+/// What it takes to say that two lengths of this instance are equal but for rounding.
+double tolerance(const core::ObjectRay& ray, double t) {
+  return 1e-12 *
+         (1 + core::largest_component(ray.origin) + std::abs(t) * core::largest_component(ray.direction));
+}
+
+}  // namespace
+
+TEST_CASE("all primitives: crossings come in order and by turns, and solids that end are left") {
+  for_instances(300, [](const Primitive&, const core::Shape& shape, Random& random) {
+    for (int i = 0; i < 30; ++i) {
+      const auto [list, starts_inside] = crossings_of(shape, random_ray(random));
+      const bool ends = shape.bounds().finite();
+      REQUIRE((!starts_inside || (shape.is_solid() && !ends)));
+      bool inside = starts_inside;
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        REQUIRE(list[k].face < shape.face_count());
+        REQUIRE(list[k].error >= 0);
+        if (k > 0) REQUIRE(list[k - 1].t <= list[k].t);
+        if (shape.is_solid()) REQUIRE(list[k].entering != inside);
+        inside = list[k].entering;
+      }
+      if (shape.is_solid() && ends) REQUIRE(list.size() % 2 == 0);
+      if (shape.is_solid() && shape.is_convex()) REQUIRE(list.size() <= 2);
+    }
+  });
+}
+
+TEST_CASE("all primitives: points are where the ray is, in the bounds, with a normal that faces right") {
+  for_instances(300, [](const Primitive&, const core::Shape& shape, Random& random) {
+    for (int i = 0; i < 30; ++i) {
+      const core::ObjectRay ray = random_ray(random);
+      for (const core::Crossing& crossing : crossings_of(shape, ray).list) {
+        const core::SurfacePoint point = shape.surface_point(ray, crossing);
+        const double room = tolerance(ray, crossing.t);
+        const Vec3 place = ray.origin + crossing.t * ray.direction;
+        const double grazing = crossing.error * core::largest_component(ray.direction);
+        REQUIRE(core::largest_component(point.position - place) <= room + grazing);
+        REQUIRE(shape.bounds().grown(room).touches({point.position, point.position}));
+        REQUIRE(std::abs(glm::length(point.normal) - 1) < 1e-14);
+        const double along = glm::dot(point.normal, ray.direction) / glm::length(ray.direction);
+        if (std::abs(along) > 1e-6) REQUIRE((along < 0) == crossing.entering);
+        REQUIRE(std::isfinite(point.u));
+        REQUIRE(std::isfinite(point.v));
+      }
+    }
+  });
+}
+
+TEST_CASE("all primitives: both tiers tell the same crossings, as near to each other as is promised") {
+  int rays = 0;
+  int others = 0;
+  for_instances(100, [&](const Primitive& primitive, const core::Shape& shape, Random& random) {
+    for (int i = 0; i < 20; ++i) {
+      const core::ObjectRay ray = random_ray(random);
+      const core::CrossingList list = crossings_of(shape, ray).list;
+      const core::CrossingList exact = exact_crossings(primitive, Transform{}, ray.origin, ray.direction);
+      ++rays;
+      // Where a ray grazes or passes along a face, one tier may see what the other does not.
+      if (exact.size() != list.size()) {
+        ++others;
+        continue;
+      }
+      for (std::size_t k = 0; k < list.size(); ++k) {
+        REQUIRE(exact[k].entering == list[k].entering);
+        REQUIRE(std::abs(exact[k].t - list[k].t) <= list[k].error + exact[k].error);
+      }
+    }
+  });
+  CHECK(others * 1000 < rays);
+}
+
+TEST_CASE("all primitives: every query of a scene tells what the shape does, at any scale to the bit") {
+  for_instances(40, [](const Primitive& primitive, const core::Shape& shape, Random& random) {
+    std::vector<Ray> rays;
+    for (int i = 0; i < 32; ++i) {
+      const core::ObjectRay ray = random_ray(random);
+      rays.push_back({.origin = ray.origin, .direction = ray.direction});
+    }
+    for (const double scale : {1.0, 0x1p-120, 0x1p90}) {
+      std::vector<Ray> scaled_rays = rays;
+      for (Ray& ray : scaled_rays) {
+        ray.origin *= scale;
+        ray.direction *= scale;
+      }
+      const PreparedScene scene = scene_of(Entity(primitive).transformed(scaling(scale)));
+      std::vector<double> distances(rays.size());
+      RayQueries queries(scene);
+      queries.distances(scaled_rays, distances);
+      for (std::size_t i = 0; i < rays.size(); ++i) {
+        const core::CrossingList list = crossings_of(shape, {rays[i].origin, {}, rays[i].direction}).list;
+        std::vector<double> ahead;
+        for (const core::Crossing& crossing : list) {
+          if (crossing.t - crossing.error > 0) ahead.push_back(crossing.t);
+        }
+        const std::vector<Hit> hits = crossings(scene, scaled_rays[i]);
+        REQUIRE(hits.size() == ahead.size());
+        for (std::size_t k = 0; k < hits.size(); ++k) REQUIRE(hits[k].t == ahead[k]);
+        REQUIRE(distances[i] == (ahead.empty() ? HUGE_VAL : ahead.front()));
+        const std::optional<Hit> hit = intersect(scene, scaled_rays[i]);
+        REQUIRE((hit ? hit->t : HUGE_VAL) == distances[i]);
+        REQUIRE(occluded(scene, scaled_rays[i]) == hit.has_value());
+      }
+    }
+  });
+}
+
+TEST_CASE("all primitives: a solid is one with itself in CSG, and nothing is left of it without itself") {
+  for_instances(30, [](const Primitive& primitive, const core::Shape& shape, Random& random) {
+    if (!shape.is_solid()) return;
+    const Entity solid(primitive);
+    for (const Precision precision : {Precision::standard, Precision::exact}) {
+      const PreparedScene alone = scene_of(solid, precision);
+      const PreparedScene with_itself = scene_of(solid ^ solid.with_id(1), precision);
+      const PreparedScene without_itself = scene_of(solid - solid.with_id(1), precision);
+      for (int i = 0; i < 20; ++i) {
+        const core::ObjectRay made = random_ray(random);
+        const Ray ray{.origin = made.origin, .direction = made.direction};
+        REQUIRE(crossings(without_itself, ray).empty());
+        const std::vector<Hit> expected = crossings(alone, ray);
+        const std::vector<Hit> hits = crossings(with_itself, ray);
+        REQUIRE(hits.size() == expected.size());
+        for (std::size_t k = 0; k < hits.size(); ++k) REQUIRE(hits[k].t == expected[k].t);
+      }
+    }
+  });
+}
