@@ -349,7 +349,7 @@ TEST_CASE("a ray that is none is refused with its index, and no answer is writte
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
   const crt_ray good = {{-0.4, 0, -5}, {0, 0, 1}, 0, infinity};
-  for (const std::size_t count : {10, 5000}) {
+  for (const std::size_t count : {std::size_t{10}, std::size_t{5000}}) {
     std::vector<crt_ray> rays(count, good);
     rays[count - 3].direction[2] = 0;
     rays[count - 2].origin[1] = not_a_number;

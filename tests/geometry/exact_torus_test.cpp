@@ -11,7 +11,7 @@ using namespace crt::test;
 namespace {
 
 /// About the z axis, with a ring of radius 2.
-constexpr Torus ring{.center = {0, 0, 0}, .axis = {0, 0, 1}, .radius = 2, .thickness = 1};
+const Torus ring{.center = {0, 0, 0}, .axis = {0, 0, 1}, .radius = 2, .thickness = 1};
 
 std::size_t count(const Torus& torus, const Vec3& origin, const Vec3& direction,
                   const Transform& to_world = {}) {

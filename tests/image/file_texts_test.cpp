@@ -84,9 +84,9 @@ TEST_CASE("a picture that was rendered pass by pass tells how near to the truth 
       {"crt:targeterror", "0.25"},   {"crt:filter", "blackmanharris"}, {"crt:filterwidth", "3"},
       {"crt:passes", "24"},          {"crt:samples", "16 17.5 32"},    {"crt:halfwidth", "0.125 0.1875 0.5"},
       {"crt:unresolvedpixels", "3"}, {"crt:unseenshare", "0.1875"},    {"crt:cutoff", "0 0.0625"}};
-  for (const auto& [name, value] : expected) {
-    CAPTURE(name);
-    CHECK(texts.at(name) == value);
+  for (const auto& text : expected) {
+    CAPTURE(text.first);
+    CHECK(texts.at(text.first) == text.second);
   }
 }
 

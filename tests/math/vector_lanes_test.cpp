@@ -71,7 +71,8 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
       REQUIRE(unit_vector(lanes_a).lane(lane) == unit_vector(a[lane]));
       const DirectionAndLength expected = direction_and_length(a[lane]);
       REQUIRE(directions.lane(lane) == expected.direction);
-      REQUIRE(lengths[k] == expected.length);
+      const double length = lengths[k];
+      REQUIRE(length == expected.length);
     }
   }
 }

@@ -118,7 +118,7 @@ TEST_CASE("the exact tier's error of t is a bound next to a torus's axis and to 
     Record record;
     return measure(truth_of(ray), exact_tier(), 0, record);
   };
-  for (const std::uint64_t number : {62329, 340228, 149863, 412005, 543009, 760698, 809610}) {
+  for (const std::uint64_t number : {62329u, 340228u, 149863u, 412005u, 543009u, 760698u, 809610u}) {
     CAPTURE(number);
     CHECK(holds_in_exact(make_placed_ray(torus, number)));
   }

@@ -218,7 +218,7 @@ TEST_CASE("two threads render two scenes at once, each as if it were alone") {
   }
   std::array<int, 2> wrong = {0, 0};
   std::vector<std::thread> threads;
-  for (std::size_t which : {0, 1}) {
+  for (std::size_t which = 0; which < 2; ++which) {
     threads.emplace_back([&, which] {
       for (int i = 0; i < 5; ++i) {
         crt_prepared* prepared = nullptr;
