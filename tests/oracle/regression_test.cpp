@@ -123,6 +123,12 @@ TEST_CASE("the exact tier's error of t is a bound next to a torus's axis and to 
     CHECK(holds_in_exact(make_placed_ray(torus, number)));
   }
   CHECK(holds_in_exact(make_ray(cylinder, 310949)));
+  // Along a ruling, whose two crossings are 10^-19 of the way to them from one another.
+  const Cylinder thin{.from = {0, 0x1.26b9df30b744bp-30, 0},
+                      .to = {-0x1.00918e1e567bep-4, 0x1.26b9df30b744bp-30, 0},
+                      .radius = 0x1.188317422dafep-20};
+  CHECK(holds(thin, {0x1.08003996da349p+19, 0x1.18ccc5b9f9ddbp-20, -0x1.022376d7ce3c7p+15},
+              {-0x1.08003996da349p+19, 0, 0x1.022376d7ce3c7p+15}, exact_tier()));
 }
 
 TEST_CASE(

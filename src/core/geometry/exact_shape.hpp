@@ -6,6 +6,7 @@
 // sign of the polynomial in the inputs. Tests: tests/geometry/exact_*_test.cpp
 #pragma once
 
+#include <limits>
 #include <memory>
 
 #include "core/geometry/exact_ray.hpp"
@@ -51,6 +52,26 @@ inline bool settle(const ExactRay& ray, const DoubleDouble& t, double error, Cro
   crossing.error = error;
   return true;
 }
+
+/// One step of Newton's iteration for a root of g: from t to t - change, by rounded g and g'.
+struct NewtonStep {
+  double change;
+  double value_error;     ///< of g
+  double rate;            ///< g'
+  double rate_error;      ///< of g'
+  double half_curvature;  ///< at least |g''| / 2 between t and the root, and as far beyond
+
+  /// What t may be off by after the step, before it is rounded. It is infinite where another root may be
+  /// so near that the iteration cannot tell the two apart. (Taylor's series about t bounds the step's error
+  /// by the square of the root's offset, which is the change and a little, where g' keeps its sign.)
+  double error() const {
+    const double least_rate = std::abs(rate) - rate_error;
+    const double inaccuracy = rate_error + 2 * half_curvature * std::abs(change);
+    const double off = (value_error + std::abs(change) * inaccuracy) / least_rate;
+    const bool is_isolated = least_rate > 0 && 8 * half_curvature * (std::abs(change) + off) < least_rate;
+    return is_isolated ? off : std::numeric_limits<double>::infinity();
+  }
+};
 
 /// A crossing with a t that was rounded to about 100 bits.
 inline Crossing exact_crossing(const DoubleDouble& t, Crossing crossing) {

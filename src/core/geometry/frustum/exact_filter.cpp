@@ -231,13 +231,14 @@ bool FilteredSide::polish(DoubleDouble t, Crossing& crossing) const {
   constexpr int most_steps = 4;
   for (int step = 0; step < most_steps; ++step) {
     const Precise g = precise_at(t, 0);
-    if (!(std::abs(g.rate) > g.rate_error) || (g.rate < 0) != crossing.entering) return false;
-    const double change = g.value.value() / g.rate;
-    t = t + DoubleDouble(-change);
-    // The error before the step is the change and a little.
-    const double inaccuracy = g.rate_error + 2 * g.half_curvature * std::abs(change);
-    const double error = (g.error + std::abs(change) * inaccuracy) / (std::abs(g.rate) - g.rate_error) +
-                         precise_roundoff * std::abs(t.hi);
+    if ((g.rate < 0) != crossing.entering) return false;
+    const NewtonStep newton{.change = g.value.value() / g.rate,
+                            .value_error = g.error,
+                            .rate = g.rate,
+                            .rate_error = g.rate_error,
+                            .half_curvature = g.half_curvature};
+    t = t + DoubleDouble(-newton.change);
+    const double error = newton.error() + precise_roundoff * std::abs(t.hi);
     if (settle(ray_, t, error, crossing)) return true;
   }
   return false;

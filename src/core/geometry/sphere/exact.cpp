@@ -72,12 +72,14 @@ class ExactSphereShape final : public ExactShape {
       const double size = sum_of_sizes(p);
       const double height_error =
           2 * size * ray.point_error(center_, t.hi) + precise_roundoff * (size * size + radius_ * radius_);
-      // The slope and the change are rounded, too; and the iteration leaves the square of the change.
+      // The slope and the change are rounded, too.
       constexpr double change_rounding = 0x1p-48;
-      const double inaccuracy =
-          change_rounding * size * largest_component(d) + glm::dot(d, d) * std::abs(change);
-      const double error = (height_error + std::abs(change) * inaccuracy) / std::abs(slope) +
-                           precise_roundoff * std::abs(t.hi);
+      const NewtonStep newton{.change = change,
+                              .value_error = height_error,
+                              .rate = 2 * slope,
+                              .rate_error = 2 * change_rounding * size * largest_component(d),
+                              .half_curvature = glm::dot(d, d)};
+      const double error = newton.error() + precise_roundoff * std::abs(t.hi);
       if (settle(ray, t, error, crossing)) return true;
     }
     return false;

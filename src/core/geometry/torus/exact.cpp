@@ -276,16 +276,16 @@ class ExactTorusShape final : public ExactShape {
       const double size = ring_ + level.rho + level.height;
       const double rate_error =
           rate_rounding * speed * (distance + std::abs(level.outward) * (size / level.rho));
-      const bool alone = level.rho > 4 * way && 4 * curvature * std::abs(change) < std::abs(rate) &&
-                         2 * rate_error < std::abs(rate);
-      if (!alone || (rate < 0) != crossing.entering) return false;
+      if (!(level.rho > 4 * way) || (rate < 0) != crossing.entering) return false;
       t = t + DoubleDouble(-change);
       const double off = ray.point_error(torus_.center, t.hi) / unit_;
       const double level_error = level.error + 2 * off * (distance + way + off);
-      // The error before the step is the change and a little.
-      const double inaccuracy = rate_error + 2 * curvature * std::abs(change);
-      const double error = (level_error + std::abs(change) * inaccuracy) / (std::abs(rate) - rate_error) +
-                           precise_roundoff * std::abs(t.hi);
+      const NewtonStep newton{.change = change,
+                              .value_error = level_error,
+                              .rate = rate,
+                              .rate_error = rate_error,
+                              .half_curvature = curvature};
+      const double error = newton.error() + precise_roundoff * std::abs(t.hi);
       if (settle(ray, t, error, crossing)) return true;
     }
     return false;
