@@ -6,8 +6,9 @@
 
 namespace crt::test {
 
-/// The lower end of the two-sided 95 % interval for the share of successes. Source: Clopper and Pearson, The
-/// use of confidence or fiducial limits illustrated in the case of the binomial, Biometrika 26(4), 1934.
+/// The lower end of the two-sided 95 % interval for the share of successes. Source: Clopper and
+/// Pearson, The use of confidence or fiducial limits illustrated in the case of the binomial,
+/// Biometrika 26(4), 1934.
 inline double clopper_pearson_low(std::int64_t successes, std::int64_t trials) {
   if (successes == 0) return 0;
   const auto factorial = [](std::int64_t n) { return std::lgamma(static_cast<double>(n) + 1); };

@@ -1,5 +1,5 @@
-// Renders in the background: starts a job, looks at its progress from time to time, saves what is there
-// half-way to half.png, and waits for the rest, job.png. `job cancel` stops half-way instead.
+// Renders in the background: starts a job, looks at its progress from time to time, saves what is
+// there half-way to half.png, and waits for the rest, job.png. `job cancel` stops half-way instead.
 #define _POSIX_C_SOURCE 199309L  // nanosleep
 #include <crt/crt.h>
 #include <stdio.h>
@@ -11,7 +11,8 @@ static const char marbles[] =
     "  width -> 480 height -> 320 gamma -> 2.2 supersampling -> 2 recursiondepth -> 8\n"
     "  camera -> Camera { position -> vec3(0, 3.2, -6) pointing -> vec3(0, 0.3, 0) fov -> 36 }\n"
     "  lights -> [\n"
-    "    ParallelLight { from -> vec3(-3, 5, 2) pointing -> vec3(0, 0, 0) color -> rgb(0.9, 0.9, 0.9) },\n"
+    "    ParallelLight { from -> vec3(-3, 5, 2) pointing -> vec3(0, 0, 0) color -> rgb(0.9, 0.9, "
+    "0.9) },\n"
     "    PointLight { origin -> vec3(2, 4, -6) color -> rgb(0.25, 0.25, 0.25) }\n"
     "  ]\n"
     "  background -> Background { horizon -> rgb(0.9, 0.9, 0.9) sky -> rgb(0.2, 0.4, 0.8) }\n"
@@ -22,20 +23,23 @@ static const char marbles[] =
     "  }\n"
     "  Sphere { center -> vec3(0, 0.48, 0) radius -> 0.48 material -> glass }\n"
     "}\n"
-    "tiles = Material { color -> Checker { colorA -> rgb(0.8, 0.8, 0.78) colorB -> rgb(0.3, 0.3, 0.35) } }\n"
+    "tiles = Material { color -> Checker { colorA -> rgb(0.8, 0.8, 0.78) colorB -> rgb(0.3, 0.3, "
+    "0.35) } }\n"
     "Scene {\n"
     "  Plane { normal -> vec3(0, 1, 0) position -> vec3(0, 0, 0) material -> tiles }\n"
     "  for (z in range(3)) {\n"
     "    for (x in range(5)) {\n"
-    "      marble(rgb(1 - 0.2 * x, 0.4 + 0.25 * z, 0.2 + 0.2 * x)) <translate vec3(x - 2, 0, z - 1)>\n"
+    "      marble(rgb(1 - 0.2 * x, 0.4 + 0.25 * z, 0.2 + 0.2 * x)) <translate vec3(x - 2, 0, z - "
+    "1)>\n"
     "    }\n"
     "  }\n"
     "}\n";
 
 static int prepare(crt_prepared** out) {
   crt_scene* scene = NULL;
-  const int failed = crt_scene_from_script(marbles, strlen(marbles), "marbles", NULL, NULL, &scene) ||
-                     crt_scene_prepare(scene, out);
+  const int failed =
+      crt_scene_from_script(marbles, strlen(marbles), "marbles", NULL, NULL, &scene) ||
+      crt_scene_prepare(scene, out);
   crt_scene_release(scene);
   return failed;
 }
@@ -77,8 +81,8 @@ int main(int argc, char** argv) {
   crt_prepared* prepared = NULL;
   crt_job* job = NULL;
   double done = 0;
-  int failed = prepare(&prepared) || crt_render_start(prepared, NULL, &job) || wait_until(job, 0.5, &done) ||
-               save_snapshot(job, "half.png");
+  int failed = prepare(&prepared) || crt_render_start(prepared, NULL, &job) ||
+               wait_until(job, 0.5, &done) || save_snapshot(job, "half.png");
   if (!failed) {
     printf("half.png shows what was there at %.0f %%\n", 100 * done);
     failed = is_to_be_cancelled ? cancel(job) : save_result(job, "job.png");

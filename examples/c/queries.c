@@ -1,13 +1,13 @@
-// Asks rays what they meet, without rendering: draws a hollow ball, cut open, with a ring around it in
-// letters on the terminal, then lists every crossing of one ray.
+// Asks rays what they meet, without rendering: draws a hollow ball, cut open, with a ring around it
+// in letters on the terminal, then lists every crossing of one ray.
 #include <crt/crt.h>
 #include <math.h>
 #include <stdio.h>
 
 enum { columns = 72, rows = 28, ray_count = columns * rows };
 
-// What the program knows of one letter. CRT reads the rays and writes the hits where they are, in here: it is
-// told how many bytes lie between one and the next.
+// What the program knows of one letter. CRT reads the rays and writes the hits where they are, in
+// here: it is told how many bytes lie between one and the next.
 typedef struct letter {
   crt_ray view;
   crt_hit hit;
@@ -16,11 +16,14 @@ typedef struct letter {
 } letter;
 
 static const double right[3] = {2 / 3.0, -2 / 3.0, 1 / 3.0}, up[3] = {1 / 3.0, 2 / 3.0, 2 / 3.0};
-static const double forward[3] = {-2 / 3.0, -1 / 3.0, 2 / 3.0}, light[3] = {3 / 7.0, 6 / 7.0, -2 / 7.0};
+static const double forward[3] = {-2 / 3.0, -1 / 3.0, 2 / 3.0},
+                    light[3] = {3 / 7.0, 6 / 7.0, -2 / 7.0};
 
 static int make_scene(crt_prepared** out) {
-  const double middle[3] = {0, 0, 0}, axis[3] = {0, 1, 0}, near[3] = {0.1, 0.1, -2}, far[3] = {2, 2, -0.1};
-  crt_entity *ball = NULL, *cutters[2] = {NULL, NULL}, *shell = NULL, *ring = NULL, *numbered = NULL;
+  const double middle[3] = {0, 0, 0}, axis[3] = {0, 1, 0}, near[3] = {0.1, 0.1, -2},
+               far[3] = {2, 2, -0.1};
+  crt_entity *ball = NULL, *cutters[2] = {NULL, NULL}, *shell = NULL, *ring = NULL,
+             *numbered = NULL;
   crt_scene* scene = NULL;
   const int failed =
       crt_sphere_create(middle, 1, &ball) || crt_sphere_create(middle, 0.6, &cutters[0]) ||
@@ -77,7 +80,8 @@ static void draw(const letter* letters, const uint8_t* shadowed) {
     const double* n = letters[i].hit.normal;
     const double slant = n[0] * light[0] + n[1] * light[1] + n[2] * light[2];
     const double brightness = shadowed[i] || slant < 0 ? 0 : slant;
-    putchar(letters[i].hit.t < INFINITY ? shades[(int)(brightness * (sizeof shades - 2) + 0.5)] : ' ');
+    putchar(letters[i].hit.t < INFINITY ? shades[(int)(brightness * (sizeof shades - 2) + 0.5)]
+                                        : ' ');
     if (letters[i].column == columns - 1) putchar('\n');
   }
 }
@@ -89,8 +93,8 @@ static int list_crossings(crt_prepared* prepared) {
   if (crt_crossings(prepared, &ray, hits, 16, &count)) return 1;
   printf("\nFrom (-5, 0, 0) along x there are %u crossings:\n", (unsigned)count);
   for (size_t i = 0; i < count && i < 16; ++i) {
-    printf("  t = %.2f  %s entity %u\n", hits[i].t, hits[i].flags & CRT_HIT_ENTERING ? "into  " : "out of",
-           (unsigned)hits[i].entity_id);
+    printf("  t = %.2f  %s entity %u\n", hits[i].t,
+           hits[i].flags & CRT_HIT_ENTERING ? "into  " : "out of", (unsigned)hits[i].entity_id);
   }
   return 0;
 }
@@ -100,8 +104,8 @@ int main(void) {
   static uint8_t shadowed[ray_count];
   crt_prepared* prepared = NULL;
   aim(letters);
-  int failed = make_scene(&prepared) || crt_intersect(prepared, &letters->view, sizeof *letters, ray_count,
-                                                      &letters->hit, sizeof *letters);
+  int failed = make_scene(&prepared) || crt_intersect(prepared, &letters->view, sizeof *letters,
+                                                      ray_count, &letters->hit, sizeof *letters);
   if (!failed) {
     aim_at_light(letters);
     failed = crt_occluded(prepared, &letters->to_light, sizeof *letters, ray_count, shadowed);

@@ -1,8 +1,8 @@
-// A pipe flange with a quarter cut away: solids, materials, lights, a camera, a line of progress, and at last
-// a picture, scene.png.
+// A pipe flange with a quarter cut away: solids, materials, lights, a camera, a line of progress,
+// and at last a picture, scene.png.
 //
-// Functions return 0 if all is well, as those of CRT do. So calls are chained with ||: the first that fails
-// ends the chain, and crt_error_message() tells why. Releasing NULL does no harm.
+// Functions return 0 if all is well, as those of CRT do. So calls are chained with ||: the first
+// that fails ends the chain, and crt_error_message() tells why. Releasing NULL does no harm.
 #include <crt/crt.h>
 #include <math.h>
 #include <stdio.h>
@@ -27,7 +27,8 @@ static int paint(crt_entity** entity, double red, double green, double blue, dou
   return 0;
 }
 
-static int upright_cylinder(double x, double z, double radius, double bottom, double top, crt_entity** out) {
+static int upright_cylinder(double x, double z, double radius, double bottom, double top,
+                            crt_entity** out) {
   const double from[3] = {x, bottom, z}, to[3] = {x, top, z};
   return crt_cylinder_create(from, to, radius, out);
 }
@@ -38,17 +39,19 @@ static int make_flange(crt_entity** out) {
   const double below[3] = {0, -1, 0}, beyond[3] = {3, 3, -3};
   crt_entity *solids[2] = {NULL}, *cutters[cutter_count] = {NULL}, *body = NULL;
 
-  int failed = upright_cylinder(0, 0, 2, 0, 0.45, &solids[0]) ||
-               crt_cone_create(foot, neck, 1.1, 0.8, &solids[1]) || crt_union_create(solids, 2, &body) ||
-               upright_cylinder(0, 0, 0.5, -1, 3, &cutters[0]) ||
-               crt_torus_create(foot, up, 1.25, 0.06, &cutters[1]) ||
-               crt_box_create(below, beyond, &cutters[2]) || paint(&cutters[2], 0.90, 0.28, 0.02, 0);
+  int failed =
+      upright_cylinder(0, 0, 2, 0, 0.45, &solids[0]) ||
+      crt_cone_create(foot, neck, 1.1, 0.8, &solids[1]) || crt_union_create(solids, 2, &body) ||
+      upright_cylinder(0, 0, 0.5, -1, 3, &cutters[0]) ||
+      crt_torus_create(foot, up, 1.25, 0.06, &cutters[1]) ||
+      crt_box_create(below, beyond, &cutters[2]) || paint(&cutters[2], 0.90, 0.28, 0.02, 0);
   for (int i = 0; i < hole_count && !failed; ++i) {
     const double angle = (i + 0.5) * 2 * pi / hole_count;
     failed = upright_cylinder(1.62 * cos(angle), 1.62 * sin(angle), 0.17, -1, 3, &cutters[3 + i]);
   }
-  failed = failed || crt_difference_create(body, cutters, cutter_count, out) ||
-           paint(out, 0.13, 0.17, 0.24, 0.25);  // steel, but for the cut, which has its paint already
+  failed =
+      failed || crt_difference_create(body, cutters, cutter_count, out) ||
+      paint(out, 0.13, 0.17, 0.24, 0.25);  // steel, but for the cut, which has its paint already
 
   for (int i = 0; i < cutter_count; ++i) crt_entity_release(cutters[i]);
   for (int i = 0; i < 2; ++i) crt_entity_release(solids[i]);
@@ -60,8 +63,8 @@ static int add_parts(crt_scene* scene) {
   const double up[3] = {0, 1, 0}, ground[3] = {0, 0, 0};
   crt_entity *flange = NULL, *floor = NULL;
   const int failed = make_flange(&flange) || crt_scene_add_entity(scene, flange) ||
-                     crt_plane_create(up, ground, &floor) || paint(&floor, 0.62, 0.60, 0.57, 0.06) ||
-                     crt_scene_add_entity(scene, floor);
+                     crt_plane_create(up, ground, &floor) ||
+                     paint(&floor, 0.62, 0.60, 0.57, 0.06) || crt_scene_add_entity(scene, floor);
   crt_entity_release(flange);
   crt_entity_release(floor);
   return failed;
@@ -72,11 +75,13 @@ static int set_the_stage(crt_scene* scene) {
   crt_camera camera;
   crt_background background;
   crt_settings settings;
-  if (crt_light_init_type(&sun, sizeof sun, CRT_LIGHT_PARALLEL) || crt_light_init(&lamp, sizeof lamp) ||
-      crt_camera_init(&camera, sizeof camera) || crt_background_init(&background, sizeof background) ||
+  if (crt_light_init_type(&sun, sizeof sun, CRT_LIGHT_PARALLEL) ||
+      crt_light_init(&lamp, sizeof lamp) || crt_camera_init(&camera, sizeof camera) ||
+      crt_background_init(&background, sizeof background) ||
       crt_settings_init(&settings, sizeof settings))
     return 1;
-  sun.origin[0] = -4, sun.origin[1] = 6, sun.origin[2] = -3;  // it shines from there to `pointing`, 0
+  sun.origin[0] = -4, sun.origin[1] = 6,
+  sun.origin[2] = -3;  // it shines from there to `pointing`, 0
   lamp.origin[0] = 4, lamp.origin[1] = 5, lamp.origin[2] = -7;
   for (int i = 0; i < 3; ++i) {
     sun.color[i] = 0.8;

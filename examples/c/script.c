@@ -2,8 +2,9 @@
 //
 //   script [FILE [NAME=EXPRESSION]...]
 //
-// Without a file it runs the text below with more petals than that has. What the script prints goes to
-// standard output. What is wrong with it goes to standard error, with places, and the program ends with 1.
+// Without a file it runs the text below with more petals than that has. What the script prints goes
+// to standard output. What is wrong with it goes to standard error, with places, and the program
+// ends with 1.
 #include <crt/crt.h>
 #include <stdio.h>
 #include <string.h>
@@ -37,7 +38,8 @@ static int print_line(const char* line, size_t length, void* user) {
 }
 
 // Splits each NAME=EXPRESSION at its first '='.
-static int take_variables(char** arguments, int count, const char** names, const char** expressions) {
+static int take_variables(char** arguments, int count, const char** names,
+                          const char** expressions) {
   if (count > most_variables) return fprintf(stderr, "script: too many variables\n");
   for (int i = 0; i < count; ++i) {
     char* equals = strchr(arguments[i], '=');

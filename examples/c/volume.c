@@ -1,17 +1,19 @@
-// Volume, mass and centre of mass of a part, from what a grid of parallel rays passes of it. The part is a
-// steel plate, 100 x 60 x 12 mm, with four drilled holes and a hemispherical pocket, so that the closed form
-// can tell whether the result is within the error that is stated: else the program fails.
+// Volume, mass and centre of mass of a part, from what a grid of parallel rays passes of it. The
+// part is a steel plate, 100 x 60 x 12 mm, with four drilled holes and a hemispherical pocket, so
+// that the closed form can tell whether the result is within the error that is stated: else the
+// program fails.
 //
-// Method. The cells of the grid tile the plate. L(x, y), the length of material along z, is measured at the
-// middle of each and stands for all of it (the midpoint rule). Crossings are exact but for rounding, so
-// errors come from the plane. A cell that an outline passes has another L beyond it. An outline that misses a
-// cell's middle leaves at most half of the cell beyond it, and the middle of one of the eight cells around is
-// there too: so the cell errs by at most half its area times the spread (greatest less least) of L over these
-// nine. Where no outline passes, a cell errs by its area times a 24th of L's second differences, which is
-// less than that again. The stated error is the sum over all cells. It wants outlines that are no finer than
-// the grid: three cells apart, with radii of four cells or more (so curved, they may leave a little more than
-// half, but the cells beside the outline, which count as well, more than make up for it). As errors cancel,
-// it is far too careful.
+// Method. The cells of the grid tile the plate. L(x, y), the length of material along z, is
+// measured at the middle of each and stands for all of it (the midpoint rule). Crossings are exact
+// but for rounding, so errors come from the plane. A cell that an outline passes has another L
+// beyond it. An outline that misses a cell's middle leaves at most half of the cell beyond it, and
+// the middle of one of the eight cells around is there too: so the cell errs by at most half its
+// area times the spread (greatest less least) of L over these nine. Where no outline passes, a cell
+// errs by its area times a 24th of L's second differences, which is less than that again. The
+// stated error is the sum over all cells. It wants outlines that are no finer than the grid: three
+// cells apart, with radii of four cells or more (so curved, they may leave a little more than half,
+// but the cells beside the outline, which count as well, more than make up for it). As errors
+// cancel, it is far too careful.
 #include <crt/crt.h>
 #include <float.h>
 #include <math.h>
@@ -32,15 +34,17 @@ typedef struct measure {
 
 // The plate's upper side is at z = 0, with its middle at x = y = 0.
 static int make_part(crt_prepared** out) {
-  const double corner[3] = {-width / 2, -depth / 2, -height}, opposite[3] = {width / 2, depth / 2, 0};
+  const double corner[3] = {-width / 2, -depth / 2, -height},
+               opposite[3] = {width / 2, depth / 2, 0};
   const double pocket[3] = {pocket_x, 0, 0};
   crt_entity *plate = NULL, *cutters[5] = {NULL}, *part = NULL;
   crt_scene* scene = NULL;
-  int failed =
-      crt_box_create(corner, opposite, &plate) || crt_sphere_create(pocket, pocket_radius, &cutters[4]);
+  int failed = crt_box_create(corner, opposite, &plate) ||
+               crt_sphere_create(pocket, pocket_radius, &cutters[4]);
   for (int i = 0; i < 4 && !failed; ++i) {
     const double x = i % 2 ? hole_x : -hole_x, y = i / 2 ? hole_y : -hole_y;
-    const double from[3] = {x, y, -height}, to[3] = {x, y, 0};  // flush with the plate: there is no film left
+    const double from[3] = {x, y, -height},
+                 to[3] = {x, y, 0};  // flush with the plate: there is no film left
     failed = crt_cylinder_create(from, to, hole_radius, &cutters[i]);
   }
   failed = failed || crt_difference_create(plate, cutters, 5, &part) || crt_scene_create(&scene) ||
@@ -56,7 +60,8 @@ static measure closed_form(void) {
   const double drilled = width * depth * height - 4 * pi * hole_radius * hole_radius * height;
   const double pocket = 2 * pi / 3 * pow(pocket_radius, 3);
   const double pocket_z = -3 * pocket_radius / 8;  // the centre of mass of half a ball
-  const measure m = {drilled - pocket, 0, {-pocket * pocket_x, 0, -drilled * height / 2 - pocket * pocket_z}};
+  const measure m = {
+      drilled - pocket, 0, {-pocket * pocket_x, 0, -drilled * height / 2 - pocket * pocket_z}};
   return m;
 }
 
@@ -124,7 +129,7 @@ int main(void) {
   printf("                 volume           mass      centre of mass\n");
   print_measure("measured", &m);
   print_measure("closed form", &exact);
-  printf("stated error  %9.2f mm3 (%.2f %%)\nactual error  %9.2f mm3\n", m.error, 100 * m.error / m.volume,
-         error);
+  printf("stated error  %9.2f mm3 (%.2f %%)\nactual error  %9.2f mm3\n", m.error,
+         100 * m.error / m.volume, error);
   return error <= m.error ? 0 : 1;
 }

@@ -20,9 +20,10 @@ struct GradientBackground {
 
 enum class PanoramaProjection {
   spherical,    ///< equirectangular: the full turn across, straight up to straight down
-  cylindrical,  ///< the full turn across, a cylinder of height 2 pi h/w up and down; its edge beyond that
-  equal_area,   ///< the full turn across; down goes (1 - y) / 2 of the unit direction's y, so that equal
-                ///< areas of the picture show equal solid angles
+  cylindrical,  ///< the full turn across, a cylinder of height 2 pi h/w up and down; its edge
+                ///< beyond that
+  equal_area,   ///< the full turn across; down goes (1 - y) / 2 of the unit direction's y, so that
+                ///< equal areas of the picture show equal solid angles
 };
 
 /// A picture all around: its middle column is straight ahead (+z) and its right half to the right

@@ -4,23 +4,26 @@
  *
  * Rules that hold for every function
  *
- * - **Status.** What can fail returns a crt_status and writes its result through its last parameter,
- *   which it leaves untouched on failure. crt_error_message() then tells the calling thread what was
- *   wrong. Nothing throws, ends the process or prints. NULL where something is required, an unknown
- *   value of an enumeration and a number that is not finite are CRT_ERROR_INVALID_ARGUMENT. Any
- *   function may return CRT_ERROR_OUT_OF_MEMORY and CRT_ERROR_INTERNAL (a fault of CRT).
- * - **Handles** (crt_entity, crt_scene, ...) are counted: what a function hands out is one reference,
- *   yours to release; `*_retain` adds one and returns its argument; `*_release` drops one, from any
- *   thread; both take NULL. What goes into a container is held by it, so the order of releasing does
- *   not matter.
- * - **Structs** that may grow begin with `struct_size`. Have their `crt_*_init(&s, sizeof s)` fill in
- *   the defaults, then change what you like. Fields beyond the size that you pass have their default.
+ * - **Status.** What can fail returns a crt_status and writes its result through its last
+ * parameter, which it leaves untouched on failure. crt_error_message() then tells the calling
+ * thread what was wrong. Nothing throws, ends the process or prints. NULL where something is
+ * required, an unknown value of an enumeration and a number that is not finite are
+ * CRT_ERROR_INVALID_ARGUMENT. Any function may return CRT_ERROR_OUT_OF_MEMORY and
+ * CRT_ERROR_INTERNAL (a fault of CRT).
+ * - **Handles** (crt_entity, crt_scene, ...) are counted: what a function hands out is one
+ * reference, yours to release; `*_retain` adds one and returns its argument; `*_release` drops one,
+ * from any thread; both take NULL. What goes into a container is held by it, so the order of
+ * releasing does not matter.
+ * - **Structs** that may grow begin with `struct_size`. Have their `crt_*_init(&s, sizeof s)` fill
+ * in the defaults, then change what you like. Fields beyond the size that you pass have their
+ * default.
  * - **Threads.** Each group says who may call it: any thread; one thread at a time (a scene that
  *   is being put together); shared (what is immutable: any number of threads at once).
- * - **Conventions.** Left-handed space: x to the right, y up, z into the screen. Vectors are double[3].
- *   Colours are double[3], linear RGB. Transforms are double[12], the three rows of a 3x4 affine matrix
- *   (linear part, then translation). Angles are radians. Texts are UTF-8, ended by 0 unless there is
- *   a length. Coordinates and sizes lie between 1e-100 and 1e100; what has no size is crt_empty_create().
+ * - **Conventions.** Left-handed space: x to the right, y up, z into the screen. Vectors are
+ * double[3]. Colours are double[3], linear RGB. Transforms are double[12], the three rows of a 3x4
+ * affine matrix (linear part, then translation). Angles are radians. Texts are UTF-8, ended by 0
+ * unless there is a length. Coordinates and sizes lie between 1e-100 and 1e100; what has no size is
+ * crt_empty_create().
  *
  * A sphere in 20 lines:
  * @code{.c}
@@ -72,7 +75,8 @@ extern "C" {
  * Threads: Any thread.
  * @{ */
 
-/** The version of this header. A program runs with the library of this or any later minor version. */
+/** The version of this header. A program runs with the library of this or any later minor version.
+ */
 #define CRT_VERSION_MAJOR 1
 /** Grows with every release that adds something. */
 #define CRT_VERSION_MINOR 0
@@ -105,8 +109,9 @@ CRT_API const char* crt_error_message(void);
 CRT_API const char* crt_status_string(crt_status status);
 
 /**
- * The number with which a callback stopped the call of this thread that returned CRT_ERROR_CANCELLED
- * last; 0 if that was crt_job_cancel() or there was none. For jobs: after crt_job_wait().
+ * The number with which a callback stopped the call of this thread that returned
+ * CRT_ERROR_CANCELLED last; 0 if that was crt_job_cancel() or there was none. For jobs: after
+ * crt_job_wait().
  */
 CRT_API int32_t crt_cancel_value(void);
 
@@ -183,15 +188,17 @@ CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
 /** Kinds of patterns. */
 typedef enum crt_pattern_type {
   CRT_PATTERN_CHECKER = 0, /**< cubes whose edges are `scale` long */
-  CRT_PATTERN_STRIPES,     /**< bands of equal width across `direction`, one of each colour in `scale` */
-  CRT_PATTERN_GRADIENT,    /**< from color_a to color_b and back along `direction` within `scale` */
-  CRT_PATTERN_NOISE,       /**< clouds: gradient noise of `octaves` octaves */
-  CRT_PATTERN_MARBLE,      /**< veins: a wave along `direction`, shifted by noise times `turbulence` */
-  CRT_PATTERN_WOOD,        /**< rings about the line through `offset` along `direction` */
-  CRT_PATTERN_IMAGE        /**< `image` laid over the surface by its (u, v) */
+  CRT_PATTERN_STRIPES,  /**< bands of equal width across `direction`, one of each colour in `scale`
+                         */
+  CRT_PATTERN_GRADIENT, /**< from color_a to color_b and back along `direction` within `scale` */
+  CRT_PATTERN_NOISE,    /**< clouds: gradient noise of `octaves` octaves */
+  CRT_PATTERN_MARBLE,   /**< veins: a wave along `direction`, shifted by noise times `turbulence` */
+  CRT_PATTERN_WOOD,     /**< rings about the line through `offset` along `direction` */
+  CRT_PATTERN_IMAGE     /**< `image` laid over the surface by its (u, v) */
 } crt_pattern_type;
 
-/** Colours that vary over a surface or through space. Lives in the space of the entity that wears it. */
+/** Colours that vary over a surface or through space. Lives in the space of the entity that wears
+ * it. */
 typedef struct crt_pattern {
   uint32_t struct_size;
   int32_t type;      /**< a crt_pattern_type */
@@ -213,19 +220,19 @@ typedef struct crt_pattern {
 /** What a surface is made of. */
 typedef struct crt_material {
   uint32_t struct_size;
-  int32_t reserved;           /**< 0 */
-  double color[3];            /**< linear RGB, each in [0, 1e30]; above 1 it brightens; default 0.5 */
-  double alpha;               /**< in [0, 1]; what is missing to 1 adds to the transparency; default 1 */
+  int32_t reserved; /**< 0 */
+  double color[3];  /**< linear RGB, each in [0, 1e30]; above 1 it brightens; default 0.5 */
+  double alpha;     /**< in [0, 1]; what is missing to 1 adds to the transparency; default 1 */
   const crt_pattern* pattern; /**< takes the place of the colour; default NULL */
   double reflectivity;        /**< share of light mirrored, in [0, 1]; default 0 */
   double transparency;        /**< share of light let through, in [0, 1]; default 0 */
   double refractive_index;    /**< of the inside, in [0.01, 100]; default 1 */
-  double diffuse;             /**< >= 0, or -1 (default) for max(0, 1 - reflectivity - transparency) */
-  double specular;            /**< strength of the highlight, >= 0; default 0 */
-  double shininess;           /**< exponent of the highlight's cosine, >= 0; default 3 */
-  double absorption[3];       /**< inside, per scene unit and channel (Beer-Lambert), >= 0; default 0 */
-  const crt_pattern* bump;    /**< its luminance raises the surface; default NULL */
-  double bump_height;         /**< scene units; default 0.1 */
+  double diffuse;       /**< >= 0, or -1 (default) for max(0, 1 - reflectivity - transparency) */
+  double specular;      /**< strength of the highlight, >= 0; default 0 */
+  double shininess;     /**< exponent of the highlight's cosine, >= 0; default 3 */
+  double absorption[3]; /**< inside, per scene unit and channel (Beer-Lambert), >= 0; default 0 */
+  const crt_pattern* bump; /**< its luminance raises the surface; default NULL */
+  double bump_height;      /**< scene units; default 0.1 */
 } crt_material;
 
 /** Kinds of lights. All cast shadows. */
@@ -239,15 +246,17 @@ typedef enum crt_light_type {
 /** A light. */
 typedef struct crt_light {
   uint32_t struct_size;
-  int32_t type;       /**< a crt_light_type; default CRT_LIGHT_POINT */
-  double origin[3];   /**< default 0 */
-  double pointing[3]; /**< default 0; a point light has none, others need one that is not `origin` */
-  double color[3];    /**< linear RGB, >= 0, may pass 1; default 1 */
-  double angle;       /**< spot: full angle of the cone, in (0, 2 pi]; default pi / 3 */
-  double penumbra;    /**< spot: how far it fades inwards, radians of the half angle; default pi / 36 */
-  double radius;      /**< cylinder: > 0; default 1 */
-  double falloff;     /**< 0 (default) or less: distance does not matter; else it is falloff / D^2 */
-  double ambient;     /**< share of the colour that every point gets, >= 0; default 0 */
+  int32_t type;     /**< a crt_light_type; default CRT_LIGHT_POINT */
+  double origin[3]; /**< default 0 */
+  double
+      pointing[3]; /**< default 0; a point light has none, others need one that is not `origin` */
+  double color[3]; /**< linear RGB, >= 0, may pass 1; default 1 */
+  double angle;    /**< spot: full angle of the cone, in (0, 2 pi]; default pi / 3 */
+  double
+      penumbra;   /**< spot: how far it fades inwards, radians of the half angle; default pi / 36 */
+  double radius;  /**< cylinder: > 0; default 1 */
+  double falloff; /**< 0 (default) or less: distance does not matter; else it is falloff / D^2 */
+  double ambient; /**< share of the colour that every point gets, >= 0; default 0 */
 } crt_light;
 
 /** How a camera maps directions to the picture. */
@@ -274,12 +283,13 @@ typedef enum crt_aperture_shape {
 /** Where the picture is seen from. */
 typedef struct crt_camera {
   uint32_t struct_size;
-  int32_t projection;     /**< a crt_projection; default CRT_PROJECTION_PINHOLE */
-  double position[3];     /**< default (0, 0, -1) */
-  double pointing[3];     /**< the point looked at; default 0 */
-  double fov;             /**< vertical field of view, radians, in (0, pi); default pi / 3 */
-  double roll;            /**< radians; positive tips the picture's top to the right; default 0 */
-  double aperture;        /**< radius of the lens in thousandths of a scene unit; 0 (default): all is sharp */
+  int32_t projection; /**< a crt_projection; default CRT_PROJECTION_PINHOLE */
+  double position[3]; /**< default (0, 0, -1) */
+  double pointing[3]; /**< the point looked at; default 0 */
+  double fov;         /**< vertical field of view, radians, in (0, pi); default pi / 3 */
+  double roll;        /**< radians; positive tips the picture's top to the right; default 0 */
+  double
+      aperture; /**< radius of the lens in thousandths of a scene unit; 0 (default): all is sharp */
   double focal_distance;  /**< along the view direction to what is in focus, > 0; default 1 */
   int32_t aperture_shape; /**< a crt_aperture_shape; default CRT_APERTURE_CIRCLE */
   int32_t reserved;       /**< 0 */
@@ -291,7 +301,7 @@ typedef enum crt_background_type {
   CRT_BACKGROUND_GRADIENT,    /**< from `horizon` (level) to `sky` (straight up and down) */
   CRT_BACKGROUND_SPHERICAL,   /**< `image` all around, equirectangular */
   CRT_BACKGROUND_CYLINDRICAL, /**< `image` all around on a cylinder */
-  CRT_BACKGROUND_EQUAL_AREA   /**< `image` all around; down goes (1 - y) / 2 of the unit direction */
+  CRT_BACKGROUND_EQUAL_AREA /**< `image` all around; down goes (1 - y) / 2 of the unit direction */
 } crt_background_type;
 
 /** What a ray that hits nothing sees. */
@@ -323,42 +333,44 @@ typedef enum crt_falloff_model {
 /** How close a call the geometry settles. Both answer the same question. */
 typedef enum crt_precision {
   CRT_PRECISION_STANDARD = 0, /**< right at a silhouette the last bit is left to rounding */
-  CRT_PRECISION_EXACT         /**< hits and their order are right, t within 0.51 ulp (tori: 1); nested
-                                   transforms are their product without rounding, of up to 1024 bits */
+  CRT_PRECISION_EXACT /**< hits and their order are right, t within 0.51 ulp (tori: 1); nested
+                           transforms are their product without rounding, of up to 1024 bits */
 } crt_precision;
 
 /** How a scene is rendered. */
 typedef struct crt_settings {
   uint32_t struct_size;
-  int32_t width;           /**< pixels, in [1, 65536]; default 640; width * height is at most 2^27 */
-  int32_t height;          /**< default 480 */
-  int32_t supersampling;   /**< n x n rays a pixel, in [1, 64]; default 1 */
-  int32_t dof_samples;     /**< points of the lens for each of them, in [1, 65536]; default 1: no lens */
+  int32_t width;         /**< pixels, in [1, 65536]; default 640; width * height is at most 2^27 */
+  int32_t height;        /**< default 480 */
+  int32_t supersampling; /**< n x n rays a pixel, in [1, 64]; default 1 */
+  int32_t
+      dof_samples; /**< points of the lens for each of them, in [1, 65536]; default 1: no lens */
   int32_t recursion_depth; /**< bounces after the camera's ray, in [0, 256]; default 3 */
   double gamma;            /**< 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1 */
-  double min_weight;       /**< rays that matter less to every channel are dropped; default 1/1024 */
-  int32_t falloff_model;   /**< a crt_falloff_model; default CRT_FALLOFF_PATH */
-  int32_t show_clip;       /**< not 0: pixels with a channel above 1 are red in 8-bit files; default 0 */
-  uint64_t seed;           /**< of the random numbers; default 0 */
-  const char* title;       /**< this and the next go into the files; NULL (default) for none */
+  double min_weight;     /**< rays that matter less to every channel are dropped; default 1/1024 */
+  int32_t falloff_model; /**< a crt_falloff_model; default CRT_FALLOFF_PATH */
+  int32_t show_clip; /**< not 0: pixels with a channel above 1 are red in 8-bit files; default 0 */
+  uint64_t seed;     /**< of the random numbers; default 0 */
+  const char* title; /**< this and the next go into the files; NULL (default) for none */
   const char* author;
   const char* date;
   const char* notes;
   int32_t precision; /**< a crt_precision; default CRT_PRECISION_STANDARD */
   int32_t reserved;  /**< must be 0 */
-  /** Above 0: a pixel gets samples until it is this near the truth, in 95 of 100 cases; 1/255 is a step of
-   * 8 bits; in [0, 1]; default 0 */
+  /** Above 0: a pixel gets samples until it is this near the truth, in 95 of 100 cases; 1/255 is a
+   * step of 8 bits; in [0, 1]; default 0 */
   double target_error;
-  /** above 0: the seconds that tracing may take; it stops at the end of a pass, the first of which takes what
-   * it takes, so that there is a picture; in [0, 1e6]; default 0 */
+  /** above 0: the seconds that tracing may take; it stops at the end of a pass, the first of which
+   * takes what it takes, so that there is a picture; in [0, 1e6]; default 0 */
   double time_budget;
   double filter_width; /**< pixels across, of filters other than the box; in [1, 16]; default 3 */
-  int32_t min_samples; /**< of a pixel, with one of these two: a power of 2 in [4, 65536]; default 16 */
+  int32_t
+      min_samples; /**< of a pixel, with one of these two: a power of 2 in [4, 65536]; default 16 */
   int32_t max_samples; /**< likewise; default 1024 */
   int32_t filter;      /**< a crt_pixel_filter; default CRT_FILTER_BOX */
   int32_t reserved_2;  /**< must be 0 */
-  /** 0 (default), or 2015: the picture is formed as the program of that year formed it: lens, panoramas,
-   * places of the grid's samples, levels of 8-bit files; see docs/compat.md */
+  /** 0 (default), or 2015: the picture is formed as the program of that year formed it: lens,
+   * panoramas, places of the grid's samples, levels of 8-bit files; see docs/compat.md */
   int32_t compat;
   int32_t reserved_3; /**< must be 0 */
 } crt_settings;
@@ -371,7 +383,8 @@ CRT_API crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_siz
 CRT_API crt_status crt_material_init(crt_material* material, size_t struct_size);
 /** A white point light at the origin. */
 CRT_API crt_status crt_light_init(crt_light* light, size_t struct_size);
-/** The defaults of a crt_light_type: all but the point light shine from (0, 1, 0) down to the origin. */
+/** The defaults of a crt_light_type: all but the point light shine from (0, 1, 0) down to the
+ * origin. */
 CRT_API crt_status crt_light_init_type(crt_light* light, size_t struct_size, int32_t type);
 /** At (0, 0, -1), looking at the origin, 60 degrees high. */
 CRT_API crt_status crt_camera_init(crt_camera* camera, size_t struct_size);
@@ -398,18 +411,21 @@ CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size)
 CRT_API crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out);
 /** An axis-parallel box between any two opposite corners, which must differ by at least 1e-100 in
  * every coordinate. */
-CRT_API crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out);
+CRT_API crt_status crt_box_create(const double corner_a[3], const double corner_b[3],
+                                  crt_entity** out);
 /** The half-space behind a plane: `normal` (any length but 0) points out of the solid. */
-CRT_API crt_status crt_plane_create(const double normal[3], const double position[3], crt_entity** out);
-/** A surface: the half of a plane on the `direction` side of the line through `position` across it. */
+CRT_API crt_status crt_plane_create(const double normal[3], const double position[3],
+                                    crt_entity** out);
+/** A surface: the half of a plane on the `direction` side of the line through `position` across it.
+ */
 CRT_API crt_status crt_half_plane_create(const double normal[3], const double position[3],
                                          const double direction[3], crt_entity** out);
 /** A solid cylinder of `radius` > 0 between the centres of its two caps, at least 1e-100 apart. */
 CRT_API crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
                                        crt_entity** out);
 /** A cone or frustum: `radius` at `from`, `radius2` (0 or more) at `to`, at least 1e-100 apart. */
-CRT_API crt_status crt_cone_create(const double from[3], const double to[3], double radius, double radius2,
-                                   crt_entity** out);
+CRT_API crt_status crt_cone_create(const double from[3], const double to[3], double radius,
+                                   double radius2, crt_entity** out);
 /** All points within `thickness` of the circle of `radius` about `center` across `axis`. */
 CRT_API crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
                                     double thickness, crt_entity** out);
@@ -424,35 +440,40 @@ CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], con
  * @param positions       3 * vertex_count numbers
  * @param indices         3 * triangle_count numbers, each below vertex_count
  */
-CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
-                                   size_t triangle_count, crt_entity** out);
+CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count,
+                                   const uint32_t* indices, size_t triangle_count,
+                                   crt_entity** out);
 
-/** Nothing: the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No ray
- * meets it; in combinations it is what the empty set is, and no transform, material or id changes it. */
+/** Nothing: the solid without a point, such as what is left of a sphere whose radius shrinks to 0.
+ * No ray meets it; in combinations it is what the empty set is, and no transform, material or id
+ * changes it. */
 CRT_API crt_status crt_empty_create(crt_entity** out);
 
 /** What is in any of the parts (at least one), which may be surfaces too. */
 CRT_API crt_status crt_union_create(crt_entity* const* parts, size_t count, crt_entity** out);
 /** What is in all of the parts: at least one, all solids. */
-CRT_API crt_status crt_intersection_create(crt_entity* const* parts, size_t count, crt_entity** out);
-/** What is in `from` and in none of the cutters (none is fine); all solids. A cut has its cutter's material.
+CRT_API crt_status crt_intersection_create(crt_entity* const* parts, size_t count,
+                                           crt_entity** out);
+/** What is in `from` and in none of the cutters (none is fine); all solids. A cut has its cutter's
+ * material.
  */
 CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cutters, size_t count,
                                          crt_entity** out);
 
 /** The entity moved by an affine map with an inverse, after whatever moved it before. */
-CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12], crt_entity** out);
+CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12],
+                                             crt_entity** out);
 /** The entity with a material on every part that has none of its own. */
 CRT_API crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material,
                                             crt_entity** out);
-/** The entity under a number that hits report; without one that is its place in the scene. The outermost
- * holds. */
+/** The entity under a number that hits report; without one that is its place in the scene. The
+ * outermost holds. */
 CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out);
 
 /** 1 if the entity has an inside, 0 if a part of it is a mere surface (or it is NULL). */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
-/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL and for the empty
- * one. */
+/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL and for
+ * the empty one. */
 CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 
 /** @} */
@@ -460,8 +481,8 @@ CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 /* ---- scenes --------------------------------------------------------------------------------- */
 
 /** @defgroup scenes Scenes
- * A scene needs nothing to be prepared: without a camera it has the default one. Threads: one at a time for
- * each scene. What was prepared does not change with the scene.
+ * A scene needs nothing to be prepared: without a camera it has the default one. Threads: one at a
+ * time for each scene. What was prepared does not change with the scene.
  * @{ */
 
 /** An empty scene with the default camera, background and settings. */
@@ -469,7 +490,8 @@ CRT_API crt_status crt_scene_create(crt_scene** out);
 /** Another scene with the same content. */
 CRT_API crt_status crt_scene_copy(const crt_scene* scene, crt_scene** out);
 
-/** Adds an entity behind those that are there: its place, from 0, is the id that hits report of it. */
+/** Adds an entity behind those that are there: its place, from 0, is the id that hits report of it.
+ */
 CRT_API crt_status crt_scene_add_entity(crt_scene* scene, crt_entity* entity);
 /** Adds a light; errors name the field that is out of range. */
 CRT_API crt_status crt_scene_add_light(crt_scene* scene, const crt_light* light);
@@ -490,8 +512,8 @@ CRT_API size_t crt_scene_entity_count(const crt_scene* scene);
 CRT_API size_t crt_scene_light_count(const crt_scene* scene);
 /** The entity at a place from 0, as a reference of yours. */
 CRT_API crt_status crt_scene_get_entity(const crt_scene* scene, size_t index, crt_entity** out);
-/** The light at a place from 0. This and the next three fill in as much of the struct as its `struct_size`
- * (which must be set) holds. */
+/** The light at a place from 0. This and the next three fill in as much of the struct as its
+ * `struct_size` (which must be set) holds. */
 CRT_API crt_status crt_scene_get_light(const crt_scene* scene, size_t index, crt_light* light);
 /** The camera; see crt_scene_get_light(). */
 CRT_API crt_status crt_scene_get_camera(const crt_scene* scene, crt_camera* camera);
@@ -500,13 +522,14 @@ CRT_API crt_status crt_scene_get_background(const crt_scene* scene, crt_backgrou
 /** The texts are valid until the scene changes. */
 CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings);
 
-/** Checks the scene, which stays as it is, and builds what rays need. While what was prepared of the same
- * scene before is still there and no entity has come, gone or changed place since, that is not built again: a
- * new camera, light, background or setting (other than the precision) costs next to nothing. */
+/** Checks the scene, which stays as it is, and builds what rays need. While what was prepared of
+ * the same scene before is still there and no entity has come, gone or changed place since, that is
+ * not built again: a new camera, light, background or setting (other than the precision) costs next
+ * to nothing. */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 
-/** Asked now and then while something takes long (of a script every few thousand steps); a return value other
- * than 0 cancels it. */
+/** Asked now and then while something takes long (of a script every few thousand steps); a return
+ * value other than 0 cancels it. */
 typedef int (*crt_poll_fn)(void* user);
 
 /** What preparing may be asked beyond the scene. All 0 is the default. */
@@ -517,10 +540,10 @@ typedef struct crt_prepare_options {
    * CRT_ERROR_CANCELLED. May be called on any of the threads that work. */
   crt_poll_fn poll;
   void* poll_user;
-  /** The most primitives that the scene may have; with more preparing it ends with CRT_ERROR_LIMIT before it
-   * takes any memory. 0: as many as the memory of the machine (or container) may be enough for, at 1350 bytes
-   * each and 2700 in the exact tier, which is what the greedy ones take: spheres by themselves take 600. More
-   * than 33554432 there can never be. */
+  /** The most primitives that the scene may have; with more preparing it ends with CRT_ERROR_LIMIT
+   * before it takes any memory. 0: as many as the memory of the machine (or container) may be
+   * enough for, at 1350 bytes each and 2700 in the exact tier, which is what the greedy ones take:
+   * spheres by themselves take 600. More than 33554432 there can never be. */
   uint64_t max_primitives;
 } crt_prepare_options;
 
@@ -556,22 +579,28 @@ enum {
 };
 
 /**
- * Asked for each file that a script imports or shows, before the file system is. Called from the thread
- * that runs the script.
- * @param path  where the file would be: the script's directory or a resource directory, and its name
+ * Asked for each file that a script imports or shows, before the file system is. Called from the
+ * thread that runs the script.
+ * @param path  where the file would be: the script's directory or a resource directory, and its
+ * name
  */
 typedef int (*crt_open_file_fn)(const char* path, crt_file_content* content, void* user);
 /** Appends to the content of a file. Inside a crt_open_file_fn only. */
-CRT_API crt_status crt_file_content_append(crt_file_content* content, const void* bytes, size_t count);
+CRT_API crt_status crt_file_content_append(crt_file_content* content, const void* bytes,
+                                           size_t count);
 
-/** Gets a line that the script prints, without its end; a return value other than 0 cancels the script. */
+/** Gets a line that the script prints, without its end; a return value other than 0 cancels the
+ * script. */
 typedef int (*crt_print_fn)(const char* line, size_t length, void* user);
 
-/** What a script may see and use. All 0 is the default: files of its own directory, and the limits below. */
+/** What a script may see and use. All 0 is the default: files of its own directory, and the limits
+ * below. */
 typedef struct crt_script_options {
   uint32_t struct_size;
-  int32_t allow_outside_files; /**< not 0: files outside its directory and the resource directories too */
-  const char* const* resource_directories; /**< where files are looked for after the script's directory */
+  int32_t allow_outside_files; /**< not 0: files outside its directory and the resource directories
+                                  too */
+  const char* const*
+      resource_directories; /**< where files are looked for after the script's directory */
   uint64_t resource_directory_count;
   double t;                           /**< the frame of an animation: the script's constant `t` */
   const char* const* variable_names;  /**< top-level variables set from outside ... */
@@ -594,7 +623,8 @@ typedef struct crt_script_options {
   void* print_user;
   crt_poll_fn poll; /**< NULL: only the limits end a script */
   void* poll_user;
-  int32_t compat; /**< 0: as the script's Settings say; 2015: it is a script of that year (docs/compat.md) */
+  int32_t compat;   /**< 0: as the script's Settings say; 2015: it is a script of that year
+                       (docs/compat.md) */
   int32_t reserved; /**< 0 */
 } crt_script_options;
 
@@ -604,16 +634,17 @@ CRT_API crt_status crt_script_options_init(crt_script_options* options, size_t s
 /**
  * Runs a script.
  * @param text         UTF-8, `length` bytes; NULL if length is 0
- * @param name         stands for the script in messages; its directory is where its files are looked for
+ * @param name         stands for the script in messages; its directory is where its files are
+ * looked for
  * @param options      NULL for the defaults
- * @param diagnostics  NULL, or gets what there is to say, warnings too, whether the script failed or not
- *                     (it is left untouched only if the arguments are wrong or memory ran out)
+ * @param diagnostics  NULL, or gets what there is to say, warnings too, whether the script failed
+ * or not (it is left untouched only if the arguments are wrong or memory ran out)
  * @return CRT_ERROR_SCRIPT, or the status of the first error: CRT_ERROR_IO, CRT_ERROR_LIMIT,
  *         CRT_ERROR_CANCELLED, ...
  */
 CRT_API crt_status crt_scene_from_script(const char* text, size_t length, const char* name,
-                                         const crt_script_options* options, crt_diagnostics** diagnostics,
-                                         crt_scene** out);
+                                         const crt_script_options* options,
+                                         crt_diagnostics** diagnostics, crt_scene** out);
 /** The same for a file. */
 CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script_options* options,
                                               crt_diagnostics** diagnostics, crt_scene** out);
@@ -678,38 +709,44 @@ CRT_API const char* crt_diagnostics_json(const crt_diagnostics* diagnostics);
  * @{ */
 
 /**
- * Told how far a render is, now and then: first 0, never less than before, last 1. From one thread at a
- * time, which may be one of the render's own. A return value other than 0 cancels.
+ * Told how far a render is, now and then: first 0, never less than before, last 1. From one thread
+ * at a time, which may be one of the render's own. A return value other than 0 cancels.
  */
 typedef int (*crt_progress_fn)(double fraction, void* user);
 
 /** How much a line of the log matters. */
 typedef enum crt_log_level { CRT_LOG_INFO = 0, CRT_LOG_WARNING } crt_log_level;
 
-/** Gets what there is to tell of a render. From the thread that called crt_render(), or the job's own. */
+/** Gets what there is to tell of a render. From the thread that called crt_render(), or the job's
+ * own. */
 typedef void (*crt_log_fn)(int32_t level, const char* message, void* user);
 
 /**
- * Bits of crt_render_options.aovs: what a render may tell of each pixel beside its colour, as channels of the
- * image (see crt_image_channel()). Distance and entity are those of one ray, through the middles of the pixel
- * and of the lens; normal and albedo are means over the pixel's samples. What is told is what camera rays
- * meet first, be it glass or a mirror.
+ * Bits of crt_render_options.aovs: what a render may tell of each pixel beside its colour, as
+ * channels of the image (see crt_image_channel()). Distance and entity are those of one ray,
+ * through the middles of the pixel and of the lens; normal and albedo are means over the pixel's
+ * samples. What is told is what camera rays meet first, be it glass or a mirror.
  */
 enum {
-  CRT_AOV_DEPTH = 1,  /**< "Z": the way along the ray from the eye; INFINITY where nothing is */
-  CRT_AOV_NORMAL = 2, /**< "N.X", "N.Y", "N.Z": in the world, turned to the viewer; 0 where nothing is */
-  CRT_AOV_ID = 4,     /**< "id": crt_hit.entity_id, a channel of whole numbers; UINT32_MAX where nothing is */
-  CRT_AOV_ALBEDO = 8, /**< "albedo.R", "albedo.G", "albedo.B": the material's colour; 0 where nothing is */
+  CRT_AOV_DEPTH = 1, /**< "Z": the way along the ray from the eye; INFINITY where nothing is */
+  CRT_AOV_NORMAL =
+      2, /**< "N.X", "N.Y", "N.Z": in the world, turned to the viewer; 0 where nothing is */
+  CRT_AOV_ID =
+      4, /**< "id": crt_hit.entity_id, a channel of whole numbers; UINT32_MAX where nothing is */
+  CRT_AOV_ALBEDO =
+      8, /**< "albedo.R", "albedo.G", "albedo.B": the material's colour; 0 where nothing is */
   CRT_AOV_SAMPLES = 16, /**< "samples": how many the pixel has, a channel of whole numbers */
   CRT_AOV_ERROR = 32    /**< "error": the half-width of the pixel's interval, see half_width_rms in
                              crt_render_stats; 1 for the plain grid */
 };
 
-/** What a render may be asked beyond the scene. All 0 is the default: the whole picture on all cores. */
+/** What a render may be asked beyond the scene. All 0 is the default: the whole picture on all
+ * cores. */
 typedef struct crt_render_options {
   uint32_t struct_size;
   int32_t threads;  /**< at most; 0: what the calling TBB arena has; 1: none is started */
-  int32_t region_x; /**< renders a part of the picture only, from the top left; the image has its size */
+  int32_t region_x; /**< renders a part of the picture only, from the top left; the image has its
+                       size */
   int32_t region_y;
   int32_t region_width; /**< region_width and region_height 0: all of it */
   int32_t region_height;
@@ -718,19 +755,22 @@ typedef struct crt_render_options {
   void* progress_user;
   crt_log_fn log;
   void* log_user;
-  int32_t passes; /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
-  uint32_t aovs;  /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
-  /** NULL, or the file that keeps what is there of a picture which is rendered by passes (target error, time
-   * budget, number of passes): the next render with the same checkpoint goes on from it, be it in another
-   * process, to the same picture as without the break. Written within the first ten seconds, then every few
-   * seconds, and at the end, also when the render is cancelled or fails; whole or not at all, and never
-   * removed. If writing fails `log` is told, and the render goes on. A time budget counts from
-   * the break on. A checkpoint of another picture is CRT_ERROR_INVALID_ARGUMENT; that it is of this one is
-   * told by the settings and by the light of up to 1024 samples. Read by the call. */
+  int32_t
+      passes; /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
+  uint32_t aovs; /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
+  /** NULL, or the file that keeps what is there of a picture which is rendered by passes (target
+   * error, time budget, number of passes): the next render with the same checkpoint goes on from
+   * it, be it in another process, to the same picture as without the break. Written within the
+   * first ten seconds, then every few seconds, and at the end, also when the render is cancelled or
+   * fails; whole or not at all, and never removed. If writing fails `log` is told, and the render
+   * goes on. A time budget counts from the break on. A checkpoint of another picture is
+   * CRT_ERROR_INVALID_ARGUMENT; that it is of this one is told by the settings and by the light of
+   * up to 1024 samples. Read by the call. */
   const char* checkpoint;
-  /** The most things that a single ray may be tested against: objects, and primitives of CSG objects, whose
-   * boxes it passes; looked at after every 1024 of them. A ray that takes more ends the render with
-   * CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary scene takes some hundred.
+  /** The most things that a single ray may be tested against: objects, and primitives of CSG
+   * objects, whose boxes it passes; looked at after every 1024 of them. A ray that takes more ends
+   * the render with CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary
+   * scene takes some hundred.
    */
   uint64_t max_ray_steps;
 } crt_render_options;
@@ -739,24 +779,29 @@ typedef struct crt_render_options {
 CRT_API crt_status crt_render_options_init(crt_render_options* options, size_t struct_size);
 
 /** Renders, and returns when done. `options` NULL: the defaults. */
-CRT_API crt_status crt_render(crt_prepared* prepared, const crt_render_options* options, crt_image** out);
+CRT_API crt_status crt_render(crt_prepared* prepared, const crt_render_options* options,
+                              crt_image** out);
 
 /**
- * Starts to render on a thread of the job's own, which counts as one of `threads`; 0 means as many as the TBB
- * arena of the calling thread has. The callbacks must be good to call until the job has ended.
+ * Starts to render on a thread of the job's own, which counts as one of `threads`; 0 means as many
+ * as the TBB arena of the calling thread has. The callbacks must be good to call until the job has
+ * ended.
  */
-CRT_API crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options, crt_job** out);
+CRT_API crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options,
+                                    crt_job** out);
 /** How much is done, from 0 to 1. */
 CRT_API crt_status crt_job_progress(crt_job* job, double* fraction);
 /** 1 if it has ended, in one way or another: done, cancelled or failed. Else 0, also for NULL. */
 CRT_API int32_t crt_job_is_finished(const crt_job* job);
-/** The image so far; what is not yet rendered is transparent black. Also after the end, however it came. */
+/** The image so far; what is not yet rendered is transparent black. Also after the end, however it
+ * came. */
 CRT_API crt_status crt_job_snapshot(crt_job* job, crt_image** out);
-/** Asks the job to stop, which it does within a few tiles, and returns at once. Harmless after its end. */
+/** Asks the job to stop, which it does within a few tiles, and returns at once. Harmless after its
+ * end. */
 CRT_API crt_status crt_job_cancel(crt_job* job);
 /**
- * Waits for the end and gives the image, again for each call (`out` NULL: only waits), or what went wrong.
- * Not from the job's own callbacks: CRT_ERROR_INVALID_ARGUMENT.
+ * Waits for the end and gives the image, again for each call (`out` NULL: only waits), or what went
+ * wrong. Not from the job's own callbacks: CRT_ERROR_INVALID_ARGUMENT.
  */
 CRT_API crt_status crt_job_wait(crt_job* job, crt_image** out);
 
@@ -769,11 +814,12 @@ typedef struct crt_render_stats {
   uint64_t shadow_rays;
   uint64_t reflection_rays;
   uint64_t refraction_rays;
-  uint64_t rays_below_min_weight;  /**< not traced: below the settings' min_weight */
-  uint64_t rays_beyond_depth;      /**< not traced: the recursion depth was reached */
-  uint64_t samples_over_ray_bound; /**< camera samples that reached 65536 rays and dropped the rest */
-  uint64_t intersection_tests;     /**< rays against primitives or CSG objects */
-  uint64_t interval_events;        /**< crossings sorted and flipped inside CSG objects */
+  uint64_t rays_below_min_weight; /**< not traced: below the settings' min_weight */
+  uint64_t rays_beyond_depth;     /**< not traced: the recursion depth was reached */
+  uint64_t
+      samples_over_ray_bound;  /**< camera samples that reached 65536 rays and dropped the rest */
+  uint64_t intersection_tests; /**< rays against primitives or CSG objects */
+  uint64_t interval_events;    /**< crossings sorted and flipped inside CSG objects */
   uint64_t media_lookups;
   uint64_t media_changes;
   uint64_t pattern_lookups;
@@ -781,7 +827,8 @@ typedef struct crt_render_stats {
   double prepare_seconds; /**< by the clock on the wall, as the next */
   double trace_seconds;
   uint64_t escalations; /**< questions of CRT_PRECISION_EXACT that only exact arithmetic answered */
-  /* Bytes that the prepared scene keeps; what it shares with its entities and images is not counted. */
+  /* Bytes that the prepared scene keeps; what it shares with its entities and images is not
+   * counted. */
   uint64_t primitive_bytes; /**< primitives in their places, and which of their faces coincide */
   uint64_t csg_bytes;       /**< how they are combined, and a tree of boxes for each CSG object */
   uint64_t tree_bytes;      /**< the tree of boxes over all objects */
@@ -791,14 +838,15 @@ typedef struct crt_render_stats {
   uint64_t samples_max;
   int32_t passes;   /**< that were rendered; 0 without target error and time budget */
   int32_t reserved; /**< 0 */
-  /* How far pixels are from the truth in 95 of 100 cases, on a display, where 1/255 is a step of 8 bits; 0
-   * where that is not known, without passes. */
+  /* How far pixels are from the truth in 95 of 100 cases, on a display, where 1/255 is a step of 8
+   * bits; 0 where that is not known, without passes. */
   double half_width_rms; /**< the root of the mean square */
   double half_width_95;  /**< what 95 of 100 pixels are within */
   double half_width_max;
   uint64_t pixels_unresolved; /**< their half-width is above the target error */
   double unseen_share;        /**< of a pixel: what covers more has been seen in 95 of 100 cases */
-  double cutoff_mean; /**< what cutting off paths may have taken from a pixel, as if all light were white */
+  double cutoff_mean; /**< what cutting off paths may have taken from a pixel, as if all light were
+                         white */
   double cutoff_max;
 } crt_render_stats;
 
@@ -816,22 +864,24 @@ typedef struct crt_render_stats {
  * @endcode
  * @{ */
 
-/** From pixels of yours: 4 floats each, rows `row_stride` bytes apart (0: without gaps). Must be finite. */
-CRT_API crt_status crt_image_create(uint32_t width, uint32_t height, const float* pixels, size_t row_stride,
-                                    crt_image** out);
-/** From 8-bit RGBA with straight alpha, as displays want them: where it serves in a scene, its gamma undoes
- * the scene's. */
+/** From pixels of yours: 4 floats each, rows `row_stride` bytes apart (0: without gaps). Must be
+ * finite. */
+CRT_API crt_status crt_image_create(uint32_t width, uint32_t height, const float* pixels,
+                                    size_t row_stride, crt_image** out);
+/** From 8-bit RGBA with straight alpha, as displays want them: where it serves in a scene, its
+ * gamma undoes the scene's. */
 CRT_API crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* pixels,
                                         size_t row_stride, crt_image** out);
 /** Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file; its content tells which. */
 CRT_API crt_status crt_image_read(const char* path, crt_image** out);
 /** The same from a file's bytes; `name` (or NULL) is for messages. */
-CRT_API crt_status crt_image_decode(const void* bytes, size_t count, const char* name, crt_image** out);
+CRT_API crt_status crt_image_decode(const void* bytes, size_t count, const char* name,
+                                    crt_image** out);
 /**
- * How many pixels of the file that an image was read from had values which are no finite numbers (NaN,
- * infinities): they count as 0. The place of the first, row by row from the top left, goes to *x and *y if
- * there is one (either may be NULL). A render of a scene with such an image warns through its log, too.
- * 0 for all other images.
+ * How many pixels of the file that an image was read from had values which are no finite numbers
+ * (NaN, infinities): they count as 0. The place of the first, row by row from the top left, goes to
+ * *x and *y if there is one (either may be NULL). A render of a scene with such an image warns
+ * through its log, too. 0 for all other images.
  */
 CRT_API uint64_t crt_image_not_finite(const crt_image* image, uint32_t* x, uint32_t* y);
 
@@ -848,8 +898,8 @@ CRT_API const float* crt_image_pixels(const crt_image* image, size_t* row_stride
 CRT_API size_t crt_image_channel_count(const crt_image* image);
 /** The name of one of them, which belongs to the image; NULL beyond the last one. */
 CRT_API const char* crt_image_channel_name(const crt_image* image, size_t index);
-/** The numbers of the channel of this name: width * height, without gaps, which belong to the image. NULL if
- * there is no such channel of floats. */
+/** The numbers of the channel of this name: width * height, without gaps, which belong to the
+ * image. NULL if there is no such channel of floats. */
 CRT_API const float* crt_image_channel(const crt_image* image, const char* name);
 /** The same of a channel of whole numbers, such as "id". */
 CRT_API const uint32_t* crt_image_channel_uint(const crt_image* image, const char* name);
@@ -863,20 +913,22 @@ CRT_API crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, s
 typedef struct crt_write_options {
   uint32_t struct_size;
   int32_t reproducible; /**< not 0: leaves out what changes from run to run (the render time) */
-  int32_t colors_only;  /**< not 0: leaves out all channels beside the colours, which only exr holds */
+  int32_t
+      colors_only; /**< not 0: leaves out all channels beside the colours, which only exr holds */
 } crt_write_options;
 
 /** The defaults, which are all 0. */
 CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t struct_size);
 
 /**
- * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr and hdr
- * linear floats. An image with channels beside the colours goes into exr only (else
- * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all: it is written under another name in the same
- * folder, and then takes the place, the permissions and where possible the owner of a regular file that is
- * there (other hard links of which stay as they were). Symbolic links are followed. What is no regular file
- * (a device, a named pipe, /dev/fd/N) is written to as it is, and so is a regular file that may be written in
- * a folder that takes no other. A pipe whose reader has gone is CRT_ERROR_IO, without a signal.
+ * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr
+ * and hdr linear floats. An image with channels beside the colours goes into exr only (else
+ * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all: it is written under another name in
+ * the same folder, and then takes the place, the permissions and where possible the owner of a
+ * regular file that is there (other hard links of which stay as they were). Symbolic links are
+ * followed. What is no regular file (a device, a named pipe, /dev/fd/N) is written to as it is, and
+ * so is a regular file that may be written in a folder that takes no other. A pipe whose reader has
+ * gone is CRT_ERROR_IO, without a signal.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
 /** The same with options; NULL for the defaults. */
@@ -890,11 +942,14 @@ CRT_API const void* crt_buffer_data(const crt_buffer* buffer);
 /** How many bytes there are; 0 for NULL. */
 CRT_API size_t crt_buffer_size(const crt_buffer* buffer);
 
-/** What rendering it took; `stats->struct_size` must be set. All 0 for an image that was not rendered. */
+/** What rendering it took; `stats->struct_size` must be set. All 0 for an image that was not
+ * rendered. */
 CRT_API crt_status crt_image_stats(const crt_image* image, crt_render_stats* stats);
-/** The settings that it was rendered with; `settings->struct_size` must be set; texts belong to the image. */
+/** The settings that it was rendered with; `settings->struct_size` must be set; texts belong to the
+ * image. */
 CRT_API crt_status crt_image_settings(const crt_image* image, crt_settings* settings);
-/** The same pixels with other settings: gamma and show_clip act when it is written, the texts go into files.
+/** The same pixels with other settings: gamma and show_clip act when it is written, the texts go
+ * into files.
  */
 CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_settings* settings,
                                            crt_image** out);
@@ -904,21 +959,21 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
 /* ---- ray queries ---------------------------------------------------------------------------- */
 
 /** @defgroup queries Ray queries
- * What a program asks of the geometry without making a picture; the same crossings that pictures see.
- * Many rays are asked on several threads: what the calling TBB arena has. Threads: Shared.
+ * What a program asks of the geometry without making a picture; the same crossings that pictures
+ * see. Many rays are asked on several threads: what the calling TBB arena has. Threads: Shared.
  *
- * A surface at the start of a ray, for all four queries: with CRT_PRECISION_STANDARD it counts as behind the
- * ray unless it is ahead of t_min by more than rounding may be off there. Of a lone primitive that is at most
- * 32 u times the sum of its size and the largest coordinate of the start (u = 2^-53), measured across the
- * surface; a ray that is flat to it passes what is farther along it accordingly. So a ray from a point that
- * was computed to be on a surface does not meet that surface there again, and what is nearer than that is not
- * seen. What is behind the start is never told as ahead of it. With CRT_PRECISION_EXACT the origin is taken
- * for the point that its doubles say: a surface is met if t_min < t holds for the exact t, rounded to a
- * double, and not otherwise, so that a ray from a point which rounding has put just below a surface meets it
- * at once.
+ * A surface at the start of a ray, for all four queries: with CRT_PRECISION_STANDARD it counts as
+ * behind the ray unless it is ahead of t_min by more than rounding may be off there. Of a lone
+ * primitive that is at most 32 u times the sum of its size and the largest coordinate of the start
+ * (u = 2^-53), measured across the surface; a ray that is flat to it passes what is farther along
+ * it accordingly. So a ray from a point that was computed to be on a surface does not meet that
+ * surface there again, and what is nearer than that is not seen. What is behind the start is never
+ * told as ahead of it. With CRT_PRECISION_EXACT the origin is taken for the point that its doubles
+ * say: a surface is met if t_min < t holds for the exact t, rounded to a double, and not otherwise,
+ * so that a ray from a point which rounding has put just below a surface meets it at once.
  *
- * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one after the
- * other. Any alignment will do, and hits may take the place of their own rays.
+ * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one
+ * after the other. Any alignment will do, and hits may take the place of their own rays.
  *
  * @code{.c}
  * const crt_ray ray = {{0, 0, -5}, {0, 0, 1}, 0, INFINITY};
@@ -929,10 +984,10 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * @{ */
 
 /**
- * The points origin + t * direction with t_min < t < t_max. The direction may have any length but 0 (if its
- * components are more than 2^1022 apart, the smaller ones count for as many digits as doubles have at 2^-1022
- * of the largest). A hit whose place is beyond the largest double is none. t_min may be -INFINITY, t_max
- * INFINITY. The layout is fixed for ever: 64 bytes.
+ * The points origin + t * direction with t_min < t < t_max. The direction may have any length but 0
+ * (if its components are more than 2^1022 apart, the smaller ones count for as many digits as
+ * doubles have at 2^-1022 of the largest). A hit whose place is beyond the largest double is none.
+ * t_min may be -INFINITY, t_max INFINITY. The layout is fixed for ever: 64 bytes.
  */
 typedef struct crt_ray {
   double origin[3];
@@ -947,8 +1002,8 @@ enum {
   CRT_HIT_BACKFACE = 2  /**< the ray comes from the side that the normal points away from */
 };
 
-/** Where a ray meets a surface. A miss has t = INFINITY and 0 elsewhere. The layout is fixed for ever: 56
- * bytes. */
+/** Where a ray meets a surface. A miss has t = INFINITY and 0 elsewhere. The layout is fixed for
+ * ever: 56 bytes. */
 typedef struct crt_hit {
   double t;           /**< in units of |direction| */
   double normal[3];   /**< unit length, out of the solid; of a surface as its maker turned it */
@@ -957,33 +1012,35 @@ typedef struct crt_hit {
   uint32_t flags;     /**< CRT_HIT_* */
 } crt_hit;
 
-/** The nearest hit of each ray; what is at its start counts as is said above. In this and the other queries a
- * ray that would be tested against more than 4194304 things (see crt_render_options.max_ray_steps) is
- * CRT_ERROR_LIMIT. If any ray is wrong, none is asked, and the message names its index. */
-CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
-                                 crt_hit* hits, size_t hit_stride);
+/** The nearest hit of each ray; what is at its start counts as is said above. In this and the other
+ * queries a ray that would be tested against more than 4194304 things (see
+ * crt_render_options.max_ray_steps) is CRT_ERROR_LIMIT. If any ray is wrong, none is asked, and the
+ * message names its index. */
+CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                                 size_t count, crt_hit* hits, size_t hit_stride);
 /**
- * How far the nearest hit of each ray is, and of which entity: the same as crt_intersect() tells, also of
- * what is at its start, in less time, as nobody asks what the surface is like there. If any ray is wrong,
- * nothing is written, and the message names its index.
+ * How far the nearest hit of each ray is, and of which entity: the same as crt_intersect() tells,
+ * also of what is at its start, in less time, as nobody asks what the surface is like there. If any
+ * ray is wrong, nothing is written, and the message names its index.
  * @param distances   gets `count` numbers, in units of |direction|; INFINITY for a miss
  * @param entity_ids  gets as many, 0 for a miss; NULL if nobody asks
  */
-CRT_API crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
-                                 double* distances, uint32_t* entity_ids);
-/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes; what is at
- * its start counts as for crt_intersect(). If any ray is wrong, nothing is written, and the message names its
- * index. */
-CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
-                                uint8_t* occluded);
+CRT_API crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                                 size_t count, double* distances, uint32_t* entity_ids);
+/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes;
+ * what is at its start counts as for crt_intersect(). If any ray is wrong, nothing is written, and
+ * the message names its index. */
+CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                                size_t count, uint8_t* occluded);
 /**
- * Every crossing along a ray in order: of each entity, the solid intervals that CSG leaves. What is at its
- * start counts as for crt_intersect().
+ * Every crossing along a ray in order: of each entity, the solid intervals that CSG leaves. What is
+ * at its start counts as for crt_intersect().
  * @param hits      room for `capacity`; NULL if that is 0
- * @param count     gets how many there are, which may be more than `capacity`; only so many are written
+ * @param count     gets how many there are, which may be more than `capacity`; only so many are
+ * written
  */
-CRT_API crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hits, size_t capacity,
-                                 size_t* count);
+CRT_API crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hits,
+                                 size_t capacity, size_t* count);
 
 /** @} */
 

@@ -29,7 +29,8 @@ class Entity {
 
   /// The same for a primitive as it stands in the code: Sphere{...}.
   template <PrimitiveShape Shape>
-  Entity(Shape shape)  // NOLINT(google-explicit-constructor): Sphere{...} + Box{...} is to read as it does
+  Entity(Shape shape)  // NOLINT(google-explicit-constructor): Sphere{...} + Box{...} is to read as
+                       // it does
       : Entity(Primitive(std::move(shape))) {}
 
   /// Internal: takes a node of the tree.
@@ -46,7 +47,8 @@ class Entity {
   /// entity's place in Scene::entities. The outermost id holds.
   Entity with_id(std::uint32_t id) const;
 
-  /// Whether it has an inside: false if any part of it is a mere surface (Disc, Triangle, HalfPlane).
+  /// Whether it has an inside: false if any part of it is a mere surface (Disc, Triangle,
+  /// HalfPlane).
   bool is_solid() const;
 
   /// Whether there is nothing of it: see empty_entity().
@@ -79,17 +81,18 @@ Entity csg_intersection(std::span<const Entity> parts);
 /// `from` without any of the cutters (there may be none).
 Entity csg_difference(const Entity& from, std::span<const Entity> cutters);
 
-/// Nothing: the solid without a point, what is left of a sphere whose radius shrinks to 0. No ray meets it.
-/// Combined it is what the empty set is: `a + nothing` and `a - nothing` are `a`, `a ^ nothing` and
-/// `nothing - a` are nothing; moving it or giving it a material or an id changes nothing.
+/// Nothing: the solid without a point, what is left of a sphere whose radius shrinks to 0. No ray
+/// meets it. Combined it is what the empty set is: `a + nothing` and `a - nothing` are `a`, `a ^
+/// nothing` and `nothing - a` are nothing; moving it or giving it a material or an id changes
+/// nothing.
 Entity empty_entity();
 
 /// The corners of a triangle of a mesh, by their places in the list of positions.
 using TriangleIndices = std::array<std::uint32_t, 3>;
 
-/// A surface of many triangles with shared corners: a union of Triangle. Triangles without an area are left
-/// out; throws Error (invalid_argument) if that leaves none, for an index that is out of range, and as
-/// Triangle does.
+/// A surface of many triangles with shared corners: a union of Triangle. Triangles without an area
+/// are left out; throws Error (invalid_argument) if that leaves none, for an index that is out of
+/// range, and as Triangle does.
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles);
 
 }  // namespace crt

@@ -24,7 +24,8 @@ struct WriteOptions {
   bool colors_only = false;
 };
 
-/// Numbers that a picture has beside its colours, one a pixel: distances, a component of normals, ...
+/// Numbers that a picture has beside its colours, one a pixel: distances, a component of normals,
+/// ...
 struct ImageChannel {
   /// As EXR files call it: what comes before the last dot is the layer's name.
   std::string name;
@@ -32,8 +33,8 @@ struct ImageChannel {
   std::variant<std::vector<float>, std::vector<std::uint32_t>> values;
 };
 
-/// Values of a picture that are no finite numbers (NaN, infinities), as some image files have them. They
-/// count as 0.
+/// Values of a picture that are no finite numbers (NaN, infinities), as some image files have them.
+/// They count as 0.
 struct NotFiniteValues {
   std::string file{};        ///< that they were in; empty for pixels that were filled in by hand
   std::uint64_t pixels = 0;  ///< that have one or several; 0 if all is well
@@ -52,33 +53,37 @@ class Image {
  public:
   Image() = default;
 
-  /// A black, fully covered picture. Throws Error if a side is below 1 or there are over 2^27 pixels.
+  /// A black, fully covered picture. Throws Error if a side is below 1 or there are over 2^27
+  /// pixels.
   Image(int width, int height);
 
   /// Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file; its content tells which. Grey
   /// becomes RGB, of several pictures in a file the first is taken, and values that are not finite
-  /// become 0, of which not_finite() tells. Throws Error: io if it is missing, broken or larger than a
-  /// picture may be, unsupported if OpenImageIO cannot be loaded, out_of_memory.
+  /// become 0, of which not_finite() tells. Throws Error: io if it is missing, broken or larger
+  /// than a picture may be, unsupported if OpenImageIO cannot be loaded, out_of_memory.
   static Image read(const std::filesystem::path& path);
 
   /// The same from a file's content in memory; `name` is for messages.
   static Image decode(std::span<const std::byte> content, const std::string& name);
 
-  /// From 8-bit RGBA with straight alpha, as displays want it: 4 bytes a pixel, rows from the top, each
-  /// starting `row_stride` bytes after the one before (0: 4 * width). The bytes end with the last row.
-  /// The image is display_encoded(). Throws Error (invalid_argument) for a wrong size or number of bytes.
+  /// From 8-bit RGBA with straight alpha, as displays want it: 4 bytes a pixel, rows from the top,
+  /// each starting `row_stride` bytes after the one before (0: 4 * width). The bytes end with the
+  /// last row. The image is display_encoded(). Throws Error (invalid_argument) for a wrong size or
+  /// number of bytes.
   static Image from_rgba8(int width, int height, std::span<const std::uint8_t> rgba,
                           std::size_t row_stride = 0);
 
   /// Writes a file whose format its ending says: png, tif, jpg, bmp and ppm get 8-bit integers with
-  /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some pixel is
-  /// not fully covered; the others then show the picture in front of black. Only exr holds channels(). The
-  /// file is written as write_file() does (crt/file.hpp): no half file is ever seen, links are followed,
-  /// devices and pipes are written to as they are. Throws Error: io, unsupported (an unknown ending, one that
-  /// cannot hold channels(), or OpenImageIO cannot be loaded), invalid_argument (no pixels), out_of_memory.
+  /// Settings::gamma applied, exr and hdr linear floats. png, tif and exr get an alpha if some
+  /// pixel is not fully covered; the others then show the picture in front of black. Only exr holds
+  /// channels(). The file is written as write_file() does (crt/file.hpp): no half file is ever
+  /// seen, links are followed, devices and pipes are written to as they are. Throws Error: io,
+  /// unsupported (an unknown ending, one that cannot hold channels(), or OpenImageIO cannot be
+  /// loaded), invalid_argument (no pixels), out_of_memory.
   void write(const std::filesystem::path& path, const WriteOptions& options = {}) const;
 
-  /// The bytes of such a file; `format` is its ending: "png", "exr", ... Throws Error as write() does.
+  /// The bytes of such a file; `format` is its ending: "png", "exr", ... Throws Error as write()
+  /// does.
   std::vector<std::byte> encode(std::string_view format, const WriteOptions& options = {}) const;
 
   /// Pixels across.
@@ -109,8 +114,9 @@ class Image {
   std::span<float> channel(std::string_view name);
   /// The same of a channel of whole numbers, to change them.
   std::span<std::uint32_t> integer_channel(std::string_view name);
-  /// Replaces all channels. Throws Error (invalid_argument) for a name that is empty, taken (also by R, G, B
-  /// or A) or has a character that is not printable ASCII, and for a wrong number of numbers.
+  /// Replaces all channels. Throws Error (invalid_argument) for a name that is empty, taken (also
+  /// by R, G, B or A) or has a character that is not printable ASCII, and for a wrong number of
+  /// numbers.
   void set_channels(std::vector<ImageChannel> channels);
 
   /// The 8-bit RGBA bytes a file gets: clamp(c)^(1/gamma), rounded to nearest, alpha straight; with
@@ -124,9 +130,10 @@ class Image {
   /// Says so of pixels that were filled in by hand.
   void set_display_encoded(bool encoded) { display_encoded_ = encoded; }
 
-  /// What of the file that it was read from was not finite, and is 0 here. A render of a scene with such a
-  /// picture (or with one that was filled in by hand and has such values) warns through RenderOptions::log,
-  /// once a picture; a script's diagnostics do where the picture is named, and then the render does not.
+  /// What of the file that it was read from was not finite, and is 0 here. A render of a scene with
+  /// such a picture (or with one that was filled in by hand and has such values) warns through
+  /// RenderOptions::log, once a picture; a script's diagnostics do where the picture is named, and
+  /// then the render does not.
   const NotFiniteValues& not_finite() const { return not_finite_; }
   /// Replaces that: where the user has been told already, by {}.
   void set_not_finite(NotFiniteValues values) { not_finite_ = std::move(values); }

@@ -33,7 +33,8 @@ struct SpotLight {
   Color color = {1, 1, 1};
   /// The full angle of the cone in radians, in (0, 2 pi].
   double angle = std::numbers::pi / 3;
-  /// How far the light fades inwards from the cone's rim, in radians of the half angle, in [0, angle / 2].
+  /// How far the light fades inwards from the cone's rim, in radians of the half angle, in [0,
+  /// angle / 2].
   double penumbra = std::numbers::pi / 36;
   double falloff = 0;
   double ambient = 0;

@@ -11,12 +11,13 @@ namespace crt {
 
 /// What a surface is made of, and what light does with it. All factors are without unit.
 struct Material {
-  /// The colour of the surface: one everywhere, or a pattern. Channels at least 0 and at most 1e30; above 1
-  /// more light leaves than comes. Alpha in [0, 1].
+  /// The colour of the surface: one everywhere, or a pattern. Channels at least 0 and at most 1e30;
+  /// above 1 more light leaves than comes. Alpha in [0, 1].
   std::variant<Color, Pattern> color = grey(0.5);
   /// Share of light mirrored, in [0, 1].
   double reflectivity = 0;
-  /// Share of light let through, in [0, 1]; what of it is mirrored instead follows Fresnel's equations.
+  /// Share of light let through, in [0, 1]; what of it is mirrored instead follows Fresnel's
+  /// equations.
   double transparency = 0;
   /// Of the inside, relative to vacuum, in [0.01, 100]; 1 lets light through straight.
   double refractive_index = 1;
@@ -29,7 +30,8 @@ struct Material {
   double shininess = 3;
   /// Absorption inside the solid per scene unit and channel, >= 0 (Beer-Lambert).
   Color absorption = {0, 0, 0};
-  /// Tilts the normal as if the surface were raised by the luminance of this pattern times `bump_height`.
+  /// Tilts the normal as if the surface were raised by the luminance of this pattern times
+  /// `bump_height`.
   std::optional<Pattern> bump{};
   /// Height of the bumps in scene units.
   double bump_height = 0.1;

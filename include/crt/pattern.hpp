@@ -10,8 +10,8 @@
 namespace crt {
 
 // Patterns live in the space of the entity that wears them: they move, turn and stretch with it.
-// `scale` is the size of one period in scene units (> 0), `offset` moves the pattern. Colours are as those of
-// materials.
+// `scale` is the size of one period in scene units (> 0), `offset` moves the pattern. Colours are
+// as those of materials.
 
 /// A checkerboard of cubes whose edges are `scale` long.
 struct Checker {
@@ -70,8 +70,8 @@ struct Wood {
   Vec3 offset{0, 0, 0};
 };
 
-/// A picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v` times, bilinear;
-/// u = 0 is its left edge, v = 0 its lower one.
+/// A picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v` times,
+/// bilinear; u = 0 is its left edge, v = 0 its lower one.
 struct ImageMap {
   std::shared_ptr<const Image> image{};
   double repeat_u = 1;

@@ -18,8 +18,8 @@ struct Sphere {
   std::optional<SharedMaterial> material{};
 };
 
-/// An axis-parallel box between any two opposite corners, which must differ by at least 1e-100 in every
-/// coordinate. (u, v): across each face, in [0, 1].
+/// An axis-parallel box between any two opposite corners, which must differ by at least 1e-100 in
+/// every coordinate. (u, v): across each face, in [0, 1].
 struct Box {
   Vec3 corner_a{-1, -1, -1};
   Vec3 corner_b{1, 1, 1};
@@ -44,8 +44,8 @@ struct HalfPlane {
   std::optional<SharedMaterial> material{};
 };
 
-/// A solid cylinder between the centres of its two caps, at least 1e-100 apart. (u, v): angle about the axis
-/// and height on the side, both in [0, 1]; angle and distance from the axis on the caps.
+/// A solid cylinder between the centres of its two caps, at least 1e-100 apart. (u, v): angle about
+/// the axis and height on the side, both in [0, 1]; angle and distance from the axis on the caps.
 struct Cylinder {
   Vec3 from{0, 0, 0};
   Vec3 to{0, 1, 0};
@@ -53,9 +53,8 @@ struct Cylinder {
   std::optional<SharedMaterial> material{};
 };
 
-/// A solid cone or frustum: `radius` at `from`, `radius2` (0 or more: 0 is a point) at `to`, at least 1e-100
-/// from there.
-/// (u, v) as for the cylinder. Equal radii are legal.
+/// A solid cone or frustum: `radius` at `from`, `radius2` (0 or more: 0 is a point) at `to`, at
+/// least 1e-100 from there. (u, v) as for the cylinder. Equal radii are legal.
 struct Cone {
   Vec3 from{0, 0, 0};
   Vec3 to{0, 1, 0};
@@ -93,6 +92,7 @@ struct Triangle {
 };
 
 /// Every primitive there is. A new one is added here; nothing else lists them all.
-using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle>;
+using Primitive =
+    std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle>;
 
 }  // namespace crt

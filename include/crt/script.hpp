@@ -39,7 +39,8 @@ struct Diagnostic {
   std::vector<std::pair<std::string, SourcePlace>> calls{};
 };
 
-/// "scene.crt:3:5: error: ..." with the source line and a caret under it, then the calls; ends in a newline.
+/// "scene.crt:3:5: error: ..." with the source line and a caret under it, then the calls; ends in a
+/// newline.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
 /// A JSON array of objects: severity, code, message, file, line, column, length, source, calls.
@@ -47,14 +48,15 @@ std::string diagnostics_to_json(const std::vector<Diagnostic>& diagnostics);
 
 /// What a script may use up; passing one is an ordinary error (ErrorCode::limit) at its place.
 struct ScriptLimits {
-  std::uint64_t steps = 20'000'000;     ///< expressions evaluated; making an entity counts as 16 more
+  std::uint64_t steps = 20'000'000;  ///< expressions evaluated; making an entity counts as 16 more
   std::uint64_t entities = 10'000'000;  ///< made or put into the scene
   std::size_t call_depth = 256;         ///< macros within macros; at most 1000
   std::size_t list_length = 10'000'000;
   std::size_t string_bytes = 16 << 20;
-  std::size_t memory_bytes = std::size_t{2} << 30;  ///< about what all lists and strings hold together
-  std::size_t source_bytes = 64 << 20;              ///< of a script and its imports together
-  std::size_t errors = 20;                          ///< reported before giving up
+  std::size_t memory_bytes = std::size_t{2}
+                             << 30;     ///< about what all lists and strings hold together
+  std::size_t source_bytes = 64 << 20;  ///< of a script and its imports together
+  std::size_t errors = 20;              ///< reported before giving up
 };
 
 /// What a script may see and use; the defaults let it read files in its own directory alone.
@@ -71,13 +73,14 @@ struct ScriptOptions {
   std::vector<std::pair<std::string, std::string>> variables{};
   /// Attributes of Settings that win over the script's, as script expressions ("gamma", "2.2").
   std::vector<std::pair<std::string, std::string>> settings{};
-  /// 0: as the script's Settings say. 2015: the script is one of that year, see docs/compat.md; the scene's
-  /// Settings::compat then says so.
+  /// 0: as the script's Settings say. 2015: the script is one of that year, see docs/compat.md; the
+  /// scene's Settings::compat then says so.
   int compat = 0;
   ScriptLimits limits{};
   /// Gets what `print` prints, a line at a time without its end. From the calling thread.
   std::function<void(std::string_view)> print{};
-  /// Asked for each file (its resolved path) before the file system is; nothing means: read it from there.
+  /// Asked for each file (its resolved path) before the file system is; nothing means: read it from
+  /// there.
   std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file{};
   /// Asked every few thousand steps; returning false ends the script with ErrorCode::cancelled.
   std::function<bool()> go_on{};
@@ -91,8 +94,10 @@ struct ScriptResult {
 };
 
 /// Runs a script. `name` stands for it in messages and its directory is where its files are looked
-/// for. Never throws for what a script does, errors are in the result; what a callback throws comes out.
-ScriptResult run_script(std::string_view text, const std::string& name, const ScriptOptions& options = {});
+/// for. Never throws for what a script does, errors are in the result; what a callback throws comes
+/// out.
+ScriptResult run_script(std::string_view text, const std::string& name,
+                        const ScriptOptions& options = {});
 
 /// The same for a file; a missing one is a diagnostic with ErrorCode::io.
 ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOptions& options = {});

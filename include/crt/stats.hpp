@@ -5,8 +5,8 @@
 
 namespace crt {
 
-/// Bytes of memory that a prepared scene keeps, by what they are for. What it shares with the scene that it
-/// was made from (the entities themselves, pictures in linear light) is not counted.
+/// Bytes of memory that a prepared scene keeps, by what they are for. What it shares with the scene
+/// that it was made from (the entities themselves, pictures in linear light) is not counted.
 struct MemoryUse {
   std::uint64_t primitives = 0;  ///< each in its place, and which of their faces coincide
   std::uint64_t csg = 0;         ///< how they are combined, and a tree of boxes for each CSG object
@@ -35,8 +35,8 @@ struct RenderStats {
   std::uint64_t intersection_tests = 0;  ///< rays against primitives or CSG objects
   std::uint64_t interval_events = 0;     ///< crossings sorted and flipped inside CSG objects
 
-  /// How often Precision::exact had to go on from bounded rounding to exact arithmetic; 0 in the standard
-  /// one.
+  /// How often Precision::exact had to go on from bounded rounding to exact arithmetic; 0 in the
+  /// standard one.
   std::uint64_t escalations = 0;
 
   /// How often the solids around a point were looked up, and media entered or left.
@@ -50,22 +50,23 @@ struct RenderStats {
   std::uint64_t samples_min = 0;
   double samples_mean = 0;
   std::uint64_t samples_max = 0;
-  /// Passes that were rendered; 0 for the plain grid (no target error, no time budget). RenderOptions::passes
-  /// gives the same picture.
+  /// Passes that were rendered; 0 for the plain grid (no target error, no time budget).
+  /// RenderOptions::passes gives the same picture.
   int passes = 0;
-  /// Half of the width of the interval around a pixel that holds its true value in 95 of 100 cases: over all
-  /// pixels the root of the mean of its square, what 95 of 100 pixels are within, and the greatest. 0 for the
-  /// plain grid, which does not know.
+  /// Half of the width of the interval around a pixel that holds its true value in 95 of 100 cases:
+  /// over all pixels the root of the mean of its square, what 95 of 100 pixels are within, and the
+  /// greatest. 0 for the plain grid, which does not know.
   double half_width_rms = 0;
   double half_width_95 = 0;
   double half_width_max = 0;
   /// Pixels that have a greater half-width than the target error.
   std::uint64_t pixels_unresolved = 0;
-  /// What covers more than this share of a pixel has been seen there in 95 of 100 cases: 3 / samples_min.
+  /// What covers more than this share of a pixel has been seen there in 95 of 100 cases: 3 /
+  /// samples_min.
   double unseen_share = 0;
-  /// What cutting off paths (recursion depth, weight, number of rays) may have taken from a pixel: the weight
-  /// of the rays that were not traced, as if each had brought as much light as white or, if that is brighter,
-  /// as the brightest background; the mean of all pixels and the greatest.
+  /// What cutting off paths (recursion depth, weight, number of rays) may have taken from a pixel:
+  /// the weight of the rays that were not traced, as if each had brought as much light as white or,
+  /// if that is brighter, as the brightest background; the mean of all pixels and the greatest.
   double cutoff_mean = 0;
   double cutoff_max = 0;
 

@@ -19,7 +19,8 @@ struct Transform {
 /// Moves by `offset` (scene units).
 Transform translate(const Vec3& offset);
 
-/// Scales about the origin by the same factor in all directions; a negative one mirrors, 0 is an error.
+/// Scales about the origin by the same factor in all directions; a negative one mirrors, 0 is an
+/// error.
 Transform scale(double factor);
 
 /// Scales about the origin by a factor an axis; a negative one mirrors, 0 is an error.

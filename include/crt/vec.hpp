@@ -5,7 +5,8 @@
 
 namespace crt {
 
-/// A point, direction or extent: x to the right, y up, z into the screen (left-handed), in scene units.
+/// A point, direction or extent: x to the right, y up, z into the screen (left-handed), in scene
+/// units.
 using Vec3 = glm::dvec3;
 
 }  // namespace crt

@@ -20,7 +20,8 @@ crt_status create(crt_entity** out, const Make& make) {
 }
 
 /// The entities behind `count` handles.
-std::vector<Entity> to_entities(crt_entity* const* handles, std::size_t count, const char* argument) {
+std::vector<Entity> to_entities(crt_entity* const* handles, std::size_t count,
+                                const char* argument) {
   std::vector<Entity> entities;
   if (count == 0) return entities;
   require(handles, argument);
@@ -71,23 +72,26 @@ Entity to_mesh(const double* positions, std::size_t vertex_count, const std::uin
 using namespace crt::capi;
 
 crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out) {
-  return create(out, [&] { return crt::Sphere{.center = to_vec3(center, "center"), .radius = radius}; });
+  return create(out,
+                [&] { return crt::Sphere{.center = to_vec3(center, "center"), .radius = radius}; });
 }
 
 crt_status crt_box_create(const double corner_a[3], const double corner_b[3], crt_entity** out) {
   return create(out, [&] {
-    return crt::Box{.corner_a = to_vec3(corner_a, "corner_a"), .corner_b = to_vec3(corner_b, "corner_b")};
+    return crt::Box{.corner_a = to_vec3(corner_a, "corner_a"),
+                    .corner_b = to_vec3(corner_b, "corner_b")};
   });
 }
 
 crt_status crt_plane_create(const double normal[3], const double position[3], crt_entity** out) {
   return create(out, [&] {
-    return crt::Plane{.normal = to_vec3(normal, "normal"), .position = to_vec3(position, "position")};
+    return crt::Plane{.normal = to_vec3(normal, "normal"),
+                      .position = to_vec3(position, "position")};
   });
 }
 
-crt_status crt_half_plane_create(const double normal[3], const double position[3], const double direction[3],
-                                 crt_entity** out) {
+crt_status crt_half_plane_create(const double normal[3], const double position[3],
+                                 const double direction[3], crt_entity** out) {
   return create(out, [&] {
     return crt::HalfPlane{.normal = to_vec3(normal, "normal"),
                           .position = to_vec3(position, "position"),
@@ -95,7 +99,8 @@ crt_status crt_half_plane_create(const double normal[3], const double position[3
   });
 }
 
-crt_status crt_cylinder_create(const double from[3], const double to[3], double radius, crt_entity** out) {
+crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
+                               crt_entity** out) {
   return create(out, [&] {
     return crt::Cylinder{.from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius};
   });
@@ -104,13 +109,15 @@ crt_status crt_cylinder_create(const double from[3], const double to[3], double 
 crt_status crt_cone_create(const double from[3], const double to[3], double radius, double radius2,
                            crt_entity** out) {
   return create(out, [&] {
-    return crt::Cone{
-        .from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius, .radius2 = radius2};
+    return crt::Cone{.from = to_vec3(from, "from"),
+                     .to = to_vec3(to, "to"),
+                     .radius = radius,
+                     .radius2 = radius2};
   });
 }
 
-crt_status crt_torus_create(const double center[3], const double axis[3], double radius, double thickness,
-                            crt_entity** out) {
+crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
+                            double thickness, crt_entity** out) {
   return create(out, [&] {
     return crt::Torus{.center = to_vec3(center, "center"),
                       .axis = to_vec3(axis, "axis"),
@@ -119,16 +126,19 @@ crt_status crt_torus_create(const double center[3], const double axis[3], double
   });
 }
 
-crt_status crt_disc_create(const double center[3], const double normal[3], double radius, crt_entity** out) {
+crt_status crt_disc_create(const double center[3], const double normal[3], double radius,
+                           crt_entity** out) {
   return create(out, [&] {
     return crt::Disc{
         .center = to_vec3(center, "center"), .normal = to_vec3(normal, "normal"), .radius = radius};
   });
 }
 
-crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3], crt_entity** out) {
-  return create(
-      out, [&] { return crt::Triangle{.a = to_vec3(a, "a"), .b = to_vec3(b, "b"), .c = to_vec3(c, "c")}; });
+crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3],
+                               crt_entity** out) {
+  return create(out, [&] {
+    return crt::Triangle{.a = to_vec3(a, "a"), .b = to_vec3(b, "b"), .c = to_vec3(c, "c")};
+  });
 }
 
 crt_status crt_mesh_create(const double* positions, size_t vertex_count, const uint32_t* indices,
@@ -156,14 +166,16 @@ crt_status crt_difference_create(crt_entity* from, crt_entity* const* cutters, s
   });
 }
 
-crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12], crt_entity** out) {
+crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12],
+                                     crt_entity** out) {
   return create(out, [&] {
     require(entity, "entity");
     return entity->value.transformed(to_transform(affine));
   });
 }
 
-crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material, crt_entity** out) {
+crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material,
+                                    crt_entity** out) {
   return create(out, [&] {
     require(entity, "entity");
     return entity->value.with_material(to_material(material));

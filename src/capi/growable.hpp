@@ -1,6 +1,6 @@
-// Structs that grow from version to version. A program and the library may have been built with different
-// versions of a struct: `struct_size` says where the program's ends, and nothing beyond it is read or
-// written. A field that it cuts in two counts as not there.
+// Structs that grow from version to version. A program and the library may have been built with
+// different versions of a struct: `struct_size` says where the program's ends, and nothing beyond
+// it is read or written. A field that it cuts in two counts as not there.
 #pragma once
 
 #include <cstddef>
@@ -26,7 +26,8 @@ inline constexpr std::size_t largest_struct = 1 << 16;
 
 inline void require_struct_size(std::size_t size, const char* argument) {
   if (size == 0) reject(argument, "has a struct_size of 0: initialise it with its crt_*_init()");
-  if (size < size_field || size > largest_struct) reject(argument, "has a struct_size that cannot be");
+  if (size < size_field || size > largest_struct)
+    reject(argument, "has a struct_size that cannot be");
 }
 
 /// Up to where both sides know the struct.
@@ -67,8 +68,8 @@ Struct taken_or_default(const Struct* given, const char* argument) {
 template <class Struct>
 void fill_in(Struct* out, const char* argument, const Struct& values) {
   const std::size_t known = known_size<Struct>(given_size(out, argument));
-  std::memcpy(reinterpret_cast<char*>(out) + size_field, reinterpret_cast<const char*>(&values) + size_field,
-              known - size_field);
+  std::memcpy(reinterpret_cast<char*>(out) + size_field,
+              reinterpret_cast<const char*>(&values) + size_field, known - size_field);
 }
 
 /// What the crt_*_init functions do: the values, 0 for what only the caller knows, and the size.

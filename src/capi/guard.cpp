@@ -9,8 +9,8 @@ namespace crt::capi {
 
 namespace {
 
-/// What a thread is told of its last failure. Without a destructor, so that a thread which has met the
-/// library does not keep it from being unloaded.
+/// What a thread is told of its last failure. Without a destructor, so that a thread which has met
+/// the library does not keep it from being unloaded.
 struct LastFailure {
   std::array<char, 2048> message;
   int cancel_value;
@@ -29,7 +29,8 @@ void keep_message(const char* text) noexcept {
     length = message.size() - 1;
     constexpr unsigned char_mask = 0xc0;
     constexpr unsigned continuation = 0x80;
-    while (length > 0 && (static_cast<unsigned char>(text[length]) & char_mask) == continuation) --length;
+    while (length > 0 && (static_cast<unsigned char>(text[length]) & char_mask) == continuation)
+      --length;
   }
   std::memmove(message.data(), text, length);
   message[length] = 0;
@@ -95,7 +96,8 @@ void reject(const std::string& argument, const std::string& complaint) {
 using namespace crt::capi;
 
 uint32_t crt_version(void) {
-  return CRT_LIBRARY_VERSION_MAJOR << 16 | CRT_LIBRARY_VERSION_MINOR << 8 | CRT_LIBRARY_VERSION_PATCH;
+  return CRT_LIBRARY_VERSION_MAJOR << 16 | CRT_LIBRARY_VERSION_MINOR << 8 |
+         CRT_LIBRARY_VERSION_PATCH;
 }
 
 const char* crt_error_message(void) {

@@ -14,7 +14,8 @@ struct CancelledByCallback {
   int value;
 };
 
-/// Turns the exception that is being handled into a status, and keeps its message for crt_error_message().
+/// Turns the exception that is being handled into a status, and keeps its message for
+/// crt_error_message().
 crt_status status_of_exception() noexcept;
 
 /// The ABI's number for a kind of error.

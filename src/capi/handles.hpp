@@ -1,4 +1,5 @@
-// What is behind the handles of the C interface: a value of the C++ interface and a count of references.
+// What is behind the handles of the C interface: a value of the C++ interface and a count of
+// references.
 #pragma once
 
 #include <atomic>
@@ -30,7 +31,8 @@ Handle* retain(Handle* handle) noexcept {
 
 template <class Handle>
 void release(Handle* handle) noexcept {
-  if (handle != nullptr && handle->references.fetch_sub(1, std::memory_order_acq_rel) == 1) delete handle;
+  if (handle != nullptr && handle->references.fetch_sub(1, std::memory_order_acq_rel) == 1)
+    delete handle;
 }
 
 struct Release {
@@ -56,7 +58,8 @@ struct crt_entity : crt::capi::Counted {
 
 struct crt_image : crt::capi::Counted {
   explicit crt_image(std::shared_ptr<const crt::Image> new_value) : value(std::move(new_value)) {}
-  explicit crt_image(crt::Image image) : value(std::make_shared<const crt::Image>(std::move(image))) {}
+  explicit crt_image(crt::Image image)
+      : value(std::make_shared<const crt::Image>(std::move(image))) {}
   std::shared_ptr<const crt::Image> value;
 };
 

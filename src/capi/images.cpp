@@ -69,8 +69,8 @@ crt_status crt_image_create(uint32_t width, uint32_t height, const float* pixels
   });
 }
 
-crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* pixels, size_t row_stride,
-                                crt_image** out) {
+crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* pixels,
+                                size_t row_stride, crt_image** out) {
   return guarded([&] {
     require(pixels, "pixels");
     require(out, "out");
@@ -118,7 +118,8 @@ uint32_t crt_image_height(const crt_image* image) {
 
 const float* crt_image_pixels(const crt_image* image, size_t* row_stride) {
   if (image == nullptr) return nullptr;
-  if (row_stride != nullptr) *row_stride = static_cast<size_t>(image->value->width()) * 4 * sizeof(float);
+  if (row_stride != nullptr)
+    *row_stride = static_cast<size_t>(image->value->width()) * 4 * sizeof(float);
   return image->value->pixels().data();
 }
 
@@ -149,7 +150,8 @@ crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t ro
     const auto row_bytes = static_cast<std::size_t>(image->value->width()) * 4;
     const std::size_t stride = stride_or_default(row_stride, row_bytes, rows);
     const std::vector<std::uint8_t> bytes = image->value->to_rgba8();
-    for (std::size_t y = 0; y < rows; ++y) std::memcpy(pixels + y * stride, &bytes[y * row_bytes], row_bytes);
+    for (std::size_t y = 0; y < rows; ++y)
+      std::memcpy(pixels + y * stride, &bytes[y * row_bytes], row_bytes);
   });
 }
 
@@ -157,15 +159,16 @@ crt_status crt_image_write(const crt_image* image, const char* path) {
   return crt_image_write_with(image, path, nullptr);
 }
 
-crt_status crt_image_write_with(const crt_image* image, const char* path, const crt_write_options* options) {
+crt_status crt_image_write_with(const crt_image* image, const char* path,
+                                const crt_write_options* options) {
   return guarded([&] {
     require(image, "image");
     image->value->write(path_or_throw(path), to_options(options));
   });
 }
 
-crt_status crt_image_encode(const crt_image* image, const char* format, const crt_write_options* options,
-                            crt_buffer** out) {
+crt_status crt_image_encode(const crt_image* image, const char* format,
+                            const crt_write_options* options, crt_buffer** out) {
   return guarded([&] {
     require(image, "image");
     require(format, "format");
@@ -196,7 +199,8 @@ crt_status crt_image_settings(const crt_image* image, crt_settings* settings) {
   });
 }
 
-crt_status crt_image_with_settings(const crt_image* image, const crt_settings* settings, crt_image** out) {
+crt_status crt_image_with_settings(const crt_image* image, const crt_settings* settings,
+                                   crt_image** out) {
   return guarded([&] {
     require(image, "image");
     require(out, "out");

@@ -31,7 +31,8 @@ static_assert(offsetof(crt::Ray, origin) == offsetof(crt_ray, origin));
 static_assert(offsetof(crt::Ray, direction) == offsetof(crt_ray, direction));
 static_assert(offsetof(crt::Ray, t_min) == offsetof(crt_ray, t_min));
 static_assert(offsetof(crt::Ray, t_max) == offsetof(crt_ray, t_max));
-static_assert(sizeof(crt::PlainHit) == sizeof(crt_hit) && std::is_trivially_copyable_v<crt::PlainHit>);
+static_assert(sizeof(crt::PlainHit) == sizeof(crt_hit) &&
+              std::is_trivially_copyable_v<crt::PlainHit>);
 static_assert(std::is_standard_layout_v<crt::PlainHit>);
 static_assert(offsetof(crt::PlainHit, t) == offsetof(crt_hit, t));
 static_assert(offsetof(crt::PlainHit, normal) == offsetof(crt_hit, normal));
@@ -101,7 +102,8 @@ class Rays {
         ask(begin, std::span(reinterpret_cast<const Ray*>(places_[begin]), count));
         continue;
       }
-      for (std::size_t i = 0; i < count; ++i) std::memcpy(&copies[i], places_[begin + i], sizeof(Ray));
+      for (std::size_t i = 0; i < count; ++i)
+        std::memcpy(&copies[i], places_[begin + i], sizeof(Ray));
       ask(begin, std::span<const Ray>(copies).first(count));
     }
   }
@@ -122,15 +124,18 @@ class Rays {
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
-  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been looked at: its
-  /// answers must wait until this returns without having thrown. So nobody goes through all rays before.
+  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been looked
+  /// at: its answers must wait until this returns without having thrown. So nobody goes through all
+  /// rays before.
   template <class Ask>
   void answer(const PreparedScene& scene, const Ask& ask) const {
     try {
-      query_in_parallel(scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
-        for_pieces(first, last,
-                   [&](std::size_t begin, std::span<const Ray> rays) { ask(queries, begin, rays); });
-      });
+      query_in_parallel(
+          scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
+            for_pieces(first, last, [&](std::size_t begin, std::span<const Ray> rays) {
+              ask(queries, begin, rays);
+            });
+          });
     } catch (const Error&) {
       validate_all(scene);  // which of them is the first
       throw;
@@ -166,13 +171,13 @@ crt_hit to_hit(const Hit& hit) {
 
 using namespace crt::capi;
 
-crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
-                         crt_hit* hits, size_t hit_stride) {
+crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                         size_t count, crt_hit* hits, size_t hit_stride) {
   return guarded([&] {
     require(prepared, "prepared");
     const Rays questions(rays, ray_stride, count);
-    const Places<std::byte> answers(reinterpret_cast<std::byte*>(hits), hit_stride, sizeof(crt_hit), count,
-                                    "hits");
+    const Places<std::byte> answers(reinterpret_cast<std::byte*>(hits), hit_stride, sizeof(crt_hit),
+                                    count, "hits");
     questions.validate_all(prepared->value);
     crt::query_in_parallel(prepared->value, count,
                            [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
@@ -192,25 +197,27 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
   });
 }
 
-crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
-                         double* distances, uint32_t* entity_ids) {
+crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                         size_t count, double* distances, uint32_t* entity_ids) {
   return guarded([&] {
     require(prepared, "prepared");
     const Rays questions(rays, ray_stride, count);
     if (count > 0) require(distances, "distances");
     const auto t = std::make_unique_for_overwrite<double[]>(count);
-    const auto ids = std::make_unique_for_overwrite<std::uint32_t[]>(entity_ids != nullptr ? count : 0);
+    const auto ids =
+        std::make_unique_for_overwrite<std::uint32_t[]>(entity_ids != nullptr ? count : 0);
     questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
       const std::size_t asked_ids = entity_ids != nullptr ? piece.size() : 0;
-      queries.distances(piece, std::span(&t[begin], piece.size()), std::span(ids.get() + begin, asked_ids));
+      queries.distances(piece, std::span(&t[begin], piece.size()),
+                        std::span(ids.get() + begin, asked_ids));
     });
     std::copy_n(t.get(), count, distances);
     if (entity_ids != nullptr) std::copy_n(ids.get(), count, entity_ids);
   });
 }
 
-crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride, size_t count,
-                        uint8_t* occluded) {
+crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                        size_t count, uint8_t* occluded) {
   return guarded([&] {
     require(prepared, "prepared");
     const Rays questions(rays, ray_stride, count);
@@ -219,7 +226,8 @@ crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_
     questions.answer(prepared->value, [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
       queries.occluded(piece, std::span(&answers[begin], piece.size()));
     });
-    std::transform(answers.get(), answers.get() + count, occluded, [](bool hit) { return hit ? 1 : 0; });
+    std::transform(answers.get(), answers.get() + count, occluded,
+                   [](bool hit) { return hit ? 1 : 0; });
   });
 }
 

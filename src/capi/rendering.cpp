@@ -9,8 +9,8 @@ namespace crt::capi {
 namespace {
 
 Aovs to_aovs(std::uint32_t bits) {
-  constexpr std::uint32_t all_bits =
-      CRT_AOV_DEPTH | CRT_AOV_NORMAL | CRT_AOV_ID | CRT_AOV_ALBEDO | CRT_AOV_SAMPLES | CRT_AOV_ERROR;
+  constexpr std::uint32_t all_bits = CRT_AOV_DEPTH | CRT_AOV_NORMAL | CRT_AOV_ID | CRT_AOV_ALBEDO |
+                                     CRT_AOV_SAMPLES | CRT_AOV_ERROR;
   if ((bits & ~all_bits) != 0) reject("options->aovs", "has a bit that no CRT_AOV_* is");
   return {.depth = (bits & CRT_AOV_DEPTH) != 0,
           .normal = (bits & CRT_AOV_NORMAL) != 0,
@@ -24,7 +24,8 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   const auto given = taken_or_default(options, "options");
   RenderOptions result;
   result.threads = given.threads;
-  if (given.region_x != 0 || given.region_y != 0 || given.region_width != 0 || given.region_height != 0) {
+  if (given.region_x != 0 || given.region_y != 0 || given.region_width != 0 ||
+      given.region_height != 0) {
     result.region = Region{given.region_x, given.region_y, given.region_width, given.region_height};
   }
   if (given.seed != 0) result.seed = given.seed;
@@ -33,7 +34,8 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   result.max_ray_steps = given.max_ray_steps;
   if (given.checkpoint != nullptr) result.checkpoint = given.checkpoint;
   if (given.progress != nullptr) {
-    result.progress = [call = given.progress, user = given.progress_user, cancel_value](double fraction) {
+    result.progress = [call = given.progress, user = given.progress_user,
+                       cancel_value](double fraction) {
       const int answer = call(fraction, user);
       if (answer != 0) *cancel_value = answer;
       return answer == 0;
@@ -41,7 +43,8 @@ RenderOptions to_options(const crt_render_options* options, const CancelValue& c
   }
   if (given.log != nullptr) {
     result.log = [call = given.log, user = given.log_user](LogLevel level, std::string_view line) {
-      call(level == LogLevel::warning ? CRT_LOG_WARNING : CRT_LOG_INFO, std::string(line).c_str(), user);
+      call(level == LogLevel::warning ? CRT_LOG_WARNING : CRT_LOG_INFO, std::string(line).c_str(),
+           user);
     };
   }
   return result;
@@ -76,12 +79,14 @@ crt_status crt_render(crt_prepared* prepared, const crt_render_options* options,
   });
 }
 
-crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options, crt_job** out) {
+crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options,
+                            crt_job** out) {
   return guarded([&] {
     require(prepared, "prepared");
     require(out, "out");
     const CancelValue cancel_value = new_cancel_value();
-    *out = new crt_job(crt::RenderJob(prepared->value, to_options(options, cancel_value)), cancel_value);
+    *out = new crt_job(crt::RenderJob(prepared->value, to_options(options, cancel_value)),
+                       cancel_value);
   });
 }
 

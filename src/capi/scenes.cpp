@@ -157,7 +157,8 @@ crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out) {
   return crt_scene_prepare_with(scene, nullptr, out);
 }
 
-crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options, crt_prepared** out) {
+crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
+                                  crt_prepared** out) {
   std::atomic<int> cancel_value = 0;  // the callback may be called on another thread
   const crt_status status = guarded([&] {
     require(scene, "scene");

@@ -15,7 +15,8 @@ namespace crt::capi {
 
 namespace {
 
-std::span<const char* const> texts(const char* const* first, std::uint64_t count, const char* argument) {
+std::span<const char* const> texts(const char* const* first, std::uint64_t count,
+                                   const char* argument) {
   if (count == 0) return {};
   require(first, argument);
   const std::span all(first, static_cast<std::size_t>(count));
@@ -23,8 +24,10 @@ std::span<const char* const> texts(const char* const* first, std::uint64_t count
   return all;
 }
 
-std::vector<std::pair<std::string, std::string>> pairs(const char* const* names, const char* const* values,
-                                                       std::uint64_t count, const char* names_argument,
+std::vector<std::pair<std::string, std::string>> pairs(const char* const* names,
+                                                       const char* const* values,
+                                                       std::uint64_t count,
+                                                       const char* names_argument,
                                                        const char* values_argument) {
   const auto first = texts(names, count, names_argument);
   const auto second = texts(values, count, values_argument);
@@ -47,8 +50,9 @@ void take_callbacks(ScriptOptions& options, const crt_script_options& given) {
     };
   }
   if (given.open_file != nullptr) {
-    options.open_file = [call = given.open_file, user = given.open_file_user](
-                            const std::filesystem::path& path) -> std::optional<std::vector<std::byte>> {
+    options.open_file =
+        [call = given.open_file, user = given.open_file_user](
+            const std::filesystem::path& path) -> std::optional<std::vector<std::byte>> {
       crt_file_content content;
       const int answer = call(path.c_str(), &content, user);
       if (answer == CRT_FILE_NOT_GIVEN) return std::nullopt;
@@ -77,8 +81,8 @@ ScriptOptions to_options(const crt_script_options* options) {
   result.t = given.t;
   result.variables = pairs(given.variable_names, given.variable_values, given.variable_count,
                            "variable_names", "variable_values");
-  result.settings = pairs(given.setting_names, given.setting_values, given.setting_count, "setting_names",
-                          "setting_values");
+  result.settings = pairs(given.setting_names, given.setting_values, given.setting_count,
+                          "setting_names", "setting_values");
   take_limit(result.limits.steps, given.max_steps);
   take_limit(result.limits.entities, given.max_entities);
   take_limit(result.limits.call_depth, given.max_call_depth);
@@ -93,21 +97,23 @@ ScriptOptions to_options(const crt_script_options* options) {
   return result;
 }
 
-/// What kind of error a script has. That a value in it is out of range is no wrong argument of the C
-/// caller's.
+/// What kind of error a script has. That a value in it is out of range is no wrong argument of the
+/// C caller's.
 ErrorCode script_code(ErrorCode code) {
   return code == ErrorCode::invalid_argument ? ErrorCode::script : code;
 }
 
 /// The text of the error that decided what became of the script, on one line.
 Error error_of(const std::vector<Diagnostic>& diagnostics) {
-  const auto first = std::find_if(diagnostics.begin(), diagnostics.end(),
-                                  [](const Diagnostic& d) { return d.severity == Severity::error; });
+  const auto first = std::find_if(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
+    return d.severity == Severity::error;
+  });
   if (first == diagnostics.end()) return {ErrorCode::internal, "the script failed without a word"};
   const SourcePlace& place = first->place;
-  return {script_code(first->code), place.line == 0 ? fmt::format("{}: {}", place.file, first->message)
-                                                    : fmt::format("{}:{}:{}: {}", place.file, place.line,
-                                                                  place.column, first->message)};
+  return {script_code(first->code),
+          place.line == 0
+              ? fmt::format("{}: {}", place.file, first->message)
+              : fmt::format("{}:{}:{}: {}", place.file, place.line, place.column, first->message)};
 }
 
 /// Hands out the diagnostics, then the scene or the error.
@@ -148,7 +154,8 @@ crt_diagnostic_call defaults<crt_diagnostic_call>() {
 
 using namespace crt::capi;
 
-crt_diagnostics::crt_diagnostics(std::vector<crt::Diagnostic> new_list) : list(std::move(new_list)) {
+crt_diagnostics::crt_diagnostics(std::vector<crt::Diagnostic> new_list)
+    : list(std::move(new_list)) {
   for (const crt::Diagnostic& diagnostic : list) text += crt::format_diagnostic(diagnostic);
   json = crt::diagnostics_to_json(list);
 }
@@ -170,7 +177,8 @@ crt_status crt_scene_from_script(const char* text, size_t length, const char* na
     if (length > 0) require(text, "text");
     require(name, "name");
     require(out, "out");
-    const std::string_view script = length == 0 ? std::string_view() : std::string_view(text, length);
+    const std::string_view script =
+        length == 0 ? std::string_view() : std::string_view(text, length);
     hand_out(crt::run_script(script, name, to_options(options)), diagnostics, out);
   });
 }
@@ -188,11 +196,13 @@ size_t crt_diagnostics_count(const crt_diagnostics* diagnostics) {
   return diagnostics == nullptr ? 0 : diagnostics->list.size();
 }
 
-crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index, crt_diagnostic* diagnostic) {
+crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
+                               crt_diagnostic* diagnostic) {
   return guarded([&] {
     const crt::Diagnostic& source = diagnostic_at(diagnostics, index);
     crt_diagnostic values{};
-    values.severity = source.severity == crt::Severity::error ? CRT_SEVERITY_ERROR : CRT_SEVERITY_WARNING;
+    values.severity =
+        source.severity == crt::Severity::error ? CRT_SEVERITY_ERROR : CRT_SEVERITY_WARNING;
     values.status = to_status(script_code(source.code));
     values.line = source.place.line;
     values.column = source.place.column;
@@ -205,12 +215,13 @@ crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
   });
 }
 
-crt_status crt_diagnostics_get_call(const crt_diagnostics* diagnostics, size_t index, size_t call_index,
-                                    crt_diagnostic_call* call) {
+crt_status crt_diagnostics_get_call(const crt_diagnostics* diagnostics, size_t index,
+                                    size_t call_index, crt_diagnostic_call* call) {
   return guarded([&] {
     const crt::Diagnostic& source = diagnostic_at(diagnostics, index);
     if (call_index >= source.calls.size()) {
-      reject("call_index", fmt::format("is {}, but there are only {}", call_index, source.calls.size()));
+      reject("call_index",
+             fmt::format("is {}, but there are only {}", call_index, source.calls.size()));
     }
     const auto& [name, place] = source.calls[call_index];
     crt_diagnostic_call values{};

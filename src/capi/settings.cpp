@@ -63,21 +63,23 @@ Settings to_settings(const crt_settings* settings) {
   result.recursion_depth = given.recursion_depth;
   result.gamma = given.gamma;
   result.min_weight = given.min_weight;
-  result.falloff_model =
-      to_enum(given.falloff_model, FalloffModel::light, "settings.falloff_model", "crt_falloff_model");
+  result.falloff_model = to_enum(given.falloff_model, FalloffModel::light, "settings.falloff_model",
+                                 "crt_falloff_model");
   result.show_clip = given.show_clip != 0;
   result.seed = given.seed;
   result.title = text_or_empty(given.title);
   result.author = text_or_empty(given.author);
   result.date = text_or_empty(given.date);
   result.notes = text_or_empty(given.notes);
-  result.precision = to_enum(given.precision, Precision::exact, "settings.precision", "crt_precision");
+  result.precision =
+      to_enum(given.precision, Precision::exact, "settings.precision", "crt_precision");
   result.target_error = given.target_error;
   result.time_budget = given.time_budget;
   result.filter_width = given.filter_width;
   result.min_samples = given.min_samples;
   result.max_samples = given.max_samples;
-  result.filter = to_enum(given.filter, PixelFilter::blackman_harris, "settings.filter", "crt_pixel_filter");
+  result.filter =
+      to_enum(given.filter, PixelFilter::blackman_harris, "settings.filter", "crt_pixel_filter");
   result.compat = given.compat;
   return result;
 }

@@ -1,7 +1,8 @@
 // The growable structs of the interface: where their fields end, and their crt_*_init functions.
 #include "capi/structs.hpp"
 
-// A field missing here would be read and written with the next one; the test of the layout finds it.
+// A field missing here would be read and written with the next one; the test of the layout finds
+// it.
 #define CRT_END(Struct, field) (offsetof(Struct, field) + sizeof(decltype(Struct::field)))
 
 namespace crt::capi {
@@ -9,11 +10,11 @@ namespace crt::capi {
 template <>
 std::span<const std::size_t> field_ends<crt_pattern>() {
   using S = crt_pattern;
-  static constexpr std::array ends = {CRT_END(S, type),     CRT_END(S, color_a),  CRT_END(S, alpha_a),
-                                      CRT_END(S, color_b),  CRT_END(S, alpha_b),  CRT_END(S, direction),
-                                      CRT_END(S, offset),   CRT_END(S, scale),    CRT_END(S, turbulence),
-                                      CRT_END(S, octaves),  CRT_END(S, reserved), CRT_END(S, image),
-                                      CRT_END(S, repeat_u), CRT_END(S, repeat_v)};
+  static constexpr std::array ends = {
+      CRT_END(S, type),       CRT_END(S, color_a),   CRT_END(S, alpha_a),  CRT_END(S, color_b),
+      CRT_END(S, alpha_b),    CRT_END(S, direction), CRT_END(S, offset),   CRT_END(S, scale),
+      CRT_END(S, turbulence), CRT_END(S, octaves),   CRT_END(S, reserved), CRT_END(S, image),
+      CRT_END(S, repeat_u),   CRT_END(S, repeat_v)};
   return ends;
 }
 
@@ -41,19 +42,21 @@ std::span<const std::size_t> field_ends<crt_light>() {
 template <>
 std::span<const std::size_t> field_ends<crt_camera>() {
   using S = crt_camera;
-  static constexpr std::array ends = {
-      CRT_END(S, projection), CRT_END(S, position), CRT_END(S, pointing),       CRT_END(S, fov),
-      CRT_END(S, roll),       CRT_END(S, aperture), CRT_END(S, focal_distance), CRT_END(S, aperture_shape),
-      CRT_END(S, reserved)};
+  static constexpr std::array ends = {CRT_END(S, projection),     CRT_END(S, position),
+                                      CRT_END(S, pointing),       CRT_END(S, fov),
+                                      CRT_END(S, roll),           CRT_END(S, aperture),
+                                      CRT_END(S, focal_distance), CRT_END(S, aperture_shape),
+                                      CRT_END(S, reserved)};
   return ends;
 }
 
 template <>
 std::span<const std::size_t> field_ends<crt_background>() {
   using S = crt_background;
-  static constexpr std::array ends = {CRT_END(S, type),      CRT_END(S, color),         CRT_END(S, alpha),
-                                      CRT_END(S, horizon),   CRT_END(S, horizon_alpha), CRT_END(S, sky),
-                                      CRT_END(S, sky_alpha), CRT_END(S, image),         CRT_END(S, angle)};
+  static constexpr std::array ends = {
+      CRT_END(S, type),      CRT_END(S, color),         CRT_END(S, alpha),
+      CRT_END(S, horizon),   CRT_END(S, horizon_alpha), CRT_END(S, sky),
+      CRT_END(S, sky_alpha), CRT_END(S, image),         CRT_END(S, angle)};
   return ends;
 }
 
@@ -108,9 +111,10 @@ std::span<const std::size_t> field_ends<crt_script_options>() {
 template <>
 std::span<const std::size_t> field_ends<crt_diagnostic>() {
   using S = crt_diagnostic;
-  static constexpr std::array ends = {CRT_END(S, severity), CRT_END(S, status),      CRT_END(S, line),
-                                      CRT_END(S, column),   CRT_END(S, length),      CRT_END(S, message),
-                                      CRT_END(S, file),     CRT_END(S, source_line), CRT_END(S, call_count)};
+  static constexpr std::array ends = {
+      CRT_END(S, severity), CRT_END(S, status),      CRT_END(S, line),
+      CRT_END(S, column),   CRT_END(S, length),      CRT_END(S, message),
+      CRT_END(S, file),     CRT_END(S, source_line), CRT_END(S, call_count)};
   return ends;
 }
 
@@ -126,10 +130,11 @@ template <>
 std::span<const std::size_t> field_ends<crt_render_options>() {
   using S = crt_render_options;
   static constexpr std::array ends = {
-      CRT_END(S, threads),       CRT_END(S, region_x),     CRT_END(S, region_y), CRT_END(S, region_width),
-      CRT_END(S, region_height), CRT_END(S, seed),         CRT_END(S, progress), CRT_END(S, progress_user),
-      CRT_END(S, log),           CRT_END(S, log_user),     CRT_END(S, passes),   CRT_END(S, aovs),
-      CRT_END(S, checkpoint),    CRT_END(S, max_ray_steps)};
+      CRT_END(S, threads),      CRT_END(S, region_x),      CRT_END(S, region_y),
+      CRT_END(S, region_width), CRT_END(S, region_height), CRT_END(S, seed),
+      CRT_END(S, progress),     CRT_END(S, progress_user), CRT_END(S, log),
+      CRT_END(S, log_user),     CRT_END(S, passes),        CRT_END(S, aovs),
+      CRT_END(S, checkpoint),   CRT_END(S, max_ray_steps)};
   return ends;
 }
 

@@ -12,7 +12,8 @@
 
 namespace crt::capi {
 
-/// Three numbers from the caller, checked to be there; whether they are good is for the C++ interface to say.
+/// Three numbers from the caller, checked to be there; whether they are good is for the C++
+/// interface to say.
 Vec3 to_vec3(const double* numbers, const char* argument);
 
 /// Throws: the argument has a value that `list`, an enumeration of crt.h, has not.

@@ -1,5 +1,5 @@
-// Materials, lights, cameras and backgrounds from C to C++ and back. The defaults are those of the C++
-// structs: they are converted, never written down again.
+// Materials, lights, cameras and backgrounds from C to C++ and back. The defaults are those of the
+// C++ structs: they are converted, never written down again.
 #include <fmt/format.h>
 
 #include <type_traits>
@@ -101,7 +101,8 @@ Vec3 to_vec3(const double* numbers, const char* argument) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-// ---- patterns and materials -----------------------------------------------------------------------
+// ---- patterns and materials
+// -----------------------------------------------------------------------
 
 crt_pattern default_pattern(std::int32_t type) {
   crt_pattern out{};
@@ -184,7 +185,8 @@ Material to_material(const crt_material* material) {
   return result;
 }
 
-// ---- lights ---------------------------------------------------------------------------------------
+// ---- lights
+// ---------------------------------------------------------------------------------------
 
 namespace {
 
@@ -278,7 +280,8 @@ Light to_light(const crt_light* light) {
   }
 }
 
-// ---- cameras ----------------------------------------------------------------------------------------
+// ---- cameras
+// ----------------------------------------------------------------------------------------
 
 crt_camera to_c(const Camera& camera) {
   crt_camera out{};
@@ -310,15 +313,16 @@ Camera to_camera(const crt_camera* camera) {
           .pointing = to_vec3(given.pointing),
           .fov = given.fov,
           .roll = given.roll,
-          .projection =
-              to_enum(given.projection, Projection::orthographic, "camera.projection", "crt_projection"),
+          .projection = to_enum(given.projection, Projection::orthographic, "camera.projection",
+                                "crt_projection"),
           .aperture = given.aperture,
           .focal_distance = given.focal_distance,
-          .aperture_shape = to_enum(given.aperture_shape, ApertureShape::line, "camera.aperture_shape",
-                                    "crt_aperture_shape")};
+          .aperture_shape = to_enum(given.aperture_shape, ApertureShape::line,
+                                    "camera.aperture_shape", "crt_aperture_shape")};
 }
 
-// ---- backgrounds ------------------------------------------------------------------------------------
+// ---- backgrounds
+// ------------------------------------------------------------------------------------
 
 constexpr int panorama_type(PanoramaProjection projection) {
   return CRT_BACKGROUND_SPHERICAL + static_cast<int>(projection);

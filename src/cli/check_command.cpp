@@ -19,7 +19,8 @@ ExitCode run_check(const CheckRequest& request) {
       prepare(*result.scene);
       if (tells_verdict) reporter.print(fmt::format("{}: no errors\n", path.string()));
     } catch (const Error& error) {
-      reporter.add(error.code(), fmt::format("{}: {}", path.string(), error.what()), ExitCode::script);
+      reporter.add(error.code(), fmt::format("{}: {}", path.string(), error.what()),
+                   ExitCode::script);
     }
   }
   return reporter.finish();

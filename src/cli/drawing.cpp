@@ -53,8 +53,8 @@ double distance_to_line(const Place& place, const Place& from, const Place& to) 
   return distance(place, {from.x + inside * along.x, from.y + inside * along.y});
 }
 
-/// Puts ink on a picture: a pixel gets as much as its middle is inside of a shape, from 0 half a pixel
-/// outside to 1 half a pixel inside.
+/// Puts ink on a picture: a pixel gets as much as its middle is inside of a shape, from 0 half a
+/// pixel outside to 1 half a pixel inside.
 class Painter {
  public:
   Painter(Image& image, double scale) : image_(image), scale_(scale) {}
@@ -67,12 +67,14 @@ class Painter {
   }
 
   void disc(const Place& center, double radius, const Ink& ink) {
-    around(center, radius, ink, [&](const Place& place) { return radius - distance(place, center); });
+    around(center, radius, ink,
+           [&](const Place& place) { return radius - distance(place, center); });
   }
 
   void ring(const Place& center, double radius, const Ink& ink) {
-    around(center, radius + stroke_width, ink,
-           [&](const Place& place) { return stroke_width / 2 - std::abs(radius - distance(place, center)); });
+    around(center, radius + stroke_width, ink, [&](const Place& place) {
+      return stroke_width / 2 - std::abs(radius - distance(place, center));
+    });
   }
 
  private:
@@ -84,7 +86,9 @@ class Painter {
   /// `inside`: how far a place is inside.
   template <class Inside>
   void paint(const Place& low, const Place& high, const Ink& ink, const Inside& inside) {
-    const auto first = [&](double at) { return std::max(static_cast<int>(std::floor(scale_ * at)) - 1, 0); };
+    const auto first = [&](double at) {
+      return std::max(static_cast<int>(std::floor(scale_ * at)) - 1, 0);
+    };
     const auto last = [&](double at, int size) {
       return std::min(static_cast<int>(std::ceil(scale_ * at)) + 1, size - 1);
     };
@@ -102,7 +106,8 @@ class Painter {
     const Color before = image_.at(x, y);
     const auto mixed = [&](double old, int value) { return old + share * (value / full - old); };
     image_.set(x, y,
-               {mixed(before.r, ink.red), mixed(before.g, ink.green), mixed(before.b, ink.blue), before.a});
+               {mixed(before.r, ink.red), mixed(before.g, ink.green), mixed(before.b, ink.blue),
+                before.a});
   }
 
   Image& image_;
@@ -112,15 +117,18 @@ class Painter {
 }  // namespace
 
 void Drawing::curve(const std::vector<Place>& places, const Ink& ink, double width) {
-  shapes_.push_back({.kind = Kind::curve, .places = places, .ink = ink, .width = width, .text = {}});
+  shapes_.push_back(
+      {.kind = Kind::curve, .places = places, .ink = ink, .width = width, .text = {}});
 }
 
 void Drawing::disc(const Place& center, double radius, const Ink& ink) {
-  shapes_.push_back({.kind = Kind::disc, .places = {center}, .ink = ink, .width = radius, .text = {}});
+  shapes_.push_back(
+      {.kind = Kind::disc, .places = {center}, .ink = ink, .width = radius, .text = {}});
 }
 
 void Drawing::ring(const Place& center, double radius, const Ink& ink) {
-  shapes_.push_back({.kind = Kind::ring, .places = {center}, .ink = ink, .width = radius, .text = {}});
+  shapes_.push_back(
+      {.kind = Kind::ring, .places = {center}, .ink = ink, .width = radius, .text = {}});
 }
 
 void Drawing::text(const Place& place, const std::string& text, Anchor anchor, bool upwards) {
@@ -138,7 +146,8 @@ std::string Drawing::svg_of(const Shape& shape) const {
   switch (shape.kind) {
     case Kind::curve: {
       std::string places;
-      for (const Place& place : shape.places) places += fmt::format(" {:.1f},{:.1f}", place.x, place.y);
+      for (const Place& place : shape.places)
+        places += fmt::format(" {:.1f},{:.1f}", place.x, place.y);
       return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='{}'/>\n",
                          places.substr(1), color(shape.ink), shape.width);
     }
@@ -147,35 +156,39 @@ std::string Drawing::svg_of(const Shape& shape) const {
                          shape.width, color(shape.ink));
     case Kind::ring:
       return fmt::format(
-          "<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='none' stroke='{}' stroke-width='{}'/>\n", first.x,
-          first.y, shape.width, color(shape.ink), stroke_width);
+          "<circle cx='{:.1f}' cy='{:.1f}' r='{}' fill='none' stroke='{}' stroke-width='{}'/>\n",
+          first.x, first.y, shape.width, color(shape.ink), stroke_width);
     case Kind::text:
       break;
   }
   const std::string turn =
       shape.upwards ? fmt::format(" transform='rotate(-90 {:.1f} {:.1f})'", first.x, first.y) : "";
-  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' fill='{}'{}>{}</text>\n", first.x, first.y,
-                     name_of(shape.anchor), color(shape.ink), turn, escaped(shape.text));
+  return fmt::format("<text x='{:.1f}' y='{:.1f}' text-anchor='{}' fill='{}'{}>{}</text>\n",
+                     first.x, first.y, name_of(shape.anchor), color(shape.ink), turn,
+                     escaped(shape.text));
 }
 
 std::string Drawing::svg() const {
   std::string result = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{0}' height='{1}' viewBox='0 0 {0} {1}' "
-      "font-family='sans-serif' font-size='{2}'>\n<rect width='100%' height='100%' fill='white'/>\n",
+      "font-family='sans-serif' font-size='{2}'>\n<rect width='100%' height='100%' "
+      "fill='white'/>\n",
       width_, height_, font_size);
   for (const Shape& shape : shapes_) result += svg_of(shape);
   return result + "</svg>\n";
 }
 
 Image Drawing::picture(double scale) const {
-  Image image(static_cast<int>(std::lround(scale * width_)), static_cast<int>(std::lround(scale * height_)));
+  Image image(static_cast<int>(std::lround(scale * width_)),
+              static_cast<int>(std::lround(scale * height_)));
   for (int y = 0; y < image.height(); ++y) {
     for (int x = 0; x < image.width(); ++x) image.set(x, y, {1, 1, 1, 1});
   }
   image.set_display_encoded(true);
   Painter painter(image, scale);
   const auto draw_curve = [&](const std::vector<Place>& places, double width, const Ink& ink) {
-    for (std::size_t i = 1; i < places.size(); ++i) painter.line(places[i - 1], places[i], width, ink);
+    for (std::size_t i = 1; i < places.size(); ++i)
+      painter.line(places[i - 1], places[i], width, ink);
   };
   for (const Shape& shape : shapes_) {
     const Place& first = shape.places.front();

@@ -33,8 +33,10 @@ class Drawing {
   void curve(const std::vector<Place>& places, const Ink& ink, double width);
   void disc(const Place& center, double radius, const Ink& ink);
   void ring(const Place& center, double radius, const Ink& ink);
-  /// `place` is on the line that the text stands on. Printable ASCII shows in pictures; the rest as '?'.
-  void text(const Place& place, const std::string& text, Anchor anchor = Anchor::start, bool upwards = false);
+  /// `place` is on the line that the text stands on. Printable ASCII shows in pictures; the rest as
+  /// '?'.
+  void text(const Place& place, const std::string& text, Anchor anchor = Anchor::start,
+            bool upwards = false);
 
   std::string svg() const;
 

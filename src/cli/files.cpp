@@ -41,9 +41,11 @@ NumberPlace find_hashes(const std::string& name) {
 }
 
 /// A message about the file `name` as one about the file `better_name`.
-std::string with_name(std::string message, const std::string& name, const std::string& better_name) {
+std::string with_name(std::string message, const std::string& name,
+                      const std::string& better_name) {
   const std::size_t position = message.find(name);
-  return position == std::string::npos ? message : message.replace(position, name.size(), better_name);
+  return position == std::string::npos ? message
+                                       : message.replace(position, name.size(), better_name);
 }
 
 }  // namespace

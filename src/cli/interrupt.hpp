@@ -1,6 +1,6 @@
-// SIGINT and SIGTERM. While a picture is rendered the first one asks for an orderly end; the second,
-// or one at any other time, ends the process at once (no half-written file can be left: files are
-// written under another name and then renamed).
+// SIGINT and SIGTERM. While a picture is rendered the first one asks for an orderly end; the
+// second, or one at any other time, ends the process at once (no half-written file can be left:
+// files are written under another name and then renamed).
 #pragma once
 
 namespace crt::cli {

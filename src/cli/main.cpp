@@ -29,8 +29,10 @@ int main(int argc, char** argv) try {
   tell(stderr, "crt: error: not enough memory; try a smaller picture or a simpler scene\n");
   return static_cast<int>(ExitCode::internal);
 } catch (const std::exception& error) {
-  tell(stderr, fmt::format("crt: error: {}\n"
-                           "This should not happen: please report it with the script and the command line.\n",
-                           error.what()));
+  tell(stderr,
+       fmt::format(
+           "crt: error: {}\n"
+           "This should not happen: please report it with the script and the command line.\n",
+           error.what()));
   return static_cast<int>(ExitCode::internal);
 }

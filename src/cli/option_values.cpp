@@ -54,7 +54,8 @@ constexpr SettingOption all_settings[] = {
     {"recursiondepth", SettingKind::integer, "bounces followed after the camera's ray"},
     {"minweight", SettingKind::number, "rays that add less than this share are not followed"},
     {"falloffmodel", SettingKind::text, "distance that dims a light: path or light"},
-    {"showclip", SettingKind::flag, "marks pixels brighter than white in red; --showclip=false does not"},
+    {"showclip", SettingKind::flag,
+     "marks pixels brighter than white in red; --showclip=false does not"},
     {"seed", SettingKind::integer, "another seed, another noise"},
     {"precision", SettingKind::text, "standard, or exact: whether a line hits is always right"},
     {"projection", SettingKind::text, "pinhole, spherical, cylindrical or orthographic"},
@@ -149,7 +150,8 @@ Region parse_region(const std::string& text) {
     rest.remove_prefix(comma == std::string_view::npos ? rest.size() : comma + 1);
   }
   if (!fine || region.x < 0 || region.y < 0 || region.width < 1 || region.height < 1) {
-    throw WrongValue("--region", "X,Y,WIDTH,HEIGHT in pixels from the top left, such as 0,0,64,64", text);
+    throw WrongValue("--region", "X,Y,WIDTH,HEIGHT in pixels from the top left, such as 0,0,64,64",
+                     text);
   }
   return region;
 }
@@ -181,7 +183,8 @@ int parse_sample_count(const std::string& option, const std::string& text) {
 
 std::string all_aov_names() {
   std::string names;
-  for (const AovName& aov : aov_names) names += fmt::format("{}{}", names.empty() ? "" : ",", aov.name);
+  for (const AovName& aov : aov_names)
+    names += fmt::format("{}{}", names.empty() ? "" : ",", aov.name);
   return names;
 }
 

@@ -77,7 +77,9 @@ void add_settings(CLI::App& command, ScriptOptions& script) {
     const char* type = setting.kind == SettingKind::text      ? "TEXT"
                        : setting.kind == SettingKind::integer ? "N"
                                                               : "NUMBER";
-    command.add_option_function<std::string>(name, take, setting.help)->type_name(type)->group(group);
+    command.add_option_function<std::string>(name, take, setting.help)
+        ->type_name(type)
+        ->group(group);
   }
 }
 
@@ -86,7 +88,8 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
       .add_option_function<std::vector<std::string>>(
           "--set",
           [&request](const std::vector<std::string>& assignments) {
-            for (const std::string& assignment : assignments) take_variable(request.script, assignment);
+            for (const std::string& assignment : assignments)
+              take_variable(request.script, assignment);
           },
           "sets a variable of the script to an expression, whatever the script assigns to it")
       ->type_name("NAME=VALUE")
@@ -96,7 +99,8 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
       .add_option_function<std::string>(
           "--time",
           [&request](const std::string& value) {
-            if (!parse_finite(value, request.script.t)) throw WrongValue("--time", "a number", value);
+            if (!parse_finite(value, request.script.t))
+              throw WrongValue("--time", "a number", value);
           },
           "the value of t in the script")
       ->type_name("T");
@@ -135,8 +139,10 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
       .add_option_function<std::string>(
           "--diagnostics",
           [&request](const std::string& value) {
-            if (value != "text" && value != "json") throw WrongValue("--diagnostics", "text or json", value);
-            request.diagnostics = value == "json" ? DiagnosticsFormat::json : DiagnosticsFormat::text;
+            if (value != "text" && value != "json")
+              throw WrongValue("--diagnostics", "text or json", value);
+            request.diagnostics =
+                value == "json" ? DiagnosticsFormat::json : DiagnosticsFormat::text;
           },
           "how errors and warnings are told: as text, or all as one JSON array on standard error")
       ->type_name("text|json");
@@ -168,8 +174,10 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
   CLI::Option* frames =
       command
           .add_option_function<std::string>(
-              "--frames", [&request](const std::string& text) { request.frames = parse_frames(text); },
-              "renders a picture for each whole t in the range; ### in the output's name is the number")
+              "--frames",
+              [&request](const std::string& text) { request.frames = parse_frames(text); },
+              "renders a picture for each whole t in the range; ### in the output's name is the "
+              "number")
           ->type_name("A-B");
   frames->excludes(command.get_option("--time"));
   add_region(command, request.render.region, "renders only this part, as a picture of its size");
@@ -192,23 +200,26 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
               throw WrongValue("--max-ray-steps", "a whole number, 0 for the usual bound", value);
             }
           },
-          "things that one ray may be tested against before the render ends with an error (4194304)")
+          "things that one ray may be tested against before the render ends with an error "
+          "(4194304)")
       ->type_name("N");
   command
       .add_option_function<std::string>(
           "--max-primitives",
           [&request](const std::string& value) {
             if (!parse_whole(value, request.max_primitives)) {
-              throw WrongValue("--max-primitives", "a whole number, 0 for what memory is enough for", value);
+              throw WrongValue("--max-primitives",
+                               "a whole number, 0 for what memory is enough for", value);
             }
           },
-          "primitives that the scene may have before it ends with an error (what memory is enough for)")
+          "primitives that the scene may have before it ends with an error (what memory is enough "
+          "for)")
       ->type_name("N");
   command
-      .add_option(
-          "--checkpoint", request.render.checkpoint,
-          "with --targeterror, --timebudget or --passes: keeps what is done there, also when interrupted, "
-          "and goes on from it if it is there")
+      .add_option("--checkpoint", request.render.checkpoint,
+                  "with --targeterror, --timebudget or --passes: keeps what is done there, also "
+                  "when interrupted, "
+                  "and goes on from it if it is there")
       ->type_name("FILE")
       ->excludes(frames);
   command
@@ -222,15 +233,16 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
       ->expected(1)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   command
-      .add_option("--stats", request.stats, "writes what the rendering did as JSON; '-' is standard output")
+      .add_option("--stats", request.stats,
+                  "writes what the rendering did as JSON; '-' is standard output")
       ->type_name("FILE");
   command.add_flag("--reproducible", request.reproducible,
                    "leaves the render time out of the picture's file: same picture, same bytes");
   add_settings(command, request.script);
 }
 
-void add_positive(CLI::App& command, const std::string& name, const std::string& help, const char* type,
-                  const std::function<void(double)>& take) {
+void add_positive(CLI::App& command, const std::string& name, const std::string& help,
+                  const char* type, const std::function<void(double)>& take) {
   command
       .add_option_function<std::string>(
           name, [name, take](const std::string& text) { take(parse_positive(name, text)); }, help)
@@ -245,19 +257,22 @@ void add_trade_options(CLI::App& command, TradeRequest& request) {
                   "what is written, without the endings (default: the script's name and -trade)")
       ->type_name("NAME");
   add_script_options(command, request);
-  add_positive(command, "--budget", "asks for the most accurate setting within so many seconds a picture",
-               "SECONDS", [&](double value) { request.budget = value; });
-  add_positive(command, "--error", "asks for the fastest setting within so many 8-bit steps", "STEPS",
-               [&](double value) { request.error = value; });
+  add_positive(command, "--budget",
+               "asks for the most accurate setting within so many seconds a picture", "SECONDS",
+               [&](double value) { request.budget = value; });
+  add_positive(command, "--error", "asks for the fastest setting within so many 8-bit steps",
+               "STEPS", [&](double value) { request.error = value; });
   command.add_flag("--png", request.png, "writes the plot as a picture, too");
   add_region(command, request.region, "measures only this part of the picture");
-  add_positive(command, "--pixels", fmt::format("measures about so many pixels ({:.0f})", request.pixels),
-               "N", [&](double value) { request.pixels = value; });
+  add_positive(command, "--pixels",
+               fmt::format("measures about so many pixels ({:.0f})", request.pixels), "N",
+               [&](double value) { request.pixels = value; });
   add_positive(
       command, "--most-seconds",
-      fmt::format("leaves out settings that would take longer for these pixels, and ends each of the two "
-                  "reference renders then ({:.0f})",
-                  request.most_seconds),
+      fmt::format(
+          "leaves out settings that would take longer for these pixels, and ends each of the two "
+          "reference renders then ({:.0f})",
+          request.most_seconds),
       "SECONDS", [&](double value) { request.most_seconds = value; });
   command
       .add_option_function<std::string>(
@@ -265,13 +280,15 @@ void add_trade_options(CLI::App& command, TradeRequest& request) {
           [&request](const std::string& text) {
             request.reference_samples = parse_sample_count("--reference-samples", text);
           },
-          fmt::format("samples of a pixel of the references at most ({})", request.reference_samples))
+          fmt::format("samples of a pixel of the references at most ({})",
+                      request.reference_samples))
       ->type_name("N");
   add_threads(command, request.threads);
   add_settings(command, request.script);
 }
 
-ExitCode complain(const std::exception& error, const CLI::App& app, int argc, const char* const* argv) {
+ExitCode complain(const std::exception& error, const CLI::App& app, int argc,
+                  const char* const* argv) {
   std::string command = "crt";
   for (const CLI::App* chosen : app.get_subcommands()) command += " " + chosen->get_name();
   std::string message = error.what();
@@ -298,7 +315,8 @@ ExitCode show(const CLI::Success& request, const CLI::App& app) {
 }  // namespace
 
 Request parse_command_line(int argc, const char* const* argv) {
-  CLI::App app("Renders scenes written in the CRT language: analytic solids, combined by CSG.", "crt");
+  CLI::App app("Renders scenes written in the CRT language: analytic solids, combined by CSG.",
+               "crt");
   app.set_version_flag("--version", fmt::format("crt {}", version()));
   app.footer(std::string(main_footer));
   app.require_subcommand(1);
@@ -315,9 +333,11 @@ Request parse_command_line(int argc, const char* const* argv) {
   add_trade_options(*trade, trade_request);
 
   CheckRequest check_request;
-  CLI::App* check =
-      app.add_subcommand("check", "Runs scripts and tells their errors and warnings; renders nothing.");
-  check->add_option("scene", check_request.scenes, "the scripts")->required()->type_name("SCENE.crt");
+  CLI::App* check = app.add_subcommand(
+      "check", "Runs scripts and tells their errors and warnings; renders nothing.");
+  check->add_option("scene", check_request.scenes, "the scripts")
+      ->required()
+      ->type_name("SCENE.crt");
   add_script_options(*check, check_request);
 
   try {
@@ -340,8 +360,8 @@ Request parse_command_line(int argc, const char* const* argv) {
   }
   if (render_request.output.empty()) {
     const bool colors_only = render_request.render.aovs == Aovs{};
-    render_request.output =
-        std::filesystem::path(render_request.scene).replace_extension(colors_only ? ".png" : ".exr");
+    render_request.output = std::filesystem::path(render_request.scene)
+                                .replace_extension(colors_only ? ".png" : ".exr");
   }
   return render_request;
 }

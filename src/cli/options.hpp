@@ -1,5 +1,5 @@
-// What a command line of `crt` asks for. Parsing it is the business of options.cpp, the only source that
-// includes CLI11, and what values mean that of option_values.cpp.
+// What a command line of `crt` asks for. Parsing it is the business of options.cpp, the only source
+// that includes CLI11, and what values mean that of option_values.cpp.
 #pragma once
 
 #include <crt/render.hpp>

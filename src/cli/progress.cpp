@@ -24,7 +24,8 @@ constexpr milliseconds redraw_interval{100};
 /// Before this share is done, an estimate of the time left is worth nothing.
 constexpr double least_share_to_estimate = 0.02;
 constexpr std::string_view erase_line = "\r\033[K";
-/// What of a terminal's width the bar does not take: the name's ends, the percentage, the time left.
+/// What of a terminal's width the bar does not take: the name's ends, the percentage, the time
+/// left.
 constexpr int width_besides_bar = 32;
 constexpr int widest_bar = 40;
 
@@ -74,7 +75,8 @@ void Progress::draw_bar(double share, Clock::time_point now) {
   const int room = terminal_width() - width_besides_bar - static_cast<int>(name_.size());
   const int width = std::clamp(room, 0, widest_bar);
   const int filled = static_cast<int>(share * width);
-  const std::string bar = width == 0 ? "" : fmt::format(" [{:#<{}}{:.<{}}]", "", filled, "", width - filled);
+  const std::string bar =
+      width == 0 ? "" : fmt::format(" [{:#<{}}{:.<{}}]", "", filled, "", width - filled);
   tell(stderr, fmt::format("{}{}{} {:3.0f} %{}", erase_line, name_, bar, std::floor(100 * share),
                            time_left(share, now)));
 }

@@ -11,8 +11,8 @@ namespace crt::cli {
 
 enum class ProgressStyle { none, lines, bar };
 
-/// None if the user wants quiet or JSON; else a bar if standard error is a terminal that can redraw a line,
-/// or lines.
+/// None if the user wants quiet or JSON; else a bar if standard error is a terminal that can redraw
+/// a line, or lines.
 ProgressStyle progress_style(const CommonRequest& request);
 
 class Progress {

@@ -52,10 +52,11 @@ class RenderJob {
   bool accept_output() {
     std::error_code unlike;
     if (fs::equivalent(request_.scene, request_.output, unlike)) {
-      reporter_.add(ErrorCode::invalid_argument,
-                    fmt::format("the picture would overwrite its script '{}': name another file with -o",
-                                request_.scene.string()),
-                    ExitCode::usage);
+      reporter_.add(
+          ErrorCode::invalid_argument,
+          fmt::format("the picture would overwrite its script '{}': name another file with -o",
+                      request_.scene.string()),
+          ExitCode::usage);
       return false;
     }
     try {
@@ -100,10 +101,10 @@ class RenderJob {
     image.stats().write_seconds = write_watch.seconds();
 
     const RenderStats& stats = image.stats();
-    reporter_.note(
-        fmt::format("{}: {} x {} pixels, {} rays, {:.2f} s", output.string(), image.width(), image.height(),
-                    all_rays(stats),
-                    stats.parse_seconds + stats.prepare_seconds + stats.trace_seconds + stats.write_seconds));
+    reporter_.note(fmt::format(
+        "{}: {} x {} pixels, {} rays, {:.2f} s", output.string(), image.width(), image.height(),
+        all_rays(stats),
+        stats.parse_seconds + stats.prepare_seconds + stats.trace_seconds + stats.write_seconds));
     reports_.push_back({.script = request_.scene.string(),
                         .output = output.string(),
                         .frame = frame,
@@ -155,7 +156,8 @@ class RenderJob {
     const fs::path& checkpoint = request_.render.checkpoint;
     std::error_code ignored;
     if (checkpoint.empty() || !fs::exists(checkpoint, ignored)) return "";
-    return fmt::format("; the same command goes on from its --checkpoint '{}'", checkpoint.string());
+    return fmt::format("; the same command goes on from its --checkpoint '{}'",
+                       checkpoint.string());
   }
 
   void write_stats(const std::string& json) {

@@ -43,10 +43,13 @@ ExitCode graver(ExitCode a, ExitCode b) {
 
 void Reporter::add(const std::vector<Diagnostic>& diagnostics) {
   // The first error is the cause of some that follow: a name is unknown since its file is missing.
-  const auto first_error = std::find_if(diagnostics.begin(), diagnostics.end(),
-                                        [](const Diagnostic& it) { return it.severity == Severity::error; });
-  if (first_error != diagnostics.end()) exit_code_ = graver(exit_code_, exit_code_of(first_error->code));
-  for (const Diagnostic& diagnostic : diagnostics) add_one(diagnostic, format_diagnostic(diagnostic));
+  const auto first_error =
+      std::find_if(diagnostics.begin(), diagnostics.end(),
+                   [](const Diagnostic& it) { return it.severity == Severity::error; });
+  if (first_error != diagnostics.end())
+    exit_code_ = graver(exit_code_, exit_code_of(first_error->code));
+  for (const Diagnostic& diagnostic : diagnostics)
+    add_one(diagnostic, format_diagnostic(diagnostic));
 }
 
 void Reporter::add(ErrorCode code, const std::string& message, ExitCode exit_code) {
@@ -63,8 +66,8 @@ bool Reporter::accept_region(const Region& region, const Settings& settings) {
       region.width <= settings.width - region.x && region.height <= settings.height - region.y;
   if (inside) return true;
   add(ErrorCode::invalid_argument,
-      fmt::format("the region {},{},{},{} reaches beyond the picture, which has {} x {} pixels", region.x,
-                  region.y, region.width, region.height, settings.width, settings.height),
+      fmt::format("the region {},{},{},{} reaches beyond the picture, which has {} x {} pixels",
+                  region.x, region.y, region.width, region.height, settings.width, settings.height),
       ExitCode::usage);
   return false;
 }

@@ -12,7 +12,8 @@ namespace crt::cli {
 
 class Reporter {
  public:
-  explicit Reporter(const CommonRequest& request) : format_(request.diagnostics), quiet_(request.quiet) {}
+  explicit Reporter(const CommonRequest& request)
+      : format_(request.diagnostics), quiet_(request.quiet) {}
 
   /// What one run of a script gave. What was told before (for another frame) is not told again.
   void add(const std::vector<Diagnostic>& diagnostics);
@@ -30,8 +31,8 @@ class Reporter {
   /// Text on standard error. What cannot be told anywhere shows in the exit code alone.
   void say(const std::string& text);
 
-  /// Text on standard output. Where that does not take it an error is added, or nothing happens if the
-  /// caller has closed it and that is fine.
+  /// Text on standard output. Where that does not take it an error is added, or nothing happens if
+  /// the caller has closed it and that is fine.
   enum class IfClosed { is_fine, fails };
   void print(const std::string& text, IfClosed if_closed = IfClosed::is_fine);
 

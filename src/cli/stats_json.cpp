@@ -80,7 +80,8 @@ class ObjectWriter {
 
   /// `json` is well-formed JSON already.
   ObjectWriter& add_raw(std::string_view name, std::string_view json) {
-    text_ += fmt::format("{}\n{}  {}: {}", text_.empty() ? "" : ",", margin_, json_string(name), json);
+    text_ +=
+        fmt::format("{}\n{}  {}: {}", text_.empty() ? "" : ",", margin_, json_string(name), json);
     return *this;
   }
 
@@ -205,12 +206,14 @@ std::string counters_json(const RenderStats& stats, int level) {
 
 std::string report_json(const PictureReport& report, int level) {
   ObjectWriter object(level);
-  object.add("version", std::string(version())).add("script", report.script).add("output", report.output);
+  object.add("version", std::string(version()))
+      .add("script", report.script)
+      .add("output", report.output);
   if (report.frame) object.add("frame", *report.frame);
   if (report.region) {
     const Region& region = *report.region;
-    object.add_raw("region",
-                   fmt::format("[{}, {}, {}, {}]", region.x, region.y, region.width, region.height));
+    object.add_raw(
+        "region", fmt::format("[{}, {}, {}, {}]", region.x, region.y, region.width, region.height));
   }
   return object.add("pixels", report.stats.pixels)
       .add("threads", report.stats.threads)

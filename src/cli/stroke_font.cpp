@@ -7,9 +7,9 @@ namespace crt::cli {
 
 namespace {
 
-/// A letter on a grid of its own: the strokes are divided by '|', their corners by blanks. A corner is two
-/// digits, x to the right from 0 and y upwards: 2 is the line that letters stand on, 6 the height of small
-/// ones, 8 that of capitals.
+/// A letter on a grid of its own: the strokes are divided by '|', their corners by blanks. A corner
+/// is two digits, x to the right from 0 and y upwards: 2 is the line that letters stand on, 6 the
+/// height of small ones, 8 that of capitals.
 struct Glyph {
   char letter;
   int width;
@@ -121,8 +121,9 @@ constexpr double gap = 1.6;
 constexpr double grid_rows = 11;
 
 const Glyph& glyph_of(char letter) {
-  const auto* const found = std::find_if(std::begin(glyphs), std::end(glyphs),
-                                         [&](const Glyph& glyph) { return glyph.letter == letter; });
+  const auto* const found =
+      std::find_if(std::begin(glyphs), std::end(glyphs),
+                   [&](const Glyph& glyph) { return glyph.letter == letter; });
   return found == std::end(glyphs) ? glyph_of('?') : *found;
 }
 

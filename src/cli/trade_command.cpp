@@ -36,10 +36,11 @@ double pixels_of(const Region& region) {
   return double{1} * region.width * region.height;
 }
 
-/// Of the camera rays those that are for the part itself: adaptive rendering looks at its margin, too, which
-/// a whole picture has not got.
+/// Of the camera rays those that are for the part itself: adaptive rendering looks at its margin,
+/// too, which a whole picture has not got.
 double share_within(const RenderStats& stats) {
-  return stats.samples_mean * static_cast<double>(stats.pixels) / static_cast<double>(stats.camera_rays);
+  return stats.samples_mean * static_cast<double>(stats.pixels) /
+         static_cast<double>(stats.camera_rays);
 }
 
 /// About how many samples a pixel of a reference gets, for planning.
@@ -103,9 +104,10 @@ class Trade {
     if (report.rungs.empty()) {
       reporter_.add(
           ErrorCode::limit,
-          fmt::format("nothing is done within {} s: give it more by --most-seconds, or less to do by "
-                      "--pixels, --region or --width and --height",
-                      request_.most_seconds),
+          fmt::format(
+              "nothing is done within {} s: give it more by --most-seconds, or less to do by "
+              "--pixels, --region or --width and --height",
+              request_.most_seconds),
           ExitCode::usage);
       return;
     }
@@ -147,8 +149,8 @@ class Trade {
     const std::vector<Image> reference = render_reference(report);
     std::set<Family> too_slow;
     for (const Rung& rung : ladder) {
-      const bool is_hopeless =
-          too_slow.contains(rung.family) || rung.expected_samples * probe.seconds > 2 * request_.most_seconds;
+      const bool is_hopeless = too_slow.contains(rung.family) ||
+                               rung.expected_samples * probe.seconds > 2 * request_.most_seconds;
       const std::optional<RenderedParts> rendered = is_hopeless ? std::nullopt : render_often(rung);
       if (rendered) {
         report.rungs.push_back({.family = rung.family,
@@ -175,12 +177,13 @@ class Trade {
     for (const Rung& rung : ladder) expected_work_ += rung.expected_samples;
   }
 
-  /// The mean of two renders that have no random number in common, with each other or with the ladder.
+  /// The mean of two renders that have no random number in common, with each other or with the
+  /// ladder.
   std::vector<Image> render_reference(TradeReport& report) {
     std::vector<RenderedParts> renders;
     for (const std::uint64_t further : {std::uint64_t{1}, std::uint64_t{2}}) {
-      Settings settings =
-          reference_settings(scene_.settings, request_.reference_samples, scene_.settings.seed + further);
+      Settings settings = reference_settings(scene_.settings, request_.reference_samples,
+                                             scene_.settings.seed + further);
       settings.time_budget = request_.most_seconds;
       report.reference_depth = settings.recursion_depth;
       work_of_this_ = expected_reference_samples;
@@ -201,7 +204,8 @@ class Trade {
     return means;
   }
 
-  /// What is over soon is rendered again: the fastest counts, as the machine may have had other things to do.
+  /// What is over soon is rendered again: the fastest counts, as the machine may have had other
+  /// things to do.
   std::optional<RenderedParts> render_often(const Rung& rung) {
     constexpr int most_renders = 3;
     const double long_enough = request_.most_seconds / 4;
@@ -254,10 +258,12 @@ class Trade {
     return result;
   }
 
-  Image render_part(const PreparedScene& prepared, const Region& part, double share_before, double share) {
+  Image render_part(const PreparedScene& prepared, const Region& part, double share_before,
+                    double share) {
     RenderOptions options{.region = part, .threads = request_.threads};
     options.progress = [&](double done) {
-      progress_->update((work_done_ + (share_before + share * done) * work_of_this_) / expected_work_);
+      progress_->update((work_done_ + (share_before + share * done) * work_of_this_) /
+                        expected_work_);
       return !interrupt_->interrupted() && !(deadline_ && Clock::now() > *deadline_);
     };
     try {

@@ -52,10 +52,11 @@ Settings with_target(Settings settings, double steps) {
 void add_grids(const Scene& scene, std::vector<Rung>& ladder) {
   const bool lens = scene.camera.aperture > 0 && scene.settings.dof_samples > 1;
   const auto add = [&](const GridRung& grid) {
-    Rung rung{.family = Family::grid,
-              .options = fmt::format("--supersampling {}", grid.supersampling),
-              .settings = with_target(scene.settings, 0),
-              .expected_samples = double(grid.supersampling) * grid.supersampling * grid.dof_samples};
+    Rung rung{
+        .family = Family::grid,
+        .options = fmt::format("--supersampling {}", grid.supersampling),
+        .settings = with_target(scene.settings, 0),
+        .expected_samples = double(grid.supersampling) * grid.supersampling * grid.dof_samples};
     rung.settings.supersampling = grid.supersampling;
     if (lens) {
       rung.settings.dof_samples = grid.dof_samples;
@@ -90,11 +91,14 @@ std::string name_of(Family family) {
 
 std::vector<Rung> ladder_of(const Scene& scene, bool with_depths) {
   const Settings& given = scene.settings;
-  const double given_samples = given.target_error > 0 || given.time_budget > 0
-                                   ? target_of_others.expected_samples
-                                   : double(given.supersampling) * given.supersampling * given.dof_samples;
-  std::vector<Rung> ladder = {
-      {.family = Family::as_given, .options = "", .settings = given, .expected_samples = given_samples}};
+  const double given_samples =
+      given.target_error > 0 || given.time_budget > 0
+          ? target_of_others.expected_samples
+          : double(given.supersampling) * given.supersampling * given.dof_samples;
+  std::vector<Rung> ladder = {{.family = Family::as_given,
+                               .options = "",
+                               .settings = given,
+                               .expected_samples = given_samples}};
   add_grids(scene, ladder);
   for (const TargetRung& target : targets) {
     ladder.push_back({.family = Family::target,
@@ -105,7 +109,8 @@ std::vector<Rung> ladder_of(const Scene& scene, bool with_depths) {
   for (const int depth : depths) {
     if (!with_depths) break;
     Rung rung{.family = Family::depth,
-              .options = fmt::format("{} --recursiondepth {}", target_option(target_of_others.steps), depth),
+              .options = fmt::format("{} --recursiondepth {}",
+                                     target_option(target_of_others.steps), depth),
               .settings = with_target(given, target_of_others.steps),
               .expected_samples = target_of_others.expected_samples};
     rung.settings.recursion_depth = depth;

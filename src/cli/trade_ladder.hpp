@@ -27,12 +27,12 @@ struct Rung {
   double expected_samples = 1;
 };
 
-/// The ladder of a scene, each family from the fastest to the slowest. Depths are tried if the cut-off does
-/// anything.
+/// The ladder of a scene, each family from the fastest to the slowest. Depths are tried if the
+/// cut-off does anything.
 std::vector<Rung> ladder_of(const Scene& scene, bool with_depths);
 
-/// What the reference is rendered with: as many samples as it takes up to `most_samples`, paths followed much
-/// further, hits that are right.
+/// What the reference is rendered with: as many samples as it takes up to `most_samples`, paths
+/// followed much further, hits that are right.
 Settings reference_settings(const Settings& settings, int most_samples, std::uint64_t seed);
 
 }  // namespace crt::cli

@@ -30,7 +30,8 @@ bool is_no_worse(const Outcome& a, const Outcome& b) {
 
 }  // namespace
 
-PictureError displayed_difference(std::span<const Image> pictures, std::span<const Image> references) {
+PictureError displayed_difference(std::span<const Image> pictures,
+                                  std::span<const Image> references) {
   double squares = 0;
   std::vector<double> worst_channels;
   for (std::size_t piece = 0; piece < pictures.size(); ++piece) {
@@ -40,7 +41,8 @@ PictureError displayed_difference(std::span<const Image> pictures, std::span<con
     for (std::size_t pixel = 0; pixel < a.size(); pixel += 4) {
       double worst = 0;
       for (std::size_t i = pixel; i < pixel + 3; ++i) {
-        const double steps = steps_of_8_bits * std::abs(shown(a[i], exponent) - shown(b[i], exponent));
+        const double steps =
+            steps_of_8_bits * std::abs(shown(a[i], exponent) - shown(b[i], exponent));
         squares += steps * steps;
         worst = std::max(worst, steps);
       }
@@ -69,7 +71,8 @@ std::vector<Region> bands_of(int width, int height, double pixels) {
   const double rows = std::ceil(pixels / width);
   if (rows >= height) return {{0, 0, width, height}};
   const int count = static_cast<int>(std::max(std::floor(rows / least_band_height), 1.0));
-  const int band_height = static_cast<int>(std::max(std::ceil(rows / count), double{least_band_height}));
+  const int band_height =
+      static_cast<int>(std::max(std::ceil(rows / count), double{least_band_height}));
   if (count * band_height >= height) return {{0, 0, width, height}};
   std::vector<Region> bands;
   for (int i = 0; i < count; ++i) {
@@ -91,7 +94,8 @@ std::vector<std::size_t> pareto_front(std::span<const Outcome> outcomes) {
   });
   std::vector<std::size_t> front;
   for (const std::size_t next : order) {
-    if (front.empty() || !is_no_worse(outcomes[front.back()], outcomes[next])) front.push_back(next);
+    if (front.empty() || !is_no_worse(outcomes[front.back()], outcomes[next]))
+      front.push_back(next);
   }
   return front;
 }

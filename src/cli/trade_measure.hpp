@@ -1,5 +1,5 @@
-// What `crt trade` measures: how far a picture is from another as a viewer sees them, which part of a picture
-// stands for the whole, and which of several settings are worth their time.
+// What `crt trade` measures: how far a picture is from another as a viewer sees them, which part of
+// a picture stands for the whole, and which of several settings are worth their time.
 #pragma once
 
 #include <crt/image.hpp>
@@ -17,19 +17,20 @@ struct PictureError {
   double p999 = 0;  ///< 99.9 % of the pixels have no channel that is farther off
 };
 
-/// How far two pictures of one size are apart, as displays show them: clamped to 0..1, after gamma, in front
-/// of black.
+/// How far two pictures of one size are apart, as displays show them: clamped to 0..1, after gamma,
+/// in front of black.
 PictureError displayed_difference(const Image& picture, const Image& reference);
 
 /// The same of pictures in several pieces.
-PictureError displayed_difference(std::span<const Image> pictures, std::span<const Image> references);
+PictureError displayed_difference(std::span<const Image> pictures,
+                                  std::span<const Image> references);
 
 /// The mean of two pictures of one size, in linear light.
 Image mean_of(const Image& a, const Image& b);
 
-/// Parts of a picture as wide as it is that together have about as many pixels as asked for, spread evenly
-/// from top to bottom; all of it if that is not more. None is lower than least_band_height: adaptive
-/// rendering pays for a margin around each.
+/// Parts of a picture as wide as it is that together have about as many pixels as asked for, spread
+/// evenly from top to bottom; all of it if that is not more. None is lower than least_band_height:
+/// adaptive rendering pays for a margin around each.
 std::vector<Region> bands_of(int width, int height, double pixels);
 inline constexpr int least_band_height = 16;
 

@@ -45,7 +45,8 @@ Decades decades_of(const std::vector<double>& values) {
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
   Decades decades;
   decades.low = static_cast<int>(std::floor(std::log10(std::max(*low, least))));
-  decades.high = std::max(static_cast<int>(std::ceil(std::log10(std::max(*high, least)))), decades.low + 1);
+  decades.high =
+      std::max(static_cast<int>(std::ceil(std::log10(std::max(*high, least)))), decades.low + 1);
   return decades;
 }
 
@@ -59,7 +60,8 @@ class Panel {
   static constexpr double width = 390;
   static constexpr double height = 330;
 
-  Panel(const TradeReport& report, double PictureError::*measure, const Place& corner, Drawing& drawing)
+  Panel(const TradeReport& report, double PictureError::*measure, const Place& corner,
+        Drawing& drawing)
       : report_(report), measure_(measure), corner_(corner), drawing_(drawing) {
     std::vector<double> seconds;
     std::vector<double> errors = {report.uncertainty.*measure};
@@ -104,10 +106,11 @@ class Panel {
       drawing_.line(foot, {corner_.x + right, foot.y}, grid_ink);
       drawing_.text({foot.x - 6, foot.y + 4}, power_of_ten(power), Anchor::end);
     }
-    drawing_.curve({corner(left, top), corner(right, top), corner(right, bottom), corner(left, bottom),
-                    corner(left, top)},
+    drawing_.curve({corner(left, top), corner(right, top), corner(right, bottom),
+                    corner(left, bottom), corner(left, top)},
                    frame_ink, 1);
-    drawing_.text(corner((left + right) / 2, bottom + 34), "seconds, whole picture", Anchor::middle);
+    drawing_.text(corner((left + right) / 2, bottom + 34), "seconds, whole picture",
+                  Anchor::middle);
     drawing_.text(corner(14, (top + bottom) / 2), "error, steps of 8 bits", Anchor::middle, true);
   }
 
@@ -116,7 +119,8 @@ class Panel {
     const double y = at(0, report_.uncertainty.*measure_).y;
     constexpr double dash = 6;
     for (double x = left; x < right; x += 2 * dash) {
-      drawing_.line({corner_.x + x, y}, {corner_.x + std::min(x + dash, right), y}, uncertain_ink, 1.5);
+      drawing_.line({corner_.x + x, y}, {corner_.x + std::min(x + dash, right), y}, uncertain_ink,
+                    1.5);
     }
   }
 
@@ -159,17 +163,21 @@ void draw_legend(const TradeReport& report, const Place& corner, Drawing& drawin
     x += dot_to_text + letter * static_cast<double>(name.size()) + 18;
   };
   for (const FamilyInk& family : family_inks) {
-    const bool is_there = std::any_of(report.rungs.begin(), report.rungs.end(),
-                                      [&](const MeasuredRung& rung) { return rung.family == family.family; });
+    const bool is_there =
+        std::any_of(report.rungs.begin(), report.rungs.end(),
+                    [&](const MeasuredRung& rung) { return rung.family == family.family; });
     if (!is_there) continue;
-    put(name_of(family.family), [&](const Place& place) { drawing.disc(place, dot_radius, family.ink); });
+    put(name_of(family.family),
+        [&](const Place& place) { drawing.disc(place, dot_radius, family.ink); });
   }
   x = corner.x;
   y += line_height;
-  put("nothing is faster and better", [&](const Place& place) { drawing.ring(place, 5, best_ink); });
-  put("error of the reference itself: below twice this all count as equal", [&](const Place& place) {
-    drawing.line({place.x - 5, place.y}, {place.x + 5, place.y}, uncertain_ink, 1.5);
-  });
+  put("nothing is faster and better",
+      [&](const Place& place) { drawing.ring(place, 5, best_ink); });
+  put("error of the reference itself: below twice this all count as equal",
+      [&](const Place& place) {
+        drawing.line({place.x - 5, place.y}, {place.x + 5, place.y}, uncertain_ink, 1.5);
+      });
 }
 
 }  // namespace
@@ -180,7 +188,8 @@ Drawing report_plot(const TradeReport& report) {
   const std::string scene = std::filesystem::path(report.scene).filename().string();
   const std::string size = fmt::format("{}, {} x {}", scene, report.width, report.height);
   Panel(report, &PictureError::rmse, {0, 0}, drawing).draw(size + ": RMSE");
-  Panel(report, &PictureError::p999, {Panel::width, 0}, drawing).draw(size + ": 99.9 % of the pixels");
+  Panel(report, &PictureError::p999, {Panel::width, 0}, drawing)
+      .draw(size + ": 99.9 % of the pixels");
   draw_legend(report, {58, Panel::height + 10}, drawing);
   return drawing;
 }

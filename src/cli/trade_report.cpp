@@ -18,23 +18,27 @@ std::string shown_options(const MeasuredRung& rung) {
 
 std::string text_of_reference(const TradeReport& report) {
   std::string text = fmt::format(
-      "Measured: {} of {} pixels, {}, on {} thread{}; seconds are those of tracing the whole picture.\n",
+      "Measured: {} of {} pixels, {}, on {} thread{}; seconds are those of tracing the whole "
+      "picture.\n",
       report.measured_pixels, std::size_t(report.width) * std::size_t(report.height),
       report.parts == 1 ? "in one piece" : fmt::format("in {} bands", report.parts), report.threads,
       report.threads == 1 ? "" : "s");
   text += fmt::format(
-      "Reference: the mean of two renders with other seeds, exact, {:.0f} samples a pixel in the mean and up "
+      "Reference: the mean of two renders with other seeds, exact, {:.0f} samples a pixel in the "
+      "mean and up "
       "to {}, "
       "recursion depth {}.\n",
       report.reference_samples, report.reference_most_samples, report.reference_depth);
   text += fmt::format(
-      "They differ so much that the reference is uncertain by {:.3f} (RMSE) and {:.2f} (99.9 %) steps of 8 "
+      "They differ so much that the reference is uncertain by {:.3f} (RMSE) and {:.2f} (99.9 %) "
+      "steps of 8 "
       "bits;\n"
       "errors below twice that count as equal.\n",
       report.uncertainty.rmse, report.uncertainty.p999);
   if (report.reference_cutoff > 0) {
     text += fmt::format(
-        "Even its cut-off paths may have brought some light: at most {:.2g} steps in the mean of the "
+        "Even its cut-off paths may have brought some light: at most {:.2g} steps in the mean of "
+        "the "
         "pixels.\n",
         report.reference_cutoff);
   }
@@ -42,8 +46,9 @@ std::string text_of_reference(const TradeReport& report) {
 }
 
 /// "RMSE: ..., 0.42 steps in 3.1 s".
-std::string text_of_choice(const TradeReport& report, const char* name, double PictureError::*measure,
-                           const std::optional<std::size_t>& choice, const std::string& if_none) {
+std::string text_of_choice(const TradeReport& report, const char* name,
+                           double PictureError::*measure, const std::optional<std::size_t>& choice,
+                           const std::string& if_none) {
   if (!choice) return fmt::format("  {}: {}\n", name, if_none);
   const MeasuredRung& rung = report.rungs[*choice];
   return fmt::format("  {}: {}   ({:.3g} steps in {:.3g} s)\n", name, shown_options(rung),
@@ -61,19 +66,21 @@ std::string text_of_answers(const TradeReport& report, const TradeQuestion& ques
   if (question.seconds) {
     text += fmt::format("\nThe most accurate within {} s:\n", *question.seconds);
     for (const Measure& measure : measures) {
-      text += text_of_choice(report, measure.name, measure.value,
-                             best_within_seconds(outcomes_of(report, measure.value), *question.seconds),
-                             "nothing that was tried is so fast");
+      text +=
+          text_of_choice(report, measure.name, measure.value,
+                         best_within_seconds(outcomes_of(report, measure.value), *question.seconds),
+                         "nothing that was tried is so fast");
     }
   }
   if (question.error) {
     text += fmt::format("\nThe fastest within {} steps of 8 bits:\n", *question.error);
     for (const Measure& measure : measures) {
-      text += text_of_choice(report, measure.name, measure.value,
-                             fastest_within_error(outcomes_of(report, measure.value), *question.error),
-                             *question.error < 2 * report.uncertainty.*measure.value
-                                 ? "the reference is not certain enough to tell"
-                                 : "nothing that was tried is so accurate");
+      text +=
+          text_of_choice(report, measure.name, measure.value,
+                         fastest_within_error(outcomes_of(report, measure.value), *question.error),
+                         *question.error < 2 * report.uncertainty.*measure.value
+                             ? "the reference is not certain enough to tell"
+                             : "nothing that was tried is so accurate");
     }
   }
   return text;
@@ -106,11 +113,12 @@ std::string report_text(const TradeReport& report, const TradeQuestion& question
   for (std::size_t i = 0; i < report.rungs.size(); ++i) {
     const MeasuredRung& rung = report.rungs[i];
     text += fmt::format("{:9.3f} {:7.3f}{} {:7.2f}{} {:9.1f}   {}\n", rung.seconds, rung.error.rmse,
-                        is_among(best, i) ? '*' : ' ', rung.error.p999, is_among(best_999, i) ? '*' : ' ',
-                        rung.samples, shown_options(rung));
+                        is_among(best, i) ? '*' : ' ', rung.error.p999,
+                        is_among(best_999, i) ? '*' : ' ', rung.samples, shown_options(rung));
   }
   for (const std::string& options : report.left_out) {
-    text += fmt::format("{:>9} {:>8} {:>8} {:>9}   {} (would take too long)\n", "-", "-", "-", "-", options);
+    text += fmt::format("{:>9} {:>8} {:>8} {:>9}   {} (would take too long)\n", "-", "-", "-", "-",
+                        options);
   }
   return text + text_of_answers(report, question);
 }
@@ -124,9 +132,9 @@ std::string report_csv(const TradeReport& report) {
   for (std::size_t i = 0; i < report.rungs.size(); ++i) {
     const MeasuredRung& rung = report.rungs[i];
     csv += fmt::format("{},{},{:.6g},{:.6g},{:.6g},{:.6g},{:d},{:d},{:.6g},{:.6g}\n",
-                       quoted(name_of(rung.family)), quoted(rung.options), rung.seconds, rung.error.rmse,
-                       rung.error.p999, rung.samples, is_among(best, i), is_among(best_999, i),
-                       report.uncertainty.rmse, report.uncertainty.p999);
+                       quoted(name_of(rung.family)), quoted(rung.options), rung.seconds,
+                       rung.error.rmse, rung.error.p999, rung.samples, is_among(best, i),
+                       is_among(best_999, i), report.uncertainty.rmse, report.uncertainty.p999);
   }
   return csv;
 }

@@ -1,5 +1,5 @@
-// What `crt trade` tells of its measurements: a table to read, one for programs, a plot, and which setting to
-// take.
+// What `crt trade` tells of its measurements: a table to read, one for programs, a plot, and which
+// setting to take.
 #pragma once
 
 #include <optional>
@@ -39,8 +39,8 @@ struct TradeReport {
       0;  ///< the bound on what even the reference cuts off, in 8-bit steps: mean of pixels
 };
 
-/// Time and error of each rung. Errors below twice the reference's uncertainty count as that: nobody can tell
-/// them apart.
+/// Time and error of each rung. Errors below twice the reference's uncertainty count as that:
+/// nobody can tell them apart.
 std::vector<Outcome> outcomes_of(const TradeReport& report, double PictureError::*measure);
 
 /// What the user wants to know.

@@ -20,8 +20,8 @@ namespace {
 
 [[noreturn]] void wrong_type(const Given& given) {
   const std::string_view wanted = given.type->type;
-  reject(given,
-         fmt::format("must be {} {}, not {}", article(wanted), wanted, type_with_article(given.value)));
+  reject(given, fmt::format("must be {} {}, not {}", article(wanted), wanted,
+                            type_with_article(given.value)));
 }
 
 void require_finite(const Given& given, double number) {
@@ -84,7 +84,8 @@ void convert(const Given& given, Context&, double& field) {
 void convert(const Given& given, Context&, int& field) {
   const std::int64_t number = get<std::int64_t>(given);
   constexpr std::int64_t most = std::numeric_limits<int>::max();
-  if (number > most || number < -most) reject(given, fmt::format("is far out of range (it is {})", number));
+  if (number > most || number < -most)
+    reject(given, fmt::format("is far out of range (it is {})", number));
   field = static_cast<int>(number);
 }
 
@@ -158,8 +159,9 @@ void convert(const Given& given, Context&, ApertureShape& field) {
   using enum ApertureShape;
   using Choice = std::pair<std::string_view, ApertureShape>;
   choose(given,
-         std::array{Choice{"circle", circle}, Choice{"uniform", uniform}, Choice{"gaussian", gaussian},
-                    Choice{"triangle", triangle}, Choice{"square", square}, Choice{"pentagon", pentagon},
+         std::array{Choice{"circle", circle}, Choice{"uniform", uniform},
+                    Choice{"gaussian", gaussian}, Choice{"triangle", triangle},
+                    Choice{"square", square}, Choice{"pentagon", pentagon},
                     Choice{"hexagon", hexagon}, Choice{"octagon", octagon}, Choice{"line", line}},
          field);
 }
@@ -191,7 +193,8 @@ void convert(const Given& given, Context&, std::vector<Light>& field) {
   for (const Value& item : get<List>(given)->items) {
     const auto* light = std::get_if<std::shared_ptr<const Light>>(&item);
     if (!light)
-      reject(given, fmt::format("must be a List of lights; it has {} in it", type_with_article(item)));
+      reject(given,
+             fmt::format("must be a List of lights; it has {} in it", type_with_article(item)));
     field.push_back(**light);
   }
 }

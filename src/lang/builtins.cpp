@@ -26,14 +26,16 @@ Vec3 Arguments::vector(std::size_t i) const {
 }
 
 bool Arguments::all_integers() const {
-  return std::all_of(values_.begin(), values_.end(),
-                     [](const Value& value) { return std::holds_alternative<std::int64_t>(value); });
+  return std::all_of(values_.begin(), values_.end(), [](const Value& value) {
+    return std::holds_alternative<std::int64_t>(value);
+  });
 }
 
 std::span<const Builtin> builtins() {
   static const std::vector<Builtin> all = [] {
     std::vector<Builtin> result;
-    for (const std::span<const Builtin> part : {number_builtins(), vector_builtins(), list_builtins()})
+    for (const std::span<const Builtin> part :
+         {number_builtins(), vector_builtins(), list_builtins()})
       result.insert(result.end(), part.begin(), part.end());
     return result;
   }();

@@ -15,9 +15,13 @@ namespace crt::lang {
 /// What a built-in was called with. The readers throw a Failure at the argument that is wrong.
 class Arguments {
  public:
-  Arguments(Context& new_context, const Builtin& builtin, Span new_call, std::span<const Value> values,
-            std::span<const Expression* const> expressions)
-      : context(new_context), call(new_call), builtin_(builtin), values_(values), expressions_(expressions) {}
+  Arguments(Context& new_context, const Builtin& builtin, Span new_call,
+            std::span<const Value> values, std::span<const Expression* const> expressions)
+      : context(new_context),
+        call(new_call),
+        builtin_(builtin),
+        values_(values),
+        expressions_(expressions) {}
 
   Context& context;
   Span call;

@@ -27,7 +27,8 @@ Value count_items(const Arguments& arguments) {
   fail(arguments.span(2), "range needs a step other than 0");
 }
 
-Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t end, std::int64_t step) {
+Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t end,
+                    std::int64_t step) {
   if (step == 0) refuse_step(arguments);
   // Unsigned, since the way from one Integer to another can be longer than an Integer.
   const bool up = step > 0;
@@ -36,7 +37,8 @@ Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t
     way = up ? static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(first)
              : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(end);
   }
-  const std::uint64_t stride = up ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step);
+  const std::uint64_t stride =
+      up ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step);
   const std::uint64_t count = way / stride + (way % stride != 0 ? 1 : 0);
   arguments.context.check_list_size(arguments.call, count);
   std::vector<Value> items;
@@ -53,7 +55,8 @@ Value float_range(const Arguments& arguments, double first, double end, double s
     fail(arguments.call, "range needs finite numbers");
   const double count = std::max(0.0, std::ceil((end - first) / step));
   constexpr double most = 0x1p62;
-  arguments.context.check_list_size(arguments.call, static_cast<std::size_t>(std::min(count, most)));
+  arguments.context.check_list_size(arguments.call,
+                                    static_cast<std::size_t>(std::min(count, most)));
   std::vector<Value> items;
   items.reserve(static_cast<std::size_t>(count));
   for (double i = 0; i < count; ++i) items.emplace_back(first + i * step);

@@ -119,7 +119,8 @@ Value clamp(const Arguments& arguments) {
 Value random_number(const Arguments& arguments) {
   const double low = arguments.size() > 0 ? arguments.number(0) : 0;
   const double high = arguments.size() > 1 ? arguments.number(1) : 1;
-  if (arguments.size() == 1) fail(arguments.call, "rand takes no arguments or two: rand(low, high)");
+  if (arguments.size() == 1)
+    fail(arguments.call, "rand takes no arguments or two: rand(low, high)");
   Context& context = arguments.context;
   const bool in_2015 = context.compat == compat_2015;
   // In 2015 both orders were fine.
@@ -136,7 +137,8 @@ Value noise(const Arguments& arguments) {
   if (arguments.size() == 1 && std::holds_alternative<Vec3>(arguments[0])) {
     point = arguments.vector(0);
   } else {
-    for (std::size_t i = 0; i < arguments.size(); ++i) point[static_cast<int>(i)] = arguments.number(i);
+    for (std::size_t i = 0; i < arguments.size(); ++i)
+      point[static_cast<int>(i)] = arguments.number(i);
   }
   return gradient_noise(point);
 }

@@ -47,9 +47,12 @@ Value cross(const Arguments& arguments) {
 }
 
 constexpr std::array table = {
-    Builtin{"vec3", "vec3(x, y, z)", 3, 3, make_vector},   Builtin{"rgb", "rgb(r, g, b)", 3, 3, make_color},
-    Builtin{"rgba", "rgba(r, g, b, a)", 4, 4, make_color}, Builtin{"length", "length(v)", 1, 1, length},
-    Builtin{"normalize", "normalize(v)", 1, 1, normalize}, Builtin{"dot", "dot(a, b)", 2, 2, dot},
+    Builtin{"vec3", "vec3(x, y, z)", 3, 3, make_vector},
+    Builtin{"rgb", "rgb(r, g, b)", 3, 3, make_color},
+    Builtin{"rgba", "rgba(r, g, b, a)", 4, 4, make_color},
+    Builtin{"length", "length(v)", 1, 1, length},
+    Builtin{"normalize", "normalize(v)", 1, 1, normalize},
+    Builtin{"dot", "dot(a, b)", 2, 2, dot},
     Builtin{"cross", "cross(a, b)", 2, 2, cross},
 };
 

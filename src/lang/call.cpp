@@ -12,12 +12,15 @@ namespace {
 /// Takes what a call has put onto the stack of arguments off again.
 class ArgumentsGuard {
  public:
-  explicit ArgumentsGuard(std::vector<Value>& arguments) : arguments_(arguments), begin_(arguments.size()) {}
+  explicit ArgumentsGuard(std::vector<Value>& arguments)
+      : arguments_(arguments), begin_(arguments.size()) {}
   ArgumentsGuard(const ArgumentsGuard&) = delete;
   ArgumentsGuard& operator=(const ArgumentsGuard&) = delete;
   ~ArgumentsGuard() { arguments_.resize(begin_); }
 
-  std::span<const Value> values() const { return std::span<const Value>(arguments_).subspan(begin_); }
+  std::span<const Value> values() const {
+    return std::span<const Value>(arguments_).subspan(begin_);
+  }
 
  private:
   std::vector<Value>& arguments_;
@@ -64,9 +67,11 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
   const ArgumentsGuard guard(arguments_);
   for (const Expression* argument : call.arguments) {
     arguments_.push_back(evaluate(*argument));
-    if (std::holds_alternative<Nothing>(arguments_.back())) fail(argument->span, "this call has no value");
+    if (std::holds_alternative<Nothing>(arguments_.back()))
+      fail(argument->span, "this call has no value");
   }
-  return builtin.function(Arguments(context_, builtin, expression.span, guard.values(), call.arguments));
+  return builtin.function(
+      Arguments(context_, builtin, expression.span, guard.values(), call.arguments));
 }
 
 /// The scope of a call: the parameters bound to the arguments.
@@ -76,21 +81,22 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
   const std::vector<NamePlace>& parameters = macro.literal->parameters;
   const std::size_t count = parameters.size();
   if (call.arguments.size() != count) {
-    fail(expression.span, "'{}' takes {} argument{}, and this call has {}", callee_name(call), count,
-         count == 1 ? "" : "s", call.arguments.size());
+    fail(expression.span, "'{}' takes {} argument{}, and this call has {}", callee_name(call),
+         count, count == 1 ? "" : "s", call.arguments.size());
   }
   auto scope = std::make_shared<Scope>(Scope::Kind::border, macro.scope);
   for (std::size_t i = 0; i < count; ++i) {
     Value argument = evaluate(*call.arguments[i]);
-    if (std::holds_alternative<Nothing>(argument)) fail(call.arguments[i]->span, "this call has no value");
+    if (std::holds_alternative<Nothing>(argument))
+      fail(call.arguments[i]->span, "this call has no value");
     scope->set(parameters[i].symbol, std::move(argument));
   }
   return scope;
 }
 
 [[gnu::noinline]] void Interpreter::pass_call_depth(Span span) const {
-  context_.pass_limit(span,
-                      fmt::format("macros call one another more than {} deep", context_.limits.call_depth));
+  context_.pass_limit(
+      span, fmt::format("macros call one another more than {} deep", context_.limits.call_depth));
 }
 
 [[gnu::noinline]] void Interpreter::call_macro(const Expression& expression, const Call& call,

@@ -24,10 +24,12 @@ class Checker {
     if (object.type) return check_attributes(*object.type, object.name.span, object.attributes);
     std::vector<std::string_view> names;
     for (const ObjectType& type : object_types()) names.push_back(type.name);
-    reporter_.error(object.name.span, fmt::format("unknown object '{}'{}", name, did_you_mean(name, names)));
+    reporter_.error(object.name.span,
+                    fmt::format("unknown object '{}'{}", name, did_you_mean(name, names)));
   }
 
-  void check_attributes(const ObjectType& type, Span name_span, std::vector<AttributeSyntax>& attributes) {
+  void check_attributes(const ObjectType& type, Span name_span,
+                        std::vector<AttributeSyntax>& attributes) {
     std::vector<bool> given(type.attributes.size(), false);
     for (AttributeSyntax& attribute : attributes) {
       const std::string_view name = symbols_.name(attribute.name.symbol);
@@ -37,7 +39,8 @@ class Checker {
         const std::size_t meant = unknown_attribute(type, attribute.name.span, name);
         if (meant < given.size()) given[meant] = true;
       } else if (given[attribute.index]) {
-        reporter_.error(attribute.name.span, fmt::format("the attribute '{}' is given twice", name));
+        reporter_.error(attribute.name.span,
+                        fmt::format("the attribute '{}' is given twice", name));
       } else {
         given[attribute.index] = true;
       }
@@ -48,8 +51,9 @@ class Checker {
         missing.push_back(fmt::format("'{}'", type.attributes[i].name));
     }
     if (missing.empty()) return;
-    reporter_.error(name_span, fmt::format("{} needs the attribute{} {}", type.name,
-                                           missing.size() > 1 ? "s" : "", enumerate(missing, "and")));
+    reporter_.error(name_span,
+                    fmt::format("{} needs the attribute{} {}", type.name,
+                                missing.size() > 1 ? "s" : "", enumerate(missing, "and")));
   }
 
  private:
@@ -154,7 +158,8 @@ void check(Script& script, int compat, const SymbolTable& symbols, Reporter& rep
   const Span* settings_span = nullptr;
   const Span* scene_span = nullptr;
   const auto only_one = [&](const Span*& first, const Span& span, const char* name) {
-    if (first) reporter.error(span, fmt::format("a script has one {} block, and this is another", name));
+    if (first)
+      reporter.error(span, fmt::format("a script has one {} block, and this is another", name));
     first = &span;
   };
   for (Expression& expression : script.expressions) {

@@ -11,8 +11,8 @@
 namespace crt::lang {
 
 /// Finds the rows of all objects in the table, and reports each error. Throws GiveUp when the
-/// reporter has enough. `compat` is that of ScriptOptions: scripts of 2015 may give attributes that there are
-/// not, whose index is then the number of those that there are.
+/// reporter has enough. `compat` is that of ScriptOptions: scripts of 2015 may give attributes that
+/// there are not, whose index is then the number of those that there are.
 void check(Script& script, int compat, const SymbolTable& symbols, Reporter& reporter);
 
 /// The names that a statement can assign in the scope that it stands in or one around it: those in

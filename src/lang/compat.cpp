@@ -35,7 +35,8 @@ class CompatSearch {
   void next() {
     const Grammar::symbol_type token = lexer_.next();
     kind_ = token.kind();
-    if (kind_ == Kind::S_IDENTIFIER) is_attribute_ = symbols_.name(token.value.as<Symbol>()) == attribute;
+    if (kind_ == Kind::S_IDENTIFIER)
+      is_attribute_ = symbols_.name(token.value.as<Symbol>()) == attribute;
     if (kind_ == Kind::S_INTEGER) number_ = token.value.as<std::int64_t>();
   }
 

@@ -7,8 +7,9 @@
 
 namespace crt::lang {
 
-/// The whole number that a script's Settings give to `compat`; 0 if they give none. It decides which words
-/// are keywords, so that it is looked for among the tokens: an expression is not evaluated.
+/// The whole number that a script's Settings give to `compat`; 0 if they give none. It decides
+/// which words are keywords, so that it is looked for among the tokens: an expression is not
+/// evaluated.
 std::int64_t written_compat(const SourceMap& sources, const Source& source);
 
 }  // namespace crt::lang

@@ -53,7 +53,8 @@ void Context::pause(Span span) {
   if (steps_ > limits.steps)
     pass_limit(span, fmt::format("the script takes more than {} steps", limits.steps));
   if (options.go_on && !options.go_on()) {
-    throw Failure{.span = span, .message = "the script was cancelled", .code = ErrorCode::cancelled};
+    throw Failure{
+        .span = span, .message = "the script was cancelled", .code = ErrorCode::cancelled};
   }
   constexpr std::uint64_t steps_between_pauses = 4096;
   next_pause_ = std::min(limits.steps, steps_ + steps_between_pauses);
@@ -85,7 +86,8 @@ void Context::check_size(Span span, const Entity& entity) {
 
 Charge Context::charge_memory(Span span, std::size_t bytes) {
   if (bytes > limits.memory_bytes - memory_)
-    pass_limit(span, fmt::format("the script's values need more than {} bytes", limits.memory_bytes));
+    pass_limit(span,
+               fmt::format("the script's values need more than {} bytes", limits.memory_bytes));
   return Charge(memory_, bytes);
 }
 
@@ -111,7 +113,8 @@ Value Context::make_list(Span span, std::vector<Value> items) {
   for (const Value& item : items) {
     if (const List* list = std::get_if<List>(&item)) depth = std::max(depth, (*list)->depth + 1);
   }
-  if (depth > deepest_list) pass_limit(span, fmt::format("lists nested more than {} deep", deepest_list));
+  if (depth > deepest_list)
+    pass_limit(span, fmt::format("lists nested more than {} deep", deepest_list));
   Charge charge = charge_memory(span, sizeof(ListValue) + items.capacity() * sizeof(Value));
   return std::make_shared<const ListValue>(ListValue{std::move(items), depth, std::move(charge)});
 }

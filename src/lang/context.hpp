@@ -29,7 +29,8 @@ constexpr int deepest_list = 100;
 
 class Context {
  public:
-  Context(const ScriptOptions& options, SymbolTable& symbols, SourceMap& sources, Reporter& reporter);
+  Context(const ScriptOptions& options, SymbolTable& symbols, SourceMap& sources,
+          Reporter& reporter);
   Context(const Context&) = delete;
   Context& operator=(const Context&) = delete;
 

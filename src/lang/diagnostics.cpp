@@ -28,7 +28,8 @@ std::string head(const Diagnostic& diagnostic) {
   const SourcePlace& place = diagnostic.place;
   const std::string message = printable(diagnostic.message);
   if (place.line == 0) return fmt::format("{}: {}: {}\n", printable(place.file), kind, message);
-  return fmt::format("{}:{}:{}: {}: {}\n", printable(place.file), place.line, place.column, kind, message);
+  return fmt::format("{}:{}:{}: {}: {}\n", printable(place.file), place.line, place.column, kind,
+                     message);
 }
 
 /// The bytes of `text` that hold the code points [first, first + count).
@@ -80,8 +81,8 @@ std::string json_string(std::string_view text) {
 }
 
 std::string json_place(const SourcePlace& place) {
-  return fmt::format(R"("file": {}, "line": {}, "column": {}, "length": {})", json_string(place.file),
-                     place.line, place.column, place.length);
+  return fmt::format(R"("file": {}, "line": {}, "column": {}, "length": {})",
+                     json_string(place.file), place.line, place.column, place.length);
 }
 
 std::string to_json(const Diagnostic& diagnostic) {
@@ -90,10 +91,11 @@ std::string to_json(const Diagnostic& diagnostic) {
     if (!calls.empty()) calls += ", ";
     calls += fmt::format(R"({{"name": {}, {}}})", json_string(name), json_place(place));
   }
-  return fmt::format(R"({{"severity": "{}", "code": {}, "message": {}, {}, "source": {}, "calls": [{}]}})",
-                     diagnostic.severity == Severity::error ? "error" : "warning",
-                     json_string(to_string(diagnostic.code)), json_string(diagnostic.message),
-                     json_place(diagnostic.place), json_string(diagnostic.source_line), calls);
+  return fmt::format(
+      R"({{"severity": "{}", "code": {}, "message": {}, {}, "source": {}, "calls": [{}]}})",
+      diagnostic.severity == Severity::error ? "error" : "warning",
+      json_string(to_string(diagnostic.code)), json_string(diagnostic.message),
+      json_place(diagnostic.place), json_string(diagnostic.source_line), calls);
 }
 
 }  // namespace

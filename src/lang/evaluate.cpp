@@ -1,5 +1,5 @@
-// The interpreter's expressions. Each kind has a function of its own that is not inlined: that keeps
-// the frame of evaluate(), of which there can be many on the stack, small.
+// The interpreter's expressions. Each kind has a function of its own that is not inlined: that
+// keeps the frame of evaluate(), of which there can be many on the stack, small.
 #include <fmt/format.h>
 
 #include <variant>
@@ -15,7 +15,8 @@ namespace crt::lang {
 Value Interpreter::evaluate(const Expression& expression) {
   context_.step(expression.span);
   check_stack(expression.span);
-  return std::visit([&](const auto& node) { return evaluate_node(node, expression); }, expression.node);
+  return std::visit([&](const auto& node) { return evaluate_node(node, expression); },
+                    expression.node);
 }
 
 Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
@@ -49,12 +50,14 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   return object.type->build({context_, object.name.span, given});
 }
 
-[[gnu::noinline]] Value Interpreter::evaluate_node(const MacroLiteral& macro, const Expression& expression) {
+[[gnu::noinline]] Value Interpreter::evaluate_node(const MacroLiteral& macro,
+                                                   const Expression& expression) {
   capture_scopes(expression.span);
   return std::make_shared<const MacroValue>(MacroValue{&macro, scope_});
 }
 
-[[gnu::noinline]] Value Interpreter::evaluate_node(const ListLiteral& list, const Expression& expression) {
+[[gnu::noinline]] Value Interpreter::evaluate_node(const ListLiteral& list,
+                                                   const Expression& expression) {
   context_.check_list_size(expression.span, list.items.size());
   std::vector<Value> items;
   items.reserve(list.items.size());
@@ -70,7 +73,8 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   return item(context_, index.index->span, base, evaluate(*index.index));
 }
 
-[[gnu::noinline]] Value Interpreter::evaluate_node(const Unary& unary_node, const Expression& expression) {
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Unary& unary_node,
+                                                   const Expression& expression) {
   return unary(unary_node.op, expression.span, evaluate(*unary_node.operand));
 }
 
@@ -95,15 +99,19 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   return !decisive;
 }
 
-[[gnu::noinline]] Value Interpreter::evaluate_node(const Conditional& conditional, const Expression&) {
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Conditional& conditional,
+                                                   const Expression&) {
   return evaluate(condition(*conditional.condition, "'?'") ? *conditional.yes : *conditional.no);
 }
 
-[[gnu::noinline]] Value Interpreter::evaluate_node(const Assignment& assignment, const Expression&) {
+[[gnu::noinline]] Value Interpreter::evaluate_node(const Assignment& assignment,
+                                                   const Expression&) {
   const Symbol name = assignment.name.symbol;
-  if (overridden_.contains(name) && &scope_->target_of(name) == globals_.get()) return *globals_->find(name);
+  if (overridden_.contains(name) && &scope_->target_of(name) == globals_.get())
+    return *globals_->find(name);
   Value value = evaluate(*assignment.value);
-  if (std::holds_alternative<Nothing>(value)) fail(assignment.value->span, "this call has no value");
+  if (std::holds_alternative<Nothing>(value))
+    fail(assignment.value->span, "this call has no value");
   scope_->target_of(name).set(name, value);
   return value;
 }
@@ -148,7 +156,8 @@ Transform transform_of(const Modifier& modifier, const Value& operand) {
   const double* number = modifier.kind == ModifierKind::scale ? as_float(operand, room) : nullptr;
   if (number) return scale(*number);
   const char* wanted = modifier.kind == ModifierKind::scale ? "a number or a Vec3" : "a Vec3";
-  fail(modifier.operand->span, "'{}' takes {}, not {}", modifier_name(modifier.kind), wanted, operand);
+  fail(modifier.operand->span, "'{}' takes {}, not {}", modifier_name(modifier.kind), wanted,
+       operand);
 }
 
 }  // namespace
@@ -162,7 +171,8 @@ Transform transform_of(const Modifier& modifier, const Value& operand) {
     std::string message = error.what();
     // The core names the parameter of its function; in a script that is the modifier itself.
     if (message.starts_with(error.argument()))
-      message.replace(0, error.argument().size(), fmt::format("'{}'", modifier_name(modifier.kind)));
+      message.replace(0, error.argument().size(),
+                      fmt::format("'{}'", modifier_name(modifier.kind)));
     throw Failure{.span = modifier.operand->span, .message = message, .code = error.code()};
   }
 }

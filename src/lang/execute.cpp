@@ -15,7 +15,8 @@ void Interpreter::run(const Script& script, bool is_import) {
   for (const Statement& statement : script.statements.statements) attempt(statement);
 }
 
-/// Runs a statement whose failure leaves the next ones worth running, so that a run reports several errors.
+/// Runs a statement whose failure leaves the next ones worth running, so that a run reports several
+/// errors.
 void Interpreter::attempt(const Statement& statement) {
   try {
     execute(statement);
@@ -69,7 +70,8 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
 }
 
 [[gnu::noinline]] void Interpreter::execute_node(const While& loop) {
-  const Context::Running running(context_, {.name = "while", .span = loop.keyword, .is_loop = true});
+  const Context::Running running(context_,
+                                 {.name = "while", .span = loop.keyword, .is_loop = true});
   std::shared_ptr<Scope> scope;
   while (condition(*loop.condition, "'while'")) {
     context_.count_round();
@@ -137,13 +139,14 @@ void Interpreter::execute_node(const Import& import) {
   call_builtin(expression, call, **builtin);
 }
 
-[[gnu::noinline]] void Interpreter::execute_top_level_call(const Expression& expression, const Call& call) {
+[[gnu::noinline]] void Interpreter::execute_top_level_call(const Expression& expression,
+                                                           const Call& call) {
   std::vector<Entity> unused;
   const Temporarily emission(emission_, Emission{.entities = &unused});
   execute_call(expression, call);
   if (!unused.empty())
-    context_.reporter.warning(expression.span,
-                              "the entities that this emits are not used: it is not in the Scene block");
+    context_.reporter.warning(
+        expression.span, "the entities that this emits are not used: it is not in the Scene block");
 }
 
 [[gnu::noinline]] void Interpreter::emit(const Value& value, Span span) {

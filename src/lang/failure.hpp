@@ -1,5 +1,6 @@
 // Throwing a Failure with a formatted message. The formatting happens in a function of its own, so
-// that what throws keeps a small stack frame: the interpreter has many of them on the stack at once.
+// that what throws keeps a small stack frame: the interpreter has many of them on the stack at
+// once.
 #pragma once
 
 #include <fmt/format.h>
@@ -26,7 +27,8 @@ template <class Argument>
 using Shown = std::remove_cvref_t<decltype(as_shown(std::declval<const Argument&>()))>;
 
 template <class... Arguments>
-[[noreturn, gnu::noinline]] void fail(Span span, fmt::format_string<const Shown<Arguments>&...> format,
+[[noreturn, gnu::noinline]] void fail(Span span,
+                                      fmt::format_string<const Shown<Arguments>&...> format,
                                       const Arguments&... arguments) {
   const auto write = [&](const auto&... shown) { return fmt::format(format, shown...); };
   throw Failure{.span = span, .message = write(as_shown(arguments)...)};

@@ -27,7 +27,8 @@ bool lies_in(const fs::path& path, fs::path directory) {
   if (directory.empty() || directory == ".")
     return path.is_relative() && (path.empty() || *path.begin() != "..");
   const auto ends = std::mismatch(directory.begin(), directory.end(), path.begin(), path.end());
-  return ends.first == directory.end() && std::find(ends.second, path.end(), fs::path("..")) == path.end();
+  return ends.first == directory.end() &&
+         std::find(ends.second, path.end(), fs::path("..")) == path.end();
 }
 
 fs::path in_directory(const fs::path& directory, const fs::path& name) {
@@ -59,8 +60,8 @@ bool Files::is_open(const fs::path& candidate) const {
   const auto holds = [&](const fs::path& directory) {
     return lies_in(candidate, directory.lexically_normal());
   };
-  return holds(script_directory_) ||
-         std::any_of(options_.resource_directories.begin(), options_.resource_directories.end(), holds);
+  return holds(script_directory_) || std::any_of(options_.resource_directories.begin(),
+                                                 options_.resource_directories.end(), holds);
 }
 
 bool Files::is_really_open(const fs::path& canonical) const {
@@ -70,14 +71,15 @@ bool Files::is_really_open(const fs::path& canonical) const {
     const fs::path real = fs::canonical(directory.empty() ? fs::path(".") : directory, failed);
     return !failed && lies_in(canonical, real);
   };
-  return holds(script_directory_) ||
-         std::any_of(options_.resource_directories.begin(), options_.resource_directories.end(), holds);
+  return holds(script_directory_) || std::any_of(options_.resource_directories.begin(),
+                                                 options_.resource_directories.end(), holds);
 }
 
 Files::Found Files::find(const std::string& name, const fs::path& directory, Span span) const {
   const std::string shown = abbreviated(name);
   if (name.empty()) fail(span, "a file's name must not be empty");
-  if (name.find('\0') != std::string::npos) fail(span, "a file's name must not hold the character U+0000");
+  if (name.find('\0') != std::string::npos)
+    fail(span, "a file's name must not hold the character U+0000");
   bool outside = false;
   for (const fs::path& candidate : candidates(name, directory)) {
     if (!is_open(candidate)) {
@@ -85,7 +87,8 @@ Files::Found Files::find(const std::string& name, const fs::path& directory, Spa
       continue;
     }
     if (options_.open_file) {
-      if (auto content = options_.open_file(candidate)) return {candidate, candidate, std::move(content)};
+      if (auto content = options_.open_file(candidate))
+        return {candidate, candidate, std::move(content)};
     }
     std::error_code failed;
     const fs::path canonical = fs::canonical(candidate, failed);
@@ -94,17 +97,21 @@ Files::Found Files::find(const std::string& name, const fs::path& directory, Spa
       outside = true;
       continue;
     }
-    if (!fs::is_regular_file(canonical, failed)) fail(span, fmt::format("'{}' is not a regular file", shown));
+    if (!fs::is_regular_file(canonical, failed))
+      fail(span, fmt::format("'{}' is not a regular file", shown));
     return {candidate, canonical, std::nullopt};
   }
   if (outside)
     fail(span,
-         fmt::format("'{}' lies outside the directories that a script may read: its own and the resource "
-                     "directories",
-                     shown));
+         fmt::format(
+             "'{}' lies outside the directories that a script may read: its own and the resource "
+             "directories",
+             shown));
   if (fs::path(name).has_root_directory() && options_.resource_directories.empty())
-    fail(span, fmt::format("there is no file '{}': a leading '/' means a resource directory, and none is set",
-                           shown));
+    fail(span,
+         fmt::format(
+             "there is no file '{}': a leading '/' means a resource directory, and none is set",
+             shown));
   fail(span, fmt::format("there is no file '{}'", shown));
 }
 
@@ -113,26 +120,29 @@ std::string Files::read_text(Found found, std::size_t most_bytes, Span span) con
   if (found.content) {
     const std::vector<std::byte>& bytes = *found.content;
     if (bytes.size() > most_bytes)
-      throw Failure{
-          .span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
+      throw Failure{.span = span,
+                    .message = fmt::format("'{}' is too long", shown),
+                    .code = ErrorCode::limit};
     return std::string(reinterpret_cast<const char*>(bytes.data()), bytes.size());
   }
   std::error_code failed;
   if (fs::file_size(found.path, failed) > most_bytes && !failed)
-    throw Failure{.span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
+    throw Failure{
+        .span = span, .message = fmt::format("'{}' is too long", shown), .code = ErrorCode::limit};
   std::optional<std::string> text = read_regular_file(found.path, most_bytes);
   if (!text) fail(span, fmt::format("'{}' cannot be read", shown));
   return std::move(*text);
 }
 
-std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory, Span span,
-                                          Reporter& reporter) {
+std::shared_ptr<const Image> Files::image(const std::string& name, const fs::path& directory,
+                                          Span span, Reporter& reporter) {
   const Found found = find(name, directory, span);
   std::shared_ptr<const Image>& image = images_[found.path];
   if (!image) {
     try {
-      auto read = std::make_shared<Image>(found.content ? Image::decode(*found.content, found.shown.string())
-                                                        : Image::read(found.shown));
+      auto read = std::make_shared<Image>(found.content
+                                              ? Image::decode(*found.content, found.shown.string())
+                                              : Image::read(found.shown));
       if (read->not_finite().pixels > 0) {
         reporter.warning(span, printable(read->not_finite().message()));
         read->set_not_finite({});

@@ -22,7 +22,9 @@ class Files {
   explicit Files(const ScriptOptions& options);
 
   /// Says where the main script lies: its directory is open to the script.
-  void set_script_directory(const std::filesystem::path& directory) { script_directory_ = directory; }
+  void set_script_directory(const std::filesystem::path& directory) {
+    script_directory_ = directory;
+  }
 
   /// A file that was found, and its content where the caller's callback gave it.
   struct Found {
@@ -38,8 +40,9 @@ class Files {
   std::string read_text(Found found, std::size_t most_bytes, Span span) const;
 
   /// An image, decoded once a run; what it has that is not finite is told then.
-  std::shared_ptr<const Image> image(const std::string& name, const std::filesystem::path& directory,
-                                     Span span, Reporter& reporter);
+  std::shared_ptr<const Image> image(const std::string& name,
+                                     const std::filesystem::path& directory, Span span,
+                                     Reporter& reporter);
 
  private:
   std::vector<std::filesystem::path> candidates(const std::string& name,
@@ -53,6 +56,7 @@ class Files {
 };
 
 /// The whole of a regular file; nothing if it cannot be read or has more than `most_bytes`.
-std::optional<std::string> read_regular_file(const std::filesystem::path& path, std::size_t most_bytes);
+std::optional<std::string> read_regular_file(const std::filesystem::path& path,
+                                             std::size_t most_bytes);
 
 }  // namespace crt::lang

@@ -27,7 +27,8 @@ Interpreter::Interpreter(Context& context)
       universe_(std::make_shared<Scope>(Scope::Kind::border, nullptr)),
       globals_(std::make_shared<Scope>(Scope::Kind::border, universe_)),
       scope_(globals_) {
-  for (const Builtin& builtin : builtins()) universe_->set(context.symbols.intern(builtin.name), &builtin);
+  for (const Builtin& builtin : builtins())
+    universe_->set(context.symbols.intern(builtin.name), &builtin);
   universe_->set(context.symbols.intern("pi"), std::numbers::pi);
   universe_->set(context.symbols.intern("t"), context.options.t);
 }
@@ -52,7 +53,8 @@ void Interpreter::check_stack(Span span) const {
 void Interpreter::unknown_name(Symbol name, Span span) const {
   std::vector<std::string_view> names;
   for (const Scope* scope = scope_.get(); scope; scope = scope->parent()) {
-    for (const auto& [symbol, value] : scope->variables()) names.push_back(context_.symbols.name(symbol));
+    for (const auto& [symbol, value] : scope->variables())
+      names.push_back(context_.symbols.name(symbol));
   }
   const std::string_view text = context_.symbols.name(name);
   fail(span, "unknown name '{}'{}", text, did_you_mean(text, names));

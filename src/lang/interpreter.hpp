@@ -38,7 +38,9 @@ class Interpreter {
   Value evaluate(const Expression& expression);
 
   /// What `import` does is up to whoever knows about files.
-  void set_importer(std::function<void(const Import&)> importer) { importer_ = std::move(importer); }
+  void set_importer(std::function<void(const Import&)> importer) {
+    importer_ = std::move(importer);
+  }
 
   bool has_scene() const { return has_scene_; }
   std::vector<Entity>& entities() { return entities_; }
@@ -125,7 +127,8 @@ class Interpreter {
   std::shared_ptr<Scope> globals_;
   std::shared_ptr<Scope> scope_;  ///< the one that runs now
   /// Scopes that macros were made in. They stay until the end, when they are emptied one by one:
-  /// so macros and scopes that hold one another are freed, and long chains of them without recursion.
+  /// so macros and scopes that hold one another are freed, and long chains of them without
+  /// recursion.
   std::vector<std::pair<std::shared_ptr<Scope>, Charge>> captured_;
   Emission emission_;
   std::vector<Value> arguments_;  ///< of the built-ins that are being called

@@ -18,8 +18,8 @@ namespace crt::lang {
 /// over, so the parser never sees them.
 class Lexer {
  public:
-  /// `compat` as in ScriptOptions: in scripts of 2015 the words that have become keywords since are names
-  /// wherever they cannot be meant as such.
+  /// `compat` as in ScriptOptions: in scripts of 2015 the words that have become keywords since are
+  /// names wherever they cannot be meant as such.
   Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter);
 
   Grammar::symbol_type next();

@@ -31,7 +31,8 @@ bool is_digit(unsigned char c) {
 void Lexer::refuse_letters_after_number() {
   if (!is_letter(*cursor_)) return;
   while (is_letter(*cursor_) || is_digit(*cursor_)) ++cursor_;
-  reporter_.error(token_span(), "'" + std::string(token_text()) + "' is neither a number nor a name");
+  reporter_.error(token_span(),
+                  "'" + std::string(token_text()) + "' is neither a number nor a name");
 }
 
 Grammar::symbol_type Lexer::whole_number() {
@@ -39,7 +40,8 @@ Grammar::symbol_type Lexer::whole_number() {
   std::int64_t value = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (result.ec != std::errc{})
-    reporter_.error(token_span(), "this whole number does not fit into 64 bits; write it as a Float (1e30)");
+    reporter_.error(token_span(),
+                    "this whole number does not fit into 64 bits; write it as a Float (1e30)");
   refuse_letters_after_number();
   first_on_line_ = false;
   return Grammar::make_INTEGER(value, token_span());
@@ -50,7 +52,8 @@ Grammar::symbol_type Lexer::decimal_number() {
   double value = 0;
   const auto result = std::from_chars(digits.data(), digits.data() + digits.size(), value);
   if (result.ec != std::errc{})
-    reporter_.error(token_span(), "this number is out of the range of Floats, about 1e-308 to 1e308");
+    reporter_.error(token_span(),
+                    "this number is out of the range of Floats, about 1e-308 to 1e308");
   refuse_letters_after_number();
   first_on_line_ = false;
   return Grammar::make_FLOAT(value, token_span());
@@ -79,7 +82,8 @@ Grammar::symbol_type Lexer::string() {
     if (is_utf8) {
       value.append(source_.text, before, position - before);
     } else {
-      reporter_.error({offset(start), offset(cursor_)}, "this byte is not UTF-8, the encoding of scripts");
+      reporter_.error({offset(start), offset(cursor_)},
+                      "this byte is not UTF-8, the encoding of scripts");
     }
   }
   first_on_line_ = false;
@@ -111,7 +115,8 @@ void Lexer::escape(std::string& value) {
       break;
   }
   if (line_ends) return;  // the string is not closed, which will be said
-  reporter_.error({offset(start), offset(cursor_)}, R"(unknown escape; there are \" \' \\ \n \t \uXXXX)");
+  reporter_.error({offset(start), offset(cursor_)},
+                  R"(unknown escape; there are \" \' \\ \n \t \uXXXX)");
 }
 
 /// Four hexadecimal digits, if they are there.
@@ -128,7 +133,9 @@ std::optional<std::uint32_t> Lexer::hexadecimal_unit() {
 
 /// \uXXXX, or two of them for a code point beyond U+FFFF (a surrogate pair, as in JSON).
 void Lexer::unicode_escape(std::string& value, const Byte* start) {
-  const auto refuse = [&](const char* reason) { reporter_.error({offset(start), offset(cursor_)}, reason); };
+  const auto refuse = [&](const char* reason) {
+    reporter_.error({offset(start), offset(cursor_)}, reason);
+  };
   const std::optional<std::uint32_t> unit = hexadecimal_unit();
   if (!unit) return refuse("\\u needs four hexadecimal digits, as in \\u00e9");
   if (!is_high_surrogate(*unit) && !is_low_surrogate(*unit)) return append_utf8(value, *unit);

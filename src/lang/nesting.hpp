@@ -5,8 +5,8 @@
 
 namespace crt::lang {
 
-/// One open bracket, block or prefix operator. It lives on the parser's own stack, so that the count
-/// stays right when a syntax error makes the parser drop what was open.
+/// One open bracket, block or prefix operator. It lives on the parser's own stack, so that the
+/// count stays right when a syntax error makes the parser drop what was open.
 class Nesting {
  public:
   Nesting() = default;

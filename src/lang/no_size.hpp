@@ -1,5 +1,5 @@
-// Primitives without a size: a sphere of radius 0, a flat box. Scripts may make them, as animations do that
-// begin with nothing; the core's shapes all have a size.
+// Primitives without a size: a sphere of radius 0, a flat box. Scripts may make them, as animations
+// do that begin with nothing; the core's shapes all have a size.
 #pragma once
 
 #include <optional>

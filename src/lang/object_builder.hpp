@@ -11,7 +11,8 @@
 namespace crt::lang {
 
 template <class Object, class Field>
-AttributeType attribute(std::string_view name, Field Object::*field, std::string_view default_text) {
+AttributeType attribute(std::string_view name, Field Object::*field,
+                        std::string_view default_text) {
   return {.name = name,
           .required = default_text.empty(),
           .type = type_text(static_cast<const Field*>(nullptr)),
@@ -70,13 +71,14 @@ inline Camera initial<Camera>(const Context& context) {
 template <class Object>
 ObjectType object(std::string_view name, std::vector<AttributeType> attributes,
                   Value (*finish)(Object, const ObjectSite&)) {
-  return {.name = name, .attributes = std::move(attributes), .build = [finish](const ObjectSite& site) {
-            try {
-              return finish(assemble(site, initial<Object>(site.context)), site);
-            } catch (const Error& error) {
-              blame(error, site.name_span, site.attributes);
-            }
-          }};
+  return {
+      .name = name, .attributes = std::move(attributes), .build = [finish](const ObjectSite& site) {
+        try {
+          return finish(assemble(site, initial<Object>(site.context)), site);
+        } catch (const Error& error) {
+          blame(error, site.name_span, site.attributes);
+        }
+      }};
 }
 
 }  // namespace crt::lang

@@ -19,10 +19,12 @@ namespace {
 // ---- entities -------------------------------------------------------------------------------
 
 void warn_of(const NoSize& no_size, const ObjectSite& site) {
-  const auto blamed = std::find_if(site.attributes.begin(), site.attributes.end(),
-                                   [&](const Given& given) { return given.type->name == no_size.attribute; });
-  site.context.reporter.warning(blamed->value_span, fmt::format("'{}' {}: what has no size draws nothing",
-                                                                no_size.attribute, no_size.reason));
+  const auto blamed =
+      std::find_if(site.attributes.begin(), site.attributes.end(),
+                   [&](const Given& given) { return given.type->name == no_size.attribute; });
+  site.context.reporter.warning(
+      blamed->value_span,
+      fmt::format("'{}' {}: what has no size draws nothing", no_size.attribute, no_size.reason));
 }
 
 template <class Shape>
@@ -41,18 +43,24 @@ ObjectType entity(std::string_view name, std::vector<AttributeType> attributes) 
 
 std::vector<ObjectType> entities() {
   return {
-      entity<Sphere>("Sphere", {required("center", &Sphere::center), required("radius", &Sphere::radius)}),
-      entity<Box>("Box", {required("cornerA", &Box::corner_a), required("cornerB", &Box::corner_b)}),
-      entity<Plane>("Plane", {required("normal", &Plane::normal), required("position", &Plane::position)}),
-      entity<HalfPlane>("HalfPlane",
-                        {required("normal", &HalfPlane::normal), required("position", &HalfPlane::position),
-                         required("direction", &HalfPlane::direction)}),
-      entity<Cylinder>("Cylinder", {required("from", &Cylinder::from), required("to", &Cylinder::to),
-                                    required("radius", &Cylinder::radius)}),
-      entity<Cone>("Cone", {required("from", &Cone::from), required("to", &Cone::to),
-                            required("radius", &Cone::radius), attribute("radius2", &Cone::radius2, "0")}),
-      entity<Torus>("Torus", {required("center", &Torus::center), required("axis", &Torus::axis),
-                              required("radius", &Torus::radius), required("thickness", &Torus::thickness)}),
+      entity<Sphere>("Sphere",
+                     {required("center", &Sphere::center), required("radius", &Sphere::radius)}),
+      entity<Box>("Box",
+                  {required("cornerA", &Box::corner_a), required("cornerB", &Box::corner_b)}),
+      entity<Plane>("Plane",
+                    {required("normal", &Plane::normal), required("position", &Plane::position)}),
+      entity<HalfPlane>("HalfPlane", {required("normal", &HalfPlane::normal),
+                                      required("position", &HalfPlane::position),
+                                      required("direction", &HalfPlane::direction)}),
+      entity<Cylinder>("Cylinder",
+                       {required("from", &Cylinder::from), required("to", &Cylinder::to),
+                        required("radius", &Cylinder::radius)}),
+      entity<Cone>("Cone",
+                   {required("from", &Cone::from), required("to", &Cone::to),
+                    required("radius", &Cone::radius), attribute("radius2", &Cone::radius2, "0")}),
+      entity<Torus>("Torus",
+                    {required("center", &Torus::center), required("axis", &Torus::axis),
+                     required("radius", &Torus::radius), required("thickness", &Torus::thickness)}),
       entity<Disc>("Disc", {required("center", &Disc::center), required("normal", &Disc::normal),
                             required("radius", &Disc::radius)}),
       entity<Triangle>("Triangle", {required("a", &Triangle::a), required("b", &Triangle::b),
@@ -81,9 +89,11 @@ ObjectType material() {
        attribute("transparency", &Material::transparency, "0"),
        attribute("refractiveindex", &Material::refractive_index, "1"),
        attribute("diffuse", &Material::diffuse, "1 - reflectivity - transparency, at least 0"),
-       attribute("specular", &Material::specular, "0"), attribute("shininess", &Material::shininess, "3"),
+       attribute("specular", &Material::specular, "0"),
+       attribute("shininess", &Material::shininess, "3"),
        attribute("absorption", &Material::absorption, "rgb(0, 0, 0)"),
-       attribute("bump", &Material::bump, "none"), attribute("bumpheight", &Material::bump_height, "0.1")},
+       attribute("bump", &Material::bump, "none"),
+       attribute("bumpheight", &Material::bump_height, "0.1")},
       finish_material);
 }
 
@@ -116,18 +126,19 @@ std::vector<ObjectType> patterns() {
       two_colors<Gradient>("Gradient", white, black,
                            {attribute("direction", &Gradient::direction, "vec3(0, 1, 0)")}),
       two_colors<Noise>("Noise", white, black, {attribute("octaves", &Noise::octaves, "4")}),
-      two_colors<Marble>(
-          "Marble", white, black,
-          {attribute("direction", &Marble::direction, "vec3(1, 0, 0)"),
-           attribute("turbulence", &Marble::turbulence, "1"), attribute("octaves", &Marble::octaves, "4")}),
-      two_colors<Wood>(
-          "Wood", "rgb(0.6, 0.4, 0.2)", "rgb(0.3, 0.15, 0.05)",
-          {attribute("direction", &Wood::direction, "vec3(0, 1, 0)"),
-           attribute("turbulence", &Wood::turbulence, "0.1"), attribute("octaves", &Wood::octaves, "3")}),
-      object<ImageMap>("ImageMap",
-                       {required("image", &ImageMap::image), attribute("repeatU", &ImageMap::repeat_u, "1"),
-                        attribute("repeatV", &ImageMap::repeat_v, "1")},
-                       finish_pattern<ImageMap>),
+      two_colors<Marble>("Marble", white, black,
+                         {attribute("direction", &Marble::direction, "vec3(1, 0, 0)"),
+                          attribute("turbulence", &Marble::turbulence, "1"),
+                          attribute("octaves", &Marble::octaves, "4")}),
+      two_colors<Wood>("Wood", "rgb(0.6, 0.4, 0.2)", "rgb(0.3, 0.15, 0.05)",
+                       {attribute("direction", &Wood::direction, "vec3(0, 1, 0)"),
+                        attribute("turbulence", &Wood::turbulence, "0.1"),
+                        attribute("octaves", &Wood::octaves, "3")}),
+      object<ImageMap>(
+          "ImageMap",
+          {required("image", &ImageMap::image), attribute("repeatU", &ImageMap::repeat_u, "1"),
+           attribute("repeatV", &ImageMap::repeat_v, "1")},
+          finish_pattern<ImageMap>),
   };
 }
 
@@ -165,26 +176,31 @@ std::vector<ObjectType> lights() {
       object<PointLight>(
           "PointLight",
           {required("origin", &PointLight::origin), required("color", &PointLight::color),
-           attribute("falloff", &PointLight::falloff, "0"), attribute("ambient", &PointLight::ambient, "0")},
+           attribute("falloff", &PointLight::falloff, "0"),
+           attribute("ambient", &PointLight::ambient, "0")},
           finish_light<PointLight>),
       object<ParallelLight>(
           "ParallelLight",
           {required("from", &ParallelLight::from), required("pointing", &ParallelLight::pointing),
-           required("color", &ParallelLight::color), attribute("ambient", &ParallelLight::ambient, "0")},
+           required("color", &ParallelLight::color),
+           attribute("ambient", &ParallelLight::ambient, "0")},
           finish_light<ParallelLight>),
       object<SpotLight>(
           "SpotLight",
           {required("origin", &SpotLight::origin), required("pointing", &SpotLight::pointing),
            required("color", &SpotLight::color),
-           degrees("angle", &SpotLight::angle, "60", "must be greater than 0 and at most 360 degrees"),
+           degrees("angle", &SpotLight::angle, "60",
+                   "must be greater than 0 and at most 360 degrees"),
            degrees("penumbra", &SpotLight::penumbra, "5",
                    "must be between 0 and half of 'angle' (in degrees)"),
-           attribute("falloff", &SpotLight::falloff, "0"), attribute("ambient", &SpotLight::ambient, "0")},
+           attribute("falloff", &SpotLight::falloff, "0"),
+           attribute("ambient", &SpotLight::ambient, "0")},
           finish_light<SpotLight>),
       object<CylinderLight>(
           "CylinderLight",
-          {required("origin", &CylinderLight::origin), required("pointing", &CylinderLight::pointing),
-           required("color", &CylinderLight::color), required("radius", &CylinderLight::radius),
+          {required("origin", &CylinderLight::origin),
+           required("pointing", &CylinderLight::pointing), required("color", &CylinderLight::color),
+           required("radius", &CylinderLight::radius),
            attribute("falloff", &CylinderLight::falloff, "0"),
            attribute("ambient", &CylinderLight::ambient, "0")},
           finish_light<CylinderLight>),
@@ -208,14 +224,17 @@ Background choose_background(const BackgroundFields& fields, Span span) {
   const auto refuse = [span](const char* message) { fail(span, "{}", message); };
   if (solid + gradient + panorama > 1)
     refuse(
-        "Background takes either color, or horizon and sky, or image with angle and projection; not two of "
+        "Background takes either color, or horizon and sky, or image with angle and projection; "
+        "not two of "
         "these");
-  if (gradient && !(fields.horizon && fields.sky)) refuse("Background needs both of horizon and sky");
+  if (gradient && !(fields.horizon && fields.sky))
+    refuse("Background needs both of horizon and sky");
   if (panorama && !fields.image)
     refuse("Background needs the attribute 'image' for its angle and projection");
   if (gradient) return GradientBackground{*fields.horizon, *fields.sky};
   if (panorama) {
-    return PanoramaBackground{fields.image, fields.projection.value_or(PanoramaProjection::spherical),
+    return PanoramaBackground{fields.image,
+                              fields.projection.value_or(PanoramaProjection::spherical),
                               fields.angle.value_or(0)};
   }
   SolidBackground background;
@@ -233,9 +252,9 @@ ObjectType background() {
   using Fields = BackgroundFields;
   return object<Fields>(
       "Background",
-      {attribute("color", &Fields::color, "rgb(1, 1, 1)"), attribute("horizon", &Fields::horizon, "none"),
-       attribute("sky", &Fields::sky, "none"), attribute("image", &Fields::image, "none"),
-       attribute("angle", &Fields::angle, "0"),
+      {attribute("color", &Fields::color, "rgb(1, 1, 1)"),
+       attribute("horizon", &Fields::horizon, "none"), attribute("sky", &Fields::sky, "none"),
+       attribute("image", &Fields::image, "none"), attribute("angle", &Fields::angle, "0"),
        attribute("projection", &Fields::projection, "\"spherical\"")},
       finish_background);
 }

@@ -40,14 +40,15 @@ void name_other_field(std::string& message, std::span<const Given> attributes) {
 
 const ObjectType* find_object_type(std::string_view name) {
   const std::span<const ObjectType> types = object_types();
-  const auto found =
-      std::find_if(types.begin(), types.end(), [name](const ObjectType& type) { return type.name == name; });
+  const auto found = std::find_if(types.begin(), types.end(),
+                                  [name](const ObjectType& type) { return type.name == name; });
   return found == types.end() ? nullptr : &*found;
 }
 
 std::size_t find_attribute(const ObjectType& type, std::string_view name) {
-  const auto found = std::find_if(type.attributes.begin(), type.attributes.end(),
-                                  [name](const AttributeType& attribute) { return attribute.name == name; });
+  const auto found =
+      std::find_if(type.attributes.begin(), type.attributes.end(),
+                   [name](const AttributeType& attribute) { return attribute.name == name; });
   return static_cast<std::size_t>(found - type.attributes.begin());
 }
 

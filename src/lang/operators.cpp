@@ -236,7 +236,8 @@ Value join_lists(Context& context, Span span, const ListValue& a, const ListValu
   return context.make_list(span, std::move(items));
 }
 
-Value with_strings(Context& context, BinaryOperator op, Span span, const Value& left, const Value& right) {
+Value with_strings(Context& context, BinaryOperator op, Span span, const Value& left,
+                   const Value& right) {
   const auto* a = std::get_if<String>(&left);
   const auto* b = std::get_if<String>(&right);
   if (op == BinaryOperator::add) return join_strings(context, span, left, right);
@@ -249,7 +250,8 @@ Value with_strings(Context& context, BinaryOperator op, Span span, const Value& 
 }
 
 /// Everything but two numbers.
-Value other_types(Context& context, BinaryOperator op, Span span, const Value& left, const Value& right) {
+Value other_types(Context& context, BinaryOperator op, Span span, const Value& left,
+                  const Value& right) {
   if (std::holds_alternative<String>(left) || std::holds_alternative<String>(right))
     return with_strings(context, op, span, left, right);
   if (left.index() == right.index()) {
@@ -263,14 +265,16 @@ Value other_types(Context& context, BinaryOperator op, Span span, const Value& l
       return join_lists(context, span, **list, *std::get<List>(right));
   }
   Value result;
-  if (scale_by_number<Vec3>(op, left, right, result) || scale_by_number<Color>(op, left, right, result))
+  if (scale_by_number<Vec3>(op, left, right, result) ||
+      scale_by_number<Color>(op, left, right, result))
     return result;
   wrong_types(op, span, left, right);
 }
 
 }  // namespace
 
-Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left, const Value& right) {
+Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left,
+             const Value& right) {
   if (op == BinaryOperator::equal) return equal(context, op_span, left, right);
   if (op == BinaryOperator::not_equal) return !equal(context, op_span, left, right);
   const auto* a = std::get_if<std::int64_t>(&left);

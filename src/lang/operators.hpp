@@ -8,7 +8,8 @@
 namespace crt::lang {
 
 /// left op right. Errors stand at the operator.
-Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left, const Value& right);
+Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left,
+             const Value& right);
 
 /// The operand's span is where errors stand.
 Value unary(UnaryOperator op, Span span, const Value& operand);

@@ -6,8 +6,8 @@
 
 namespace crt::lang {
 
-Script parse(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter,
-             std::size_t& memory_left) {
+Script parse(const Source& source, TextKind kind, int compat, SymbolTable& symbols,
+             Reporter& reporter, std::size_t& memory_left) {
   Lexer lexer(source, kind, compat, symbols, reporter);
   TreeBuilder tree(lexer, reporter, memory_left);
   tree.charge_source(source.text.size());

@@ -10,10 +10,10 @@
 
 namespace crt::lang {
 
-/// Parses a source. Errors go to the reporter, and with one the tree is not to be used. Throws GiveUp
-/// when the reporter has enough or a limit is passed. `memory_left` is what the tree may hold, `compat` is
-/// that of ScriptOptions.
-Script parse(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter,
-             std::size_t& memory_left);
+/// Parses a source. Errors go to the reporter, and with one the tree is not to be used. Throws
+/// GiveUp when the reporter has enough or a limit is passed. `memory_left` is what the tree may
+/// hold, `compat` is that of ScriptOptions.
+Script parse(const Source& source, TextKind kind, int compat, SymbolTable& symbols,
+             Reporter& reporter, std::size_t& memory_left);
 
 }  // namespace crt::lang

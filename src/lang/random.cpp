@@ -26,8 +26,8 @@ double mix_linear(double t, double a, double b) {
   return a + t * (b - a);
 }
 
-/// The dot product of (x, y, z) with the gradient of a lattice point: one of the 12 directions from a
-/// cube's centre to the middles of its edges.
+/// The dot product of (x, y, z) with the gradient of a lattice point: one of the 12 directions from
+/// a cube's centre to the middles of its edges.
 double slope(std::uint64_t hash, double x, double y, double z) {
   constexpr std::uint64_t directions = 12;
   constexpr std::array<std::array<int, 3>, directions> gradients = {{{1, 1, 0},
@@ -74,12 +74,14 @@ double Random2015::next_float() {
 }
 
 double gradient_noise(const Vec3& point) {
-  // Every double beyond this is whole, where the noise is 0; and up to here floor() fits an integer.
+  // Every double beyond this is whole, where the noise is 0; and up to here floor() fits an
+  // integer.
   constexpr double all_are_whole = 0x1p52;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(point[axis]) < all_are_whole)) return 0;
   }
-  const std::array<double, 3> corner = {std::floor(point.x), std::floor(point.y), std::floor(point.z)};
+  const std::array<double, 3> corner = {std::floor(point.x), std::floor(point.y),
+                                        std::floor(point.z)};
   const double x = point.x - corner[0];
   const double y = point.y - corner[1];
   const double z = point.z - corner[2];
@@ -95,10 +97,10 @@ double gradient_noise(const Vec3& point) {
   const double u = fade(x);
   const double v = fade(y);
   const double w = fade(z);
-  const double near =
-      mix_linear(v, mix_linear(u, at(0, 0, 0), at(1, 0, 0)), mix_linear(u, at(0, 1, 0), at(1, 1, 0)));
-  const double far =
-      mix_linear(v, mix_linear(u, at(0, 0, 1), at(1, 0, 1)), mix_linear(u, at(0, 1, 1), at(1, 1, 1)));
+  const double near = mix_linear(v, mix_linear(u, at(0, 0, 0), at(1, 0, 0)),
+                                 mix_linear(u, at(0, 1, 0), at(1, 1, 0)));
+  const double far = mix_linear(v, mix_linear(u, at(0, 0, 1), at(1, 0, 1)),
+                                mix_linear(u, at(0, 1, 1), at(1, 1, 1)));
   // The sum can pass 1 by a few hundredths.
   return std::clamp(mix_linear(w, near, far), -1.0, 1.0);
 }

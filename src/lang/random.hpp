@@ -7,8 +7,8 @@
 
 namespace crt::lang {
 
-/// SplitMix64: G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number generators",
-/// OOPSLA 2014, section 6. It is seeded with 0 for each run of a script.
+/// SplitMix64: G. L. Steele, D. Lea and C. H. Flood, "Fast splittable pseudorandom number
+/// generators", OOPSLA 2014, section 6. It is seeded with 0 for each run of a script.
 class Random {
  public:
   std::uint64_t next();
@@ -20,12 +20,13 @@ class Random {
   std::uint64_t state_ = 0;
 };
 
-/// The generator of java.util.Random, as its documentation defines it, seeded with 1337: what scripts of 2015
-/// draw from. It is linear congruential modulo 2^48 (D. E. Knuth, The art of computer programming, volume 2,
-/// section 3.2.1).
+/// The generator of java.util.Random, as its documentation defines it, seeded with 1337: what
+/// scripts of 2015 draw from. It is linear congruential modulo 2^48 (D. E. Knuth, The art of
+/// computer programming, volume 2, section 3.2.1).
 class Random2015 {
  public:
-  /// Uniform in [0, 1): a multiple of 2^-53, of 26 bits of one step and 27 of the next. (nextDouble())
+  /// Uniform in [0, 1): a multiple of 2^-53, of 26 bits of one step and 27 of the next.
+  /// (nextDouble())
   double next_float();
 
  private:
@@ -38,7 +39,8 @@ class Random2015 {
 };
 
 /// Gradient noise after K. Perlin, "Improving noise", SIGGRAPH 2002: 0 at points with whole
-/// coordinates, smooth between them, in [-1, 1]. The gradients are chosen by a hash instead of a table.
+/// coordinates, smooth between them, in [-1, 1]. The gradients are chosen by a hash instead of a
+/// table.
 double gradient_noise(const Vec3& point);
 
 }  // namespace crt::lang

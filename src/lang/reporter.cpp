@@ -18,7 +18,8 @@ Diagnostic Reporter::make(Severity severity, Span span, std::string message, Err
 
 void Reporter::error(const Failure& failure) {
   Diagnostic diagnostic = make(Severity::error, failure.span, failure.message, failure.code);
-  for (const auto& [name, span] : failure.calls) diagnostic.calls.emplace_back(name, sources_.place(span));
+  for (const auto& [name, span] : failure.calls)
+    diagnostic.calls.emplace_back(name, sources_.place(span));
   diagnostics_.push_back(std::move(diagnostic));
   if (++error_count_ >= most_errors_) throw GiveUp{};
 }

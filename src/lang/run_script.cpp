@@ -56,8 +56,8 @@ class Session {
   void run_import(const Import& import);
   void take_variables();
   void take_settings();
-  bool evaluate_override(std::string_view option, const std::pair<std::string, std::string>& setting,
-                         Given& given);
+  bool evaluate_override(std::string_view option,
+                         const std::pair<std::string, std::string>& setting, Given& given);
   void refuse_unknown_variables();
   std::vector<Given> all_settings();
 
@@ -70,15 +70,16 @@ class Session {
   std::deque<Script> scripts_;
   Interpreter interpreter_;
   fs::path main_directory_;
-  std::vector<std::pair<fs::path, std::string>> running_;  ///< the script and the imports within one another
+  std::vector<std::pair<fs::path, std::string>>
+      running_;  ///< the script and the imports within one another
   std::set<fs::path> imported_;
   std::set<Symbol> assigned_;  ///< at the top level of any script
   std::vector<std::pair<Symbol, Span>> variables_;
   std::vector<Given> overrides_;
 };
 
-/// Which year's script this is: that decides how it is read, and is known before. Of numbers that are none of
-/// the settings' check tells later.
+/// Which year's script this is: that decides how it is read, and is known before. Of numbers that
+/// are none of the settings' check tells later.
 int Session::compat_of(const Source& source) {
   if (options_.compat != 0 && options_.compat != compat_2015)
     reporter_.error({}, fmt::format("ScriptOptions::compat must be 0 or {}", compat_2015),
@@ -98,8 +99,8 @@ int Session::compat_of(const Source& source) {
 
 /// Parses and checks a text; null after an error.
 const Script* Session::load(const Source& source, TextKind kind) {
-  Script& script =
-      scripts_.emplace_back(parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
+  Script& script = scripts_.emplace_back(
+      parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
   if (reporter_.has_errors()) return nullptr;
   check(script, context_.compat, symbols_, reporter_);
   return reporter_.has_errors() ? nullptr : &script;
@@ -108,7 +109,8 @@ const Script* Session::load(const Source& source, TextKind kind) {
 void Session::run(std::string_view text, const std::string& name, ScriptResult& result) {
   if (text.size() > context_.limits.source_bytes) {
     sources_.add(name, {});
-    reporter_.error({}, fmt::format("the script is longer than {} bytes", context_.limits.source_bytes),
+    reporter_.error({},
+                    fmt::format("the script is longer than {} bytes", context_.limits.source_bytes),
                     ErrorCode::limit);
     return;
   }
@@ -127,9 +129,10 @@ void Session::run_main(const Source& source, const Script& script, ScriptResult&
   interpreter_.run(script, false);
   refuse_unknown_variables();
   const auto& statements = script.statements.statements;
-  const bool has_scene = std::any_of(statements.begin(), statements.end(), [](const Statement& statement) {
-    return std::holds_alternative<SceneBlock>(statement.node);
-  });
+  const bool has_scene =
+      std::any_of(statements.begin(), statements.end(), [](const Statement& statement) {
+        return std::holds_alternative<SceneBlock>(statement.node);
+      });
   const Span start{source.base, source.base};
   const auto end = static_cast<std::uint32_t>(source.base + source.text.size());
   if (!has_scene) reporter_.error({end, end}, "the script has no Scene block");
@@ -148,7 +151,8 @@ void Session::run_main(const Source& source, const Script& script, ScriptResult&
 
 void Session::run_import(const Import& import) {
   const Span span = import.path_span;
-  const Files::Found found = context_.files.find(import.path, sources_.source_of(span).directory, span);
+  const Files::Found found =
+      context_.files.find(import.path, sources_.source_of(span).directory, span);
   const std::string name = found.shown.string();
   const auto cycle = std::find_if(running_.begin(), running_.end(),
                                   [&](const auto& running) { return running.first == found.path; });
@@ -173,18 +177,22 @@ void Session::run_import(const Import& import) {
   running_.pop_back();
 }
 
-// ---- what is set from outside ---------------------------------------------------------------------
+// ---- what is set from outside
+// ---------------------------------------------------------------------
 
 /// Evaluates the expression of an option such as <set n>. False after an error.
-bool Session::evaluate_override(std::string_view option, const std::pair<std::string, std::string>& setting,
-                                Given& given) {
+bool Session::evaluate_override(std::string_view option,
+                                const std::pair<std::string, std::string>& setting, Given& given) {
   const auto& [name, text] = setting;
-  if (text.size() > context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size())) {
-    reporter_.error({}, fmt::format("<{} {}> is too long", option, printable(name)), ErrorCode::limit);
+  if (text.size() >
+      context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size())) {
+    reporter_.error({}, fmt::format("<{} {}> is too long", option, printable(name)),
+                    ErrorCode::limit);
     return false;
   }
   const Source& source = sources_.add(fmt::format("<{} {}>", option, name), text, main_directory_);
-  given.name_span = given.value_span = {source.base, source.base + static_cast<std::uint32_t>(text.size())};
+  given.name_span =
+      given.value_span = {source.base, source.base + static_cast<std::uint32_t>(text.size())};
   const Script* script = load(source, TextKind::expression);
   if (!script) return false;
   given.value_span = script->expression->span;
@@ -225,8 +233,9 @@ void Session::take_settings() {
     }
     std::vector<std::string_view> names;
     for (const AttributeType& attribute : type.attributes) names.push_back(attribute.name);
-    reporter_.error(given.name_span, fmt::format("Settings has no attribute '{}'{}", printable(setting.first),
-                                                 did_you_mean(setting.first, names)));
+    reporter_.error(given.name_span,
+                    fmt::format("Settings has no attribute '{}'{}", printable(setting.first),
+                                did_you_mean(setting.first, names)));
   }
 }
 
@@ -237,16 +246,17 @@ void Session::refuse_unknown_variables() {
   for (const auto& [symbol, span] : variables_) {
     if (assigned_.contains(symbol)) continue;
     const std::string_view name = symbols_.name(symbol);
-    reporter_.error(span, fmt::format("the script sets no variable '{}' at its top level{}", printable(name),
-                                      did_you_mean(name, names)));
+    reporter_.error(span, fmt::format("the script sets no variable '{}' at its top level{}",
+                                      printable(name), did_you_mean(name, names)));
   }
 }
 
 std::vector<Given> Session::all_settings() {
   std::vector<Given> settings = std::move(interpreter_.settings());
   std::erase_if(settings, [this](const Given& given) {
-    return std::any_of(overrides_.begin(), overrides_.end(),
-                       [&](const Given& override_given) { return override_given.type == given.type; });
+    return std::any_of(overrides_.begin(), overrides_.end(), [&](const Given& override_given) {
+      return override_given.type == given.type;
+    });
   });
   settings.insert(settings.end(), overrides_.begin(), overrides_.end());
   return settings;
@@ -264,7 +274,8 @@ Diagnostic unplaced(const std::string& file, std::string message, ErrorCode code
 
 }  // namespace lang
 
-ScriptResult run_script(std::string_view text, const std::string& name, const ScriptOptions& options) {
+ScriptResult run_script(std::string_view text, const std::string& name,
+                        const ScriptOptions& options) {
   ScriptResult result;
   try {
     lang::Session session(options);

@@ -37,7 +37,8 @@ Scope& Scope::target_of(Symbol name) {
 
 void Scope::set(Symbol name, Value value) {
   if (const Value* known = find_here(name)) {
-    const_cast<Value&>(*known) = std::move(value);  // NOLINT(cppcoreguidelines-pro-type-const-cast): ours
+    const_cast<Value&>(*known) =
+        std::move(value);  // NOLINT(cppcoreguidelines-pro-type-const-cast): ours
     return;
   }
   variables_.emplace_back(name, std::move(value));

@@ -23,7 +23,8 @@ class Scope {
   /// The value of a name, from here outwards; null if there is none.
   const Value* find(Symbol name) const;
 
-  /// The scope that an assignment to `name` changes: the nearest up to the border that has it, else this.
+  /// The scope that an assignment to `name` changes: the nearest up to the border that has it, else
+  /// this.
   Scope& target_of(Symbol name);
 
   /// Binds the name in this very scope.

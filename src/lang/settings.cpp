@@ -8,7 +8,8 @@ namespace crt::lang {
 
 namespace {
 
-/// What a Settings block can set: the settings themselves, and what else of the scene is not geometry.
+/// What a Settings block can set: the settings themselves, and what else of the scene is not
+/// geometry.
 struct SettingsFields : Settings {
   std::optional<Projection> projection;
   std::optional<Camera> camera;
@@ -17,7 +18,8 @@ struct SettingsFields : Settings {
 };
 
 template <class Field>
-AttributeType setting(std::string_view name, Field Settings::*field, std::string_view default_text) {
+AttributeType setting(std::string_view name, Field Settings::*field,
+                      std::string_view default_text) {
   return attribute<SettingsFields, Field>(name, field, default_text);
 }
 
@@ -47,20 +49,23 @@ ObjectType make_settings_type() {
                          setting("precision", &Settings::precision, "\"standard\""),
                          setting("compat", &Settings::compat, "0"),
                          attribute("projection", &Fields::projection, "\"pinhole\""),
-                         attribute("camera", &Fields::camera, "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"),
+                         attribute("camera", &Fields::camera,
+                                   "at vec3(0, 0, -1), pointing at vec3(0, 0, 0)"),
                          attribute("lights", &Fields::lights, "[]"),
                          attribute("background", &Fields::background, "Background { }")},
           .build = {}};
 }
 
 /// The options decide, or else what was read before anything ran: the script cannot compute it.
-void settle_compat(const Context& context, const std::vector<Given>& attributes, Settings& settings) {
+void settle_compat(const Context& context, const std::vector<Given>& attributes,
+                   Settings& settings) {
   if (context.options.compat != 0) settings.compat = context.options.compat;
   if (settings.compat == context.compat) return;
   for (const Given& given : attributes) {
     if (given.type->name == "compat")
-      fail(given.value_span,
-           "'compat' decides how a script is read: it must be written as a plain number, 2015 or 0");
+      fail(
+          given.value_span,
+          "'compat' decides how a script is read: it must be written as a plain number, 2015 or 0");
   }
 }
 
@@ -71,7 +76,8 @@ const ObjectType& settings_type() {
   return type;
 }
 
-void apply_settings(Context& context, Span block, const std::vector<Given>& attributes, Scene& scene) {
+void apply_settings(Context& context, Span block, const std::vector<Given>& attributes,
+                    Scene& scene) {
   auto fields = assemble<SettingsFields>({context, block, attributes});
   settle_compat(context, attributes, fields);
   try {

@@ -12,6 +12,7 @@ namespace crt::lang {
 const ObjectType& settings_type();
 
 /// Fills in what the attributes set, checked; `block` is where the Settings stand.
-void apply_settings(Context& context, Span block, const std::vector<Given>& attributes, Scene& scene);
+void apply_settings(Context& context, Span block, const std::vector<Given>& attributes,
+                    Scene& scene);
 
 }  // namespace crt::lang

@@ -16,8 +16,10 @@ constexpr std::size_t longest_line_bytes = 4096;
 std::vector<std::uint32_t> find_lines(std::string_view text) {
   std::vector<std::uint32_t> starts{0};
   for (std::size_t i = 0; i < text.size(); ++i) {
-    const bool carriage_return_alone = text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n');
-    if (text[i] == '\n' || carriage_return_alone) starts.push_back(static_cast<std::uint32_t>(i + 1));
+    const bool carriage_return_alone =
+        text[i] == '\r' && !(i + 1 < text.size() && text[i + 1] == '\n');
+    if (text[i] == '\n' || carriage_return_alone)
+      starts.push_back(static_cast<std::uint32_t>(i + 1));
   }
   return starts;
 }
@@ -53,8 +55,9 @@ const Source& SourceMap::add(std::string name, std::string text, std::filesystem
 }
 
 const Source& SourceMap::source_of(Span span) const {
-  const auto after = std::upper_bound(sources_.begin(), sources_.end(), span.begin,
-                                      [](std::uint32_t o, const Source& source) { return o < source.base; });
+  const auto after =
+      std::upper_bound(sources_.begin(), sources_.end(), span.begin,
+                       [](std::uint32_t o, const Source& source) { return o < source.base; });
   return *std::prev(after);
 }
 

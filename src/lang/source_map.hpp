@@ -26,8 +26,8 @@ struct Span {
 enum class TextKind { script, expression };
 
 struct Source {
-  std::string name;                 ///< as messages call it
-  std::string text;                 ///< std::string keeps a NUL behind its end, which the lexer relies on
+  std::string name;  ///< as messages call it
+  std::string text;  ///< std::string keeps a NUL behind its end, which the lexer relies on
   std::filesystem::path directory;  ///< where its files are looked for
   std::uint32_t base = 0;
   std::vector<std::uint32_t> line_starts;  ///< relative to base
@@ -46,7 +46,8 @@ class SourceMap {
 
   SourcePlace place(Span span) const;
 
-  /// The line on which `span` begins, without its end; cut off where it is longer than anybody reads.
+  /// The line on which `span` begins, without its end; cut off where it is longer than anybody
+  /// reads.
   std::string line_text(Span span) const;
 
   /// The source that a place is in. There is at least one.

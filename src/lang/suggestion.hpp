@@ -7,7 +7,8 @@
 
 namespace crt::lang {
 
-/// The candidate that a typist most likely meant by `word`; empty if none is near. Ties go to the first.
+/// The candidate that a typist most likely meant by `word`; empty if none is near. Ties go to the
+/// first.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
 /// "; did you mean 'radius'?", or nothing.

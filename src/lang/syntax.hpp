@@ -156,8 +156,8 @@ struct Assignment {
   const Expression* value = nullptr;
 };
 
-using ExpressionNode = std::variant<Literal, Name, ObjectLiteral, MacroLiteral, ListLiteral, Index, Call,
-                                    Modified, Unary, Chain, Logical, Conditional, Assignment>;
+using ExpressionNode = std::variant<Literal, Name, ObjectLiteral, MacroLiteral, ListLiteral, Index,
+                                    Call, Modified, Unary, Chain, Logical, Conditional, Assignment>;
 
 struct Expression {
   Span span;

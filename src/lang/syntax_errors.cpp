@@ -50,7 +50,8 @@ constexpr std::array operators = {"+",
                                   "(",
                                   "[",
                                   "< before a modifier"};
-constexpr std::array statement_starts = {"while", "if", "for", "import", "Settings", "Scene", "else"};
+constexpr std::array statement_starts = {"while",    "if",    "for", "import",
+                                         "Settings", "Scene", "else"};
 
 template <class List>
 void erase(Names& names, const List& list) {
@@ -106,8 +107,8 @@ std::string TreeBuilder::describe_found(Span place, const std::string& found) co
   return "'" + text + "'";
 }
 
-/// Whether `place` is on a later line than the last syntax error. What else is wrong on the same line
-/// mostly follows from the first error.
+/// Whether `place` is on a later line than the last syntax error. What else is wrong on the same
+/// line mostly follows from the first error.
 bool TreeBuilder::is_past_error(Span place) const {
   return !last_error_line_end_ || place.begin > *last_error_line_end_;
 }
@@ -118,8 +119,8 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
   std::string message = "unexpected " + describe_found(place, found);
   const bool wants_arrow = expected.size() == 1 && expected[0] == "->";
   if (wants_arrow) {
-    message +=
-        found == "=" ? "; an attribute is given with '->'" : "; expected '->' after the attribute's name";
+    message += found == "=" ? "; an attribute is given with '->'"
+                            : "; expected '->' after the attribute's name";
   } else if (found == "->") {
     message += "; attributes stand in an object's braces, and a variable is set with '='";
   } else if (!words.empty()) {

@@ -29,7 +29,8 @@ int height_of(const std::vector<const Expression*>& expressions) {
 
 int height_of(const std::vector<AttributeSyntax>& attributes) {
   int height = 0;
-  for (const AttributeSyntax& attribute : attributes) height = std::max(height, height_of(attribute.value));
+  for (const AttributeSyntax& attribute : attributes)
+    height = std::max(height, height_of(attribute.value));
   return height;
 }
 
@@ -51,8 +52,12 @@ int height_of_node(const ExpressionNode& node) {
           [](const ObjectLiteral& object) { return height_of(object.attributes); },
           [](const MacroLiteral& macro) { return height_of(macro.body); },
           [](const ListLiteral& list) { return height_of(list.items); },
-          [](const Index& index) { return std::max(height_of(index.base), height_of(index.index)); },
-          [](const Call& call) { return std::max(height_of(call.callee), height_of(call.arguments)); },
+          [](const Index& index) {
+            return std::max(height_of(index.base), height_of(index.index));
+          },
+          [](const Call& call) {
+            return std::max(height_of(call.callee), height_of(call.arguments));
+          },
           [](const Modified& m) { return std::max(height_of(m.base), height_of(m.modifiers)); },
           [](const Unary& unary) { return height_of(unary.operand); },
           [](const Chain& chain) { return height_of(chain.first); },
@@ -69,7 +74,9 @@ int height_of_node(const Statement& statement) {
   return std::visit(
       Overloaded{
           [](const ExpressionStatement& s) { return height_of(s.expression); },
-          [](const While& loop) { return std::max(height_of(loop.condition), height_of(loop.body)); },
+          [](const While& loop) {
+            return std::max(height_of(loop.condition), height_of(loop.body));
+          },
           [](const If& choice) {
             int height = 0;
             for (const If::Branch& branch : choice.branches)
@@ -87,7 +94,8 @@ int height_of_node(const Statement& statement) {
 }  // namespace
 
 void TreeBuilder::charge_source(std::size_t bytes) {
-  // What a byte of text costs at most besides the tree's nodes: different names, as short as can be.
+  // What a byte of text costs at most besides the tree's nodes: different names, as short as can
+  // be.
   constexpr std::size_t memory_of_a_byte = 24;
   charge(bytes * memory_of_a_byte, lexer_.start());
 }
@@ -99,13 +107,15 @@ Nesting TreeBuilder::enter(Span place) {
 
 void TreeBuilder::check_height(Span span, int height) {
   if (height <= max_nesting) return;
-  reporter_.error(span, fmt::format("nested more than {} levels deep", max_nesting), ErrorCode::limit);
+  reporter_.error(span, fmt::format("nested more than {} levels deep", max_nesting),
+                  ErrorCode::limit);
   throw GiveUp{};
 }
 
 void TreeBuilder::charge(std::size_t bytes, Span span) {
   if (bytes > memory_left_) {
-    reporter_.error(span, "the script is too long for the memory that its limits allow", ErrorCode::limit);
+    reporter_.error(span, "the script is too long for the memory that its limits allow",
+                    ErrorCode::limit);
     throw GiveUp{};
   }
   memory_left_ -= bytes;
@@ -122,7 +132,8 @@ Expression* TreeBuilder::expression(Span span, ExpressionNode node) {
   return &script_.expressions.emplace_back(Expression{span, std::move(node), height});
 }
 
-Expression* TreeBuilder::chain(Expression* left, BinaryOperator op, Span op_span, const Expression* right) {
+Expression* TreeBuilder::chain(Expression* left, BinaryOperator op, Span op_span,
+                               const Expression* right) {
   // A chain is worked off from the left whatever its operators are, so that a * b + c goes on where
   // a * b ends; an operand on the right that binds tighter is a chain of its own.
   const Span span{left->span.begin, right->span.end};
@@ -149,7 +160,8 @@ Expression* TreeBuilder::logical(LogicalOperator op, Expression* left, const Exp
 
 Expression* TreeBuilder::assignment(Span span, const Expression* target, const Expression* value) {
   const auto* name = std::get_if<Name>(&target->node);
-  if (!name) reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
+  if (!name)
+    reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
   const NamePlace place{name ? name->symbol : Symbol{}, target->span};
   return expression(span, Assignment{place, value});
 }

@@ -32,7 +32,9 @@ class TreeBuilder {
   /// Opens something that can hold itself, at `place`.
   Nesting enter(Span place);
 
-  Expression* literal(Span span, Value value) { return expression(span, Literal{std::move(value)}); }
+  Expression* literal(Span span, Value value) {
+    return expression(span, Literal{std::move(value)});
+  }
   static Value string(std::string text);
 
   Expression* expression(Span span, ExpressionNode node);

@@ -25,8 +25,8 @@ bool is_control(char32_t code_point) {
   const bool c0 = code_point < 0x20 && code_point != '\t';
   const bool c1 = code_point >= delete_character && code_point < 0xA0;
   // Marks that turn the direction of what follows can make a line show another text than it has.
-  const bool turns_direction =
-      (code_point >= 0x202A && code_point <= 0x202E) || (code_point >= 0x2066 && code_point <= 0x2069);
+  const bool turns_direction = (code_point >= 0x202A && code_point <= 0x202E) ||
+                               (code_point >= 0x2066 && code_point <= 0x2069);
   return c0 || c1 || turns_direction;
 }
 
@@ -44,7 +44,8 @@ std::optional<char32_t> decode_utf8(std::string_view text, std::size_t& position
     if ((next & 0xC0) != 0x80) return std::nullopt;
     code_point = (code_point << 6) | (next & 0x3F);
   }
-  const bool overlong = (length == 3 && code_point < 0x800) || (length == 4 && code_point < 0x10000);
+  const bool overlong =
+      (length == 3 && code_point < 0x800) || (length == 4 && code_point < 0x10000);
   const bool surrogate = code_point >= 0xD800 && code_point <= 0xDFFF;
   if (overlong || surrogate || code_point > 0x10FFFF) return std::nullopt;
   position = start + static_cast<std::size_t>(length);
@@ -74,7 +75,8 @@ void append_utf8(std::string& text, char32_t code_point) {
 std::size_t count_code_points(std::string_view text) {
   std::size_t count = 0;
   for (std::size_t position = 0; position < text.size(); ++count) {
-    // Eight bytes at a time as long as they are ASCII: lines can be long, and are counted again and again.
+    // Eight bytes at a time as long as they are ASCII: lines can be long, and are counted again and
+    // again.
     for (; text.size() - position >= sizeof(std::uint64_t); position += sizeof(std::uint64_t)) {
       constexpr std::uint64_t high_bits = 0x8080808080808080U;
       std::uint64_t bytes = 0;
@@ -93,7 +95,8 @@ std::string printable(std::string_view text) {
   result.reserve(text.size());
   for (std::size_t position = 0; position < text.size();) {
     const std::optional<char32_t> code_point = decode_utf8(text, position);
-    append_utf8(result, code_point && !is_control(*code_point) ? *code_point : replacement_character);
+    append_utf8(result,
+                code_point && !is_control(*code_point) ? *code_point : replacement_character);
   }
   return result;
 }

@@ -28,7 +28,8 @@ struct MacroValue;
 /// What a call without a value gives, such as that of `print`.
 struct Nothing {};
 
-/// What a variable holds when the statement that should have set it failed; using it is no further error.
+/// What a variable holds when the statement that should have set it failed; using it is no further
+/// error.
 struct Unknown {};
 
 using String = std::shared_ptr<const StringValue>;
@@ -36,17 +37,20 @@ using List = std::shared_ptr<const ListValue>;
 using Macro = std::shared_ptr<const MacroValue>;
 
 // The order is that of type_name() in value.cpp.
-using Value = std::variant<Nothing, Unknown, std::int64_t, double, bool, Vec3, Color, String, List, Macro,
-                           const Builtin*, Entity, SharedMaterial, std::shared_ptr<const Pattern>,
-                           std::shared_ptr<const Light>, std::shared_ptr<const Camera>,
-                           std::shared_ptr<const Background>>;
+using Value = std::variant<Nothing, Unknown, std::int64_t, double, bool, Vec3, Color, String, List,
+                           Macro, const Builtin*, Entity, SharedMaterial,
+                           std::shared_ptr<const Pattern>, std::shared_ptr<const Light>,
+                           std::shared_ptr<const Camera>, std::shared_ptr<const Background>>;
 
 /// Memory that a value holds, given back to where it is counted when the value goes.
 class Charge {
  public:
   Charge() = default;
-  Charge(std::size_t& counter, std::size_t bytes) : counter_(&counter), bytes_(bytes) { counter += bytes; }
-  Charge(Charge&& other) noexcept : counter_(std::exchange(other.counter_, nullptr)), bytes_(other.bytes_) {}
+  Charge(std::size_t& counter, std::size_t bytes) : counter_(&counter), bytes_(bytes) {
+    counter += bytes;
+  }
+  Charge(Charge&& other) noexcept
+      : counter_(std::exchange(other.counter_, nullptr)), bytes_(other.bytes_) {}
   Charge(const Charge&) = delete;
   Charge& operator=(const Charge&) = delete;
   Charge& operator=(Charge&&) = delete;

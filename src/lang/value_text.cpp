@@ -20,13 +20,16 @@ class Writer {
 
   void write(const Value& value, bool quoted) {
     context_.step(span_);
-    if (const auto* integer = std::get_if<std::int64_t>(&value)) return put(fmt::format("{}", *integer));
+    if (const auto* integer = std::get_if<std::int64_t>(&value))
+      return put(fmt::format("{}", *integer));
     if (const auto* number = std::get_if<double>(&value)) return put(float_text(*number));
     if (const auto* boolean = std::get_if<bool>(&value)) return put(*boolean ? "true" : "false");
     if (const auto* v = std::get_if<Vec3>(&value))
-      return put(fmt::format("vec3({}, {}, {})", float_text(v->x), float_text(v->y), float_text(v->z)));
+      return put(
+          fmt::format("vec3({}, {}, {})", float_text(v->x), float_text(v->y), float_text(v->z)));
     if (const auto* color = std::get_if<Color>(&value)) return write_color(*color);
-    if (const auto* string = std::get_if<String>(&value)) return write_string((*string)->text, quoted);
+    if (const auto* string = std::get_if<String>(&value))
+      return write_string((*string)->text, quoted);
     if (const auto* list = std::get_if<List>(&value)) return write_list(**list);
     put(fmt::format("<{}>", type_name(value)));
   }
@@ -92,7 +95,8 @@ struct Identity {
   }
 };
 
-[[noreturn]] void index_out_of_range(Span span, std::int64_t index, std::size_t size, std::string_view what) {
+[[noreturn]] void index_out_of_range(Span span, std::int64_t index, std::size_t size,
+                                     std::string_view what) {
   if (size == 0) fail(span, "there is no item {} in an empty {}", index, what);
   fail(span, "there is no item {} in a {} of {}; they count from 0", index, what, size);
 }
@@ -142,12 +146,14 @@ Value item(Context& context, Span index_span, const Value& base, const Value& in
   if (!number) fail(index_span, "an index is an Integer, not {}", index);
   const std::int64_t i = *number;
   const auto within = [&](std::size_t size, std::string_view what) {
-    if (i < 0 || static_cast<std::uint64_t>(i) >= size) index_out_of_range(index_span, i, size, what);
+    if (i < 0 || static_cast<std::uint64_t>(i) >= size)
+      index_out_of_range(index_span, i, size, what);
     return static_cast<std::size_t>(i);
   };
   if (const auto* list = std::get_if<List>(&base))
     return (*list)->items[within((*list)->items.size(), "List")];
-  if (const auto* vector = std::get_if<Vec3>(&base)) return (*vector)[static_cast<int>(within(3, "Vec3"))];
+  if (const auto* vector = std::get_if<Vec3>(&base))
+    return (*vector)[static_cast<int>(within(3, "Vec3"))];
   if (const auto* color = std::get_if<Color>(&base)) {
     const double channels[] = {color->r, color->g, color->b, color->a};
     return channels[within(std::size(channels), "Color")];

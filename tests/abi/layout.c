@@ -1,5 +1,6 @@
-// The layout of what crt.h declares, on every machine where pointers and size_t have 64 bits: written down
-// once, and never to change. A version that appends a field adds its line here and corrects the size.
+// The layout of what crt.h declares, on every machine where pointers and size_t have 64 bits:
+// written down once, and never to change. A version that appends a field adds its line here and
+// corrects the size.
 #include <crt/crt.h>
 #include <stdio.h>
 #include <string.h>

@@ -57,7 +57,8 @@ int main(void) {
   }
   look("at the start", threads);
   if (crt_sphere_create(center, 1, &sphere) != CRT_OK) return 1;
-  if (crt_scene_from_script(script, sizeof script - 1, "sphere.crt", NULL, NULL, &scene) != CRT_OK) return 1;
+  if (crt_scene_from_script(script, sizeof script - 1, "sphere.crt", NULL, NULL, &scene) != CRT_OK)
+    return 1;
   if (crt_scene_add_entity(scene, sphere) != CRT_OK) return 1;
   look("with a scene", threads);
   crt_entity_release(sphere);

@@ -41,7 +41,8 @@ struct Boxes {
   double way() const {
     double length = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {
-      length += glm::distance(scene.objects[order[i - 1]].bounds.lower, scene.objects[order[i]].bounds.lower);
+      length += glm::distance(scene.objects[order[i - 1]].bounds.lower,
+                              scene.objects[order[i]].bounds.lower);
     }
     return length;
   }
@@ -92,7 +93,8 @@ TEST_CASE("objects in one place keep their order") {
 TEST_CASE("a row of objects is followed from end to end, also among objects on the rim") {
   Boxes boxes;
   constexpr int count = 4096;
-  for (int i = 0; i < count; ++i) boxes.add(Vec3((i * 1031) % count, 0, 0), Vec3((i * 1031) % count, 0, 0));
+  for (int i = 0; i < count; ++i)
+    boxes.add(Vec3((i * 1031) % count, 0, 0), Vec3((i * 1031) % count, 0, 0));
   boxes.sort();
   CHECK(boxes.has_each_once());
   CHECK(boxes.way() == count - 1);

@@ -111,7 +111,8 @@ TEST_CASE("a file is replaced at once, and nothing else is left") {
   CHECK(folder.entries() == 1);
 }
 
-TEST_CASE("a new file has the permissions that the process gives, one that is replaced keeps its own") {
+TEST_CASE(
+    "a new file has the permissions that the process gives, one that is replaced keeps its own") {
   const TemporaryDirectory folder;
   fs::permissions(folder.path(), fs::perms::all);
   for (const mode_t mask : {mode_t{022}, mode_t{077}, mode_t{002}}) {
@@ -267,13 +268,15 @@ TEST_CASE("a file that may be written is, though its folder may not: in place") 
     write_file(folder / "a", "new");
     return content_of(folder / "a") == "new";
   }));
-  CHECK(as_common_user([&] { return failure(folder / "b").find("Permission denied") != std::string::npos; }));
+  CHECK(as_common_user(
+      [&] { return failure(folder / "b").find("Permission denied") != std::string::npos; }));
   fs::permissions(folder.path(), fs::perms(0755));
   CHECK(folder.entries() == 1);
 }
 
 TEST_CASE(
-    "in a folder where nobody replaces what is another's, a file that all may write is written in place" *
+    "in a folder where nobody replaces what is another's, a file that all may write is written in "
+    "place" *
     doctest::skip(geteuid() != 0)) {
   const TemporaryDirectory folder;
   put(folder / "a", "old");
@@ -293,7 +296,8 @@ TEST_CASE("a file that may not be written is not replaced, though its folder wou
   put(folder / "a", "old");
   REQUIRE(chmod((folder / "a").c_str(), 0444) == 0);
   fs::permissions(folder.path(), fs::perms::all);
-  CHECK(as_common_user([&] { return failure(folder / "a").find("Permission denied") != std::string::npos; }));
+  CHECK(as_common_user(
+      [&] { return failure(folder / "a").find("Permission denied") != std::string::npos; }));
   CHECK(content_of(folder / "a") == "old");
   CHECK(folder.entries() == 1);
 }

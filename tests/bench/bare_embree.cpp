@@ -20,7 +20,8 @@ struct Call {
 
   Call(Context& with, Flow flow) : context(&with) {
 #if RTC_VERSION_MAJOR >= 4
-    const auto flags = flow == Flow::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
+    const auto flags =
+        flow == Flow::coherent ? RTC_RAY_QUERY_FLAG_COHERENT : RTC_RAY_QUERY_FLAG_INCOHERENT;
     rtcInitRayQueryContext(context);
     rtcInitIntersectArguments(&intersect);
     rtcInitOccludedArguments(&occlude);
@@ -28,8 +29,8 @@ struct Call {
     intersect.flags = occlude.flags = flags;
 #else
     rtcInitIntersectContext(context);
-    context->flags =
-        flow == Flow::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
+    context->flags = flow == Flow::coherent ? RTC_INTERSECT_CONTEXT_FLAG_COHERENT
+                                            : RTC_INTERSECT_CONTEXT_FLAG_INCOHERENT;
 #endif
   }
   Call(const Call&) = delete;
@@ -109,7 +110,8 @@ void load(std::span<const crt_ray> from, Rays<Real, lanes>& rays, RTCRay16& ray)
   }
 }
 
-alignas(64) constexpr int all_valid[lanes] = {-1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1, -1};
+alignas(64) constexpr int all_valid[lanes] = {-1, -1, -1, -1, -1, -1, -1, -1,
+                                              -1, -1, -1, -1, -1, -1, -1, -1};
 
 }  // namespace
 
@@ -122,7 +124,8 @@ class BareEmbree::World {
     rtcAttachGeometry(scene_, geometry);
     rtcReleaseGeometry(geometry);
     rtcCommitScene(scene_);
-    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE) throw std::runtime_error("Embree refuses the spheres");
+    if (rtcGetDeviceError(device_) != RTC_ERROR_NONE)
+      throw std::runtime_error("Embree refuses the spheres");
   }
   World(const World&) = delete;
   World& operator=(const World&) = delete;
@@ -142,7 +145,9 @@ class BareEmbree::World {
   }
 
   /// Whether t is to be taken from our own ray, which has all its digits, and not from Embree's.
-  bool has_callbacks() const { return stand_ == Stand::double_callback || stand_ == Stand::float_callback; }
+  bool has_callbacks() const {
+    return stand_ == Stand::double_callback || stand_ == Stand::float_callback;
+  }
   RTCScene scene() const { return scene_; }
 
  private:
@@ -190,8 +195,9 @@ class BareEmbree::World {
   /// One in each ball's middle, across the z axis, with corners on the ball.
   RTCGeometry triangles(std::span<const Ball> balls) {
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
-    auto* vertices = static_cast<float*>(rtcSetNewGeometryBuffer(
-        geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3, 3 * sizeof(float), 3 * balls.size()));
+    auto* vertices = static_cast<float*>(
+        rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
+                                3 * sizeof(float), 3 * balls.size()));
     auto* indices = static_cast<unsigned*>(rtcSetNewGeometryBuffer(
         geometry, RTC_BUFFER_TYPE_INDEX, 0, RTC_FORMAT_UINT3, 3 * sizeof(unsigned), balls.size()));
     constexpr double corners[3][2] = {{0, 1}, {0.866, -0.5}, {-0.866, -0.5}};
@@ -248,7 +254,8 @@ void BareEmbree::intersect_packets(std::span<const crt_ray> rays, Flow flow,
       call(world_->scene(), all_valid, ray_hit);
       for (unsigned lane = 0; lane < lanes; ++lane) {
         const double t = world_->has_callbacks() ? own.t[lane] : ray_hit.ray.tfar[lane];
-        answers[i + lane] = {t, ray_hit.hit.geomID[lane] == no_id ? no_id : ray_hit.hit.primID[lane]};
+        answers[i + lane] = {t,
+                             ray_hit.hit.geomID[lane] == no_id ? no_id : ray_hit.hit.primID[lane]};
       }
     }
   });

@@ -1,4 +1,5 @@
-// The least that one must write to ask Embree for spheres: what our own queries are measured against.
+// The least that one must write to ask Embree for spheres: what our own queries are measured
+// against.
 #pragma once
 
 #include <cstdint>
@@ -33,12 +34,15 @@ class BareEmbree {
   BareEmbree& operator=(BareEmbree&&) noexcept;
 
   /// The nearest hit of each ray by rtcIntersect1, or by rtcIntersect16 for 16 at a time.
-  void intersect_one_by_one(std::span<const crt_ray> rays, Flow flow, std::span<Answer> answers) const;
+  void intersect_one_by_one(std::span<const crt_ray> rays, Flow flow,
+                            std::span<Answer> answers) const;
   void intersect_packets(std::span<const crt_ray> rays, Flow flow, std::span<Answer> answers) const;
 
   /// Whether a ray hits anything, by rtcOccluded1 and rtcOccluded16.
-  void occluded_one_by_one(std::span<const crt_ray> rays, Flow flow, std::span<std::uint8_t> answers) const;
-  void occluded_packets(std::span<const crt_ray> rays, Flow flow, std::span<std::uint8_t> answers) const;
+  void occluded_one_by_one(std::span<const crt_ray> rays, Flow flow,
+                           std::span<std::uint8_t> answers) const;
+  void occluded_packets(std::span<const crt_ray> rays, Flow flow,
+                        std::span<std::uint8_t> answers) const;
 
  private:
   class World;

@@ -1,5 +1,5 @@
-// How the time of a ray grows with the scene, on one thread. Writes JSON: for each curve and N the seconds
-// that preparing took, and in each round those of following the rays.
+// How the time of a ray grows with the scene, on one thread. Writes JSON: for each curve and N the
+// seconds that preparing took, and in each round those of following the rays.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -71,11 +71,13 @@ Scene plate_of_holes(int n) {
   return seen_from({1, 2, -11}, csg_difference(plate, cutters));
 }
 
-/// Seen from the middle of n balls, all cut out of a box: a ray leaves all of them before it meets the box.
+/// Seen from the middle of n balls, all cut out of a box: a ray leaves all of them before it meets
+/// the box.
 Scene nested_shells(int n) {
   std::vector<Entity> cutters;
   for (int i = 0; i < n; ++i) cutters.push_back(ball({0, 0, 0}, 1 + 2.0 * (i + 1) / n));
-  return seen_from({0, 0, -0.5}, csg_difference(Box{.corner_a = Vec3(-4), .corner_b = Vec3(4)}, cutters));
+  return seen_from({0, 0, -0.5},
+                   csg_difference(Box{.corner_a = Vec3(-4), .corner_b = Vec3(4)}, cutters));
 }
 
 /// Each ray passes all holes, which overlap, before it is out of them.
@@ -104,11 +106,12 @@ Scene alternating_depth(int n) {
 const Curve curves[] = {
     {"sparse union", "one union of N spheres in a box", sparse_union, 1'000'000, 500},
     {"plate of holes", "a box minus N spheres side by side", plate_of_holes, 1'000'000, 500},
-    {"nested shells", "a box minus N balls around one another, seen from their middle", nested_shells, 1'000,
+    {"nested shells", "a box minus N balls around one another, seen from their middle",
+     nested_shells, 1'000, 100},
+    {"holes in a row", "a box minus N spheres that overlap, along the ray", holes_in_a_row, 1'000,
      100},
-    {"holes in a row", "a box minus N spheres that overlap, along the ray", holes_in_a_row, 1'000, 100},
-    {"alternating depth", "unions and differences nested N deep, side by side", alternating_depth, 10'000,
-     100},
+    {"alternating depth", "unions and differences nested N deep, side by side", alternating_depth,
+     10'000, 100},
 };
 
 struct Point {
@@ -125,7 +128,8 @@ Point measured(Scene scene, int side, int rounds) {
   point.prepare_seconds = processor_seconds_of([&] { prepared = prepare(scene); });
   for (int round = -1; round < rounds; ++round) {
     RenderStats stats;
-    const double taken = processor_seconds_of([&] { stats = render(prepared, {.threads = 1}).stats(); });
+    const double taken =
+        processor_seconds_of([&] { stats = render(prepared, {.threads = 1}).stats(); });
     const auto rays = static_cast<double>(stats.camera_rays);
     point.tests = static_cast<double>(stats.intersection_tests) / rays;
     point.events = static_cast<double>(stats.interval_events) / rays;
@@ -138,10 +142,12 @@ std::vector<std::string> run(bool quick) {
   const int rounds = quick ? 1 : 5;
   std::vector<std::string> rows;
   for (const Curve& curve : curves) {
-    for (int n = 1; n <= (quick ? std::min(curve.largest, quick_largest) : curve.largest); n *= 10) {
+    for (int n = 1; n <= (quick ? std::min(curve.largest, quick_largest) : curve.largest);
+         n *= 10) {
       const Point point = measured(curve.scene(n), quick ? curve.side / 2 : curve.side, rounds);
-      std::cerr << fmt::format("{:18} N = {:8}: {:10.1f} ns a ray, {:8.1f} crossings; prepared in {:.3f} s\n",
-                               curve.name, n, median(point.nanoseconds), point.events, point.prepare_seconds);
+      std::cerr << fmt::format(
+          "{:18} N = {:8}: {:10.1f} ns a ray, {:8.1f} crossings; prepared in {:.3f} s\n",
+          curve.name, n, median(point.nanoseconds), point.events, point.prepare_seconds);
       rows.push_back(fmt::format(
           R"({{"curve": "{}", "about": "{}", "n": {}, "prepare_seconds": {}, "tests": {}, "events": {}, "nanoseconds": [{}]}})",
           curve.name, curve.about, n, point.prepare_seconds, point.tests, point.events,

@@ -74,10 +74,10 @@ class Comparison {
     for (std::size_t i = 0; i < contenders.size(); ++i) {
       std::cerr << fmt::format("  {:45} {:8.1f} ns a ray\n", contenders[i].name,
                                median(seconds[i]) / static_cast<double>(rays.size()) * 1e9);
-      rows.push_back(
-          fmt::format(R"({{"spheres": {}, "flow": "{}", "rays": {}, "name": "{}", "seconds": [{}]}})",
-                      balls_.size(), flow == Flow::coherent ? "coherent" : "scattered", rays.size(),
-                      contenders[i].name, fmt::join(seconds[i], ", ")));
+      rows.push_back(fmt::format(
+          R"({{"spheres": {}, "flow": "{}", "rays": {}, "name": "{}", "seconds": [{}]}})",
+          balls_.size(), flow == Flow::coherent ? "coherent" : "scattered", rays.size(),
+          contenders[i].name, fmt::join(seconds[i], ", ")));
     }
     return rows;
   }
@@ -105,17 +105,21 @@ class Comparison {
   std::vector<Contender> ours(const std::vector<crt_ray>& rays, Flow flow) {
     std::vector<Contender> result = {
         {"nearest: CRT, batch (C)",
-         [&] { require(crt_intersect(in_c_.get(), rays.data(), 0, rays.size(), hits_.data(), 0)); }},
+         [&] {
+           require(crt_intersect(in_c_.get(), rays.data(), 0, rays.size(), hits_.data(), 0));
+         }},
         {"nearest: CRT, distances (C)",
          [&] {
-           require(crt_distances(in_c_.get(), rays.data(), 0, rays.size(), distances_.data(), ids_.data()));
+           require(crt_distances(in_c_.get(), rays.data(), 0, rays.size(), distances_.data(),
+                                 ids_.data()));
          }},
         {"nearest: CRT, one by one (C++)", [&] { one_by_one(rays); }},
         {"any: CRT, batch (C)",
          [&] { require(crt_occluded(in_c_.get(), rays.data(), 0, rays.size(), hidden_.data())); }},
     };
     if (flow == Flow::coherent) {
-      result.push_back({"nearest: CRT, a picture without lights", [&] { render(in_cpp_, {.threads = 1}); }});
+      result.push_back(
+          {"nearest: CRT, a picture without lights", [&] { render(in_cpp_, {.threads = 1}); }});
     }
     return result;
   }
@@ -129,7 +133,8 @@ class Comparison {
                              .direction = {ray.direction[0], ray.direction[1], ray.direction[2]},
                              .t_min = ray.t_min,
                              .t_max = ray.t_max});
-      answers_[i] = hit ? Answer{hit->t, hit->entity_id} : Answer{std::numeric_limits<double>::infinity(), 0};
+      answers_[i] =
+          hit ? Answer{hit->t, hit->entity_id} : Answer{std::numeric_limits<double>::infinity(), 0};
     }
   }
 
@@ -159,8 +164,8 @@ class Comparison {
       const double found = sum(name);
       if (std::abs(found - expected) > grazing_share * expected) {
         throw std::runtime_error(fmt::format("{} finds other spheres ({} rays): {} and {}", name,
-                                             flow == Flow::coherent ? "coherent" : "scattered", found,
-                                             expected));
+                                             flow == Flow::coherent ? "coherent" : "scattered",
+                                             found, expected));
       }
     }
   }

@@ -17,7 +17,9 @@ constexpr int rays_across = 32;
 constexpr std::uint64_t first_seed_of_truth = 1001;
 
 Shown shown(const Color& color, double gamma) {
-  const auto channel = [&](double value) { return std::pow(std::clamp(value, 0.0, 1.0), 1 / gamma); };
+  const auto channel = [&](double value) {
+    return std::pow(std::clamp(value, 0.0, 1.0), 1 / gamma);
+  };
   return {channel(color.r), channel(color.g), channel(color.b)};
 }
 
@@ -54,8 +56,9 @@ class RayPicture {
     rays.low = rays.high = shown(image_.at(x * rays_across, y * rays_across), gamma_);
     for (int j = y * rays_across; j < (y + 1) * rays_across; ++j) {
       for (int i = x * rays_across; i < (x + 1) * rays_across; ++i) {
-        rays.entities.insert(ids[static_cast<std::size_t>(j) * static_cast<std::size_t>(image_.width()) +
-                                 static_cast<std::size_t>(i)]);
+        rays.entities.insert(
+            ids[static_cast<std::size_t>(j) * static_cast<std::size_t>(image_.width()) +
+                static_cast<std::size_t>(i)]);
         const Shown seen = shown(image_.at(i, j), gamma_);
         for (std::size_t c = 0; c < seen.size(); ++c) {
           rays.low[c] = std::min(rays.low[c], seen[c]);
@@ -83,7 +86,8 @@ Region with_margin(const Region& region, const Settings& settings) {
 /// Rays by pixel.
 class Neighbourhood {
  public:
-  Neighbourhood(const Scene& scene, const Region& region) : region_(with_margin(region, scene.settings)) {
+  Neighbourhood(const Scene& scene, const Region& region)
+      : region_(with_margin(region, scene.settings)) {
     const RayPicture picture(scene, region_);
     for (int y = 0; y < region_.height; ++y) {
       for (int x = 0; x < region_.width; ++x) pixels_.push_back(picture.of_pixel(x, y));
@@ -103,7 +107,8 @@ class Neighbourhood {
     for (int j = y - 1; j <= y + 1; ++j) {
       for (int i = x - 1; i <= x + 1; ++i) {
         const Rays* rays = at(i, j);
-        if (rays != nullptr && rays->entities.size() == 1 && rays->entities.contains(entity)) return true;
+        if (rays != nullptr && rays->entities.size() == 1 && rays->entities.contains(entity))
+          return true;
       }
     }
     return false;
@@ -114,7 +119,8 @@ class Neighbourhood {
   std::vector<Rays> pixels_;
 };
 
-PixelClass class_at(const Neighbourhood& all, int x, int y, bool has_lens, const EntityRange& interest) {
+PixelClass class_at(const Neighbourhood& all, int x, int y, bool has_lens,
+                    const EntityRange& interest) {
   const Rays& rays = *all.at(x, y);
   const auto any_entity = [&](const auto& is_so) {
     return std::any_of(rays.entities.begin(), rays.entities.end(), is_so);
@@ -131,7 +137,8 @@ PixelClass class_at(const Neighbourhood& all, int x, int y, bool has_lens, const
 
 }  // namespace
 
-std::vector<PixelClass> classes_of(const Scene& scene, const Region& region, const EntityRange& interest) {
+std::vector<PixelClass> classes_of(const Scene& scene, const Region& region,
+                                   const EntityRange& interest) {
   const bool has_lens = scene.camera.aperture > 0 && scene.settings.dof_samples > 1;
   const Neighbourhood all(scene, region);
   std::vector<PixelClass> classes;
@@ -143,7 +150,8 @@ std::vector<PixelClass> classes_of(const Scene& scene, const Region& region, con
   return classes;
 }
 
-TruePixels true_pixels(const Scene& scene, const Region& region, std::vector<bool> chosen, int samples) {
+TruePixels true_pixels(const Scene& scene, const Region& region, std::vector<bool> chosen,
+                       int samples) {
   Scene fine = scene;
   fine.settings.target_error = 1;
   fine.settings.min_samples = fine.settings.max_samples = samples;
@@ -174,16 +182,17 @@ std::vector<Trial> trials_of(const TruePixels& pixels, double target_error, int 
   const PreparedScene prepared = prepare(adaptive);
   std::vector<Trial> trials;
   for (int seed = 1; seed <= seeds; ++seed) {
-    const Image image =
-        render(prepared,
-               {.region = pixels.region, .seed = static_cast<std::uint64_t>(seed), .aovs = {.error = true}});
+    const Image image = render(prepared, {.region = pixels.region,
+                                          .seed = static_cast<std::uint64_t>(seed),
+                                          .aovs = {.error = true}});
     const auto claims = image.channel("error");
     std::size_t index = 0;
     for (std::size_t i = 0; i < pixels.truth.size(); ++i) {
       if (!pixels.chosen[i]) continue;
       const int x = static_cast<int>(i) % pixels.region.width;
       const int y = static_cast<int>(i) / pixels.region.width;
-      const double error = farthest(shown(image.at(x, y), adaptive.settings.gamma), pixels.truth[i]);
+      const double error =
+          farthest(shown(image.at(x, y), adaptive.settings.gamma), pixels.truth[i]);
       trials.push_back({.pixel = index++, .claimed = double{claims[i]}, .error = error});
     }
   }

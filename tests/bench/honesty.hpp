@@ -26,7 +26,8 @@ struct EntityRange {
 };
 
 /// Of each pixel of a part of the scene's picture, rows from the top.
-std::vector<PixelClass> classes_of(const Scene& scene, const Region& region, const EntityRange& interest);
+std::vector<PixelClass> classes_of(const Scene& scene, const Region& region,
+                                   const EntityRange& interest);
 
 /// What a viewer sees of a colour, each channel from 0 to 1.
 using Shown = std::array<double, 3>;
@@ -40,8 +41,10 @@ struct TruePixels {
   double uncertainty = 0;  ///< of the truth, in display units: root of the mean square
 };
 
-/// The truth is the mean of two renders with so many samples a pixel each and random numbers of their own.
-TruePixels true_pixels(const Scene& scene, const Region& region, std::vector<bool> chosen, int samples);
+/// The truth is the mean of two renders with so many samples a pixel each and random numbers of
+/// their own.
+TruePixels true_pixels(const Scene& scene, const Region& region, std::vector<bool> chosen,
+                       int samples);
 
 /// One pixel, rendered with one seed.
 struct Trial {

@@ -1,5 +1,5 @@
-// Claimed half-widths against achieved errors in one class of pixels, of parts of several scenes. Writes
-// JSON.
+// Claimed half-widths against achieved errors in one class of pixels, of parts of several scenes.
+// Writes JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -18,8 +18,10 @@ namespace crt::bench {
 namespace {
 
 constexpr const char* usage =
-    "usage: bench_honesty CLASS SEEDS SAMPLES (SCENE.crt WIDTH HEIGHT GAMMA FIRST LAST X Y W H)...\n"
-    "CLASS is flat, edge, sub-pixel, defocused or special: FIRST to LAST are then the ids of what is meant.\n"
+    "usage: bench_honesty CLASS SEEDS SAMPLES (SCENE.crt WIDTH HEIGHT GAMMA FIRST LAST X Y W "
+    "H)...\n"
+    "CLASS is flat, edge, sub-pixel, defocused or special: FIRST to LAST are then the ids of what "
+    "is meant.\n"
     "SAMPLES, a power of 2, are those that the truth is made of, twice.";
 constexpr std::size_t arguments_of_part = 10;
 constexpr double steps_of_8_bits = 255;
@@ -38,7 +40,8 @@ PixelClass class_named(const std::string& name) {
                                                      {"defocused", PixelClass::defocused},
                                                      {"special", PixelClass::special}};
   const auto found = classes.find(name);
-  if (found == classes.end()) throw std::invalid_argument(fmt::format("no class {}\n{}", name, usage));
+  if (found == classes.end())
+    throw std::invalid_argument(fmt::format("no class {}\n{}", name, usage));
   return found->second;
 }
 
@@ -51,9 +54,11 @@ TruePixels pixels_of_part(const Arguments& part, PixelClass wanted, int samples)
   if (!result.scene) throw std::runtime_error(part[0] + " is no scene");
   const EntityRange interest{static_cast<std::uint32_t>(std::stoul(part[4])),
                              static_cast<std::uint32_t>(std::stoul(part[5]))};
-  const Region region{std::stoi(part[6]), std::stoi(part[7]), std::stoi(part[8]), std::stoi(part[9])};
+  const Region region{std::stoi(part[6]), std::stoi(part[7]), std::stoi(part[8]),
+                      std::stoi(part[9])};
   std::vector<bool> chosen;
-  for (const PixelClass one : classes_of(*result.scene, region, interest)) chosen.push_back(one == wanted);
+  for (const PixelClass one : classes_of(*result.scene, region, interest))
+    chosen.push_back(one == wanted);
   return true_pixels(*result.scene, region, std::move(chosen), samples);
 }
 
@@ -80,9 +85,9 @@ std::string text_of_bin(Bin& bin) {
   for (const double error : bin.errors) squares += error * error;
   std::sort(bin.errors.begin(), bin.errors.end());
   const double within_95 = bin.errors[static_cast<std::size_t>(std::ceil(0.95 * count)) - 1];
-  return fmt::format(R"({{"count": {}, "claimed": {}, "rms": {}, "within_95": {}}})", bin.errors.size(),
-                     bin.claims / count * steps_of_8_bits, std::sqrt(squares / count) * steps_of_8_bits,
-                     within_95 * steps_of_8_bits);
+  return fmt::format(R"({{"count": {}, "claimed": {}, "rms": {}, "within_95": {}}})",
+                     bin.errors.size(), bin.claims / count * steps_of_8_bits,
+                     std::sqrt(squares / count) * steps_of_8_bits, within_95 * steps_of_8_bits);
 }
 
 /// How often each pixel was as near the truth as it said.
@@ -112,7 +117,8 @@ struct Successes {
     return fmt::format(
         R"({{"steps": {}, "pixels": {}, "trials": {}, "within": {}, "low": {}, "claimed": {}, "worst_pixel": {}}})",
         steps, pixels, trials, within, test::clopper_pearson_low(within, trials),
-        claims / static_cast<double>(std::max<std::int64_t>(trials, 1)) * steps_of_8_bits, worst_pixel);
+        claims / static_cast<double>(std::max<std::int64_t>(trials, 1)) * steps_of_8_bits,
+        worst_pixel);
   }
 };
 
@@ -143,9 +149,10 @@ std::string measured(const Arguments& arguments) {
   }
   std::vector<std::string> bin_texts;
   for (auto& [place, bin] : bins) bin_texts.push_back(text_of_bin(bin));
-  return fmt::format(R"({{"seeds": {}, "samples": {}, "uncertainty": {}, "targets": [{}], "bins": [{}]}})",
-                     seeds, 2 * samples, uncertainty * steps_of_8_bits, fmt::join(rows, ", "),
-                     fmt::join(bin_texts, ", "));
+  return fmt::format(
+      R"({{"seeds": {}, "samples": {}, "uncertainty": {}, "targets": [{}], "bins": [{}]}})", seeds,
+      2 * samples, uncertainty * steps_of_8_bits, fmt::join(rows, ", "),
+      fmt::join(bin_texts, ", "));
 }
 
 }  // namespace

@@ -51,8 +51,10 @@ double Stream::between(double low, double high) {
   return low + (high - low) * (state_ / largest);
 }
 
-int measured_main(int argc, char** argv, const std::function<std::vector<std::string>(bool quick)>& run) try {
-  std::cout << fmt::format("{{\"rows\": [\n{}\n]}}\n", fmt::join(run(wants_quick(argc, argv)), ",\n"));
+int measured_main(int argc, char** argv,
+                  const std::function<std::vector<std::string>(bool quick)>& run) try {
+  std::cout << fmt::format("{{\"rows\": [\n{}\n]}}\n",
+                           fmt::join(run(wants_quick(argc, argv)), ",\n"));
   return 0;
 } catch (const std::exception& error) {
   std::cerr << error.what() << '\n';

@@ -8,8 +8,8 @@
 
 namespace crt::bench {
 
-/// The processor's time that this program has had since it began. Unlike a clock it stands still while other
-/// programs run, which matters for what takes one thread.
+/// The processor's time that this program has had since it began. Unlike a clock it stands still
+/// while other programs run, which matters for what takes one thread.
 double processor_seconds();
 
 template <class Call>
@@ -25,8 +25,8 @@ struct Contender {
   std::function<void()> work;
 };
 
-/// The processor's seconds of each contender in each round; in a round each has its turn, so that what else
-/// the machine does falls on all. A first round, to warm caches up, does not count.
+/// The processor's seconds of each contender in each round; in a round each has its turn, so that
+/// what else the machine does falls on all. A first round, to warm caches up, does not count.
 std::vector<std::vector<double>> take_turns(const std::vector<Contender>& contenders, int rounds);
 
 double median(std::vector<double> values);
@@ -41,9 +41,11 @@ class Stream {
   std::uint32_t state_;
 };
 
-/// What main() returns of a program that measures: it calls run(quick), where the command line may say
-/// --quick and nothing else, and writes the rows that come back to standard output, as JSON; errors to
-/// standard error.
-int measured_main(int argc, char** argv, const std::function<std::vector<std::string>(bool quick)>& run);
+/// What main() returns of a program that measures: it calls run(quick), where the command line may
+/// say
+/// --quick and nothing else, and writes the rows that come back to standard output, as JSON; errors
+/// to standard error.
+int measured_main(int argc, char** argv,
+                  const std::function<std::vector<std::string>(bool quick)>& run);
 
 }  // namespace crt::bench

@@ -1,6 +1,7 @@
-// What a batch of ray queries costs through the C interface, against rendering the same rays: a picture
-// without lights, one ray a pixel, is nothing but its camera rays. Both take turns, so that their ratio means
-// something on a machine with other work; `ratio` is the median of queries / render (the aim: at most 1.2).
+// What a batch of ray queries costs through the C interface, against rendering the same rays: a
+// picture without lights, one ray a pixel, is nothing but its camera rays. Both take turns, so that
+// their ratio means something on a machine with other work; `ratio` is the median of queries /
+// render (the aim: at most 1.2).
 #include <benchmark/benchmark.h>
 #include <crt/crt.h>
 
@@ -74,7 +75,8 @@ std::vector<crt_ray> camera_rays() {
     for (int x = 0; x < side; ++x) {
       const double nx = 2 * (x + 0.5) / side - 1;
       const double ny = 1 - 2 * (y + 0.5) / side;
-      rays.push_back({{0, 0, -1}, {nx * half, ny * half, 1}, 0, std::numeric_limits<double>::infinity()});
+      rays.push_back(
+          {{0, 0, -1}, {nx * half, ny * half, 1}, 0, std::numeric_limits<double>::infinity()});
     }
   }
   return rays;
@@ -91,8 +93,8 @@ void queries_against_render(benchmark::State& state, bool holes) {
     crt_image* image = nullptr;
     const double render = seconds([&] { require(crt_render(prepared, nullptr, &image)); });
     crt_image_release(image);
-    const double ask =
-        seconds([&] { require(crt_intersect(prepared, rays.data(), 0, rays.size(), hits.data(), 0)); });
+    const double ask = seconds(
+        [&] { require(crt_intersect(prepared, rays.data(), 0, rays.size(), hits.data(), 0)); });
     ratios.push_back(ask / render);
     ask_total += ask;
     render_total += render;

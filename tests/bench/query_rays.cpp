@@ -30,7 +30,8 @@ Axes camera_axes() {
   const double distance = length(p);
   const double level = std::hypot(p[0], p[2]);
   return {.right = {-p[2] / level, 0, p[0] / level},
-          .up = {-p[0] * p[1] / (level * distance), level / distance, -p[2] * p[1] / (level * distance)},
+          .up = {-p[0] * p[1] / (level * distance), level / distance,
+                 -p[2] * p[1] / (level * distance)},
           .forward = {-p[0] / distance, -p[1] / distance, -p[2] / distance}};
 }
 
@@ -41,7 +42,8 @@ std::vector<Ball> balls_in_a_box(int count) {
   const double radius = 1.4 / std::cbrt(count);
   std::vector<Ball> balls(static_cast<std::size_t>(count));
   for (Ball& ball : balls) {
-    for (int axis = 0; axis < 3; ++axis) ball.center[axis] = stream.between(box_low[axis], box_high[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      ball.center[axis] = stream.between(box_low[axis], box_high[axis]);
     ball.radius = radius;
   }
   return balls;
@@ -74,7 +76,8 @@ std::vector<crt_ray> scattered_rays(int count) {
   Stream stream(2);
   std::vector<crt_ray> rays(static_cast<std::size_t>(count));
   for (crt_ray& ray : rays) {
-    for (int axis = 0; axis < 3; ++axis) ray.origin[axis] = stream.between(box_low[axis], box_high[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      ray.origin[axis] = stream.between(box_low[axis], box_high[axis]);
     const double z = stream.between(-1, 1);
     const double angle = stream.between(0, 2 * std::numbers::pi);
     const double level = std::sqrt(1 - z * z);

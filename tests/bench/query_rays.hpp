@@ -13,11 +13,12 @@ struct Ball {
   double radius;
 };
 
-/// Spheres all over a box of 8 x 6 x 8, which take the same share of it however many they are: those of the
-/// scenes `spheres-...` in tests/bench/povray.
+/// Spheres all over a box of 8 x 6 x 8, which take the same share of it however many they are:
+/// those of the scenes `spheres-...` in tests/bench/povray.
 std::vector<Ball> balls_in_a_box(int count);
 
-/// side x side rays from a camera that sees all of the box, in blocks of 4 x 4, which are packets then.
+/// side x side rays from a camera that sees all of the box, in blocks of 4 x 4, which are packets
+/// then.
 std::vector<crt_ray> camera_rays(int side);
 
 /// Rays from anywhere in the box in any direction.

@@ -1,7 +1,7 @@
 // Times crt_intersect for ray_queries.py:  ray_queries SCENE.crt RAYS_PER_SIDE REPETITIONS
 //
-// Prints the seconds of each repetition. The rays are a grid along z, over x and y from -4 to 4, from z =
-// -20.
+// Prints the seconds of each repetition. The rays are a grid along z, over x and y from -4 to 4,
+// from z = -20.
 #define _POSIX_C_SOURCE 199309L  // clock_gettime
 #include <crt/crt.h>
 #include <math.h>
@@ -32,7 +32,8 @@ int main(int argc, char** argv) {
   crt_hit* hits = malloc(count * sizeof *hits);
   crt_scene* scene = NULL;
   crt_prepared* prepared = NULL;
-  int failed = rays == NULL || hits == NULL || crt_scene_from_script_file(argv[1], NULL, NULL, &scene) ||
+  int failed = rays == NULL || hits == NULL ||
+               crt_scene_from_script_file(argv[1], NULL, NULL, &scene) ||
                crt_scene_prepare(scene, &prepared);
   if (!failed) aim(rays, side);
   for (int i = 0; i < repetitions && !failed; ++i) {

@@ -30,7 +30,8 @@ void render_scene(benchmark::State& state, const crt::Scene& scene) {
   }
   state.counters["camera_rays/s"] =
       benchmark::Counter(static_cast<double>(camera_rays), benchmark::Counter::kIsRate);
-  state.counters["rays/s"] = benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
+  state.counters["rays/s"] =
+      benchmark::Counter(static_cast<double>(rays), benchmark::Counter::kIsRate);
 }
 
 void prepare_scene(benchmark::State& state, const std::function<crt::Scene(int)>& make) {
@@ -63,6 +64,10 @@ BENCHMARK_CAPTURE(render_scene, glass_and_mirrors, glass_and_mirrors())
     ->Unit(benchmark::kMillisecond);
 
 // The argument: balls along each side.
-BENCHMARK_CAPTURE(prepare_scene, balls, balls)->Arg(8)->Arg(32)->UseRealTime()->Unit(benchmark::kMillisecond);
+BENCHMARK_CAPTURE(prepare_scene, balls, balls)
+    ->Arg(8)
+    ->Arg(32)
+    ->UseRealTime()
+    ->Unit(benchmark::kMillisecond);
 
 }  // namespace

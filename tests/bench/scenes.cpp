@@ -40,7 +40,8 @@ Scene drilled_blocks(int n) {
   for (int drill = 0; drill < 8; ++drill) {
     const double x = half * (drill % 4 - 1.5) / 2;
     const double z = half * (drill < 4 ? -0.5 : 0.5);
-    drills.emplace_back(Cylinder{.from = {x, -2 * half, z}, .to = {x, 2 * half, z}, .radius = half / 6});
+    drills.emplace_back(
+        Cylinder{.from = {x, -2 * half, z}, .to = {x, 2 * half, z}, .radius = half / 6});
   }
   const Entity block = csg_difference(Box{.corner_a = Vec3(-half), .corner_b = Vec3(half)}, drills);
   Scene scene = studio();
@@ -61,7 +62,8 @@ Scene curved(int n) {
       const Vec3 top = place + Vec3(0, 2 * size, 0);
       switch ((x + z) % 3) {
         case 0:
-          scene.entities.emplace_back(Torus{.center = place, .radius = size, .thickness = size / 3});
+          scene.entities.emplace_back(
+              Torus{.center = place, .radius = size, .thickness = size / 3});
           break;
         case 1:
           scene.entities.emplace_back(Cone{.from = place, .to = top, .radius = size});
@@ -85,7 +87,8 @@ Scene glass_and_mirrors() {
         Sphere{.center = center, .radius = 1.2, .material = index % 2 == 0 ? glass : mirror});
   }
   scene.lights.emplace_back(PointLight{.origin = {-8, 9, -4}, .color = grey(0.5)});
-  scene.lights.emplace_back(ParallelLight{.from = {0, 10, 5}, .pointing = {0, 0, 0}, .color = grey(0.4)});
+  scene.lights.emplace_back(
+      ParallelLight{.from = {0, 10, 5}, .pointing = {0, 0, 0}, .color = grey(0.4)});
   scene.settings.recursion_depth = 6;
   return scene;
 }

@@ -1,5 +1,5 @@
-// What Embree calls for a sphere: bounds, the nearest hit and any hit, for one ray and for 16 at a time, in
-// float and in double.
+// What Embree calls for a sphere: bounds, the nearest hit and any hit, for one ray and for 16 at a
+// time, in float and in double.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -77,14 +77,15 @@ void meet_one(const RTCIntersectFunctionNArguments& arguments) {
   ray_hit.hit.geomID = arguments.geomID;
 }
 
-/// Finds the lanes whose rays the ball stops, 1 or 0 for each; false if there are none. Loops over lanes here
-/// and below are written so that they become vector code.
+/// Finds the lanes whose rays the ball stops, 1 or 0 for each; false if there are none. Loops over
+/// lanes here and below are written so that they become vector code.
 template <class Real>
 bool stopped_lanes(const Rays<Real, lanes>& rays, const Equation<Real>& ball, const int* valid,
                    Real (&found)[lanes], int (&stopped)[lanes]) {
   int any = 0;
   for (unsigned lane = 0; lane < lanes; ++lane) found[lane] = nearest_crossing(rays, ball, lane);
-  for (unsigned lane = 0; lane < lanes; ++lane) stopped[lane] = found[lane] < rays.t[lane] ? -valid[lane] : 0;
+  for (unsigned lane = 0; lane < lanes; ++lane)
+    stopped[lane] = found[lane] < rays.t[lane] ? -valid[lane] : 0;
   for (unsigned lane = 0; lane < lanes; ++lane) any |= stopped[lane];
   return any != 0;
 }
@@ -98,7 +99,8 @@ void replace(Number (&numbers)[lanes], const int (&where)[lanes], const Other (&
 
 template <class Number>
 void replace(Number (&numbers)[lanes], const int (&where)[lanes], Number by) {
-  for (unsigned lane = 0; lane < lanes; ++lane) numbers[lane] = where[lane] != 0 ? by : numbers[lane];
+  for (unsigned lane = 0; lane < lanes; ++lane)
+    numbers[lane] = where[lane] != 0 ? by : numbers[lane];
 }
 
 template <class Real>
@@ -106,7 +108,8 @@ void meet_packet(const RTCIntersectFunctionNArguments& arguments) {
   auto& rays = *reinterpret_cast<Rays<Real, lanes>*>(arguments.context);
   alignas(64) Real found[lanes];
   alignas(64) int stopped[lanes];
-  if (!stopped_lanes(rays, ball_of<Real, lanes>(arguments), arguments.valid, found, stopped)) return;
+  if (!stopped_lanes(rays, ball_of<Real, lanes>(arguments), arguments.valid, found, stopped))
+    return;
   auto& ray_hit = *reinterpret_cast<RTCRayHit16*>(arguments.rayhit);
   replace(rays.t, stopped, found);
   replace(ray_hit.ray.tfar, stopped, found);
@@ -131,8 +134,10 @@ void hide_packet(const RTCOccludedFunctionNArguments& arguments) {
   const auto& rays = *reinterpret_cast<const Rays<Real, lanes>*>(arguments.context);
   alignas(64) Real found[lanes];
   alignas(64) int stopped[lanes];
-  if (!stopped_lanes(rays, ball_of<Real, lanes>(arguments), arguments.valid, found, stopped)) return;
-  replace(reinterpret_cast<RTCRay16*>(arguments.ray)->tfar, stopped, -std::numeric_limits<float>::infinity());
+  if (!stopped_lanes(rays, ball_of<Real, lanes>(arguments), arguments.valid, found, stopped))
+    return;
+  replace(reinterpret_cast<RTCRay16*>(arguments.ray)->tfar, stopped,
+          -std::numeric_limits<float>::infinity());
 }
 
 template <class Real>

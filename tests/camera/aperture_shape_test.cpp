@@ -50,11 +50,12 @@ struct Polygon {
   double first_corner;  ///< angle of a corner, clockwise from the top
 };
 
-constexpr std::array<Polygon, 5> polygons = {{{"triangle", ApertureShape::triangle, 3, 0},
-                                              {"square", ApertureShape::square, 4, std::numbers::pi / 4},
-                                              {"pentagon", ApertureShape::pentagon, 5, 0},
-                                              {"hexagon", ApertureShape::hexagon, 6, 0},
-                                              {"octagon", ApertureShape::octagon, 8, 0}}};
+constexpr std::array<Polygon, 5> polygons = {
+    {{"triangle", ApertureShape::triangle, 3, 0},
+     {"square", ApertureShape::square, 4, std::numbers::pi / 4},
+     {"pentagon", ApertureShape::pentagon, 5, 0},
+     {"hexagon", ApertureShape::hexagon, 6, 0},
+     {"octagon", ApertureShape::octagon, 8, 0}}};
 
 /// How far `p` lies beyond the polygon's nearest side; negative inside.
 double beyond_sides(const Polygon& polygon, const LensPoint& p) {
@@ -128,25 +129,27 @@ TEST_CASE("circle, uniform, line and gaussian have the moments of their formulas
   check(ApertureShape::circle, 0.25, 0.25);
   check(ApertureShape::uniform, 1.0 / 3, 1.0 / 3);
   check(ApertureShape::line, 1.0 / 3, 0);
-  // The mean of r^2 of a normal distribution of variance s^2 that is cut at R, with q = R^2 / (2 s^2):
-  // 2 s^2 (1 - (1 + q) e^-q) / (1 - e^-q); half of it for each coordinate.
+  // The mean of r^2 of a normal distribution of variance s^2 that is cut at R, with q = R^2 / (2
+  // s^2): 2 s^2 (1 - (1 + q) e^-q) / (1 - e^-q); half of it for each coordinate.
   const double q = 8;
   const double mean_square = 0.5 * (1 - (1 + q) * std::exp(-q)) / (1 - std::exp(-q));
   check(ApertureShape::gaussian, mean_square / 2, mean_square / 2);
 }
 
 TEST_CASE("equal areas of every polygon and of the disc get equally many points") {
-  // Sub-areas of equal size by construction: each of `wedges` equal wedges cut into `rings` parts of
-  // equal area by scaled copies of the outline.
+  // Sub-areas of equal size by construction: each of `wedges` equal wedges cut into `rings` parts
+  // of equal area by scaled copies of the proxy.
   constexpr std::size_t rings = 4;
   for (const Polygon& polygon : polygons) {
     CAPTURE(polygon.name);
-    const auto wedges = 2 * static_cast<std::size_t>(polygon.sides);  // by symmetry half a side each
+    const auto wedges =
+        2 * static_cast<std::size_t>(polygon.sides);  // by symmetry half a side each
     std::vector<double> counts(wedges * rings, 0.0);
     for_each_point(polygon.shape, [&](const LensPoint& p) {
       const double turn = (std::atan2(p.x, p.y) - polygon.first_corner) / (2 * pi);
       const std::size_t wedge =
-          static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(wedges)) % wedges;
+          static_cast<std::size_t>((turn - std::floor(turn)) * static_cast<double>(wedges)) %
+          wedges;
       const double scale = 1 + beyond_sides(polygon, p) / std::cos(pi / polygon.sides);
       const std::size_t ring = std::min(rings - 1, static_cast<std::size_t>(scale * scale * rings));
       counts[wedge * rings + ring] += 1;
@@ -160,7 +163,8 @@ TEST_CASE("equal areas of every polygon and of the disc get equally many points"
   for_each_point(ApertureShape::circle, [&](const LensPoint& p) {
     const double turn = std::atan2(p.y, p.x) / (2 * pi) + 0.5;
     const std::size_t sector = std::min(sectors - 1, static_cast<std::size_t>(turn * sectors));
-    const std::size_t ring = std::min(rings - 1, static_cast<std::size_t>((p.x * p.x + p.y * p.y) * rings));
+    const std::size_t ring =
+        std::min(rings - 1, static_cast<std::size_t>((p.x * p.x + p.y * p.y) * rings));
     counts[sector * rings + ring] += 1;
   });
   const double expected = double{grid_side} * grid_side / (sectors * rings);

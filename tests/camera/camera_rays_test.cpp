@@ -20,8 +20,8 @@ using crt::Vec3;
 namespace {
 
 constexpr double pi = std::numbers::pi;
-constexpr std::array<Projection, 4> all_projections = {Projection::pinhole, Projection::spherical,
-                                                       Projection::cylindrical, Projection::orthographic};
+constexpr std::array<Projection, 4> all_projections = {
+    Projection::pinhole, Projection::spherical, Projection::cylindrical, Projection::orthographic};
 
 bool near(const Vec3& a, const Vec3& b, double tolerance = 1e-14) {
   return glm::length(a - b) <= tolerance * std::max(1.0, glm::length(b));
@@ -136,8 +136,8 @@ TEST_CASE("roll tips the picture's top to the right") {
 TEST_CASE("straight up and down the picture's top is towards z") {
   for (const double sign : {1.0, -1.0}) {
     for (const double rounding : {0.0, 1e-13}) {
-      const CameraRays rays({.position = {5, 0, 3}, .pointing = {5 + rounding, sign * 7, 3 - rounding}}, 2,
-                            2);
+      const CameraRays rays(
+          {.position = {5, 0, 3}, .pointing = {5 + rounding, sign * 7, 3 - rounding}}, 2, 2);
       CHECK(near(rays.forward(), {0, sign, 0}, 1e-12));
       CHECK(near(rays.up(), {0, 0, 1}, 1e-12));
       CHECK(near(rays.right(), {-sign, 0, 0}, 1e-12));
@@ -157,14 +157,15 @@ TEST_CASE("a point seen along a pixel's ray is found at that pixel, in every pro
     for (int i = 0; i < 2000; ++i) {
       Camera camera = random_camera(random, projection);
       // Less than a full turn across, so that the way back is unique.
-      if (projection == Projection::spherical || projection == Projection::cylindrical) camera.fov *= 0.9;
+      if (projection == Projection::spherical || projection == Projection::cylindrical)
+        camera.fov *= 0.9;
       const CameraRays rays(camera, width, height);
       const double x = unit(random) * width;
       const double y = unit(random) * height;
       const CameraRay ray = rays.ray(x, y);
       REQUIRE(is_finite_unit(ray.direction));
-      const glm::dvec2 pixel =
-          pixel_of(camera, rays, ray.origin + (0.1 + 10 * unit(random)) * ray.direction, width, height);
+      const glm::dvec2 pixel = pixel_of(
+          camera, rays, ray.origin + (0.1 + 10 * unit(random)) * ray.direction, width, height);
       REQUIRE(std::abs(pixel.x - x) < 1e-9);
       REQUIRE(std::abs(pixel.y - y) < 1e-9);
     }
@@ -231,9 +232,11 @@ TEST_CASE("rays through all of the lens meet on the focal surface") {
       const double x = 16 * unit(random);
       const double y = 9 * unit(random);
       const CameraRay central = rays.ray(x, y);
-      const bool has_plane = projection == Projection::pinhole || projection == Projection::orthographic;
-      const double distance = has_plane ? camera.focal_distance / glm::dot(central.direction, rays.forward())
-                                        : camera.focal_distance;
+      const bool has_plane =
+          projection == Projection::pinhole || projection == Projection::orthographic;
+      const double distance =
+          has_plane ? camera.focal_distance / glm::dot(central.direction, rays.forward())
+                    : camera.focal_distance;
       const Vec3 focus = central.origin + distance * central.direction;
       for (int j = 0; j < 10; ++j) {
         const LensPoint lens = rays.lens_point(unit(random), unit(random));
@@ -256,7 +259,8 @@ TEST_CASE("the blur of a point out of focus has the thin lens's radius") {
   const double a = 0.2;
   const double f = 5;
   const CameraRays rays(
-      {.position = {0, 0, 0}, .pointing = {0, 0, 1}, .aperture = 1000 * a, .focal_distance = f}, 100, 100);
+      {.position = {0, 0, 0}, .pointing = {0, 0, 1}, .aperture = 1000 * a, .focal_distance = f},
+      100, 100);
   for (const double z : {1.0, 4.0, 5.0, 8.0, 1000.0}) {
     const double blur = a * std::abs(f - z) / z;
     for (int i = 0; i < 16; ++i) {
@@ -309,7 +313,8 @@ TEST_CASE("extreme fields of view, sizes and lenses give finite unit directions"
   }
 }
 
-TEST_CASE("the point in focus on a spherical camera's own lens is looked at from there all the same") {
+TEST_CASE(
+    "the point in focus on a spherical camera's own lens is looked at from there all the same") {
   // Looking to the side along the lens, with the focal distance equal to the lens's radius.
   Camera camera = plain_camera(Projection::spherical);
   camera.fov = pi / 2;
@@ -323,7 +328,8 @@ TEST_CASE("the point in focus on a spherical camera's own lens is looked at from
 }
 
 TEST_CASE(
-    "a lens of 2015 reaches aperture / width across and aperture / height up, whatever the projection") {
+    "a lens of 2015 reaches aperture / width across and aperture / height up, whatever the "
+    "projection") {
   for (const Projection projection : all_projections) {
     Camera camera = plain_camera(projection);
     camera.aperture = 6;
@@ -365,10 +371,13 @@ TEST_CASE("scaling the scene by a power of two changes no bit of any direction")
 }
 
 TEST_CASE("a point appears where the ray to it starts from, in every projection") {
-  Camera camera{
-      .position = {1, 2, -3}, .pointing = {0.5, 1, 1}, .fov = 1.2, .roll = 0.3, .focal_distance = 2};
-  for (const Projection projection :
-       {Projection::pinhole, Projection::spherical, Projection::cylindrical, Projection::orthographic}) {
+  Camera camera{.position = {1, 2, -3},
+                .pointing = {0.5, 1, 1},
+                .fov = 1.2,
+                .roll = 0.3,
+                .focal_distance = 2};
+  for (const Projection projection : {Projection::pinhole, Projection::spherical,
+                                      Projection::cylindrical, Projection::orthographic}) {
     camera.projection = projection;
     const CameraRays rays(camera, 64, 48);
     for (const auto& [x, y] : {std::pair{32.0, 24.0}, {0.5, 47.25}, {63.0, 3.0}}) {
@@ -424,7 +433,8 @@ TEST_CASE("several rays at once are the same to the last bit") {
             CHECK(group.direction.lane(i % lane_count) == ray.direction);
           };
           is_lane(found, one);
-          const CameraRay through_lens = rays.ray(x, y, lane_of(lens_points[i / lane_count], i % lane_count));
+          const CameraRay through_lens =
+              rays.ray(x, y, lane_of(lens_points[i / lane_count], i % lane_count));
           is_lane(with_lens, through_lens);
         }
       }

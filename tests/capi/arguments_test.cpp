@@ -105,8 +105,10 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"settings", [&] { return crt_scene_get_settings(scene.get(), nullptr); }},
       {"scene", [&] { return crt_scene_prepare(nullptr, nullptr); }},
       {"out", [&] { return crt_scene_prepare(scene.get(), nullptr); }},
-      {"text", [&] { return crt_scene_from_script(nullptr, 1, "x", nullptr, nullptr, &made_scene); }},
-      {"name", [&] { return crt_scene_from_script("", 0, nullptr, nullptr, nullptr, &made_scene); }},
+      {"text",
+       [&] { return crt_scene_from_script(nullptr, 1, "x", nullptr, nullptr, &made_scene); }},
+      {"name",
+       [&] { return crt_scene_from_script("", 0, nullptr, nullptr, nullptr, &made_scene); }},
       {"out", [&] { return crt_scene_from_script("", 0, "x", nullptr, nullptr, nullptr); }},
       {"path", [&] { return crt_scene_from_script_file(nullptr, nullptr, nullptr, &made_scene); }},
       {"content", [&] { return crt_file_content_append(nullptr, "x", 1); }},
@@ -205,7 +207,8 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"axis", [&] { return crt_torus_create(z, p, 1, 0.1, &out); }},
           {"normal", [&] { return crt_disc_create(z, p, 1, &out); }},
           {"b", [&] { return crt_triangle_create(z, p, u, &out); }},
-          {"positions", [&] { return crt_mesh_create(corners.data(), 3, triangle_indices(), 1, &out); }},
+          {"positions",
+           [&] { return crt_mesh_create(corners.data(), 3, triangle_indices(), 1, &out); }},
       });
       CHECK(out == nullptr);
     }
@@ -291,7 +294,8 @@ TEST_CASE("a number that no enumeration has is refused, with the field's name") 
         {"type", [&] { return crt_light_init_type(&light, sizeof light, bad); }},
         {"type", [&] { return crt_pattern_init_type(&pattern, sizeof pattern, bad); }},
     });
-    CHECK(std::string(crt_status_string(static_cast<crt_status>((bad & 0x3f) | 0x40))) == "unknown");
+    CHECK(std::string(crt_status_string(static_cast<crt_status>((bad & 0x3f) | 0x40))) ==
+          "unknown");
   }
 }
 
@@ -355,12 +359,14 @@ TEST_CASE("a ray that is none is refused with its index, and no answer is writte
     rays[count - 2].origin[1] = not_a_number;
     std::vector<crt_hit> hits(count);
     for (crt_hit& hit : hits) hit.t = 42;
-    CHECK(crt_intersect(prepared.get(), rays.data(), 0, count, hits.data(), 0) == CRT_ERROR_INVALID_ARGUMENT);
+    CHECK(crt_intersect(prepared.get(), rays.data(), 0, count, hits.data(), 0) ==
+          CRT_ERROR_INVALID_ARGUMENT);
     CHECK(says("rays[" + std::to_string(count - 3) + "]"));
     CHECK(says("direction"));
     for (const crt_hit& hit : hits) CHECK(hit.t == 42);
     std::vector<std::uint8_t> occluded(count, 42);
-    CHECK(crt_occluded(prepared.get(), rays.data(), 0, count, occluded.data()) == CRT_ERROR_INVALID_ARGUMENT);
+    CHECK(crt_occluded(prepared.get(), rays.data(), 0, count, occluded.data()) ==
+          CRT_ERROR_INVALID_ARGUMENT);
     CHECK(says("rays[" + std::to_string(count - 3) + "]"));
     CHECK(says("direction"));
     for (const std::uint8_t answer : occluded) CHECK(answer == 42);

@@ -53,7 +53,8 @@ double red_towards(crt_scene* scene, const Numbers& towards) {
 
 TEST_CASE("an equal-area panorama is one more type of background, and comes back") {
   const SceneHandle scene = new_scene();
-  const float pixels[] = {0.125, 0, 0, 1, 0.25, 0, 0, 1, 0.5, 0, 0, 1, 1, 0, 0, 1};  // four rows of one pixel
+  const float pixels[] = {0.125, 0, 0, 1, 0.25, 0, 0, 1,
+                          0.5,   0, 0, 1, 1,    0, 0, 1};  // four rows of one pixel
   const ImageHandle image =
       made<ImageHandle>([&](crt_image** out) { return crt_image_create(1, 4, pixels, 0, out); });
   crt_background background;
@@ -70,7 +71,8 @@ TEST_CASE("an equal-area panorama is one more type of background, and comes back
   // The middles of the rows are at the heights 3/4, 1/4, -1/4 and -3/4.
   for (int row = 0; row < 4; ++row) {
     const double y = 0.75 - 0.5 * row;
-    CHECK(red_towards(scene.get(), {std::sqrt(1 - y * y), y, 0}) == doctest::Approx(std::exp2(row - 3)));
+    CHECK(red_towards(scene.get(), {std::sqrt(1 - y * y), y, 0}) ==
+          doctest::Approx(std::exp2(row - 3)));
   }
   // In 2015 all spherical panoramas were.
   background.type = CRT_BACKGROUND_SPHERICAL;
@@ -83,7 +85,8 @@ TEST_CASE("an equal-area panorama is one more type of background, and comes back
   CHECK(red_towards(scene.get(), up) == doctest::Approx(0.125));
 }
 
-TEST_CASE("the settings' compat comes back, cuts 8-bit values, and is refused if there is no such year") {
+TEST_CASE(
+    "the settings' compat comes back, cuts 8-bit values, and is refused if there is no such year") {
   const SceneHandle scene = new_scene();
   crt_background background;
   REQUIRE(crt_background_init(&background, sizeof background) == CRT_OK);
@@ -110,7 +113,8 @@ TEST_CASE("the settings' compat comes back, cuts 8-bit values, and is refused if
 }
 
 TEST_CASE("a script of 2015 is run as one by the options' compat") {
-  const std::string script = "in = 2\nScene { Sphere { center -> vec3(0, 0, 0) radius -> rand(in, 1) } }";
+  const std::string script =
+      "in = 2\nScene { Sphere { center -> vec3(0, 0, 0) radius -> rand(in, 1) } }";
   SceneHandle scene;
   CHECK(run(script, options_of(0), scene) == CRT_ERROR_SCRIPT);
   REQUIRE(run(script, options_of(2015), scene) == CRT_OK);
@@ -134,7 +138,8 @@ TEST_CASE("a script of 2015 is run as one by the options' compat") {
 }
 
 TEST_CASE("the empty entity is combined, placed and added as any other, and met by no ray") {
-  const EntityHandle nothing = made<EntityHandle>([](crt_entity** out) { return crt_empty_create(out); });
+  const EntityHandle nothing =
+      made<EntityHandle>([](crt_entity** out) { return crt_empty_create(out); });
   CHECK(crt_entity_is_solid(nothing.get()) == 1);
   CHECK(crt_entity_primitive_count(nothing.get()) == 0);
   CHECK(crt_empty_create(nullptr) == CRT_ERROR_INVALID_ARGUMENT);
@@ -145,8 +150,8 @@ TEST_CASE("the empty entity is combined, placed and added as any other, and met 
       made<EntityHandle>([&](crt_entity** out) { return crt_intersection_create(both, 2, out); });
   CHECK(crt_entity_primitive_count(whole.get()) == 1);
   CHECK(crt_entity_primitive_count(common.get()) == 0);
-  const EntityHandle named =
-      made<EntityHandle>([&](crt_entity** out) { return crt_entity_with_id(nothing.get(), 3, out); });
+  const EntityHandle named = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_entity_with_id(nothing.get(), 3, out); });
   CHECK(crt_entity_primitive_count(named.get()) == 0);
   const SceneHandle scene = new_scene();
   for (crt_entity* entity : {nothing.get(), whole.get(), common.get()}) {

@@ -1,5 +1,6 @@
-// libFuzzer: random sequences of calls of the C interface, with random arguments, wrong ones among them.
-// Whatever comes, no call may crash, and each must keep to the rule: a result if and only if CRT_OK.
+// libFuzzer: random sequences of calls of the C interface, with random arguments, wrong ones among
+// them. Whatever comes, no call may crash, and each must keep to the rule: a result if and only if
+// CRT_OK.
 #include <crt/crt.h>
 
 #include <algorithm>
@@ -37,8 +38,9 @@ class Input {
   /// Mostly an ordinary number, sometimes an extreme one, sometimes any bits at all.
   double number() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    static const std::array special = {0.0,    -0.0, 1.0,   -1.0,     0.5,       1e-300,       1e300,  1e100,
-                                       1e-100, 1e18, 1e-18, infinity, -infinity, std::nan(""), 5e-324, 2.0};
+    static const std::array special = {0.0,       -0.0,         1.0,    -1.0, 0.5,   1e-300,
+                                       1e300,     1e100,        1e-100, 1e18, 1e-18, infinity,
+                                       -infinity, std::nan(""), 5e-324, 2.0};
     const std::uint8_t kind = byte();
     if (kind < 16) return special[kind];
     if (kind < 20) return raw<double>();
@@ -175,7 +177,8 @@ void Session::make_primitive() {
 }
 
 void Session::combine() {
-  crt_entity* const parts[3] = {entities_.any(input_), entities_.any(input_), entities_.any(input_)};
+  crt_entity* const parts[3] = {entities_.any(input_), entities_.any(input_),
+                                entities_.any(input_)};
   // Not so deep that trees grow without bound.
   for (const crt_entity* part : parts) {
     constexpr std::uint64_t enough = 64;
@@ -196,17 +199,20 @@ void Session::dress() {
     case 0: {
       double affine[12];
       for (double& number : affine) number = input_.number();
-      entities_.make([&](crt_entity** out) { return crt_entity_with_transform(entity, affine, out); });
+      entities_.make(
+          [&](crt_entity** out) { return crt_entity_with_transform(entity, affine, out); });
       break;
     }
     case 1:
-      entities_.make(
-          [&](crt_entity** out) { return crt_entity_with_id(entity, input_.raw<std::uint32_t>(), out); });
+      entities_.make([&](crt_entity** out) {
+        return crt_entity_with_id(entity, input_.raw<std::uint32_t>(), out);
+      });
       break;
     default: {
       auto material = scrambled<crt_material>(crt_material_init);
       auto pattern = scrambled<crt_pattern>(crt_pattern_init);
-      crt_pattern_init_type(&pattern, sizeof pattern, static_cast<std::int32_t>(input_.below(9)) - 1);
+      crt_pattern_init_type(&pattern, sizeof pattern,
+                            static_cast<std::int32_t>(input_.below(9)) - 1);
       pattern.scale = input_.number();
       pattern.octaves = input_.byte();
       pattern.image = images_.any(input_);
@@ -216,7 +222,8 @@ void Session::dress() {
       material.refractive_index = input_.number();
       if (input_.below(2) == 0) material.pattern = &pattern;
       if (input_.below(2) == 0) material.bump = &pattern;
-      entities_.make([&](crt_entity** out) { return crt_entity_with_material(entity, &material, out); });
+      entities_.make(
+          [&](crt_entity** out) { return crt_entity_with_material(entity, &material, out); });
     }
   }
 }
@@ -230,8 +237,8 @@ void Session::edit_settings() {
   settings.recursion_depth = static_cast<std::int32_t>(input_.below(6));
   settings.gamma = input_.number();
   settings.falloff_model = static_cast<std::int32_t>(input_.below(4)) - 1;
-  settings.compat =
-      static_cast<std::int32_t>(2013 + input_.below(3)) * static_cast<std::int32_t>(input_.below(2));
+  settings.compat = static_cast<std::int32_t>(2013 + input_.below(3)) *
+                    static_cast<std::int32_t>(input_.below(2));
   const std::string title = input_.text();
   settings.title = title.c_str();
   crt_scene_set_settings(scene, &settings);
@@ -293,7 +300,8 @@ void Session::run_script() {
   options.max_steps = 1000;
   options.max_entities = 100;
   options.open_file = [](const char*, crt_file_content* content, void*) -> int {
-    return crt_file_content_append(content, "x = 1", 5) == CRT_OK ? CRT_FILE_GIVEN : CRT_FILE_NOT_GIVEN;
+    return crt_file_content_append(content, "x = 1", 5) == CRT_OK ? CRT_FILE_GIVEN
+                                                                  : CRT_FILE_NOT_GIVEN;
   };
   options.print = [](const char*, std::size_t length, void*) { return length > 20 ? 1 : 0; };
   crt_diagnostics* diagnostics = nullptr;
@@ -305,7 +313,8 @@ void Session::run_script() {
   diagnostic.struct_size = sizeof diagnostic;
   const crt_diagnostics* const some = diagnostics_.any(input_);
   for (std::size_t i = 0; i <= crt_diagnostics_count(some); ++i) {
-    require((crt_diagnostics_get(some, i, &diagnostic) == CRT_OK) == (i < crt_diagnostics_count(some)));
+    require((crt_diagnostics_get(some, i, &diagnostic) == CRT_OK) ==
+            (i < crt_diagnostics_count(some)));
   }
   require(crt_diagnostics_text(some) != nullptr && crt_diagnostics_json(some) != nullptr);
 }
@@ -365,13 +374,16 @@ void Session::use_image() {
     for (float& value : pixels) value = static_cast<float>(input_.number());
     const std::uint32_t width = input_.below(5);
     const std::uint32_t height = input_.below(5);
-    images_.make([&](crt_image** out) { return crt_image_create(width, height, pixels.data(), 0, out); });
+    images_.make(
+        [&](crt_image** out) { return crt_image_create(width, height, pixels.data(), 0, out); });
   }
-  std::vector<std::uint8_t> bytes(std::size_t{4} * crt_image_width(image) * crt_image_height(image) + 1);
+  std::vector<std::uint8_t> bytes(
+      std::size_t{4} * crt_image_width(image) * crt_image_height(image) + 1);
   require((crt_image_to_rgba8(image, bytes.data(), 0) == CRT_OK) == (image != nullptr));
   for (std::size_t i = 0; i < crt_image_channel_count(image); ++i) {
     const char* const name = crt_image_channel_name(image, i);
-    require((crt_image_channel(image, name) == nullptr) != (crt_image_channel_uint(image, name) == nullptr));
+    require((crt_image_channel(image, name) == nullptr) !=
+            (crt_image_channel_uint(image, name) == nullptr));
   }
   auto stats = crt_render_stats{};
   stats.struct_size = input_.raw<std::uint16_t>() % (sizeof stats + 1);
@@ -387,7 +399,8 @@ void Session::call(std::uint32_t which) {
     return scenes_.make([&](crt_scene** out) { return crt_scene_copy(scenes_.any(input_), out); });
   if (which < 25) return edit_scene();
   if (which < 27) {
-    return prepared_.make([&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); });
+    return prepared_.make(
+        [&](crt_prepared** out) { return crt_scene_prepare(scenes_.any(input_), out); });
   }
   if (which < 29) return use_prepared();
   if (which < 31) return use_image();

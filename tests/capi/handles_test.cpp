@@ -82,8 +82,8 @@ TEST_CASE("entities say what they are") {
   CHECK(crt_entity_primitive_count(part.get()) == 2);
   const double corners[] = {0, 0, 0, 1, 0, 0, 0, 1, 0, 1, 1, 0};
   const std::uint32_t indices[] = {0, 1, 2, 1, 3, 2, 0, 0, 1};  // the last has no area
-  const EntityHandle mesh =
-      made<EntityHandle>([&](crt_entity** out) { return crt_mesh_create(corners, 4, indices, 3, out); });
+  const EntityHandle mesh = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_mesh_create(corners, 4, indices, 3, out); });
   CHECK(crt_entity_is_solid(mesh.get()) == 0);
   CHECK(crt_entity_primitive_count(mesh.get()) == 2);
   crt_entity* out = nullptr;
@@ -115,8 +115,8 @@ TEST_CASE("a scene is edited without touching what was prepared or copied from i
   CHECK(crt_scene_entity_count(scene.get()) == 0);
   CHECK(crt_scene_entity_count(copy.get()) == 2);
   CHECK(crt_scene_light_count(copy.get()) == 1);
-  const EntityHandle again =
-      made<EntityHandle>([&](crt_entity** out) { return crt_scene_get_entity(copy.get(), 1, out); });
+  const EntityHandle again = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_scene_get_entity(copy.get(), 1, out); });
   CHECK(crt_entity_primitive_count(again.get()) == 2);
   const crt_ray ray = {{-0.4, 0, 0}, {0, 0, 1}, 0, infinity};
   crt_hit hit;

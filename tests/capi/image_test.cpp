@@ -16,7 +16,9 @@ namespace {
 /// A folder that goes away.
 class Scratch {
  public:
-  Scratch() : path_(fs::temp_directory_path() / ("crt-capi-" + process())) { fs::create_directories(path_); }
+  Scratch() : path_(fs::temp_directory_path() / ("crt-capi-" + process())) {
+    fs::create_directories(path_);
+  }
   ~Scratch() {
     std::error_code ignored;
     fs::remove_all(path_, ignored);
@@ -41,7 +43,8 @@ ImageHandle decoded(const crt_buffer* buffer) {
 }
 
 BufferHandle encoded(const crt_image* image, const char* format) {
-  return made<BufferHandle>([&](crt_buffer** out) { return crt_image_encode(image, format, nullptr, out); });
+  return made<BufferHandle>(
+      [&](crt_buffer** out) { return crt_image_encode(image, format, nullptr, out); });
 }
 
 }  // namespace
@@ -81,10 +84,11 @@ TEST_CASE("an image is made from rows with gaps and lends its pixels without") {
 TEST_CASE("8-bit pixels come back as they were") {
   std::vector<std::uint8_t> bytes;
   for (int i = 0; i < 256; ++i) {
-    for (const int value : {i, 255 - i, i / 2, 255}) bytes.push_back(static_cast<std::uint8_t>(value));
+    for (const int value : {i, 255 - i, i / 2, 255})
+      bytes.push_back(static_cast<std::uint8_t>(value));
   }
-  const ImageHandle image =
-      made<ImageHandle>([&](crt_image** out) { return crt_image_from_rgba8(16, 16, bytes.data(), 0, out); });
+  const ImageHandle image = made<ImageHandle>(
+      [&](crt_image** out) { return crt_image_from_rgba8(16, 16, bytes.data(), 0, out); });
   std::vector<std::uint8_t> back(bytes.size());
   REQUIRE(crt_image_to_rgba8(image.get(), back.data(), 0) == CRT_OK);
   CHECK(back == bytes);
@@ -104,7 +108,8 @@ TEST_CASE("floats go through EXR unchanged, in memory and in a file") {
   const float pixels[8] = {0.1f, 25, 1e-6f, 1, 0.25f, 0.5f, 0, 0.5f};
   const ImageHandle image = from_pixels(2, 1, pixels);
   const BufferHandle exr = encoded(image.get(), "exr");
-  CHECK(std::memcmp(crt_image_pixels(decoded(exr.get()).get(), nullptr), pixels, sizeof pixels) == 0);
+  CHECK(std::memcmp(crt_image_pixels(decoded(exr.get()).get(), nullptr), pixels, sizeof pixels) ==
+        0);
   const std::string file = scratch.file("x.exr");
   REQUIRE(crt_image_write(image.get(), file.c_str()) == CRT_OK);
   const ImageHandle read =
@@ -142,7 +147,8 @@ TEST_CASE("files of equal pictures are equal bytes if they are to be") {
     const ImageHandle image = render(prepared.get());
     const BufferHandle file = made<BufferHandle>(
         [&](crt_buffer** out) { return crt_image_encode(image.get(), "png", &options, out); });
-    files.emplace_back(static_cast<const char*>(crt_buffer_data(file.get())), crt_buffer_size(file.get()));
+    files.emplace_back(static_cast<const char*>(crt_buffer_data(file.get())),
+                       crt_buffer_size(file.get()));
   }
   CHECK(files[0] == files[1]);
   CHECK(files[0].substr(1, 3) == "PNG");
@@ -179,8 +185,8 @@ TEST_CASE("an image lends what it was asked to tell beside the colours, by name"
     names.emplace_back(crt_image_channel_name(image.get(), i));
   }
   std::sort(names.begin(), names.end());
-  CHECK(names ==
-        std::vector<std::string>{"N.X", "N.Y", "N.Z", "Z", "albedo.B", "albedo.G", "albedo.R", "id"});
+  CHECK(names == std::vector<std::string>{"N.X", "N.Y", "N.Z", "Z", "albedo.B", "albedo.G",
+                                          "albedo.R", "id"});
   CHECK(crt_image_channel_name(image.get(), names.size()) == nullptr);
   CHECK(crt_image_channel(image.get(), "id") == nullptr);
   CHECK(crt_image_channel_uint(image.get(), "Z") == nullptr);
@@ -202,7 +208,8 @@ TEST_CASE("an image lends what it was asked to tell beside the colours, by name"
       hits += found ? 1 : 0;
       CHECK(id[pixel] == (found ? hit.entity_id : UINT32_MAX));
       const double way = hit.t * std::sqrt(across * across + up * up + 1);
-      CHECK((found ? std::abs(double{depth[pixel]} - way) <= 1e-6 * way : depth[pixel] == infinity));
+      CHECK(
+          (found ? std::abs(double{depth[pixel]} - way) <= 1e-6 * way : depth[pixel] == infinity));
     }
   }
   CHECK(hits > 100);
@@ -242,7 +249,7 @@ TEST_CASE("further channels go into an EXR file, and into others not unless they
   CHECK(none == nullptr);
   CHECK_NOTHROW(encoded(image.get(), "exr"));
   write.colors_only = 1;
-  const BufferHandle picture =
-      made<BufferHandle>([&](crt_buffer** out) { return crt_image_encode(image.get(), "png", &write, out); });
+  const BufferHandle picture = made<BufferHandle>(
+      [&](crt_buffer** out) { return crt_image_encode(image.get(), "png", &write, out); });
   CHECK(crt_image_width(decoded(picture.get()).get()) == 40);
 }

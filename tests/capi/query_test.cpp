@@ -41,7 +41,8 @@ TEST_CASE("a batch gives what single rays give, and occlusion and crossings agre
   REQUIRE(crt_occluded(prepared.get(), rays.data(), 0, rays.size(), occluded.data()) == CRT_OK);
   std::vector<double> distances(rays.size(), 7);
   std::vector<std::uint32_t> ids(rays.size(), 7);
-  REQUIRE(crt_distances(prepared.get(), rays.data(), 0, rays.size(), distances.data(), ids.data()) == CRT_OK);
+  REQUIRE(crt_distances(prepared.get(), rays.data(), 0, rays.size(), distances.data(),
+                        ids.data()) == CRT_OK);
   std::size_t found = 0;
   for (std::size_t i = 0; i < rays.size(); ++i) {
     crt_hit single;
@@ -66,7 +67,8 @@ TEST_CASE("a batch gives what single rays give, and occlusion and crossings agre
   CHECK(found < rays.size() - 1000);
 }
 
-TEST_CASE("rays and hits lie where the caller wants them, unaligned too, and nothing else is touched") {
+TEST_CASE(
+    "rays and hits lie where the caller wants them, unaligned too, and nothing else is touched") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
   const std::vector<crt_ray> rays = random_rays(3000);
@@ -77,14 +79,16 @@ TEST_CASE("rays and hits lie where the caller wants them, unaligned too, and not
   constexpr std::size_t hit_stride = 61;
   std::vector<unsigned char> ray_bytes(3000 * ray_stride + 1);
   std::vector<unsigned char> hit_bytes(3000 * hit_stride + 1, 0x5a);
-  for (std::size_t i = 0; i < rays.size(); ++i) std::memcpy(&ray_bytes[1 + i * ray_stride], &rays[i], 64);
-  REQUIRE(crt_intersect(prepared.get(), reinterpret_cast<const crt_ray*>(&ray_bytes[1]), ray_stride, 3000,
-                        reinterpret_cast<crt_hit*>(&hit_bytes[1]), hit_stride) == CRT_OK);
+  for (std::size_t i = 0; i < rays.size(); ++i)
+    std::memcpy(&ray_bytes[1 + i * ray_stride], &rays[i], 64);
+  REQUIRE(crt_intersect(prepared.get(), reinterpret_cast<const crt_ray*>(&ray_bytes[1]), ray_stride,
+                        3000, reinterpret_cast<crt_hit*>(&hit_bytes[1]), hit_stride) == CRT_OK);
   for (std::size_t i = 0; i < rays.size(); ++i) {
     crt_hit hit;
     std::memcpy(&hit, &hit_bytes[1 + i * hit_stride], sizeof hit);
     REQUIRE(same(hit, expected[i]));
-    for (std::size_t k = sizeof hit; k < hit_stride; ++k) REQUIRE(hit_bytes[1 + i * hit_stride + k] == 0x5a);
+    for (std::size_t k = sizeof hit; k < hit_stride; ++k)
+      REQUIRE(hit_bytes[1 + i * hit_stride + k] == 0x5a);
   }
 }
 
@@ -94,8 +98,8 @@ TEST_CASE("hits may take the place of their rays") {
   std::vector<crt_ray> rays = random_rays(3000);
   std::vector<crt_hit> expected(rays.size());
   REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), expected.data(), 0) == CRT_OK);
-  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), reinterpret_cast<crt_hit*>(rays.data()),
-                        sizeof(crt_ray)) == CRT_OK);
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(),
+                        reinterpret_cast<crt_hit*>(rays.data()), sizeof(crt_ray)) == CRT_OK);
   for (std::size_t i = 0; i < rays.size(); ++i)
     REQUIRE(std::memcmp(&rays[i], &expected[i], sizeof(crt_hit)) == 0);
 }
@@ -103,8 +107,8 @@ TEST_CASE("hits may take the place of their rays") {
 TEST_CASE("a hit tells place, normal, entity and side; a miss nothing but infinity") {
   const SceneHandle scene = new_scene();
   const EntityHandle ball = sphere({0, 0, 0}, 2);
-  const EntityHandle named =
-      made<EntityHandle>([&](crt_entity** out) { return crt_entity_with_id(ball.get(), 4000000000u, out); });
+  const EntityHandle named = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_entity_with_id(ball.get(), 4000000000u, out); });
   REQUIRE(crt_scene_add_entity(scene.get(), named.get()) == CRT_OK);
   const PreparedHandle prepared = prepare(scene.get());
   const crt_ray rays[] = {{{-5, 0, 0}, {10, 0, 0}, 0, infinity},

@@ -76,7 +76,8 @@ TEST_CASE("a progress callback cancels, and its number is handed back") {
     for (const int number : {1, -17, 123456}) {
       int answer = number;
       crt_render_options options = options_with(
-          [](double fraction, void* user) { return fraction > 0.2 ? *static_cast<int*>(user) : 0; }, &answer);
+          [](double fraction, void* user) { return fraction > 0.2 ? *static_cast<int*>(user) : 0; },
+          &answer);
       options.threads = threads;
       crt_image* image = nullptr;
       CHECK(crt_render(prepared.get(), &options, &image) == CRT_ERROR_CANCELLED);
@@ -123,8 +124,9 @@ TEST_CASE("a ray of more steps than the options allow is an error") {
     parts.push_back(sphere({0, 0, 5 + 1e-7 * i}, 1));
     handles.push_back(parts.back().get());
   }
-  const EntityHandle common = made<EntityHandle>(
-      [&](crt_entity** out) { return crt_intersection_create(handles.data(), handles.size(), out); });
+  const EntityHandle common = made<EntityHandle>([&](crt_entity** out) {
+    return crt_intersection_create(handles.data(), handles.size(), out);
+  });
   REQUIRE(crt_scene_add_entity(scene.get(), common.get()) == CRT_OK);
   crt_settings settings;
   REQUIRE(crt_settings_init(&settings, sizeof settings) == CRT_OK);
@@ -163,7 +165,8 @@ TEST_CASE("a job gives the picture that rendering at once gives") {
   CHECK(crt_job_wait(job.get(), nullptr) == CRT_OK);
 }
 
-TEST_CASE("a snapshot has the tiles that are done, and nothing where none is; cancelling keeps them") {
+TEST_CASE(
+    "a snapshot has the tiles that are done, and nothing where none is; cancelling keeps them") {
   const SceneHandle scene = small_scene(200, 150);
   const PreparedHandle prepared = prepare(scene.get());
   const std::vector<float> whole = pixels_of(render(prepared.get()).get());
@@ -189,7 +192,9 @@ TEST_CASE("a snapshot has the tiles that are done, and nothing where none is; ca
   std::size_t done_early = 0;
   std::size_t done_late = 0;
   for (std::size_t i = 0; i < whole.size(); i += 4) {
-    const auto is = [&](const std::vector<float>& a, const float* b) { return std::equal(b, b + 4, &a[i]); };
+    const auto is = [&](const std::vector<float>& a, const float* b) {
+      return std::equal(b, b + 4, &a[i]);
+    };
     const float nothing[4] = {0, 0, 0, 0};
     const bool early_done = is(early, &whole[i]);
     const bool late_done = is(late, &whole[i]);
@@ -228,7 +233,8 @@ TEST_CASE("releasing a running job cancels it, also from its own callback") {
   self.job = job;
   while (!self.done) std::this_thread::yield();
   CHECK(self.waited == CRT_ERROR_INVALID_ARGUMENT);
-  // The job's thread may still be on its way out of `options`' callback; it touches nothing of ours.
+  // The job's thread may still be on its way out of `options`' callback; it touches nothing of
+  // ours.
 }
 
 TEST_CASE("a callback may render, query and use everything itself") {

@@ -20,7 +20,8 @@ Ran run(const std::string& text, const crt_script_options* options = nullptr) {
   crt_diagnostics* diagnostics = nullptr;
   crt_scene* scene = nullptr;
   Ran ran;
-  ran.status = crt_scene_from_script(text.data(), text.size(), "dir/test.crt", options, &diagnostics, &scene);
+  ran.status = crt_scene_from_script(text.data(), text.size(), "dir/test.crt", options,
+                                     &diagnostics, &scene);
   ran.diagnostics.reset(diagnostics);
   ran.scene.reset(scene);
   CHECK((scene != nullptr) == (ran.status == CRT_OK));
@@ -44,7 +45,8 @@ crt_diagnostic diagnostic(const Ran& ran, std::size_t index) {
 
 TEST_CASE("a script makes a scene that C can go on with") {
   const Ran ran =
-      run("Settings { width -> 20 height -> 10 title -> \"A\" }\nScene { Sphere { center -> vec3(0, 0, 0) "
+      run("Settings { width -> 20 height -> 10 title -> \"A\" }\nScene { Sphere { center -> "
+          "vec3(0, 0, 0) "
           "radius -> 2.0 } }\n");
   INFO(crt_diagnostics_text(ran.diagnostics.get()));
   REQUIRE(ran.status == CRT_OK);
@@ -61,7 +63,8 @@ TEST_CASE("a script makes a scene that C can go on with") {
 
 TEST_CASE("a wrong script tells where, with the line, and through whom") {
   const Ran ran =
-      run("f = Macro (r) { Sphere { center -> vec3(0, 0, 0) radius -> r } }\nScene { f(2.0)\n  f(-3.0) }\n");
+      run("f = Macro (r) { Sphere { center -> vec3(0, 0, 0) radius -> r } }\nScene { f(2.0)\n  "
+          "f(-3.0) }\n");
   CHECK(ran.status == CRT_ERROR_SCRIPT);
   REQUIRE(crt_diagnostics_count(ran.diagnostics.get()) == 1);
   const crt_diagnostic what = diagnostic(ran, 0);
@@ -71,7 +74,8 @@ TEST_CASE("a wrong script tells where, with the line, and through whom") {
   CHECK(what.line == 1);
   CHECK(what.column > 1);
   CHECK(what.length > 0);
-  CHECK(std::string(what.source_line) == "f = Macro (r) { Sphere { center -> vec3(0, 0, 0) radius -> r } }");
+  CHECK(std::string(what.source_line) ==
+        "f = Macro (r) { Sphere { center -> vec3(0, 0, 0) radius -> r } }");
   CHECK(std::string(what.message).find("radius") != std::string::npos);
   REQUIRE(what.call_count == 1);
   crt_diagnostic_call call;

@@ -34,7 +34,8 @@ struct Guarded {
   std::vector<unsigned char> bytes;
 };
 
-/// Initialises structs of every length; nothing may be written behind them, and what fits has its default.
+/// Initialises structs of every length; nothing may be written behind them, and what fits has its
+/// default.
 template <class Struct, class Init>
 void check_init(const Init& init) {
   Struct whole;
@@ -46,12 +47,14 @@ void check_init(const Init& init) {
     CHECK(given.struct_size() == size);
     // Every byte is the default's, or 0 where a field is cut in two or the library knows none.
     for (std::size_t i = 4; i < size; ++i) {
-      const unsigned char expected = i < sizeof whole ? reinterpret_cast<const unsigned char*>(&whole)[i] : 0;
+      const unsigned char expected =
+          i < sizeof whole ? reinterpret_cast<const unsigned char*>(&whole)[i] : 0;
       REQUIRE((given.bytes[i] == expected || given.bytes[i] == 0));
     }
   }
   Guarded<Struct> none(0);
-  for (const std::size_t bad : {std::size_t{0}, std::size_t{3}, std::numeric_limits<std::size_t>::max()}) {
+  for (const std::size_t bad :
+       {std::size_t{0}, std::size_t{3}, std::numeric_limits<std::size_t>::max()}) {
     CHECK(init(none.get(), bad) == CRT_ERROR_INVALID_ARGUMENT);
     CHECK(says("struct_size"));
     CHECK(none.untouched_behind());
@@ -155,7 +158,8 @@ TEST_CASE("what is asked for is written as far as the caller's struct goes") {
 
 TEST_CASE("what a scene was given it gives back") {
   const SceneHandle scene = new_scene();
-  for (const std::int32_t type : {CRT_LIGHT_POINT, CRT_LIGHT_PARALLEL, CRT_LIGHT_SPOT, CRT_LIGHT_CYLINDER}) {
+  for (const std::int32_t type :
+       {CRT_LIGHT_POINT, CRT_LIGHT_PARALLEL, CRT_LIGHT_SPOT, CRT_LIGHT_CYLINDER}) {
     crt_light light;
     REQUIRE(crt_light_init_type(&light, sizeof light, type) == CRT_OK);
     CHECK(light.type == type);
@@ -165,7 +169,8 @@ TEST_CASE("what a scene was given it gives back") {
     REQUIRE(crt_scene_add_light(scene.get(), &light) == CRT_OK);
     crt_light back;
     back.struct_size = sizeof back;
-    REQUIRE(crt_scene_get_light(scene.get(), crt_scene_light_count(scene.get()) - 1, &back) == CRT_OK);
+    REQUIRE(crt_scene_get_light(scene.get(), crt_scene_light_count(scene.get()) - 1, &back) ==
+            CRT_OK);
     CHECK(std::memcmp(&back, &light, sizeof back) == 0);
   }
 

@@ -43,15 +43,18 @@ Handle made(const Call& call) {
 }
 
 inline EntityHandle sphere(const Numbers& center, double radius) {
-  return made<EntityHandle>([&](crt_entity** out) { return crt_sphere_create(center.data(), radius, out); });
+  return made<EntityHandle>(
+      [&](crt_entity** out) { return crt_sphere_create(center.data(), radius, out); });
 }
 
 inline EntityHandle box(const Numbers& a, const Numbers& b) {
-  return made<EntityHandle>([&](crt_entity** out) { return crt_box_create(a.data(), b.data(), out); });
+  return made<EntityHandle>(
+      [&](crt_entity** out) { return crt_box_create(a.data(), b.data(), out); });
 }
 
 inline EntityHandle difference(crt_entity* from, crt_entity* cutter) {
-  return made<EntityHandle>([&](crt_entity** out) { return crt_difference_create(from, &cutter, 1, out); });
+  return made<EntityHandle>(
+      [&](crt_entity** out) { return crt_difference_create(from, &cutter, 1, out); });
 }
 
 inline SceneHandle new_scene() {

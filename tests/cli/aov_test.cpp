@@ -1,4 +1,5 @@
-// crt render --aov: what gets into the file, as OpenImageIO's own tool reads it, and what is refused.
+// crt render --aov: what gets into the file, as OpenImageIO's own tool reads it, and what is
+// refused.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -40,12 +41,14 @@ std::vector<double> numbers_at(const TemporaryFolder& folder, const std::string&
 TEST_CASE("an EXR file holds what --aov asks for, under the names that compositors know") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
-  const Outcome run = run_crt(folder, {"render", "ball.crt", "--aov", "depth,normal", "--aov", "id,albedo"});
+  const Outcome run =
+      run_crt(folder, {"render", "ball.crt", "--aov", "depth,normal", "--aov", "id,albedo"});
   CHECK(run.exit_code == 0);
   REQUIRE(folder.has("ball.exr"));
   const std::string info = oiiotool(folder, "--info -v ball.exr");
-  for (const char* channel : {"R (float)", "Z (float)", "N.X (float)", "N.Y (float)", "N.Z (float)",
-                              "id (uint)", "albedo.R (float)", "albedo.G (float)", "albedo.B (float)"}) {
+  for (const char* channel :
+       {"R (float)", "Z (float)", "N.X (float)", "N.Y (float)", "N.Z (float)", "id (uint)",
+        "albedo.R (float)", "albedo.G (float)", "albedo.B (float)"}) {
     CAPTURE(channel);
     CHECK(holds(info, channel));
   }
@@ -67,8 +70,8 @@ TEST_CASE("an EXR file holds what --aov asks for, under the names that composito
 TEST_CASE("a format that cannot hold what --aov asks for is refused before anything is rendered") {
   const TemporaryFolder folder;
   folder.write("endless.crt", endless_script);
-  const Outcome run =
-      run_crt(folder, {"render", "endless.crt", "--time", "1", "-o", "picture.png", "--aov", "depth"});
+  const Outcome run = run_crt(
+      folder, {"render", "endless.crt", "--time", "1", "-o", "picture.png", "--aov", "depth"});
   CHECK(run.exit_code == 2);
   CHECK(holds(run.err, "picture.png"));
   CHECK(holds(run.err, "exr"));
@@ -90,8 +93,10 @@ TEST_CASE("an AOV that there is not is refused with the names of those that ther
 TEST_CASE("--aov leaves the colours as they are, and works with regions") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
-  CHECK(run_crt(folder, {"render", "ball.crt", "-o", "plain.exr", "--region", "3,2,10,7"}).exit_code == 0);
-  CHECK(run_crt(folder, {"render", "ball.crt", "-o", "more.exr", "--region", "3,2,10,7", "--aov", "depth"})
+  CHECK(run_crt(folder, {"render", "ball.crt", "-o", "plain.exr", "--region", "3,2,10,7"})
+            .exit_code == 0);
+  CHECK(run_crt(folder,
+                {"render", "ball.crt", "-o", "more.exr", "--region", "3,2,10,7", "--aov", "depth"})
             .exit_code == 0);
   CHECK(holds(oiiotool(folder, "plain.exr more.exr --ch R,G,B --diff"), "PASS"));
 }

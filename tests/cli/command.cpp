@@ -39,23 +39,26 @@ struct Streams {
 
   void write_to(int stream, const char* file) {
     constexpr mode_t readable = 0600;
-    posix_spawn_file_actions_addopen(&actions, stream, file, O_WRONLY | O_CREAT | O_TRUNC, readable);
+    posix_spawn_file_actions_addopen(&actions, stream, file, O_WRONLY | O_CREAT | O_TRUNC,
+                                     readable);
   }
 };
 
 pid_t spawn_crt(const Streams& streams, const std::vector<std::string>& arguments,
                 const std::vector<std::string>& more_environment = {}) {
   std::vector<char*> words{const_cast<char*>("crt")};
-  for (const std::string& argument : arguments) words.push_back(const_cast<char*>(argument.c_str()));
+  for (const std::string& argument : arguments)
+    words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
   // What comes first in the environment wins.
   std::vector<char*> environment;
-  for (const std::string& entry : more_environment) environment.push_back(const_cast<char*>(entry.c_str()));
+  for (const std::string& entry : more_environment)
+    environment.push_back(const_cast<char*>(entry.c_str()));
   for (char** entry = environ; *entry != nullptr; ++entry) environment.push_back(*entry);
   environment.push_back(nullptr);
   pid_t process = 0;
-  const int failed =
-      posix_spawn(&process, CRT_COMMAND, &streams.actions, nullptr, words.data(), environment.data());
+  const int failed = posix_spawn(&process, CRT_COMMAND, &streams.actions, nullptr, words.data(),
+                                 environment.data());
   require(failed == 0, "cannot start " CRT_COMMAND);
   return process;
 }
@@ -117,7 +120,8 @@ Outcome run_crt_into(const TemporaryFolder& folder, const std::vector<std::strin
   return {exit_code, content_of(out_file), content_of(err_file)};
 }
 
-Outcome run_crt_without_output(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+Outcome run_crt_without_output(const TemporaryFolder& folder,
+                               const std::vector<std::string>& arguments) {
   const TemporaryFolder outputs;
   const std::string err = outputs.path() / "err";
   Streams streams(folder.path());
@@ -141,13 +145,16 @@ bool has_terminals() {
   return terminal >= 0;
 }
 
-CrtOnTerminal::CrtOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+CrtOnTerminal::CrtOnTerminal(const TemporaryFolder& folder,
+                             const std::vector<std::string>& arguments) {
   terminal_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-  require(terminal_ >= 0 && grantpt(terminal_) == 0 && unlockpt(terminal_) == 0, "cannot open a terminal");
+  require(terminal_ >= 0 && grantpt(terminal_) == 0 && unlockpt(terminal_) == 0,
+          "cannot open a terminal");
   const std::string other_end = ptsname(terminal_);
   Streams streams(folder.path());
   streams.write_to(STDOUT_FILENO, "/dev/null");
-  posix_spawn_file_actions_addopen(&streams.actions, STDERR_FILENO, other_end.c_str(), O_RDWR | O_NOCTTY, 0);
+  posix_spawn_file_actions_addopen(&streams.actions, STDERR_FILENO, other_end.c_str(),
+                                   O_RDWR | O_NOCTTY, 0);
   process_ = spawn_crt(streams, arguments, {"TERM=xterm"});
 }
 

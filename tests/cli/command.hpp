@@ -43,7 +43,8 @@ Outcome run_crt_into(const TemporaryFolder& folder, const std::vector<std::strin
                      const std::string& out, const std::string& err);
 
 /// The same with standard output closed.
-Outcome run_crt_without_output(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
+Outcome run_crt_without_output(const TemporaryFolder& folder,
+                               const std::vector<std::string>& arguments);
 
 /// Runs `crt` with all standard streams closed; its exit code.
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments);

@@ -41,7 +41,8 @@ TEST_CASE_FIXTURE(Fixture, "a wrong script ends with 1, tells the place and writ
 
 TEST_CASE_FIXTURE(Fixture, "a setting out of range on the command line is an error, too") {
   CHECK(run_crt(folder, {"render", "ball.crt", "--width", "0"}).exit_code == script_error);
-  CHECK(run_crt(folder, {"render", "ball.crt", "--falloffmodel", "none"}).exit_code == script_error);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--falloffmodel", "none"}).exit_code ==
+        script_error);
   CHECK(run_crt(folder, {"render", "ball.crt", "--precision", "half"}).exit_code == script_error);
   CHECK_FALSE(folder.has("ball.png"));
 }
@@ -53,7 +54,8 @@ TEST_CASE_FIXTURE(Fixture, "--max-steps stops a script that goes on too long") {
   CHECK(contains(run.err, "loop.crt:2:"));
 }
 
-TEST_CASE_FIXTURE(Fixture, "a wrong command line ends with 2, says what is wrong and names the help") {
+TEST_CASE_FIXTURE(Fixture,
+                  "a wrong command line ends with 2, says what is wrong and names the help") {
   const Arguments wrong_lines[] = {
       {},
       {"paint", "ball.crt"},
@@ -96,7 +98,8 @@ TEST_CASE_FIXTURE(Fixture, "a region beyond the picture ends with 2 and tells th
   }
 }
 
-TEST_CASE_FIXTURE(Fixture, "an unknown ending of the picture ends with 2 before anything is rendered") {
+TEST_CASE_FIXTURE(Fixture,
+                  "an unknown ending of the picture ends with 2 before anything is rendered") {
   const Outcome run = run_crt(folder, {"render", "ball.crt", "-o", "ball.docx"});
   CHECK(run.exit_code == usage_error);
   CHECK(contains(run.err, "png, tif"));
@@ -116,16 +119,19 @@ TEST_CASE_FIXTURE(Fixture, "a missing script ends with 3 and names it") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "a missing resource ends with 3 and tells the line that wants it") {
-  folder.write("sky.crt", "Settings {\n  background -> Background { image -> \"sky.jpg\" }\n}\nScene { }\n");
+  folder.write("sky.crt",
+               "Settings {\n  background -> Background { image -> \"sky.jpg\" }\n}\nScene { }\n");
   const Outcome run = run_crt(folder, {"render", "sky.crt"});
   CHECK(run.exit_code == file_error);
   CHECK(contains(run.err, "sky.crt:2:"));
   CHECK(contains(run.err, "sky.jpg"));
 }
 
-TEST_CASE_FIXTURE(Fixture, "an output that cannot be written ends with 3 before anything is rendered") {
+TEST_CASE_FIXTURE(Fixture,
+                  "an output that cannot be written ends with 3 before anything is rendered") {
   folder.write("folder.png/file", "");
-  for (const char* output : {"nowhere/ball.png", "folder.png", "ball.crt/ball.png", "/proc/ball.png"}) {
+  for (const char* output :
+       {"nowhere/ball.png", "folder.png", "ball.crt/ball.png", "/proc/ball.png"}) {
     const Outcome run = run_crt(folder, {"render", "ball.crt", "-o", output});
     INFO(output, "\n", run.err);
     CHECK(run.exit_code == file_error);
@@ -134,22 +140,26 @@ TEST_CASE_FIXTURE(Fixture, "an output that cannot be written ends with 3 before 
   }
 }
 
-TEST_CASE_FIXTURE(Fixture, "statistics that cannot be written end with 3 before anything is rendered") {
+TEST_CASE_FIXTURE(Fixture,
+                  "statistics that cannot be written end with 3 before anything is rendered") {
   const Outcome run = run_crt(folder, {"render", "ball.crt", "--stats", "nowhere/stats.json"});
   CHECK(run.exit_code == file_error);
   CHECK_FALSE(folder.has("ball.png"));
 }
 
-TEST_CASE_FIXTURE(Fixture, "--diagnostics json puts one JSON array on standard error and nothing else") {
-  const Json wrong = parse_json(run_crt(folder, {"render", "wrong.crt", "--diagnostics", "json"}).err);
+TEST_CASE_FIXTURE(Fixture,
+                  "--diagnostics json puts one JSON array on standard error and nothing else") {
+  const Json wrong =
+      parse_json(run_crt(folder, {"render", "wrong.crt", "--diagnostics", "json"}).err);
   REQUIRE(wrong.items.size() >= 1);
   CHECK(wrong.items[0]["severity"].string == "error");
   CHECK(wrong.items[0]["line"].number == 2);
 
-  CHECK(parse_json(run_crt(folder, {"render", "ball.crt", "--diagnostics", "json"}).err).items.empty());
+  CHECK(parse_json(run_crt(folder, {"render", "ball.crt", "--diagnostics", "json"}).err)
+            .items.empty());
 
-  const Json unwritable =
-      parse_json(run_crt(folder, {"render", "ball.crt", "-o", "no/x.png", "--diagnostics", "json"}).err);
+  const Json unwritable = parse_json(
+      run_crt(folder, {"render", "ball.crt", "-o", "no/x.png", "--diagnostics", "json"}).err);
   REQUIRE(unwritable.items.size() == 1);
   CHECK(contains(unwritable.items[0]["message"].string, "cannot write"));
 }

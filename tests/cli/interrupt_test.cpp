@@ -32,7 +32,8 @@ Scene { u }
 print("made")
 )";
 
-/// Until the command has ended after a signal. Bounds below are generous: what is promised is 0.1 s.
+/// Until the command has ended after a signal. Bounds below are generous: what is promised is 0.1
+/// s.
 double seconds_to_end(CrtOnTerminal& crt, int signal) {
   const auto begin = std::chrono::steady_clock::now();
   crt.send(signal);
@@ -42,7 +43,8 @@ double seconds_to_end(CrtOnTerminal& crt, int signal) {
 
 }  // namespace
 
-TEST_CASE("an interrupt while preparing ends with 130 and leaves no file" * doctest::skip(!has_terminals())) {
+TEST_CASE("an interrupt while preparing ends with 130 and leaves no file" *
+          doctest::skip(!has_terminals())) {
   const TemporaryFolder folder;
   folder.write("crowd.crt", crowd_script);
   // What the script prints goes to the terminal as well.
@@ -69,7 +71,8 @@ TEST_CASE("an interrupt in a ray that meets 100,000 things ends it at once" *
   }
 }
 
-TEST_CASE("an interrupt while rendering ends with 130 and leaves no file" * doctest::skip(!has_terminals())) {
+TEST_CASE("an interrupt while rendering ends with 130 and leaves no file" *
+          doctest::skip(!has_terminals())) {
   for (const int signal : {SIGINT, SIGTERM}) {
     const TemporaryFolder folder;
     folder.write("endless.crt", endless_script);
@@ -84,7 +87,8 @@ TEST_CASE("an interrupt while rendering ends with 130 and leaves no file" * doct
 
 TEST_CASE("an interrupt at any time leaves a checkpoint, from which the same picture comes" *
           doctest::skip(!has_terminals())) {
-  const std::vector<std::string> to_picture = {"render", "mirrors.crt", "--passes", "8", "--reproducible"};
+  const std::vector<std::string> to_picture = {"render", "mirrors.crt", "--passes", "8",
+                                               "--reproducible"};
   const TemporaryFolder folder;
   folder.write("mirrors.crt", mirrors_script);
   std::vector<std::string> whole = to_picture;
@@ -106,13 +110,15 @@ TEST_CASE("an interrupt at any time leaves a checkpoint, from which the same pic
     }
     CHECK(run_crt(folder, command).exit_code == 0);
     CHECK(folder.read("part.png") == folder.read("whole.png"));
-    CHECK(folder.names() == std::vector<std::string>{"mirrors.crt", "part.png", "part.state", "whole.png"});
+    CHECK(folder.names() ==
+          std::vector<std::string>{"mirrors.crt", "part.png", "part.state", "whole.png"});
     fs::remove(folder.path() / "part.png");
     fs::remove(folder.path() / "part.state");
   }
 }
 
-TEST_CASE("an interrupted animation keeps the frames that are done" * doctest::skip(!has_terminals())) {
+TEST_CASE("an interrupted animation keeps the frames that are done" *
+          doctest::skip(!has_terminals())) {
   const TemporaryFolder folder;
   folder.write("film.crt", endless_script);
   CrtOnTerminal crt(folder, {"render", "film.crt", "--frames", "0-2"});

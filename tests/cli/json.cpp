@@ -25,7 +25,8 @@ class Parser {
   }
 
   void skip_blanks() {
-    while (at_ < text_.size() && std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
+    while (at_ < text_.size() &&
+           std::string_view(" \t\r\n").find(text_[at_]) != std::string_view::npos)
       ++at_;
   }
 
@@ -69,7 +70,8 @@ class Parser {
       std::string name = parse_string();
       skip_blanks();
       expect(":");
-      if (!object.members.emplace(std::move(name), parse_value()).second) fail("a name occurs twice");
+      if (!object.members.emplace(std::move(name), parse_value()).second)
+        fail("a name occurs twice");
       skip_blanks();
     } while (take(","));
     expect("}");
@@ -105,14 +107,16 @@ class Parser {
     constexpr std::string_view letters = "\"\\/bfnrt";
     constexpr std::string_view meanings = "\"\\/\b\f\n\r\t";
     const char letter = at_ < text_.size() ? text_[at_++] : '\0';
-    if (const std::size_t index = letters.find(letter); letter != '\0' && index != std::string_view::npos) {
+    if (const std::size_t index = letters.find(letter);
+        letter != '\0' && index != std::string_view::npos) {
       return std::string(1, meanings[index]);
     }
     if (letter != 'u') fail("an unknown escape");
     constexpr std::size_t digit_count = 4;
     const std::string_view digits = text_.substr(at_, digit_count);
     unsigned code = 0;
-    const auto [end, error] = std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
+    const auto [end, error] =
+        std::from_chars(digits.data(), digits.data() + digits.size(), code, 16);
     if (error != std::errc() || end != digits.data() + digit_count) fail("\\u needs four digits");
     at_ += digit_count;
     return code < 0x80 ? std::string(1, static_cast<char>(code)) : "\\u" + std::string(digits);

@@ -47,7 +47,8 @@ TEST_CASE_FIXTURE(Fixture, "what standard output does not take is an error") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "what standard error does not take shows in the exit code") {
-  CHECK(run_crt_into(folder, {"check", "ball.crt", "--diagnostics", "json"}, "", full).exit_code == files);
+  CHECK(run_crt_into(folder, {"check", "ball.crt", "--diagnostics", "json"}, "", full).exit_code ==
+        files);
   CHECK(run_crt_into(folder, {"check", "ball.crt"}, full, full).exit_code == files);
   folder.write("wrong.crt", "Scene { Spere {} }");
   CHECK(run_crt_into(folder, {"check", "wrong.crt"}, "", full).exit_code == 1);
@@ -60,12 +61,15 @@ TEST_CASE_FIXTURE(Fixture, "what is asked for on a standard output that is close
     CHECK_MESSAGE(run.exit_code == files, command.back());
     CHECK(contains(run.err, "cannot write to standard output"));
   }
-  CHECK(run_crt_without_output(folder, {"render", "ball.crt", "--stats", "/dev/stdout"}).exit_code == files);
+  CHECK(
+      run_crt_without_output(folder, {"render", "ball.crt", "--stats", "/dev/stdout"}).exit_code ==
+      files);
   CHECK(run_crt_without_output(folder, {"render", "ball.crt"}).exit_code == 0);
   CHECK(run_crt_without_output(folder, {"check", "ball.crt"}).exit_code == 0);
 }
 
-TEST_CASE_FIXTURE(Fixture, "statistics and pictures go into pipes, through links, and leave both there") {
+TEST_CASE_FIXTURE(Fixture,
+                  "statistics and pictures go into pipes, through links, and leave both there") {
   for (const char* pipe : {"stats", "picture.ppm"}) {
     REQUIRE(mkfifo((folder.path() / pipe).c_str(), 0600) == 0);
   }
@@ -94,5 +98,6 @@ TEST_CASE_FIXTURE(Fixture, "a picture that is rendered again keeps its permissio
   folder.write("ball.png", "old");
   REQUIRE(chmod((folder.path() / "ball.png").c_str(), 0604) == 0);
   CHECK(run_crt(folder, {"render", "ball.crt"}).exit_code == 0);
-  CHECK((fs::status(folder.path() / "ball.png").permissions() & fs::perms::mask) == fs::perms(0604));
+  CHECK((fs::status(folder.path() / "ball.png").permissions() & fs::perms::mask) ==
+        fs::perms(0604));
 }

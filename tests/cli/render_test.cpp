@@ -136,9 +136,9 @@ TEST_CASE_FIXTURE(Fixture, "--reproducible gives the same bytes for any number o
 }
 
 TEST_CASE_FIXTURE(Fixture, "--quiet says nothing when all is well") {
-  folder.write(
-      "silent.crt",
-      "Settings { width -> 8 height -> 8 }\nScene { Sphere { center -> vec3(0, 0, 3) radius -> 1 } }\n");
+  folder.write("silent.crt",
+               "Settings { width -> 8 height -> 8 }\nScene { Sphere { center -> vec3(0, 0, 3) "
+               "radius -> 1 } }\n");
   const Outcome run = run_crt(folder, {"render", "silent.crt", "--quiet"});
   CHECK(run.exit_code == 0);
   CHECK(run.out.empty());
@@ -150,12 +150,14 @@ TEST_CASE_FIXTURE(Fixture, "where standard error is no terminal, progress is pla
   const Outcome run = run_crt(folder, {"render", "ball.crt"});
   CHECK(contains(run.err, "ball.png: 100 %\n"));
   CHECK(contains(run.err, "16 x 12 pixels"));
-  CHECK(std::none_of(run.err.begin(), run.err.end(), [](char c) { return c == '\r' || c == '\033'; }));
+  CHECK(std::none_of(run.err.begin(), run.err.end(),
+                     [](char c) { return c == '\r' || c == '\033'; }));
 }
 
 TEST_CASE_FIXTURE(Fixture, "what is told to closed standard streams gets into no file") {
   run_crt(folder, {"render", "ball.crt", "--reproducible", "-o", "heard.png"});
-  CHECK(run_crt_unheard(folder, {"render", "ball.crt", "--reproducible", "-o", "unheard.png"}) == 0);
+  CHECK(run_crt_unheard(folder, {"render", "ball.crt", "--reproducible", "-o", "unheard.png"}) ==
+        0);
   REQUIRE(is_png(folder.read("heard.png")));
   CHECK(folder.read("unheard.png") == folder.read("heard.png"));
 }
@@ -169,7 +171,8 @@ TEST_CASE_FIXTURE(Fixture, "a picture of linear light is written as .exr") {
 TEST_CASE_FIXTURE(Fixture, "resources are found in the folders that --resources names") {
   folder.write("library/part.crt", "part = Sphere { center -> vec3(0, 0, 3) radius -> 1 }\n");
   folder.write("scenes/user.crt", "import \"/part.crt\"\nScene { part }\n");
-  const std::vector<std::string> command = {"render", "scenes/user.crt", "--width", "8", "--height", "8"};
+  const std::vector<std::string> command = {"render", "scenes/user.crt", "--width",
+                                            "8",      "--height",        "8"};
   CHECK(run_crt(folder, command).exit_code == 3);
   std::vector<std::string> with_library = command;
   with_library.insert(with_library.end(), {"--resources", "library"});

@@ -49,15 +49,16 @@ TEST_CASE_FIXTURE(Fixture, "statistics tell seconds, rays, counters and settings
   CHECK_FALSE(stats.has("frame"));
 }
 
-TEST_CASE_FIXTURE(Fixture,
-                  "statistics tell how near to the truth a picture is, and its passes give it again") {
+TEST_CASE_FIXTURE(
+    Fixture, "statistics tell how near to the truth a picture is, and its passes give it again") {
   const Json grid = stats_of({"--supersampling", "3"});
   CHECK(grid["accuracy"]["passes"].number == 0);
   CHECK(grid["accuracy"]["samples_min"].number == 9);
   const Json stats = stats_of({"--targeterror", "0.02", "--reproducible"});
   const Json& accuracy = stats["accuracy"];
   CHECK(accuracy["samples_min"].number == 16);
-  CHECK(accuracy["samples_mean"].number * 16 * 12 == doctest::Approx(stats["rays"]["camera"].number));
+  CHECK(accuracy["samples_mean"].number * 16 * 12 ==
+        doctest::Approx(stats["rays"]["camera"].number));
   CHECK(accuracy["half_width_max"].number > 0);
   CHECK(accuracy["half_width_95"].number <= accuracy["half_width_max"].number);
   CHECK(accuracy["half_width_rms"].number <= accuracy["half_width_max"].number);
@@ -68,8 +69,8 @@ TEST_CASE_FIXTURE(Fixture,
   stats_of({"--targeterror", "0.02", "--passes", passes, "--reproducible"});
   CHECK(folder.read("ball.png") == picture);
   CHECK(run_crt(folder, {"render", "ball.crt", "--passes", "-1"}).exit_code == 2);
-  CHECK(run_crt(folder, {"render", "ball.crt", "--targeterror", "0.02", "--minsamples", "20"}).exit_code !=
-        0);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--targeterror", "0.02", "--minsamples", "20"})
+            .exit_code != 0);
 }
 
 TEST_CASE_FIXTURE(Fixture, "a picture goes on from its checkpoint, and from no other one's") {
@@ -95,7 +96,8 @@ TEST_CASE_FIXTURE(Fixture, "a picture goes on from its checkpoint, and from no o
   CHECK(refused({"--targeterror", "0.008"}));
   CHECK(refused({}));
   CHECK(refused({"--targeterror", "0.004", "--frames", "1-2"}));
-  CHECK(run_crt(folder, {"render", "ball.crt", "--checkpoint", "no/where", "--passes", "3"}).exit_code != 0);
+  CHECK(run_crt(folder, {"render", "ball.crt", "--checkpoint", "no/where", "--passes", "3"})
+            .exit_code != 0);
 }
 
 TEST_CASE_FIXTURE(Fixture, "texts of any kind come through the options into the statistics") {
@@ -118,7 +120,8 @@ TEST_CASE_FIXTURE(Fixture, "an animation's statistics are an array, an object a 
   CHECK(stats.items[2]["output"].string == "ball_0004.png");
 }
 
-TEST_CASE_FIXTURE(Fixture, "statistics go to standard output for '-', and what the script prints does not") {
+TEST_CASE_FIXTURE(Fixture,
+                  "statistics go to standard output for '-', and what the script prints does not") {
   const Outcome run = run_crt(folder, {"render", "ball.crt", "--stats", "-"});
   REQUIRE(run.exit_code == 0);
   CHECK(parse_json(run.out)["pixels"].number == 16 * 12);
@@ -127,7 +130,8 @@ TEST_CASE_FIXTURE(Fixture, "statistics go to standard output for '-', and what t
 
 TEST_CASE_FIXTURE(Fixture, "a file's name that is no UTF-8 still gives well-formed statistics") {
   folder.write("odd\xff.crt", ball_script);
-  const Outcome run = run_crt(folder, {"render", "odd\xff.crt", "--stats", "stats.json", "-o", "odd.png"});
+  const Outcome run =
+      run_crt(folder, {"render", "odd\xff.crt", "--stats", "stats.json", "-o", "odd.png"});
   REQUIRE_MESSAGE(run.exit_code == 0, run.err);
   CHECK(parse_json(folder.read("stats.json"))["script"].string == "odd\\ufffd.crt");
 }

@@ -37,9 +37,9 @@ constexpr int rmse_column = 3;
 TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to the truth") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
-  const Outcome run =
-      run_crt(folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget", "1000", "--error",
-                       "200", "--reference-samples", "1024", "--png", "--most-seconds", "1000"});
+  const Outcome run = run_crt(
+      folder, {"trade", "ball.crt", "--width", "64", "--height", "48", "--budget", "1000",
+               "--error", "200", "--reference-samples", "1024", "--png", "--most-seconds", "1000"});
   CAPTURE(run.err);
   REQUIRE(run.exit_code == 0);
   CHECK(folder.names() ==
@@ -61,8 +61,9 @@ TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to
 TEST_CASE("crt trade measures the part that it is told to") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
-  const Outcome run = run_crt(folder, {"trade", "ball.crt", "-o", "part", "--width", "400", "--height", "300",
-                                       "--region", "190,140,20,20", "--threads", "1"});
+  const Outcome run =
+      run_crt(folder, {"trade", "ball.crt", "-o", "part", "--width", "400", "--height", "300",
+                       "--region", "190,140,20,20", "--threads", "1"});
   CAPTURE(run.err);
   REQUIRE(run.exit_code == 0);
   CHECK(folder.names() == std::vector<std::string>{"ball.crt", "part.csv", "part.svg"});
@@ -73,7 +74,8 @@ TEST_CASE("crt trade refuses what it cannot do, and then writes nothing") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
   folder.write("wrong.crt", "Scene { Sphere { radius -> } }");
-  const auto fails = [&](std::vector<std::string> arguments, int exit_code, const std::string& piece) {
+  const auto fails = [&](std::vector<std::string> arguments, int exit_code,
+                         const std::string& piece) {
     arguments.insert(arguments.begin(), "trade");
     const Outcome run = run_crt(folder, arguments);
     CAPTURE(run.err);
@@ -96,8 +98,8 @@ TEST_CASE("crt trade refuses what it cannot do, and then writes nothing") {
 TEST_CASE("crt trade that is interrupted leaves nothing behind" * doctest::skip(!has_terminals())) {
   const TemporaryFolder folder;
   folder.write("endless.crt", endless_script);
-  CrtOnTerminal run(folder,
-                    {"trade", "endless.crt", "--time", "1", "--pixels", "4000000", "--most-seconds", "600"});
+  CrtOnTerminal run(folder, {"trade", "endless.crt", "--time", "1", "--pixels", "4000000",
+                             "--most-seconds", "600"});
   REQUIRE(run.shows("endless.crt"));
   run.send(SIGINT);
   CHECK(run.wait() == 130);

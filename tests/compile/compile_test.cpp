@@ -15,9 +15,13 @@ namespace {
 
 class Random {
  public:
-  double real(double low, double high) { return std::uniform_real_distribution<double>(low, high)(engine_); }
+  double real(double low, double high) {
+    return std::uniform_real_distribution<double>(low, high)(engine_);
+  }
   Vec3 point(double size) { return {real(-size, size), real(-size, size), real(-size, size)}; }
-  Entity ball(double size, double radius) { return Sphere{.center = point(size), .radius = radius}; }
+  Entity ball(double size, double radius) {
+    return Sphere{.center = point(size), .radius = radius};
+  }
   std::vector<Entity> balls(int count, double size, double radius) {
     std::vector<Entity> result;
     for (int i = 0; i < count; ++i) result.push_back(ball(size, radius));
@@ -37,7 +41,8 @@ std::vector<Entity> mixed_entities() {
   entities.push_back(csg_union(random.balls(20'000, 9, 0.05)));
   for (int i = 0; i < 3000; ++i) {
     const Entity pair = random.ball(1, 1) ^ random.ball(1, 1);
-    entities.push_back((pair - Box{}).transformed(rotate(random.point(180))).with_material(Material{}));
+    entities.push_back(
+        (pair - Box{}).transformed(rotate(random.point(180))).with_material(Material{}));
     entities.push_back(Entity(Box{}).transformed(translate(random.point(3))));
   }
   Entity chain = block;
@@ -101,7 +106,8 @@ TEST_CASE("a scene is compiled to the same on any number of threads") {
 }
 
 TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
-  // Three of each ball in the union, brought to their place in different ways, and one of each by itself.
+  // Three of each ball in the union, brought to their place in different ways, and one of each by
+  // itself.
   Random random;
   const std::vector<Entity> balls = random.balls(10'000, 9, 1);
   std::vector<Entity> parts = balls;
@@ -171,8 +177,8 @@ TEST_CASE("a hundred thousand operations in one another are compiled") {
 }
 
 TEST_CASE("parts that come apart one by one only take no longer for that") {
-  // Around a core, slabs on six sides in turn: each plane that misses all boxes has but one of them behind
-  // it.
+  // Around a core, slabs on six sides in turn: each plane that misses all boxes has but one of them
+  // behind it.
   std::vector<Entity> parts{Sphere{}};
   double size = 1;
   for (int i = 0; i < 20'000; ++i) {

@@ -34,7 +34,8 @@ TEST_CASE("equal entities of a scene are one object, with the first one's number
 }
 
 TEST_CASE("the numbers of other entities do not shift") {
-  const CompiledScene scene = compile(std::vector<Entity>{ball, far_ball, ball, cutter, far_ball.with_id(7)});
+  const CompiledScene scene =
+      compile(std::vector<Entity>{ball, far_ball, ball, cutter, far_ball.with_id(7)});
   REQUIRE(scene.leaves.size() == 3);
   CHECK(scene.leaves[0].entity_id == 0);
   CHECK(scene.leaves[1].entity_id == 1);

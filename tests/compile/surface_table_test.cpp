@@ -16,12 +16,14 @@ Placement placed(std::initializer_list<Transform> steps) {
   return Placement(all);
 }
 
-CanonicalSurface surface_of(const Primitive& primitive, std::uint32_t face, const Placement& placement = {}) {
+CanonicalSurface surface_of(const Primitive& primitive, std::uint32_t face,
+                            const Placement& placement = {}) {
   return canonical_surface(make_shape(primitive)->surface(face), placement);
 }
 
 /// Whether some face of `a` lies on the same surface as some face of `b`.
-bool share(const Primitive& a, const Placement& a_place, const Primitive& b, const Placement& b_place) {
+bool share(const Primitive& a, const Placement& a_place, const Primitive& b,
+           const Placement& b_place) {
   for (std::uint32_t i = 0; i < make_shape(a)->face_count(); ++i) {
     for (std::uint32_t k = 0; k < make_shape(b)->face_count(); ++k) {
       const CanonicalSurface first = surface_of(a, i, a_place);
@@ -60,7 +62,8 @@ TEST_CASE("transforms that lead to one plane give one surface") {
   const Box box{.corner_a = {0, 0, 0}, .corner_b = {1, 1, 1}};
   CHECK(share(box, placed({translate({0, 3, 0})}), Plane{.position = {0, 4, 0}}, {}));
   CHECK(share(box, placed({scale(4)}), Plane{.normal = {0, 0, 1}, .position = {0, 0, 4}}, {}));
-  CHECK(share(box, placed({rotate({90, 0, 0}), translate({0, 2, 0})}), Plane{.position = {0, 2, 0}}, {}));
+  CHECK(share(box, placed({rotate({90, 0, 0}), translate({0, 2, 0})}), Plane{.position = {0, 2, 0}},
+              {}));
   const Placement turned = placed({rotate({10, 20, 30}), translate({0.1, 0.2, 0.3})});
   CHECK(share(box, turned, Box{.corner_a = {1, 1, 1}, .corner_b = {2, 2, 2}}, turned));
 }
@@ -68,7 +71,8 @@ TEST_CASE("transforms that lead to one plane give one surface") {
 TEST_CASE("round surfaces are one where all their numbers agree") {
   const Sphere ball{.center = {1, 2, 3}, .radius = 0.5};
   CHECK(share(ball, {}, ball, {}));
-  CHECK(share(ball, {}, Sphere{.center = {0, 2, 3}, .radius = 0.5}, placed({translate({1, 0, 0})})));
+  CHECK(
+      share(ball, {}, Sphere{.center = {0, 2, 3}, .radius = 0.5}, placed({translate({1, 0, 0})})));
   CHECK_FALSE(share(ball, {}, Sphere{.center = {1, 2, 3}, .radius = 0.6}, {}));
   CHECK_FALSE(share(ball, placed({scale(Vec3(1, 1, 2))}), ball, {}));
   const Torus ring{};

@@ -11,8 +11,8 @@ namespace crt::test {
 
 /// A ray that goes on from a hit, through it or back.
 inline core::WorldRay continued(const core::CompiledScene& scene, const core::CsgProgram& program,
-                                const core::WorldRay& ray, const core::CsgHit& hit, const Vec3& direction,
-                                core::Side side) {
+                                const core::WorldRay& ray, const core::CsgHit& hit,
+                                const Vec3& direction, core::Side side) {
   core::WorldRay next;
   next.origin = ray.origin + hit.t * ray.direction;
   next.direction = direction;

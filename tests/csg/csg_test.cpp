@@ -41,7 +41,8 @@ PreparedData prepared(const Entity& entity) {
 }
 
 WorldRay whole_line(const Vec3& origin, const Vec3& direction) {
-  return {.origin = origin, .direction = direction, .t_min = -infinity, .t_max = infinity, .start = {}};
+  return {
+      .origin = origin, .direction = direction, .t_min = -infinity, .t_max = infinity, .start = {}};
 }
 
 /// The crossings that must be there: where membership on both sides of a candidate differs.
@@ -53,11 +54,14 @@ std::vector<Quad> expected_crossings(const Solid& solid, const Vec3& o, const Ve
   for (const Quad t : ts) {
     if (distinct.empty() || t - distinct.back() > 1e-25) distinct.push_back(t);
   }
-  const auto inside = [&](Quad t) { return solid.contains({o.x + t * d.x, o.y + t * d.y, o.z + t * d.z}); };
+  const auto inside = [&](Quad t) {
+    return solid.contains({o.x + t * d.x, o.y + t * d.y, o.z + t * d.z});
+  };
   std::vector<Quad> result;
   for (std::size_t i = 0; i < distinct.size(); ++i) {
     const Quad before = i == 0 ? distinct[i] - 1 : (distinct[i - 1] + distinct[i]) / 2;
-    const Quad after = i + 1 == distinct.size() ? distinct[i] + 1 : (distinct[i] + distinct[i + 1]) / 2;
+    const Quad after =
+        i + 1 == distinct.size() ? distinct[i] + 1 : (distinct[i] + distinct[i + 1]) / 2;
     if (inside(before) != inside(after)) result.push_back(distinct[i]);
   }
   return result;
@@ -158,8 +162,9 @@ TEST_CASE("set identities hold along random rays") {
 TEST_CASE("a cut face has the cutter's material and a normal out of what is left") {
   const SharedMaterial red = Material{.color = Color{1, 0, 0}};
   const SharedMaterial blue = Material{.color = Color{0, 0, 1}};
-  const PreparedData scene = prepared(Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}, .material = red} -
-                                      Sphere{.center = {0, 0, -1}, .radius = 0.5, .material = blue});
+  const PreparedData scene =
+      prepared(Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}, .material = red} -
+               Sphere{.center = {0, 0, -1}, .radius = 0.5, .material = blue});
   RayWorkspace work;
   const WorldRay ray{.origin = {0, 0, -5}, .direction = {0, 0, 1}, .start = {}};
   const RayHit hit = scene.intersect(ray, work);
@@ -246,7 +251,8 @@ TEST_CASE("a ray that starts on a surface never meets it again, whatever side it
           // leaves or enters. A start next to an edge may be past it already.
           const double ahead = 1e-7;
           const Vec3 p = point.position + ahead * d;
-          if (crossings.front().t > 2 * ahead && solid.contains({p.x, p.y, p.z}) == (side == Side::inside)) {
+          if (crossings.front().t > 2 * ahead &&
+              solid.contains({p.x, p.y, p.z}) == (side == Side::inside)) {
             CHECK(crossings.front().entering == (side == Side::outside));
           }
         }
@@ -259,10 +265,11 @@ TEST_CASE("infinite solids combine to finite ones") {
   const Entity slab = Entity(Plane{.normal = {0, 1, 0}, .position = {0, 1, 0}}) ^ Plane {
     .normal = {0, -1, 0}, .position = { 0, -1, 0 }
   };
-  const Entity cube = csg_intersection(std::vector<Entity>{
-      slab, Plane{.normal = {1, 0, 0}, .position = {1, 0, 0}},
-      Plane{.normal = {-1, 0, 0}, .position = {-1, 0, 0}}, Plane{.normal = {0, 0, 1}, .position = {0, 0, 1}},
-      Plane{.normal = {0, 0, -1}, .position = {0, 0, -1}}});
+  const Entity cube =
+      csg_intersection(std::vector<Entity>{slab, Plane{.normal = {1, 0, 0}, .position = {1, 0, 0}},
+                                           Plane{.normal = {-1, 0, 0}, .position = {-1, 0, 0}},
+                                           Plane{.normal = {0, 0, 1}, .position = {0, 0, 1}},
+                                           Plane{.normal = {0, 0, -1}, .position = {0, 0, -1}}});
   const PreparedData planes = prepared(cube);
   const PreparedData box = prepared(Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}});
   SolidMaker make(7);
@@ -279,7 +286,8 @@ TEST_CASE("infinite solids combine to finite ones") {
 TEST_CASE("a pit in an infinite ground is seen from above and from below") {
   const PreparedData scene =
       prepared(Entity(Plane{.normal = {0, 1, 0}}) - Sphere{.center = {0, 0, 0}, .radius = 1});
-  const auto down = all_crossings(scene, {.origin = {0, 5, 0}, .direction = {0, -1, 0}, .start = {}});
+  const auto down =
+      all_crossings(scene, {.origin = {0, 5, 0}, .direction = {0, -1, 0}, .start = {}});
   REQUIRE(down.size() == 1);
   CHECK(down[0].t == doctest::Approx(6));
   CHECK(down[0].entering);
@@ -305,7 +313,8 @@ TEST_CASE("a hundred thousand nested operations neither overflow the stack nor t
   for (int i = 0; i < 100'000; ++i) chain = i % 100 == 99 ? chain + drill : chain - drill;
   CHECK(chain.primitive_count() == 100'001);
   const PreparedData scene = prepared(chain);
-  const auto hits = all_crossings(scene, {.origin = {0, 0, -5}, .direction = {0, 0, 1}, .start = {}});
+  const auto hits =
+      all_crossings(scene, {.origin = {0, 0, -5}, .direction = {0, 0, 1}, .start = {}});
   REQUIRE(hits.size() == 2);
   CHECK(hits[1].t == doctest::Approx(6.5));  // the last operation was a union
 }
@@ -314,7 +323,8 @@ TEST_CASE("a million nested transforms cost nothing later") {
   Entity moved = Sphere{};
   for (int i = 0; i < 1'000'000; ++i) moved = moved.transformed(translate({1e-6, 0, 0}));
   const PreparedData scene = prepared(moved);
-  const auto hits = all_crossings(scene, {.origin = {-5, 0, 0}, .direction = {1, 0, 0}, .start = {}});
+  const auto hits =
+      all_crossings(scene, {.origin = {-5, 0, 0}, .direction = {1, 0, 0}, .start = {}});
   REQUIRE(hits.size() == 2);
   CHECK(hits[0].t == doctest::Approx(5).epsilon(1e-13));
 }
@@ -360,7 +370,8 @@ TEST_CASE("the outermost id holds; without one it is the place in the scene") {
   scene.entities.push_back(Entity(Sphere{}).with_id(77));
   scene.entities.push_back(
       (Entity(Sphere{.center = {3, 0, 0}}).with_id(5) + Sphere{.center = {6, 0, 0}}).with_id(9));
-  scene.entities.push_back(Entity(Sphere{.center = {9, 0, 0}}).with_id(5) + Sphere{.center = {12, 0, 0}});
+  scene.entities.push_back(Entity(Sphere{.center = {9, 0, 0}}).with_id(5) +
+                           Sphere{.center = {12, 0, 0}});
   const PreparedData data(scene);
   RayWorkspace work;
   const auto id_at = [&](double x) {

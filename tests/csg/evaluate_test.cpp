@@ -84,7 +84,8 @@ Entity plate_with_holes(int n) {
   for (int x = 0; x < n; ++x) {
     for (int z = 0; z < n; ++z) {
       const Vec3 place{x + 0.5, 0, z + 0.5};
-      holes.emplace_back(Cylinder{.from = place - Vec3(0, 2, 0), .to = place + Vec3(0, 2, 0), .radius = 0.3});
+      holes.emplace_back(
+          Cylinder{.from = place - Vec3(0, 2, 0), .to = place + Vec3(0, 2, 0), .radius = 0.3});
     }
   }
   return csg_difference(Box{.corner_a = {0, -1, 0}, .corner_b = {n * 1.0, 1, n * 1.0}}, holes);
@@ -131,7 +132,8 @@ Entity alternating(int n) {
 
 }  // namespace
 
-TEST_CASE("a ray that starts on a face is on the side that it is said to be on, however flat it goes") {
+TEST_CASE(
+    "a ray that starts on a face is on the side that it is said to be on, however flat it goes") {
   SolidMaker make(7);
   CsgWorkspace work;
   constexpr std::uint32_t upper_y = 3;
@@ -142,18 +144,21 @@ TEST_CASE("a ray that starts on a face is on the side that it is said to be on, 
     const bool is_cutter = trial % 2 == 0;
     const Vec3 around(1);
     const CompiledScene scene = compiled(
-        is_cutter ? csg_difference(Box{.corner_a = corner - around, .corner_b = corner + size + around},
-                                   std::vector<Entity>{hole})
-                  : hole ^ Sphere{corner, 20});
+        is_cutter
+            ? csg_difference(Box{.corner_a = corner - around, .corner_b = corner + size + around},
+                             std::vector<Entity>{hole})
+            : hole ^ Sphere{corner, 20});
     const CsgProgram& program = scene.programs.front();
     // On the hole's upper face, but for some last bits, and into it.
     WorldRay ray;
     ray.origin = corner + Vec3(0.5, 1, 0.5) * size;
     const double away = trial % 3 == 0 ? -infinity : infinity;
-    for (int ulps = make.integer(0, 3); ulps > 0; --ulps) ray.origin.y = std::nextafter(ray.origin.y, away);
+    for (int ulps = make.integer(0, 3); ulps > 0; --ulps)
+      ray.origin.y = std::nextafter(ray.origin.y, away);
     ray.direction = {make.real(-1, 1), -std::exp2(make.real(-80, 0)), make.real(-1, 1)};
     std::uint32_t leaf = program.first_leaf;
-    while (scene.leaves[leaf].face_count != 6 || scene.leaves[leaf].complemented != is_cutter) ++leaf;
+    while (scene.leaves[leaf].face_count != 6 || scene.leaves[leaf].complemented != is_cutter)
+      ++leaf;
     const core::FaceSurface& surface = scene.face_surfaces[scene.leaves[leaf].first_face + upper_y];
     ray.start = {.leaf = leaf,
                  .face = upper_y,
@@ -236,7 +241,8 @@ TEST_CASE("deep chains of operations agree with the plain evaluation to the bit"
       hits += compare(scene, ray, work);
       for (const CsgProgram& program : scene.programs) {
         for (const CsgHit& hit : evaluate_plainly(scene, program, ray).hits) {
-          const core::Side side = make.integer(0, 1) == 0 ? core::Side::outside : core::Side::inside;
+          const core::Side side =
+              make.integer(0, 1) == 0 ? core::Side::outside : core::Side::inside;
           hits += compare(scene, continued(scene, program, ray, hit, ray.direction, side), work);
         }
       }
@@ -255,7 +261,8 @@ TEST_CASE("a hundred shells agree with the plain evaluation to the bit") {
   std::size_t hits = 0;
   for (int i = 0; i < 60; ++i) {
     WorldRay ray = random_ray(make);
-    if (i % 2 == 0) ray = {.origin = {make.real(-1, 1), 300, make.real(-1, 1)}, .direction = {0, -1, 0}};
+    if (i % 2 == 0)
+      ray = {.origin = {make.real(-1, 1), 300, make.real(-1, 1)}, .direction = {0, -1, 0}};
     hits += compare(scene, ray, work);
   }
   CHECK(hits > 2000);

@@ -1,8 +1,10 @@
-// Crossings of the exact tier that are as close as one likes, or at one place by different equations.
+// Crossings of the exact tier that are as close as one likes, or at one place by different
+// equations.
 //
-// The truth is known without a root: along a line in the plane z = 0 beside the x axis, solids about the z
-// axis are crossed at one of four numbers that are not rational, +-sqrt(R^2 - y^2); moved along x by k times
-// a tiny step, at that and k steps more. Whole numbers k tell the order, and which crossings are one.
+// The truth is known without a root: along a line in the plane z = 0 beside the x axis, solids
+// about the z axis are crossed at one of four numbers that are not rational, +-sqrt(R^2 - y^2);
+// moved along x by k times a tiny step, at that and k steps more. Whole numbers k tell the order,
+// and which crossings are one.
 #include "core/csg/exact_order.hpp"
 
 #include <doctest/doctest.h>
@@ -27,19 +29,19 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Which of the numbers -sqrt(9/4 - y^2), -sqrt(1/4 - y^2), sqrt(1/4 - y^2), sqrt(9/4 - y^2), or -5/4 and 5/4
-/// between them; and k.
+/// Which of the numbers -sqrt(9/4 - y^2), -sqrt(1/4 - y^2), sqrt(1/4 - y^2), sqrt(9/4 - y^2), or
+/// -5/4 and 5/4 between them; and k.
 using Where = std::pair<int, int>;
 enum : int { outer_in = 0, flat_in = 1, inner_out = 2, inner_in = 3, flat_out = 4, outer_out = 5 };
 
 /// A solid that is told by where the line is in it.
 struct Piece {
   Entity entity = Sphere{};
-  std::vector<std::pair<Where, Where>> stretches;
+  std::vector<std::pair<Where, Where>> spans;
 
   bool contains(const Where& before, const Where& after) const {
-    return std::any_of(stretches.begin(), stretches.end(), [&](const auto& stretch) {
-      return stretch.first <= before && after <= stretch.second;
+    return std::any_of(spans.begin(), spans.end(), [&](const auto& span) {
+      return span.first <= before && after <= span.second;
     });
   }
 };
@@ -67,7 +69,7 @@ struct Combined {
     return is_in(parts[0]) && std::none_of(parts.begin() + 1, parts.end(), is_in);
   }
   void add_places(std::vector<Where>& places) const {
-    for (const auto& [enter, leave] : piece.stretches) {
+    for (const auto& [enter, leave] : piece.spans) {
       places.push_back(enter);
       places.push_back(leave);
     }
@@ -107,19 +109,24 @@ struct Setting {
     return 8 + places[where.first] + where.second * step;
   }
   WorldRay ray() const {
-    return {.origin = {-8, y, 0}, .direction = {1, 0, 0}, .t_min = -infinity, .t_max = infinity, .start = {}};
+    return {.origin = {-8, y, 0},
+            .direction = {1, 0, 0},
+            .t_min = -infinity,
+            .t_max = infinity,
+            .start = {}};
   }
 };
 
-/// A solid whose side the line crosses where others' are crossed, by equations of degree 1, 2 and 4, moved by
-/// at most `most` steps: once or twice, alone or with its whole wrapping.
+/// A solid whose side the line crosses where others' are crossed, by equations of degree 1, 2 and
+/// 4, moved by at most `most` steps: once or twice, alone or with its whole wrapping.
 Piece piece(SolidMaker& make, const Setting& setting, int most) {
   Piece result;
   int k = 0;
   const auto move = [&] {
     const int steps = make.integer(-most, most);
     k += steps;
-    if (steps != 0) result.entity = result.entity.transformed(translate({steps * setting.step, 0, 0}));
+    if (steps != 0)
+      result.entity = result.entity.transformed(translate({steps * setting.step, 0, 0}));
   };
   const int kind = make.integer(0, 6);
   switch (kind) {
@@ -127,16 +134,19 @@ Piece piece(SolidMaker& make, const Setting& setting, int most) {
       result.entity = Sphere{.radius = 1.5};
       break;
     case 1:
-      result.entity = Cylinder{.from = {0, 0, -1}, .to = {0, 0, make.integer(1, 3) * 1.0}, .radius = 1.5};
+      result.entity =
+          Cylinder{.from = {0, 0, -1}, .to = {0, 0, make.integer(1, 3) * 1.0}, .radius = 1.5};
       break;
     case 2:
       result.entity = Cone{.from = {0, 0, -1}, .to = {0, 0, 1}, .radius = 1, .radius2 = 2};
       break;
     case 3:
-      result.entity = Torus{.axis = {0, 0, make.integer(1, 2) * 1.0}, .radius = 1, .thickness = 0.5};
+      result.entity =
+          Torus{.axis = {0, 0, make.integer(1, 2) * 1.0}, .radius = 1, .thickness = 0.5};
       break;
     case 4:
-      result.entity = Box{.corner_a = {-1.25, -2, -1}, .corner_b = {1.25, 2, make.integer(1, 3) * 1.0}};
+      result.entity =
+          Box{.corner_a = {-1.25, -2, -1}, .corner_b = {1.25, 2, make.integer(1, 3) * 1.0}};
       break;
     case 5:  // its slanted faces meet the line on the axis of z = 0 alone
       result.entity = Entity(Plane{.normal = {1, 0, 1}, .position = {1.25, 0, 0}}) ^ Plane {
@@ -153,11 +163,11 @@ Piece piece(SolidMaker& make, const Setting& setting, int most) {
   }
   if (make.integer(0, 1) == 0) move();
   if (kind == 3) {
-    result.stretches = {{{outer_in, k}, {inner_out, k}}, {{inner_in, k}, {outer_out, k}}};
+    result.spans = {{{outer_in, k}, {inner_out, k}}, {{inner_in, k}, {outer_out, k}}};
   } else if (kind == 4 || kind == 5) {
-    result.stretches = {{{flat_in, k}, {flat_out, k}}};
+    result.spans = {{{flat_in, k}, {flat_out, k}}};
   } else {
-    result.stretches = {{{outer_in, k}, {outer_out, k}}};
+    result.spans = {{{outer_in, k}, {outer_out, k}}};
   }
   return result;
 }
@@ -195,7 +205,8 @@ Setting random_setting(SolidMaker& make) {
   return {.y = make.integer(1, 7) / 16.0, .step = std::pow(10.0, -make.integer(20, 300))};
 }
 
-void check_order(const std::vector<RayHit>& hits, const std::vector<Flip>& truth, const Setting& setting) {
+void check_order(const std::vector<RayHit>& hits, const std::vector<Flip>& truth,
+                 const Setting& setting) {
   REQUIRE(hits.size() == truth.size());
   for (std::size_t i = 0; i < hits.size(); ++i) {
     REQUIRE(hits[i].entering == truth[i].entering);
@@ -217,13 +228,15 @@ TEST_CASE("trees of nearly coincident solids flip where exact arithmetic says, h
     const std::vector<Flip> truth = flips(solid);
     check_order(crossings(prepared({solid.entity()}), setting.ray()), truth, setting);
     flipped += truth.size();
-    for (std::size_t i = 1; i < truth.size(); ++i) close += truth[i].where.first == truth[i - 1].where.first;
+    for (std::size_t i = 1; i < truth.size(); ++i)
+      close += truth[i].where.first == truth[i - 1].where.first;
   }
   CHECK(flipped > 4000);
   CHECK(close > 500);
 }
 
-TEST_CASE("objects are met in the order in which they are, however close, and touching ones left first") {
+TEST_CASE(
+    "objects are met in the order in which they are, however close, and touching ones left first") {
   std::size_t flipped = 0;
   for (std::uint32_t seed = 0; seed < 600; ++seed) {
     CAPTURE(seed);
@@ -249,7 +262,8 @@ TEST_CASE("objects are met in the order in which they are, however close, and to
     std::vector<Flip> expected;
     for (const Of& of : truth) expected.push_back(of.flip);
     check_order(hits, expected, setting);
-    for (std::size_t i = 0; i < hits.size(); ++i) REQUIRE(data.entity_id(hits[i]) == truth[i].object);
+    for (std::size_t i = 0; i < hits.size(); ++i)
+      REQUIRE(data.entity_id(hits[i]) == truth[i].object);
     flipped += hits.size();
     if (hits.empty()) continue;
     // Of several at the first place the one that was written first.
@@ -268,9 +282,11 @@ TEST_CASE("objects are met in the order in which they are, however close, and to
 TEST_CASE("a ball less itself moved by 1e-40 is a crescent that is entered before it is left") {
   const Entity ball = Sphere{};
   const Entity moved = ball.transformed(translate({1e-40, 0, 0}));
-  const std::vector<RayHit> hits = crossings(
-      prepared({ball - moved}),
-      {.origin = {-3, 0, 0}, .direction = {1, 0, 0}, .t_min = -infinity, .t_max = infinity, .start = {}});
+  const std::vector<RayHit> hits = crossings(prepared({ball - moved}), {.origin = {-3, 0, 0},
+                                                                        .direction = {1, 0, 0},
+                                                                        .t_min = -infinity,
+                                                                        .t_max = infinity,
+                                                                        .start = {}});
   REQUIRE(hits.size() == 2);
   CHECK(hits[0].entering);
   CHECK_FALSE(hits[1].entering);
@@ -278,12 +294,18 @@ TEST_CASE("a ball less itself moved by 1e-40 is a crescent that is entered befor
   CHECK(hits[1].t == 2);
 }
 
-TEST_CASE("a solid whose ends round to one t is entered before it is left, between solids that touch it") {
-  // 1e-17 thick, where an ulp is 2e-16; and balls from so far away that they are no longer than an ulp.
+TEST_CASE(
+    "a solid whose ends round to one t is entered before it is left, between solids that touch "
+    "it") {
+  // 1e-17 thick, where an ulp is 2e-16; and balls from so far away that they are no longer than an
+  // ulp.
   const Box thin{.corner_a = {0, 0, 0}, .corner_b = {1e-17, 1, 1}};
   const Box before{.corner_a = {-1, 0, 0}, .corner_b = {0, 1, 1}};
-  const WorldRay near{
-      .origin = {-1.5, 0.5, 0.5}, .direction = {1, 0, 0}, .t_min = -infinity, .t_max = infinity, .start = {}};
+  const WorldRay near{.origin = {-1.5, 0.5, 0.5},
+                      .direction = {1, 0, 0},
+                      .t_min = -infinity,
+                      .t_max = infinity,
+                      .start = {}};
   std::vector<RayHit> hits = crossings(prepared({thin, before}), near);
   REQUIRE(hits.size() == 4);
   CHECK(hits[1].t == 1.5);
@@ -297,15 +319,16 @@ TEST_CASE("a solid whose ends round to one t is entered before it is left, betwe
   far.origin = {-0x1p60, 0, 0};
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     hits = crossings(
-        prepared({Sphere{.center = {2, 0, 0}}, Sphere{}, Sphere{.center = {4, 0, 0}}}, precision), far);
+        prepared({Sphere{.center = {2, 0, 0}}, Sphere{}, Sphere{.center = {4, 0, 0}}}, precision),
+        far);
     // The standard tier leaves out what has no length.
     REQUIRE(hits.size() == (precision == Precision::exact ? 6 : 0));
     for (std::size_t i = 0; i < hits.size(); ++i) {
       if (precision == Precision::exact) CHECK(hits[i].entering == (i % 2 == 0));
       if (hits[i].entering) continue;
-      CHECK(
-          std::any_of(hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(i),
-                      [&](const RayHit& other) { return other.entering && other.object == hits[i].object; }));
+      CHECK(std::any_of(
+          hits.begin(), hits.begin() + static_cast<std::ptrdiff_t>(i),
+          [&](const RayHit& other) { return other.entering && other.object == hits[i].object; }));
     }
   }
 }
@@ -314,8 +337,11 @@ TEST_CASE("surfaces that are equal but for a rounding are not one in the exact t
   // 0.1 + 0.2 rounds to what the other ball is at.
   const Entity one = Entity(Sphere{.center = {0.1, 0, 0}}).transformed(translate({0.2, 0, 0}));
   const Entity other = Sphere{.center = {0.1 + 0.2, 0, 0}};
-  const WorldRay ray{
-      .origin = {-3, 0, 0}, .direction = {1, 0, 0}, .t_min = -infinity, .t_max = infinity, .start = {}};
+  const WorldRay ray{.origin = {-3, 0, 0},
+                     .direction = {1, 0, 0},
+                     .t_min = -infinity,
+                     .t_max = infinity,
+                     .start = {}};
   // The first is the one further to the left: 0.1 + 0.2 was rounded up.
   CHECK(crossings(prepared({one - other}), ray).size() == 2);
   CHECK(crossings(prepared({other - one}), ray).size() == 2);
@@ -323,7 +349,10 @@ TEST_CASE("surfaces that are equal but for a rounding are not one in the exact t
   // The same for planes: these are across directions that only nearly are the same.
   const Entity plane = Plane{.normal = {1, 3, 0}, .position = {0, 0, 0}};
   const Entity tilted = Plane{.normal = {1.0 / 3, 1, 0}, .position = {0, 0, 0}};
-  const WorldRay across{
-      .origin = {7, 5, 0}, .direction = {0, -1, 0}, .t_min = -infinity, .t_max = infinity, .start = {}};
+  const WorldRay across{.origin = {7, 5, 0},
+                        .direction = {0, -1, 0},
+                        .t_min = -infinity,
+                        .t_max = infinity,
+                        .start = {}};
   CHECK(crossings(prepared({(plane - tilted) + (tilted - plane)}), across).size() == 2);
 }

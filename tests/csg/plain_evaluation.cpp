@@ -10,8 +10,8 @@ using core::CsgCrossing;
 using core::CsgProgram;
 using core::Leaf;
 
-/// The values of all nodes and leaves, the latter as the solid has them: true where complemented ones are
-/// not.
+/// The values of all nodes and leaves, the latter as the solid has them: true where complemented
+/// ones are not.
 struct Values {
   std::vector<bool> nodes;
   std::vector<bool> leaves;
@@ -23,7 +23,8 @@ class Plain {
       : scene_(scene), program_(program), ray_(ray), inside_(program.leaf_count(), false) {
     for (std::uint32_t leaf = 0; leaf < program.leaf_count(); ++leaf) collect(leaf);
     std::sort(crossings_.begin(), crossings_.end(), [](const CsgCrossing& a, const CsgCrossing& b) {
-      return std::tie(a.t, a.t_low, a.leaf, a.entering) < std::tie(b.t, b.t_low, b.leaf, b.entering);
+      return std::tie(a.t, a.t_low, a.leaf, a.entering) <
+             std::tie(b.t, b.t_low, b.leaf, b.entering);
     });
   }
 
@@ -48,7 +49,8 @@ class Plain {
     if (leaf.bounds.empty()) return;
     const core::LineSpan span =
         core::RaySlabs(ray_.origin, ray_.direction, ray_.start.t_error).span(leaf.bounds);
-    if (span.empty() || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max) return;
+    if (span.empty() || span.leave < ray_.t_min - ray_.start.t_error || span.enter > ray_.t_max)
+      return;
     core::ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
     object_ray.start =
         core::start_on_leaf(leaf, program_.first_leaf + index, scene_.face_surfaces, ray_.start);
@@ -75,7 +77,8 @@ class Plain {
         met.t_low = 0;
       }
       if (met.surface != ray_.start.surface && met.t > ray_.t_min &&
-          met.enter <= core::farthest_start(ray_) && core::is_at_start(leaf, ray_, object_ray, crossing)) {
+          met.enter <= core::farthest_start(ray_) &&
+          core::is_at_start(leaf, ray_, object_ray, crossing)) {
         met.t = ray_.t_min;
         met.t_low = 0;
       }
@@ -97,11 +100,11 @@ class Plain {
                                      crossings_.begin() + static_cast<std::ptrdiff_t>(end));
     std::vector<CsgCrossing> rest;
     for (std::size_t i = end; i < crossings_.size(); ++i) {
-      const bool same =
-          std::any_of(cluster.begin(), cluster.begin() + static_cast<std::ptrdiff_t>(end),
-                      [&](const CsgCrossing& member) {
-                        return member.surface == crossings_[i].surface && member.root == crossings_[i].root;
-                      });
+      const bool same = std::any_of(
+          cluster.begin(), cluster.begin() + static_cast<std::ptrdiff_t>(end),
+          [&](const CsgCrossing& member) {
+            return member.surface == crossings_[i].surface && member.root == crossings_[i].root;
+          });
       (same ? cluster : rest).push_back(crossings_[i]);
     }
     crossings_ = rest;
@@ -124,20 +127,24 @@ class Plain {
     return result;
   }
 
-  core::CsgHit hit(const std::vector<CsgCrossing>& cluster, const Values& before, const Values& after) const {
+  core::CsgHit hit(const std::vector<CsgCrossing>& cluster, const Values& before,
+                   const Values& after) const {
     const bool now = after.nodes[0];
     const CsgCrossing* cause = nullptr;
     const CsgCrossing* place = nullptr;  // known best
     for (const CsgCrossing& crossing : cluster) {
-      if (crossing.entering != inside_[crossing.leaf] || after.leaves[crossing.leaf] != now) continue;
+      if (crossing.entering != inside_[crossing.leaf] || after.leaves[crossing.leaf] != now)
+        continue;
       bool changed = true;
-      for (std::uint32_t node = program_.leaf_parents[crossing.leaf];; node = program_.nodes[node].parent) {
+      for (std::uint32_t node = program_.leaf_parents[crossing.leaf];;
+           node = program_.nodes[node].parent) {
         changed = changed && before.nodes[node] != now && after.nodes[node] == now;
         if (node == 0) break;
       }
       if (!changed) continue;
       if (cause == nullptr || crossing.leaf < cause->leaf) cause = &crossing;
-      if (place == nullptr || std::tie(crossing.error, crossing.leaf) < std::tie(place->error, place->leaf)) {
+      if (place == nullptr ||
+          std::tie(crossing.error, crossing.leaf) < std::tie(place->error, place->leaf)) {
         place = &crossing;
       }
     }

@@ -1,5 +1,5 @@
-// CSG along a ray in the plainest way: every leaf is asked, all crossings are sorted, and the tree is
-// evaluated anew at each place. What the library's evaluation must agree with, to the bit.
+// CSG along a ray in the plainest way: every leaf is asked, all crossings are sorted, and the tree
+// is evaluated anew at each place. What the library's evaluation must agree with, to the bit.
 #pragma once
 
 #include <vector>

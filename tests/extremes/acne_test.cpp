@@ -80,9 +80,11 @@ Scene lit_scene(const Named& named, double scale_by, Precision precision, Random
   scene.settings.width = 24;
   scene.settings.height = 24;
   scene.settings.precision = precision;
-  const Transform turned = rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
-  scene.entities = {
-      named.solid.transformed(turned).transformed(scale(scale_by)).with_material(Material{.color = grey(1)})};
+  const Transform turned =
+      rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+  scene.entities = {named.solid.transformed(turned)
+                        .transformed(scale(scale_by))
+                        .with_material(Material{.color = grey(1)})};
   for (int i = 0; i < 3; ++i) {
     scene.lights.emplace_back(ParallelLight{.from = random.direction(), .pointing = Vec3(0)});
     scene.lights.emplace_back(PointLight{.origin = 2.0 * scale_by * random.direction()});

@@ -1,4 +1,5 @@
-// Faces that coincide render without a speckle, from all sides: as if what wins there stood out by a hair.
+// Faces that coincide render without a speckle, from all sides: as if what wins there stood out by
+// a hair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -65,7 +66,9 @@ std::vector<Pair> standing_pairs() {
   return {{"a box on a plane", {ground, block(0)}, {ground, block(hair)}},
           {"a plane under a box", {block(0), ground}, {block(-hair), ground}},
           {"a box and a plane in one", {block(0) + ground}, {block(-hair) + ground}},
-          {"a cylinder on a plane", {ground, pillar(0, 1, 0.6, red)}, {ground, pillar(hair, 1, 0.6, red)}},
+          {"a cylinder on a plane",
+           {ground, pillar(0, 1, 0.6, red)},
+           {ground, pillar(hair, 1, 0.6, red)}},
           {"a disc on a box", {block(0), disc(1, green)}, {block(0), disc(1 - hair, green)}},
           {"a box under a disc", {disc(1, green), block(0)}, {disc(1 + hair, green), block(0)}},
           {"two discs", {disc(0, red), disc(0, green)}, {}}};
@@ -116,7 +119,8 @@ std::vector<Pair> flush_pairs() {
            {ring(0.25 + hair, red) ^ behind({1, 0, 0}, 0.3, red), ring(0.25, green)}}};
 }
 
-/// The picture that a camera from somewhere takes; `side` numbers the places, the first 6 along an axis.
+/// The picture that a camera from somewhere takes; `side` numbers the places, the first 6 along an
+/// axis.
 Image taken(std::vector<Entity> entities, const Transform& placed, int side, Precision precision) {
   Scene scene = dark_scene();
   scene.background = SolidBackground{{0.1, 0.1, 0.3}};

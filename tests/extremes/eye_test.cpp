@@ -20,16 +20,19 @@ struct Post {
 std::vector<Post> posts() {
   const Vec3 up(0, 1, 0);
   const Vec3 slanted = glm::normalize(Vec3(1, 2, -0.5));
-  return {{"ground", Entity(Plane{}) ^ Entity(Sphere{.radius = 100}), {0.3, 0, 0.2}, up},
-          {"box", Box{}, {0.3, 1, -0.2}, up},
-          {"ball", Sphere{}, slanted, slanted},
-          {"cylinder", Cylinder{.from = {-1, 0, 0}, .to = {1, 0, 0}}, {0.3, 0.6, 0.8}, {0, 0.6, 0.8}},
-          {"cylinder's cap", Cylinder{}, {0.3, 1, -0.2}, up},
-          {"cone", Cone{}, {0.3, 0.5, 0.4}, glm::normalize(Vec3(0.6, 1, 0.8))},
-          {"part of a ball", Entity(Sphere{}) ^ Entity(Box{.corner_a = {-2, -2, -2}}), slanted, slanted}};
+  return {
+      {"ground", Entity(Plane{}) ^ Entity(Sphere{.radius = 100}), {0.3, 0, 0.2}, up},
+      {"box", Box{}, {0.3, 1, -0.2}, up},
+      {"ball", Sphere{}, slanted, slanted},
+      {"cylinder", Cylinder{.from = {-1, 0, 0}, .to = {1, 0, 0}}, {0.3, 0.6, 0.8}, {0, 0.6, 0.8}},
+      {"cylinder's cap", Cylinder{}, {0.3, 1, -0.2}, up},
+      {"cone", Cone{}, {0.3, 0.5, 0.4}, glm::normalize(Vec3(0.6, 1, 0.8))},
+      {"part of a ball", Entity(Sphere{}) ^ Entity(Box{.corner_a = {-2, -2, -2}}), slanted,
+       slanted}};
 }
 
-Scene seen_from(const Post& post, const Transform& placed, const Vec3& towards, Precision precision) {
+Scene seen_from(const Post& post, const Transform& placed, const Vec3& towards,
+                Precision precision) {
   Scene scene = dark_scene();
   scene.settings.width = 30;
   scene.settings.height = 30;
@@ -80,7 +83,8 @@ TEST_CASE("an eye on a solid sees the open before it and the solid behind it") {
 TEST_CASE("an eye at the level of the water sees into it below and across it above") {
   Random random(51);
   for (int round = 0; round < 12; ++round) {
-    Transform placed = round < 2 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
+    Transform placed =
+        round < 2 ? Transform{} : rotate({random.between(0, 360), random.between(0, 360), 0});
     placed.translation = random.between(0, 30) * random.direction();
     Scene scene = dark_scene();
     scene.settings.width = 20;
@@ -90,7 +94,8 @@ TEST_CASE("an eye at the level of the water sees into it below and across it abo
     Material water = glass(1);
     water.absorption = {0, 0.5, 50};
     scene.entities = {
-        Entity(Box{.corner_a = {-5, -2, -5}, .corner_b = {5, 0, 5}, .material = water}).transformed(placed)};
+        Entity(Box{.corner_a = {-5, -2, -5}, .corner_b = {5, 0, 5}, .material = water})
+            .transformed(placed)};
     scene.camera.position = apply(placed, {0.3, 0, -1});
     // Level, or in the water's plane but to the side.
     scene.camera.pointing = apply(placed, {0.3 + round % 3, 0, 1});

@@ -52,14 +52,17 @@ Scene scene_at(const Vec3& away, Way way, Precision precision) {
             .thickness = 0.15,
             .material = plain},
       Disc{.center = at(0.2, 1.4, 2), .normal = {0.1, 0.2, -1}, .radius = 0.7, .material = shiny},
-      Triangle{.a = at(-1, 0, 2.3), .b = at(0, 0.2, 2.4), .c = at(-0.6, 1.6, 2.5), .material = plain}};
+      Triangle{
+          .a = at(-1, 0, 2.3), .b = at(0, 0.2, 2.4), .c = at(-0.6, 1.6, 2.5), .material = plain}};
   if (way == Way::transform) {
     for (Entity& entity : scene.entities) entity = entity.transformed(translate(away));
   }
-  scene.lights = {PointLight{.origin = snapped({3, 5, -4}) + away, .ambient = 0.1},
-                  SpotLight{.origin = snapped({-4, 6, -2}) + away, .pointing = away, .color = grey(0.6)},
-                  ParallelLight{.from = {1, 1, -1}, .pointing = Vec3(0), .color = grey(0.3)}};
-  scene.camera = {.position = snapped({0.3, 1.7, -5.1}) + away, .pointing = snapped({0, 0.5, 0.1}) + away};
+  scene.lights = {
+      PointLight{.origin = snapped({3, 5, -4}) + away, .ambient = 0.1},
+      SpotLight{.origin = snapped({-4, 6, -2}) + away, .pointing = away, .color = grey(0.6)},
+      ParallelLight{.from = {1, 1, -1}, .pointing = Vec3(0), .color = grey(0.3)}};
+  scene.camera = {.position = snapped({0.3, 1.7, -5.1}) + away,
+                  .pointing = snapped({0, 0.5, 0.1}) + away};
   return scene;
 }
 
@@ -70,7 +73,8 @@ TEST_CASE("a scene at 10^9 of its size from the origin is hit where it is at the
     for (const Way way : {Way::coordinates, Way::transform}) {
       const Scene here = scene_at(Vec3(0), way, precision);
       RayQueries near_queries(prepare(here));
-      for (const Vec3& away : {far * Vec3(1, 1, 1), far * Vec3(-1, 0.5, 0.25), far * Vec3(0, 0, -1)}) {
+      for (const Vec3& away :
+           {far * Vec3(1, 1, 1), far * Vec3(-1, 0.5, 0.25), far * Vec3(0, 0, -1)}) {
         const Scene there = scene_at(away, way, precision);
         RayQueries far_queries(prepare(there));
         int different = 0;
@@ -82,7 +86,8 @@ TEST_CASE("a scene at 10^9 of its size from the origin is hit where it is at the
             const std::optional<Hit> hit = far_queries.intersect(ray);
             if (hit.has_value() != expected.has_value()) {
               ++different;
-            } else if (hit && (hit->entity_id != expected->entity_id || hit->entering != expected->entering ||
+            } else if (hit && (hit->entity_id != expected->entity_id ||
+                               hit->entering != expected->entering ||
                                std::abs(hit->t - expected->t) > 1e-13 * expected->t ||
                                glm::length(hit->normal - expected->normal) > 1e-12)) {
               ++different;
@@ -97,12 +102,14 @@ TEST_CASE("a scene at 10^9 of its size from the origin is hit where it is at the
 }
 
 TEST_CASE("a scene at 10^9 of its size from the origin looks as it does at the origin") {
-  // Points on surfaces are rounded to 2^-20, a millionth; light, mirrors and glass see that, but hardly.
+  // Points on surfaces are rounded to 2^-20, a millionth; light, mirrors and glass see that, but
+  // hardly.
   constexpr double alike = 2e-4;
   for (const Precision precision : {Precision::standard, Precision::exact}) {
     for (const Way way : {Way::coordinates, Way::transform}) {
       const Image reference = render(prepare(scene_at(Vec3(0), way, precision)), {.threads = 1});
-      for (const Vec3& away : {far * Vec3(1, 1, 1), far * Vec3(-1, 0.5, 0.25), far * Vec3(0, 0, -1)}) {
+      for (const Vec3& away :
+           {far * Vec3(1, 1, 1), far * Vec3(-1, 0.5, 0.25), far * Vec3(0, 0, -1)}) {
         const Image image = render(prepare(scene_at(away, way, precision)), {.threads = 1});
         int different = 0;
         for (int y = 0; y < image.height(); ++y) {

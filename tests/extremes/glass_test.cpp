@@ -1,5 +1,5 @@
-// Random glass, most of whose faces coincide, overlap or touch: light that has gone through is in no medium
-// any more, and has been in each as docs/image.md says.
+// Random glass, most of whose faces coincide, overlap or touch: light that has gone through is in
+// no medium any more, and has been in each as docs/image.md says.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -32,16 +32,16 @@ Transform random_placement(Random& random, int round) {
   return placed;
 }
 
-struct Stretch {
+struct Span {
   double enter;
   double leave;
 };
 
 /// Where the line is inside of the solid, ascending.
-std::vector<Stretch> stretches(const Entity& solid, const Ray& line) {
+std::vector<Span> spans(const Entity& solid, const Ray& line) {
   Scene alone;
   alone.entities = {solid};
-  std::vector<Stretch> result;
+  std::vector<Span> result;
   for (const Hit& hit : crossings(prepare(alone), line)) {
     if (hit.entering)
       result.push_back({hit.t, hit.t});
@@ -51,19 +51,19 @@ std::vector<Stretch> stretches(const Entity& solid, const Ray& line) {
   return result;
 }
 
-/// The optical depth of a line through solids of the given absorptions; nothing where the rule goes in
-/// circles or something is too short to call.
-std::optional<double> optical_depth(const std::vector<Entity>& solids, const std::vector<double>& absorption,
-                                    const Ray& line) {
+/// The optical depth of a line through solids of the given absorptions; nothing where the rule goes
+/// in circles or something is too short to call.
+std::optional<double> optical_depth(const std::vector<Entity>& solids,
+                                    const std::vector<double>& absorption, const Ray& line) {
   constexpr double same = 1e-8;
-  std::vector<std::vector<Stretch>> all;
+  std::vector<std::vector<Span>> all;
   std::vector<double> cuts;
   for (const Entity& solid : solids) {
-    all.push_back(stretches(solid, line));
-    for (const Stretch& stretch : all.back()) {
-      if (stretch.leave - stretch.enter < same) return std::nullopt;
-      cuts.push_back(stretch.enter);
-      cuts.push_back(stretch.leave);
+    all.push_back(spans(solid, line));
+    for (const Span& span : all.back()) {
+      if (span.leave - span.enter < same) return std::nullopt;
+      cuts.push_back(span.enter);
+      cuts.push_back(span.leave);
     }
   }
   std::sort(cuts.begin(), cuts.end());
@@ -73,24 +73,25 @@ std::optional<double> optical_depth(const std::vector<Entity>& solids, const std
     const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
     struct Around {
       std::size_t solid;
-      Stretch stretch;
+      Span span;
     };
     std::vector<Around> around;
     for (std::size_t k = 0; k < all.size(); ++k) {
-      for (const Stretch& stretch : all[k]) {
-        if (stretch.enter < middle && middle < stretch.leave) around.push_back({k, stretch});
+      for (const Span& span : all[k]) {
+        if (span.enter < middle && middle < span.leave) around.push_back({k, span});
       }
     }
     const auto is_inner = [&](const Around& a, const Around& b) {
-      const auto lies_in = [](const Stretch& x, const Stretch& y) {
+      const auto lies_in = [](const Span& x, const Span& y) {
         return x.enter > y.enter - same && x.leave < y.leave + same;
       };
-      const bool in_b = lies_in(a.stretch, b.stretch);
-      return in_b != lies_in(b.stretch, a.stretch) ? in_b : a.solid >= b.solid;
+      const bool in_b = lies_in(a.span, b.span);
+      return in_b != lies_in(b.span, a.span) ? in_b : a.solid >= b.solid;
     };
     if (around.empty()) continue;
     const auto innermost = std::find_if(around.begin(), around.end(), [&](const Around& a) {
-      return std::all_of(around.begin(), around.end(), [&](const Around& b) { return is_inner(a, b); });
+      return std::all_of(around.begin(), around.end(),
+                         [&](const Around& b) { return is_inner(a, b); });
     });
     if (innermost == around.end()) return std::nullopt;
     depth += absorption[innermost->solid] * (cuts[i + 1] - cuts[i]);
@@ -101,7 +102,8 @@ std::optional<double> optical_depth(const std::vector<Entity>& solids, const std
 }  // namespace
 
 TEST_CASE("light that has gone through random glass is back in the open") {
-  // Whoever thinks that it is still in a medium on its endless way to the background loses all of it.
+  // Whoever thinks that it is still in a medium on its endless way to the background loses all of
+  // it.
   constexpr double faint = 1e-12;
   SolidMaker maker(30);
   Random random(30);
@@ -119,7 +121,8 @@ TEST_CASE("light that has gone through random glass is back in the open") {
       solids.push_back(random_solid(maker).transformed(placed));
       indices.push_back(random.between(1, 1.8));
     }
-    scene.camera = {.position = apply(placed, 12.0 * random.direction()), .pointing = placed.translation};
+    scene.camera = {.position = apply(placed, 12.0 * random.direction()),
+                    .pointing = placed.translation};
     Image pictures[2];
     for (int i = 0; i < 2; ++i) {
       scene.entities.clear();
@@ -140,7 +143,8 @@ TEST_CASE("light that has gone through random glass is back in the open") {
   }
 }
 
-TEST_CASE("straight light through random fogs is absorbed by the innermost, whichever way it goes") {
+TEST_CASE(
+    "straight light through random fogs is absorbed by the innermost, whichever way it goes") {
   SolidMaker maker(31);
   Random random(31);
   int compared = 0;
@@ -160,15 +164,17 @@ TEST_CASE("straight light through random fogs is absorbed by the innermost, whic
     }
     scene.entities = solids;
     const Vec3 middle = apply(placed, random.between(0, 3) * random.direction());
-    const Vec3 half_way = 25.0 * random.direction();
-    const Ray line{.origin = middle - half_way, .direction = glm::normalize(half_way)};
+    const Vec3 half_length = 25.0 * random.direction();
+    const Ray line{.origin = middle - half_length, .direction = glm::normalize(half_length)};
     const std::optional<double> depth = optical_depth(solids, absorption, line);
     if (!depth) continue;
     ++compared;
     const double expected = std::exp(-*depth);
     CAPTURE(round);
-    CHECK(seen(scene, middle - half_way, middle + half_way).r == doctest::Approx(expected).epsilon(1e-6));
-    CHECK(seen(scene, middle + half_way, middle - half_way).r == doctest::Approx(expected).epsilon(1e-6));
+    CHECK(seen(scene, middle - half_length, middle + half_length).r ==
+          doctest::Approx(expected).epsilon(1e-6));
+    CHECK(seen(scene, middle + half_length, middle - half_length).r ==
+          doctest::Approx(expected).epsilon(1e-6));
   }
   CHECK(compared > 2500);
 }

@@ -1,5 +1,6 @@
-// Pictures of random solids, most of whose faces coincide, against a tracer that knows no surface a ray
-// starts on: it lifts the start by a hair. Where two hairs of different size agree the picture must as well.
+// Pictures of random solids, most of whose faces coincide, against a tracer that knows no surface a
+// ray starts on: it lifts the start by a hair. Where two hairs of different size agree the picture
+// must as well.
 #include <doctest/doctest.h>
 
 #include "extremes/support.hpp"
@@ -31,7 +32,8 @@ class HairTracer {
     for (const Light& light_source : scene_.lights) {
       const Vec3 way = std::get<PointLight>(light_source).origin - hit->position;
       const double cosine = glm::dot(way, normal) / glm::length(way);
-      if (cosine <= 0 || queries_.occluded({.origin = start, .direction = way, .t_max = 1})) continue;
+      if (cosine <= 0 || queries_.occluded({.origin = start, .direction = way, .t_max = 1}))
+        continue;
       light += paint.color.r * (1 - paint.reflectivity) * cosine;
     }
     if (bounces == 0) return light;
@@ -55,11 +57,12 @@ Entity random_solid(SolidMaker& maker) {
   const Vec3 a = maker.grid_point();
   const double size = maker.integer(1, 3);
   const Entity round =
-      kind == 0 ? Entity(Cone{.from = a,
-                              .to = a + Vec3(0, maker.integer(1, 4), 0),
-                              .radius = size,
-                              .radius2 = static_cast<double>(maker.integer(0, 3))})
-                : Entity(Torus{.center = a, .radius = size, .thickness = 0.5 * maker.integer(1, 4)});
+      kind == 0
+          ? Entity(Cone{.from = a,
+                        .to = a + Vec3(0, maker.integer(1, 4), 0),
+                        .radius = size,
+                        .radius2 = static_cast<double>(maker.integer(0, 3))})
+          : Entity(Torus{.center = a, .radius = size, .thickness = 0.5 * maker.integer(1, 4)});
   const Entity other = maker.tree(1).entity();
   const int operation = maker.integer(0, 3);
   if (operation == 0) return round;
@@ -113,7 +116,8 @@ TEST_CASE("pictures of random solids with coincident faces are those of rays lif
     std::vector<Paint> paints;
     for (int i = 0; i < 3; ++i) {
       paints.push_back({grey(random.between(0.2, 1)), random.integer(0, 1) * 0.4});
-      const Material material{.color = paints.back().color, .reflectivity = paints.back().reflectivity};
+      const Material material{.color = paints.back().color,
+                              .reflectivity = paints.back().reflectivity};
       scene.entities.push_back(
           random_solid(maker).with_material(material).transformed(placed).transformed(scale(size)));
     }

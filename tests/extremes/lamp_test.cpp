@@ -17,16 +17,17 @@ struct Fixture {
 
 std::vector<Fixture> fixtures() {
   const Entity ceiling = Box{.corner_a = {-5, 2, -5}, .corner_b = {5, 3, 5}};
-  return {{"ceiling", ceiling},
-          {"half-space", Plane{.normal = {0, -1, 0}, .position = {0, 2, 0}}},
-          {"ball", Sphere{.center = {0, 3, 0}, .radius = 1}},
-          {"cylinder", Cylinder{.from = {0, 2, 0}, .to = {0, 3, 0}, .radius = 1}},
-          {"cylinder's side", Cylinder{.from = {-1, 3, 0}, .to = {1, 3, 0}, .radius = 1}},
-          {"cone", Cone{.from = {0, 3, 0}, .to = {0, 2, 0}, .radius = 1}},
-          {"ring", Torus{.center = {0, 3, 0}, .axis = {1, 0, 0}, .radius = 0.75, .thickness = 0.25}},
-          {"disc", Disc{.center = {0, 2, 0}}},
-          {"niche", ceiling - Entity(Box{.corner_a = {-1, 1, -1}, .corner_b = {1, 2, 1}})},
-          {"two", ceiling + Entity(Sphere{.center = {0, 3, 0}, .radius = 1})}};
+  return {
+      {"ceiling", ceiling},
+      {"half-space", Plane{.normal = {0, -1, 0}, .position = {0, 2, 0}}},
+      {"ball", Sphere{.center = {0, 3, 0}, .radius = 1}},
+      {"cylinder", Cylinder{.from = {0, 2, 0}, .to = {0, 3, 0}, .radius = 1}},
+      {"cylinder's side", Cylinder{.from = {-1, 3, 0}, .to = {1, 3, 0}, .radius = 1}},
+      {"cone", Cone{.from = {0, 3, 0}, .to = {0, 2, 0}, .radius = 1}},
+      {"ring", Torus{.center = {0, 3, 0}, .axis = {1, 0, 0}, .radius = 0.75, .thickness = 0.25}},
+      {"disc", Disc{.center = {0, 2, 0}}},
+      {"niche", ceiling - Entity(Box{.corner_a = {-1, 1, -1}, .corner_b = {1, 2, 1}})},
+      {"two", ceiling + Entity(Sphere{.center = {0, 3, 0}, .radius = 1})}};
 }
 
 }  // namespace
@@ -49,7 +50,8 @@ TEST_CASE("a lamp on a surface lights what is before it") {
       const Vec3 lamp = place({0, 2, 0});
       scene.lights = {PointLight{.origin = lamp}};
       // From between floor and fixture: the floor alone is in sight.
-      scene.camera = {.position = place({0.4, 1.9, -3.3}), .pointing = place({0.1, 0, 0.2}), .fov = 1.2};
+      scene.camera = {
+          .position = place({0.4, 1.9, -3.3}), .pointing = place({0.1, 0, 0.2}), .fov = 1.2};
       RayQueries queries(prepare(scene));
       const Image image = render(prepare(scene), {.threads = 1});
       int dark = 0;

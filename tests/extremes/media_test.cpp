@@ -1,4 +1,5 @@
-// Solids that touch, coincide, contain each other or overlap: which of them light is in, from all sides.
+// Solids that touch, coincide, contain each other or overlap: which of them light is in, from all
+// sides.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -22,8 +23,8 @@ double reflectance(double n1, double n2, double sine) {
   return 0.5 * (across * across + within * within);
 }
 
-/// The weight of the straight way from `eye` towards `target` to a tiny ball at `goal`: what a white world
-/// loses if the ball is there and black.
+/// The weight of the straight way from `eye` towards `target` to a tiny ball at `goal`: what a
+/// white world loses if the ball is there and black.
 double weight_of_way(Scene scene, const Vec3& eye, const Vec3& target, const Vec3& goal) {
   scene.background = SolidBackground{{1, 1, 1}};
   const double without = seen(scene, eye, target).r;
@@ -38,7 +39,8 @@ struct Layer {
 
 }  // namespace
 
-TEST_CASE("light through touching slabs bends by Snell's law from each to the next, from both sides") {
+TEST_CASE(
+    "light through touching slabs bends by Snell's law from each to the next, from both sides") {
   const std::vector<Layer> layers = {{0.7, 1.5}, {1.1, 1.33}, {0.4, 1.5}, {0.9, 1.7}};
   Random random(1);
   for (const Precision precision : {Precision::standard, Precision::exact}) {
@@ -51,8 +53,8 @@ TEST_CASE("light through touching slabs bends by Snell's law from each to the ne
       scene.settings.precision = precision;
       scene.settings.recursion_depth = static_cast<int>(layers.size()) + 1;
       double height = 0;
-      // Written alike, faces that touch are one surface. In every other round each slab gets to its place by
-      // another way, and faces that touch are a rounding apart.
+      // Written alike, faces that touch are one surface. In every other round each slab gets to its
+      // place by another way, and faces that touch are a rounding apart.
       const bool alike = round % 4 < 2;
       for (const Layer& layer : layers) {
         const double low = alike ? height : 0;
@@ -91,8 +93,8 @@ TEST_CASE("light through touching slabs bends by Snell's law from each to the ne
         const Vec3 direction(sine, sense * std::cos(angle), 0);
         const Vec3 first(0, start, 0);
         const Vec3 last(x, start + sense * height, 0);
-        const double found =
-            weight_of_way(scene, place(first - 2.0 * direction), place(first), place(last + 2.0 * direction));
+        const double found = weight_of_way(scene, place(first - 2.0 * direction), place(first),
+                                           place(last + 2.0 * direction));
         CAPTURE(round);
         CAPTURE(upwards);
         CHECK(found == doctest::Approx(weight).epsilon(float_precision));
@@ -107,7 +109,8 @@ TEST_CASE("light through a shell that is filled to the brim bends as in concentr
   const double inner = 0.7;
   Random random(2);
   for (int round = 0; round < 60; ++round) {
-    const Transform turned = rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+    const Transform turned =
+        rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
     const Vec3 center = round % 3 == 0 ? Vec3(0) : 30.0 * random.direction();
     const Entity shell = Entity(Sphere{.radius = outer, .material = glass(1.5)}) -
                          Entity(Sphere{.radius = inner, .material = glass(1.5)});
@@ -170,9 +173,10 @@ struct Fogs {
     for (const Fog& fog : fogs) {
       Material material = glass(1);
       material.absorption = grey(fog.absorption);
-      scene.entities.push_back(Entity(Box{.corner_a = fog.low, .corner_b = fog.high, .material = material})
-                                   .transformed(turned)
-                                   .transformed(translate(moved)));
+      scene.entities.push_back(
+          Entity(Box{.corner_a = fog.low, .corner_b = fog.high, .material = material})
+              .transformed(turned)
+              .transformed(translate(moved)));
     }
     return scene;
   }
@@ -180,13 +184,13 @@ struct Fogs {
   Vec3 place(const Vec3& p) const { return apply(turned, p) + moved; }
 };
 
-struct Stretch {
+struct Span {
   double enter;
   double leave;
 };
 
-std::optional<Stretch> stretch(const Fogs::Fog& fog, const Vec3& origin, const Vec3& direction) {
-  Stretch result{-1e9, 1e9};
+std::optional<Span> span(const Fogs::Fog& fog, const Vec3& origin, const Vec3& direction) {
+  Span result{-1e9, 1e9};
   for (int axis = 0; axis < 3; ++axis) {
     const double a = (fog.low[axis] - origin[axis]) / direction[axis];
     const double b = (fog.high[axis] - origin[axis]) / direction[axis];
@@ -197,22 +201,22 @@ std::optional<Stretch> stretch(const Fogs::Fog& fog, const Vec3& origin, const V
   return result;
 }
 
-/// The optical depth along the line from t = 0 to `end` by the rule as docs/image.md has it; nothing where
-/// the rule goes in circles among three solids, or the line passes an edge.
+/// The optical depth along the line from t = 0 to `end` by the rule as docs/image.md has it;
+/// nothing where the rule goes in circles among three solids, or the line passes an edge.
 std::optional<double> optical_depth(const Fogs& scene, const Vec3& origin, const Vec3& direction,
                                     double end) {
   constexpr double same = 1e-9;
-  std::vector<std::optional<Stretch>> stretches;
+  std::vector<std::optional<Span>> spans;
   std::vector<double> cuts = {0, end};
   for (const Fogs::Fog& fog : scene.fogs) {
-    stretches.push_back(stretch(fog, origin, direction));
-    if (!stretches.back()) continue;
-    cuts.push_back(stretches.back()->enter);
-    cuts.push_back(stretches.back()->leave);
+    spans.push_back(span(fog, origin, direction));
+    if (!spans.back()) continue;
+    cuts.push_back(spans.back()->enter);
+    cuts.push_back(spans.back()->leave);
   }
   const auto is_inner = [&](std::size_t a, std::size_t b) {
-    const Stretch& x = *stretches[a];
-    const Stretch& y = *stretches[b];
+    const Span& x = *spans[a];
+    const Span& y = *spans[b];
     const bool in_y = x.enter > y.enter - same && x.leave < y.leave + same;
     const bool in_x = y.enter > x.enter - same && y.leave < x.leave + same;
     return in_y != in_x ? in_y : a > b;
@@ -223,8 +227,8 @@ std::optional<double> optical_depth(const Fogs& scene, const Vec3& origin, const
     const double middle = 0.5 * (cuts[i] + cuts[i + 1]);
     if (cuts[i] < -same || cuts[i + 1] > end + same || cuts[i + 1] - cuts[i] < same) continue;
     std::vector<std::size_t> around;
-    for (std::size_t k = 0; k < stretches.size(); ++k) {
-      if (stretches[k] && stretches[k]->enter < middle && middle < stretches[k]->leave) around.push_back(k);
+    for (std::size_t k = 0; k < spans.size(); ++k) {
+      if (spans[k] && spans[k]->enter < middle && middle < spans[k]->leave) around.push_back(k);
     }
     if (around.empty()) continue;
     std::optional<std::size_t> innermost;
@@ -259,7 +263,8 @@ Fogs random_fogs(Random& random, int count) {
 }  // namespace
 
 TEST_CASE(
-    "what lies around light does not depend on its sense, nor on whether it is seen or casts a shadow") {
+    "what lies around light does not depend on its sense, nor on whether it is seen or casts a "
+    "shadow") {
   Random random(3);
   int compared = 0;
   for (int round = 0; round < 1500; ++round) {
@@ -267,15 +272,15 @@ TEST_CASE(
     // Fogs that are outside alone: nothing starts within one.
     const Vec3 direction = random.direction();
     const Vec3 middle(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2));
-    const double half_way = 12;
-    const Vec3 origin = middle - half_way * direction;
-    const std::optional<double> depth = optical_depth(fogs, origin, direction, 2 * half_way);
+    const double half_length = 12;
+    const Vec3 origin = middle - half_length * direction;
+    const std::optional<double> depth = optical_depth(fogs, origin, direction, 2 * half_length);
     if (!depth) continue;
     ++compared;
     Scene scene = fogs.scene();
     scene.settings.precision = round % 2 == 0 ? Precision::standard : Precision::exact;
     const Vec3 from = fogs.place(origin);
-    const Vec3 to = fogs.place(middle + half_way * direction);
+    const Vec3 to = fogs.place(middle + half_length * direction);
     const double expected = std::exp(-*depth);
     CAPTURE(round);
 
@@ -287,8 +292,8 @@ TEST_CASE(
     scene.background = SolidBackground{{0, 0, 0}};
     const Vec3 towards = glm::normalize(from - to);
     scene.lights = {PointLight{.origin = from}};
-    scene.entities.push_back(
-        Disc{.center = to, .normal = towards, .radius = 1e-3, .material = Material{.color = grey(1)}});
+    scene.entities.push_back(Disc{
+        .center = to, .normal = towards, .radius = 1e-3, .material = Material{.color = grey(1)}});
     CHECK(seen(scene, to + 1e-2 * (towards + across(towards)), to).r ==
           doctest::Approx(expected).epsilon(float_precision));
   }
@@ -300,10 +305,12 @@ TEST_CASE("a camera and a light within solids that coincide and overlap know wha
   int compared = 0;
   for (int round = 0; round < 600; ++round) {
     Fogs fogs = random_fogs(random, random.integer(2, 4));
-    const Vec3 origin(random.between(-2.5, 2.5), random.between(-2.5, 2.5), random.between(-2.5, 2.5));
+    const Vec3 origin(random.between(-2.5, 2.5), random.between(-2.5, 2.5),
+                      random.between(-2.5, 2.5));
     const Vec3 end(random.between(-2.5, 2.5), random.between(-2.5, 2.5), random.between(-2.5, 2.5));
     const double length = glm::length(end - origin);
-    const std::optional<double> depth = optical_depth(fogs, origin, (end - origin) / length, length);
+    const std::optional<double> depth =
+        optical_depth(fogs, origin, (end - origin) / length, length);
     if (!depth) continue;
     ++compared;
     Scene scene = fogs.scene();
@@ -312,8 +319,8 @@ TEST_CASE("a camera and a light within solids that coincide and overlap know wha
     const Vec3 towards = glm::normalize(from - to);
     // A white screen within the fogs, seen along the light's own way: there and back.
     scene.lights = {PointLight{.origin = from}};
-    scene.entities.push_back(
-        Disc{.center = to, .normal = towards, .radius = 1e-3, .material = Material{.color = grey(1)}});
+    scene.entities.push_back(Disc{
+        .center = to, .normal = towards, .radius = 1e-3, .material = Material{.color = grey(1)}});
     CAPTURE(round);
     const double expected = std::exp(-*depth);
     CHECK(seen(scene, from, to).r == doctest::Approx(expected * expected).epsilon(float_precision));

@@ -1,5 +1,5 @@
-// A pebble on a planet, lit by a distant sun and seen from a metre away, against closed forms in quadruple
-// precision: what is seen, its shadow, and its image in the ground.
+// A pebble on a planet, lit by a distant sun and seen from a metre away, against closed forms in
+// quadruple precision: what is seen, its shadow, and its image in the ground.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -134,7 +134,8 @@ World world_at(const Vec3& foot, const Vec3& up, double rounding) {
   world.pebble = {.center = foot + pebble_radius * up, .radius = pebble_radius};
   const Vec3 sunwards = glm::normalize(0.5 * up + across(up));
   world.lamp = foot + sun_distance * sunwards;
-  world.sun = {.center = foot + (sun_distance + 1.01 * sun_radius) * sunwards, .radius = sun_radius};
+  world.sun = {.center = foot + (sun_distance + 1.01 * sun_radius) * sunwards,
+               .radius = sun_radius};
   return world;
 }
 

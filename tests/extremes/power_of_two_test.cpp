@@ -17,8 +17,8 @@ Transform moved_and_turned(double unit) {
   return map;
 }
 
-/// Every primitive, CSG with coincident faces, shadows, mirrors, glass that absorbs and is filled to the
-/// brim, patterns, bumps, a lens; every length of it times `unit`.
+/// Every primitive, CSG with coincident faces, shadows, mirrors, glass that absorbs and is filled
+/// to the brim, patterns, bumps, a lens; every length of it times `unit`.
 Scene scaled_scene(double unit) {
   Scene scene;
   scene.settings.width = 20;
@@ -34,7 +34,8 @@ Scene scaled_scene(double unit) {
       PointLight{.origin = unit * Vec3(3, 5, -4), .falloff = 40 * unit * unit, .ambient = 0.05},
       SpotLight{.origin = unit * Vec3(-4, 6, -2), .pointing = Vec3(0)},
       ParallelLight{.from = unit * Vec3(1, 1, -1), .pointing = Vec3(0), .color = grey(0.2)},
-      CylinderLight{.origin = unit * Vec3(0, 6, 2), .pointing = unit * Vec3(0, 0, 2), .radius = unit}};
+      CylinderLight{
+          .origin = unit * Vec3(0, 6, 2), .pointing = unit * Vec3(0, 0, 2), .radius = unit}};
   Material crystal = glass(1.5);
   crystal.absorption = {0.1 / unit, 0.4 / unit, 0.2 / unit};
   Material water = glass(1.33);
@@ -46,8 +47,9 @@ Scene scaled_scene(double unit) {
                         .bump = Noise{.scale = 0.25 * unit},
                         .bump_height = 0.02 * unit};
   const auto at = [unit](double x, double y, double z) { return unit * Vec3(x, y, z); };
-  const Entity cup = Entity(Cylinder{.from = at(0, 0, 0), .to = at(0, 1.2, 0), .radius = 0.6 * unit}) -
-                     Entity(Cylinder{.from = at(0, 0.2, 0), .to = at(0, 1.2, 0), .radius = 0.5 * unit});
+  const Entity cup =
+      Entity(Cylinder{.from = at(0, 0, 0), .to = at(0, 1.2, 0), .radius = 0.6 * unit}) -
+      Entity(Cylinder{.from = at(0, 0.2, 0), .to = at(0, 1.2, 0), .radius = 0.5 * unit});
   const Entity block = Box{.corner_a = at(1, 0, 0), .corner_b = at(2, 1, 1), .material = clouds};
   scene.entities = {
       Plane{.material = tiles},
@@ -55,16 +57,28 @@ Scene scaled_scene(double unit) {
       Cylinder{.from = at(0, 0.2, 0), .to = at(0, 0.9, 0), .radius = 0.5 * unit, .material = water},
       block - Entity(Sphere{.center = at(1.5, 1, 0.5), .radius = 0.4 * unit}) -
           Entity(Box{.corner_a = at(1, 0, 0), .corner_b = at(1.25, 1, 0.25)}),
-      Entity(Box{.corner_a = at(-0.4, -0.3, -0.2), .corner_b = at(0.4, 0.3, 0.2), .material = veins})
+      Entity(
+          Box{.corner_a = at(-0.4, -0.3, -0.2), .corner_b = at(0.4, 0.3, 0.2), .material = veins})
           .transformed(moved_and_turned(unit)),
       Sphere{.center = at(-1.5, 0.5, 1), .radius = 0.5 * unit, .material = crystal},
-      Cone{.from = at(-0.8, 0, -1), .to = at(-0.6, 0.8, -1), .radius = 0.3 * unit, .material = veins},
-      Cone{.from = at(0.8, 0, -1), .to = at(0.9, 0.5, -1), .radius = 0.3 * unit, .radius2 = 0.1 * unit},
-      Torus{.center = at(0, 0.3, -1.5), .axis = {0.1, 1, 0.2}, .radius = 0.4 * unit, .thickness = 0.1 * unit},
+      Cone{.from = at(-0.8, 0, -1),
+           .to = at(-0.6, 0.8, -1),
+           .radius = 0.3 * unit,
+           .material = veins},
+      Cone{.from = at(0.8, 0, -1),
+           .to = at(0.9, 0.5, -1),
+           .radius = 0.3 * unit,
+           .radius2 = 0.1 * unit},
+      Torus{.center = at(0, 0.3, -1.5),
+            .axis = {0.1, 1, 0.2},
+            .radius = 0.4 * unit,
+            .thickness = 0.1 * unit},
       Disc{.center = at(2, 1, 2), .normal = {0, 0, -1}, .radius = 0.7 * unit, .material = clouds},
       Triangle{.a = at(-2, 0, 2), .b = at(-1, 0, 2), .c = at(-1.5, 2, 2.5), .material = veins},
-      HalfPlane{
-          .normal = {0, 0, -1}, .position = at(0, 1.5, 4), .direction = {0.2, 1, 0}, .material = tiles}};
+      HalfPlane{.normal = {0, 0, -1},
+                .position = at(0, 1.5, 4),
+                .direction = {0.2, 1, 0},
+                .material = tiles}};
   return scene;
 }
 

@@ -44,7 +44,8 @@ TEST_CASE("a ray from a box's face, edge or corner crosses what is ahead of it")
           if (direction[axis] != 0) leave = std::min(leave, to_face / direction[axis]);
           if (direction[axis] == 0 && std::abs(start[axis]) == 1) leave = 0;
         }
-        const std::vector<Hit> hits = crossings_of(queries, {.origin = start, .direction = direction});
+        const std::vector<Hit> hits =
+            crossings_of(queries, {.origin = start, .direction = direction});
         CAPTURE(i);
         CAPTURE(k);
         CHECK(hits.size() == (leave > 0 ? 1 : 0));
@@ -61,8 +62,10 @@ TEST_CASE("a ray from a ball's surface or centre crosses what is ahead of it") {
   for (const Precision precision : both) {
     RayQueries queries = queries_of(Sphere{.center = {1, 2, 3}, .radius = 5}, precision);
     const Vec3 center(1, 2, 3);
-    for (const Vec3& out : {Vec3(5, 0, 0), Vec3(0, -5, 0), Vec3(3, 4, 0), Vec3(0, 3, -4), Vec3(-4, 0, 3)}) {
-      const std::vector<Hit> inwards = crossings_of(queries, {.origin = center + out, .direction = -out});
+    for (const Vec3& out :
+         {Vec3(5, 0, 0), Vec3(0, -5, 0), Vec3(3, 4, 0), Vec3(0, 3, -4), Vec3(-4, 0, 3)}) {
+      const std::vector<Hit> inwards =
+          crossings_of(queries, {.origin = center + out, .direction = -out});
       REQUIRE(inwards.size() == 1);
       CHECK(inwards[0].t == 2);
       CHECK(crossings_of(queries, {.origin = center + out, .direction = out}).empty());
@@ -80,7 +83,8 @@ TEST_CASE("a ray from a ball's surface or centre crosses what is ahead of it") {
 TEST_CASE("a ray from a cone's apex, axis or rim crosses what is ahead of it") {
   for (const Precision precision : both) {
     // Slope 45 degrees: radius 4 at y = 0, apex at y = 4.
-    RayQueries queries = queries_of(Cone{.from = {0, 0, 0}, .to = {0, 4, 0}, .radius = 4}, precision);
+    RayQueries queries =
+        queries_of(Cone{.from = {0, 0, 0}, .to = {0, 4, 0}, .radius = 4}, precision);
     const Vec3 apex(0, 4, 0);
     for (const Vec3& down : {Vec3(0, -1, 0), Vec3(0.5, -1, 0), Vec3(0.25, -1, -0.5)}) {
       const std::vector<Hit> hits = crossings_of(queries, {.origin = apex, .direction = down});
@@ -97,14 +101,16 @@ TEST_CASE("a ray from a cone's apex, axis or rim crosses what is ahead of it") {
     CHECK(crossings_of(queries, {.origin = {4, 0, 0}, .direction = {-1, -0.25, 0}}).empty());
     CHECK(crossings_of(queries, {.origin = {4, 0, 0}, .direction = {1, 0.25, 0}}).empty());
     // From within.
-    CHECK(crossings_of(queries, {.origin = {0, 2, 0}, .direction = {1, 0, 0}}).at(0).t == doctest::Approx(2));
+    CHECK(crossings_of(queries, {.origin = {0, 2, 0}, .direction = {1, 0, 0}}).at(0).t ==
+          doctest::Approx(2));
     CHECK(crossings_of(queries, {.origin = {0, 1, 0}, .direction = {0, 1, 0}}).size() == 1);
   }
 }
 
 TEST_CASE("a ray from a cylinder's cap, rim or axis crosses what is ahead of it") {
   for (const Precision precision : both) {
-    RayQueries queries = queries_of(Cylinder{.from = {0, 0, 0}, .to = {0, 2, 0}, .radius = 5}, precision);
+    RayQueries queries =
+        queries_of(Cylinder{.from = {0, 0, 0}, .to = {0, 2, 0}, .radius = 5}, precision);
     CHECK(crossings_of(queries, {.origin = {0, 0, 0}, .direction = {0, 1, 0}}).at(0).t == 2);
     CHECK(crossings_of(queries, {.origin = {3, 2, 1}, .direction = {0, 1, 0}}).empty());
     CHECK(crossings_of(queries, {.origin = {0, 1, 0}, .direction = {1, 0, 0}}).at(0).t == 5);
@@ -115,11 +121,13 @@ TEST_CASE("a ray from a cylinder's cap, rim or axis crosses what is ahead of it"
   }
 }
 
-TEST_CASE("a ray from a ring's middle crosses nothing along its axis and the ring twice across it") {
+TEST_CASE(
+    "a ray from a ring's middle crosses nothing along its axis and the ring twice across it") {
   for (const Precision precision : both) {
     RayQueries queries = queries_of(Torus{.radius = 2, .thickness = 0.5}, precision);
     CHECK(crossings_of(queries, {.origin = {0, 0, 0}, .direction = {0, 1, 0}}).empty());
-    const std::vector<Hit> hits = crossings_of(queries, {.origin = {0, 0, 0}, .direction = {0.6, 0, 0.8}});
+    const std::vector<Hit> hits =
+        crossings_of(queries, {.origin = {0, 0, 0}, .direction = {0.6, 0, 0.8}});
     REQUIRE(hits.size() == 2);
     CHECK(hits[0].t == doctest::Approx(1.5).epsilon(1e-15));
     CHECK(hits[1].t == doctest::Approx(2.5).epsilon(1e-15));
@@ -169,10 +177,12 @@ TEST_CASE("directions with tiny, huge and zero components are taken for what the
     RayQueries block = queries_of(Box{}, precision);
     RayQueries pillar = queries_of(Cylinder{.from = {0, -1, 0}}, precision);
     for (RayQueries* queries : {&ball, &block, &pillar}) {
-      for (const Vec3& direction : {Vec3(0, 0, 1), Vec3(denormal, 0, 1), Vec3(-denormal, denormal, 1),
-                                    Vec3(1e-308, -1e-308, 1), Vec3(0, 1, 1e308), Vec3(1e-300, 1e-200, 1e-100),
-                                    Vec3(-0.0, -0.0, largest), Vec3(denormal, 0, largest)}) {
-        const std::optional<Hit> hit = queries->intersect({.origin = {0, 0, -3}, .direction = direction});
+      for (const Vec3& direction :
+           {Vec3(0, 0, 1), Vec3(denormal, 0, 1), Vec3(-denormal, denormal, 1),
+            Vec3(1e-308, -1e-308, 1), Vec3(0, 1, 1e308), Vec3(1e-300, 1e-200, 1e-100),
+            Vec3(-0.0, -0.0, largest), Vec3(denormal, 0, largest)}) {
+        const std::optional<Hit> hit =
+            queries->intersect({.origin = {0, 0, -3}, .direction = direction});
         REQUIRE(hit);
         CHECK(hit->position.z == -1);
         CHECK(std::hypot(hit->position.x, hit->position.y) < 1e-90);
@@ -182,10 +192,12 @@ TEST_CASE("directions with tiny, huge and zero components are taken for what the
       // t would be beyond the largest number: no hit that could be told of.
       CHECK_FALSE(queries->intersect({.origin = {0, 0, -3}, .direction = {0, 0, denormal}}));
       CHECK_THROWS_AS(queries->intersect({.origin = {0, 0, -3}, .direction = {0, 0, 0}}), Error);
-      CHECK_THROWS_AS(queries->intersect({.origin = {0, 0, -3}, .direction = {0, std::nan(""), 1}}), Error);
-      CHECK_THROWS_AS(queries->intersect({.origin = {0, 0, -3},
-                                          .direction = {0, std::numeric_limits<double>::infinity(), 1}}),
+      CHECK_THROWS_AS(queries->intersect({.origin = {0, 0, -3}, .direction = {0, std::nan(""), 1}}),
                       Error);
+      CHECK_THROWS_AS(
+          queries->intersect(
+              {.origin = {0, 0, -3}, .direction = {0, std::numeric_limits<double>::infinity(), 1}}),
+          Error);
     }
   }
 }

@@ -15,7 +15,8 @@ std::vector<Vec3> box_corners(const Vec3& a, const Vec3& b) {
   for (int i = 0; i < 27; ++i) {
     const int steps[] = {i % 3, i / 3 % 3, i / 9};
     Vec3 corner;
-    for (int axis = 0; axis < 3; ++axis) corner[axis] = a[axis] + 0.5 * steps[axis] * (b[axis] - a[axis]);
+    for (int axis = 0; axis < 3; ++axis)
+      corner[axis] = a[axis] + 0.5 * steps[axis] * (b[axis] - a[axis]);
     corners.push_back(corner);
   }
   return corners;
@@ -36,13 +37,21 @@ std::vector<Room> primitive_rooms() {
   const Vec3 high(0.9, 1, 1.1);
   std::vector<Room> rooms;
   rooms.push_back({"sphere", {Sphere{}}});
-  rooms.push_back(
-      {"box", {Box{.corner_a = low, .corner_b = high}}, {0, 0, 0}, 0.1, true, box_corners(low, high)});
+  rooms.push_back({"box",
+                   {Box{.corner_a = low, .corner_b = high}},
+                   {0, 0, 0},
+                   0.1,
+                   true,
+                   box_corners(low, high)});
   rooms.push_back({"cylinder", {Cylinder{.from = {0, -1, 0}}}, {0, 0, 0}, 0.1, true, circle(1, 1)});
   rooms.push_back({"cone", {Cone{.from = {0, -1, 0}}}, {0, 0, 0}, 0.1, true, circle(-1, 1)});
   rooms.back().corners.emplace_back(0, 1, 0);
-  rooms.push_back(
-      {"frustum", {Cone{.from = {0, -1, 0}, .radius2 = 0.5}}, {0, 0, 0}, 0.1, true, circle(1, 0.5)});
+  rooms.push_back({"frustum",
+                   {Cone{.from = {0, -1, 0}, .radius2 = 0.5}},
+                   {0, 0, 0},
+                   0.1,
+                   true,
+                   circle(1, 0.5)});
   rooms.push_back({"ring", {Torus{}}, {1, 0, 0}, 0.1, true, circle(0, 0.75)});
   rooms.push_back({"horn", {Torus{.thickness = 1}}, {1, 0, 0}, 0.1, true, {Vec3(0, 0, 0)}});
   rooms.push_back({"spindle", {Torus{.radius = 0.5, .thickness = 1}}});
@@ -97,7 +106,8 @@ std::vector<Room> csg_rooms() {
                    0.1,
                    false,
                    corners});
-  rooms.push_back({"union of slabs", {csg_union(rooms.back().walls)}, {0, 0, 0}, 0.1, false, corners});
+  rooms.push_back(
+      {"union of slabs", {csg_union(rooms.back().walls)}, {0, 0, 0}, 0.1, false, corners});
   return rooms;
 }
 
@@ -155,8 +165,8 @@ Mesh ball_mesh(int subdivisions) {
   for (int i = 0; i < subdivisions; ++i) {
     std::map<std::array<std::uint32_t, 2>, std::uint32_t> middles;
     const auto middle = [&](std::uint32_t a, std::uint32_t b) {
-      const auto [entry, added] = middles.try_emplace({std::min(a, b), std::max(a, b)},
-                                                      static_cast<std::uint32_t>(mesh.positions.size()));
+      const auto [entry, added] = middles.try_emplace(
+          {std::min(a, b), std::max(a, b)}, static_cast<std::uint32_t>(mesh.positions.size()));
       if (added) mesh.positions.push_back(glm::normalize(mesh.positions[a] + mesh.positions[b]));
       return entry->second;
     };
@@ -179,23 +189,25 @@ std::vector<Room> surface_rooms() {
   const std::vector<Vec3> corners = box_corners({-1, -1, -1}, {1, 1, 1});
   std::vector<Room> rooms;
   rooms.push_back({"planes", six_planes(), {0, 0, 0}, 0.1, false, corners, true});
-  rooms.push_back({"union of planes", {csg_union(six_planes())}, {0, 0, 0}, 0.1, false, corners, true});
+  rooms.push_back(
+      {"union of planes", {csg_union(six_planes())}, {0, 0, 0}, 0.1, false, corners, true});
   rooms.push_back({"half planes", windmill(), {0, 0, 0}, 0.1, false, corners, true});
   const Mesh mesh = ball_mesh(2);
   std::vector<Vec3> points = mesh.positions;
   for (const auto& [a, b, c] : mesh.triangles)
     points.push_back(0.5 * (mesh.positions[a] + mesh.positions[b]));
-  rooms.push_back({"mesh", {triangle_mesh(mesh.positions, mesh.triangles)}, {0, 0, 0}, 0.1, false, points});
+  rooms.push_back(
+      {"mesh", {triangle_mesh(mesh.positions, mesh.triangles)}, {0, 0, 0}, 0.1, false, points});
   return rooms;
 }
 
 }  // namespace
 
-Room Room::placed(const Transform& map, double least_stretch) const {
+Room Room::placed(const Transform& map, double least_scale) const {
   Room result = *this;
   for (Entity& wall : result.walls) wall = wall.transformed(map);
   result.middle = apply(map, middle);
-  result.free = free * least_stretch;
+  result.free = free * least_scale;
   for (Vec3& corner : result.corners) corner = apply(map, corner);
   return result;
 }

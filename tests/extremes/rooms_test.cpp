@@ -34,8 +34,8 @@ Ray inner_ray(const Room& room, Random& random) {
           .direction = random.direction()};
   const int kind = random.integer(0, 3);
   if (kind == 1 && !room.corners.empty()) {
-    const Vec3 corner =
-        room.corners[static_cast<std::size_t>(random.integer(0, static_cast<int>(room.corners.size()) - 1))];
+    const Vec3 corner = room.corners[static_cast<std::size_t>(
+        random.integer(0, static_cast<int>(room.corners.size()) - 1))];
     ray.direction = corner - ray.origin;
     if (random.integer(0, 1) == 0) {  // at somewhere on an edge
       const Vec3 other = room.corners[static_cast<std::size_t>(

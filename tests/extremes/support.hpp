@@ -37,7 +37,8 @@ class Random {
 };
 
 inline Vec3 apply(const Transform& map, const Vec3& p) {
-  return Vec3(glm::dot(map.row_x, p), glm::dot(map.row_y, p), glm::dot(map.row_z, p)) + map.translation;
+  return Vec3(glm::dot(map.row_x, p), glm::dot(map.row_y, p), glm::dot(map.row_z, p)) +
+         map.translation;
 }
 
 /// The same for a direction.
@@ -71,7 +72,8 @@ inline int speckles(const Image& image, const Image& reference, double alike = 0
       const Color middle = reference.at(x, y);
       bool at_edge = false;
       for (int i = 0; i < 9; ++i) {
-        at_edge = at_edge || difference(middle, reference.at(x + i % 3 - 1, y + i / 3 - 1)) > smooth;
+        at_edge =
+            at_edge || difference(middle, reference.at(x + i % 3 - 1, y + i / 3 - 1)) > smooth;
       }
       if (!at_edge && difference(middle, image.at(x, y)) > alike) ++count;
     }
@@ -81,7 +83,8 @@ inline int speckles(const Image& image, const Image& reference, double alike = 0
 
 /// A unit vector across `v`, which must have length 1.
 inline Vec3 across(const Vec3& v) {
-  return glm::normalize(std::abs(v.x) < 0.6 ? glm::cross(v, Vec3(1, 0, 0)) : glm::cross(v, Vec3(0, 1, 0)));
+  return glm::normalize(std::abs(v.x) < 0.6 ? glm::cross(v, Vec3(1, 0, 0))
+                                            : glm::cross(v, Vec3(0, 1, 0)));
 }
 
 }  // namespace crt::test

@@ -1,5 +1,5 @@
-// Glass on a table, water in a glass, labels on a bottle: faces that coincide look as if one were sunk into
-// the other by a hair.
+// Glass on a table, water in a glass, labels on a bottle: faces that coincide look as if one were
+// sunk into the other by a hair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,12 +47,15 @@ Entity block(double low) {
 
 /// A tumbler whose inside has the given radius and bottom.
 Entity tumbler() {
-  return Entity(Cylinder{.from = {0, 0, 0}, .to = {0, 1.2, 0}, .radius = 0.6, .material = clear()}) -
-         Entity(Cylinder{.from = {0, 0.2, 0}, .to = {0, 1.2, 0}, .radius = 0.5, .material = clear()});
+  return Entity(
+             Cylinder{.from = {0, 0, 0}, .to = {0, 1.2, 0}, .radius = 0.6, .material = clear()}) -
+         Entity(
+             Cylinder{.from = {0, 0.2, 0}, .to = {0, 1.2, 0}, .radius = 0.5, .material = clear()});
 }
 
 Entity filling(double wider) {
-  return Cylinder{.from = {0, 0.2 - wider, 0}, .to = {0, 0.9, 0}, .radius = 0.5 + wider, .material = drink()};
+  return Cylinder{
+      .from = {0, 0.2 - wider, 0}, .to = {0, 0.9, 0}, .radius = 0.5 + wider, .material = drink()};
 }
 
 Entity goblet() {
@@ -75,27 +78,30 @@ Entity foggy_block() {
 
 /// Has gaps.
 Entity label(double before) {
-  Material stripes{
-      .color = Pattern(Stripes{.color_a = {0.9, 0.1, 0.1, 1}, .color_b = {1, 1, 1, 0}, .scale = 0.31})};
-  return Disc{
-      .center = {0.05, 0.45, -0.6 - before}, .normal = {0, 0, -1}, .radius = 0.3, .material = stripes};
+  Material stripes{.color = Pattern(Stripes{
+                       .color_a = {0.9, 0.1, 0.1, 1}, .color_b = {1, 1, 1, 0}, .scale = 0.31})};
+  return Disc{.center = {0.05, 0.45, -0.6 - before},
+              .normal = {0, 0, -1},
+              .radius = 0.3,
+              .material = stripes};
 }
 
 std::vector<Pair> pairs() {
   const Entity cup =
       Cone{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 0.4, .radius2 = 0.7, .material = clear()};
-  const Entity sunk_cup =
-      Cone{.from = {0, -hair, 0}, .to = {0, 1, 0}, .radius = 0.4, .radius2 = 0.7, .material = clear()};
-  return {{"a block of glass on a table", {table(), block(0)}, {table(), block(-hair)}},
-          {"a table under a block of glass", {block(0), table()}, {block(-hair), table()}},
-          {"a cone of glass on a table", {table(), cup}, {table(), sunk_cup}},
-          {"a tumbler filled to its walls",
-           {table(), tumbler(), filling(0)},
-           {table(), tumbler(), filling(hair)}},
-          {"what fills a tumbler to its walls", {filling(0), tumbler()}, {filling(hair), tumbler()}},
-          {"a goblet filled to its walls", {goblet(), punch(0)}, {goblet(), punch(hair)}},
-          {"a label on a block", {foggy_block(), label(0)}, {foggy_block(), label(hair)}},
-          {"a block behind a label", {label(0), foggy_block()}, {label(hair), foggy_block()}}};
+  const Entity sunk_cup = Cone{
+      .from = {0, -hair, 0}, .to = {0, 1, 0}, .radius = 0.4, .radius2 = 0.7, .material = clear()};
+  return {
+      {"a block of glass on a table", {table(), block(0)}, {table(), block(-hair)}},
+      {"a table under a block of glass", {block(0), table()}, {block(-hair), table()}},
+      {"a cone of glass on a table", {table(), cup}, {table(), sunk_cup}},
+      {"a tumbler filled to its walls",
+       {table(), tumbler(), filling(0)},
+       {table(), tumbler(), filling(hair)}},
+      {"what fills a tumbler to its walls", {filling(0), tumbler()}, {filling(hair), tumbler()}},
+      {"a goblet filled to its walls", {goblet(), punch(0)}, {goblet(), punch(hair)}},
+      {"a label on a block", {foggy_block(), label(0)}, {foggy_block(), label(hair)}},
+      {"a block behind a label", {label(0), foggy_block()}, {label(hair), foggy_block()}}};
 }
 
 Image taken(std::vector<Entity> entities, const Transform& placed, int side, Precision precision) {

@@ -1,5 +1,5 @@
-// Thin things and narrow looks: needles, sheets, horizons, lenses of a millionth of a radian and of half a
-// turn.
+// Thin things and narrow looks: needles, sheets, horizons, lenses of a millionth of a radian and of
+// half a turn.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -19,8 +19,9 @@ Scene straight_ahead(double distance, double width, int pixels) {
   scene.lights = {glow(1)};
   scene.settings.width = pixels;
   scene.settings.height = pixels;
-  scene.camera = {
-      .position = {0, 0, -distance}, .pointing = {0, 0, 0}, .fov = 2 * std::atan(0.5 * width / distance)};
+  scene.camera = {.position = {0, 0, -distance},
+                  .pointing = {0, 0, 0},
+                  .fov = 2 * std::atan(0.5 * width / distance)};
   return scene;
 }
 
@@ -28,14 +29,16 @@ Scene straight_ahead(double distance, double width, int pixels) {
 std::vector<bool> bright_columns(const Scene& scene) {
   const Image image = render(prepare(scene), {.threads = 1});
   std::vector<bool> columns;
-  for (int x = 0; x < image.width(); ++x) columns.push_back(image.at(x, image.height() / 2).r > 0.5);
+  for (int x = 0; x < image.width(); ++x)
+    columns.push_back(image.at(x, image.height() / 2).r > 0.5);
   return columns;
 }
 
 /// The columns whose middles are within `half` of the middle, of a picture `width` wide.
 std::vector<bool> within(double half, double width, int pixels) {
   std::vector<bool> columns;
-  for (int x = 0; x < pixels; ++x) columns.push_back(std::abs((x + 0.5) / pixels - 0.5) * width < half);
+  for (int x = 0; x < pixels; ++x)
+    columns.push_back(std::abs((x + 0.5) / pixels - 0.5) * width < half);
   return columns;
 }
 
@@ -47,7 +50,11 @@ TEST_CASE("needles and sheets of a millionth of a millionth cover what they shou
   const std::vector<Entity> needles = {
       Cylinder{.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = thin, .material = inert()},
       Cylinder{.from = {0, -1, -0.2}, .to = {0, 1, 0.3}, .radius = thin, .material = inert()},
-      Cone{.from = {0, -1, 0}, .to = {0, 1, 0}, .radius = thin, .radius2 = thin, .material = inert()},
+      Cone{.from = {0, -1, 0},
+           .to = {0, 1, 0},
+           .radius = thin,
+           .radius2 = thin,
+           .material = inert()},
       Box{.corner_a = {-thin, -1, -thin}, .corner_b = {thin, 1, thin}, .material = inert()},
       // Sheets edge on: deep along the view, or a disc with a rim.
       Box{.corner_a = {-thin, -1, 0}, .corner_b = {thin, 1, 0.5}, .material = inert()},
@@ -153,7 +160,8 @@ void check_distant_look(const Entity& entity, double size, double distance, Prec
   scene.entities = {entity};
   const Vec3 out = glm::normalize(Vec3(0.3, 0.5, -1));
   const double half = 0.5 * size;
-  scene.camera = {.position = distance * out, .pointing = Vec3(0), .fov = 2 * std::atan(half / distance)};
+  scene.camera = {
+      .position = distance * out, .pointing = Vec3(0), .fov = 2 * std::atan(half / distance)};
   const Image image = render(prepare(scene), {.threads = 1});
   const double near = 4 * size;
   scene.camera = {.position = near * out,
@@ -189,7 +197,8 @@ TEST_CASE("solids seen from 10^8 of their radii look as by parallel rays") {
 
 TEST_CASE("a look of a millionth of a radian sees a ball at a million times its size") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    check_distant_look(Sphere{.material = Material{.color = Color{0.8, 0.3, 0.1}}}, 3, 3e6, precision);
+    check_distant_look(Sphere{.material = Material{.color = Color{0.8, 0.3, 0.1}}}, 3, 3e6,
+                       precision);
   }
 }
 
@@ -201,7 +210,8 @@ TEST_CASE("a look of 179.9 degrees sees a wall as far out as its angle reaches")
     scene.settings.width = 60;
     scene.settings.height = 40;
     scene.settings.precision = precision;
-    scene.camera = {.position = {0, 0, 0}, .pointing = {0, 0, 1}, .fov = 179.9 / 180 * std::numbers::pi};
+    scene.camera = {
+        .position = {0, 0, 0}, .pointing = {0, 0, 1}, .fov = 179.9 / 180 * std::numbers::pi};
     const Material tiles{.color = Pattern(Checker{.scale = period})};
     scene.entities = {Plane{.normal = {0, 0, -1}, .position = {0, 0, 1}, .material = tiles}};
     const Image image = render(prepare(scene), {.threads = 1});
@@ -210,10 +220,10 @@ TEST_CASE("a look of 179.9 degrees sees a wall as far out as its angle reaches")
       for (int x = 0; x < 60; ++x) {
         const double wall_x = (2 * (x + 0.5) / 60 - 1) * half * 1.5;
         const double wall_y = (1 - 2 * (y + 0.5) / 40) * half;
-        const bool odd =
-            (static_cast<int>(std::floor(wall_x / period)) + static_cast<int>(std::floor(wall_y / period))) %
-                2 !=
-            0;
+        const bool odd = (static_cast<int>(std::floor(wall_x / period)) +
+                          static_cast<int>(std::floor(wall_y / period))) %
+                             2 !=
+                         0;
         REQUIRE(image.at(x, y).r == (odd ? 0 : 1));
       }
     }

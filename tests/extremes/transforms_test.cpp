@@ -1,4 +1,5 @@
-// Transforms that stretch a hundred million times more one way than another, and a million of them in a row.
+// Transforms that span a hundred million times more one way than another, and a million of them in
+// a row.
 #include <doctest/doctest.h>
 #include <crt/script.hpp>
 
@@ -11,9 +12,9 @@ namespace {
 
 __extension__ using Quad = __float128;
 
-/// Entering a stretched unit ball about the origin: t of both crossings by the quadratic in quadruple
-/// precision, with M^-1 of the 9 doubles of M by Cramer's rule. Nothing if the line misses or nearly touches
-/// it.
+/// Entering a stretched unit ball about the origin: t of both crossings by the quadratic in
+/// quadruple precision, with M^-1 of the 9 doubles of M by Cramer's rule. Nothing if the line
+/// misses or nearly touches it.
 struct Chord {
   double enter;
   double leave;
@@ -57,10 +58,12 @@ std::optional<Chord> ball_chord(const Transform& map, const Ray& ray) {
   return Chord{static_cast<double>((-b - root) / a), static_cast<double>((-b + root) / a)};
 }
 
-/// A map whose longest stretch is 10^8 times its shortest, turned before and after.
+/// A map whose longest span is 10^8 times its shortest, turned before and after.
 Transform squeezed(Random& random) {
-  const Transform before = rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
-  const Transform after = rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+  const Transform before =
+      rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
+  const Transform after =
+      rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
   const Vec3 factors(1e4, random.between(0.1, 10), 1e-4);
   Transform result;
   Vec3* rows[] = {&result.row_x, &result.row_y, &result.row_z};
@@ -96,7 +99,8 @@ TEST_CASE("a ball under a map of condition 10^8 is met where the map of the doub
         std::vector<Hit> hits;
         queries.crossings(ray, hits);
         REQUIRE(hits.size() == 2);
-        // The rounding of the ray's own way, and what it does where it meets the surface at a slant.
+        // The rounding of the ray's own way, and what it does where it meets the surface at a
+        // slant.
         CHECK(hits[0].t == doctest::Approx(chord->enter).epsilon(1e-9));
         CHECK(hits[1].t == doctest::Approx(chord->leave).epsilon(1e-9));
       }
@@ -170,7 +174,8 @@ TEST_CASE("unions and intersections in turn may be fifty thousand deep") {
   const Entity dot = Sphere{.center = {0, 50, 0}, .radius = 0.1};
   const Entity room = Box{.corner_a = {-99, -99, -99}, .corner_b = {99, 99, 99}};
   Entity entity = Sphere{};
-  for (int i = 0; i < depth; ++i) entity = (entity.transformed(translate({0x1p-20, 0, 0})) + dot) ^ room;
+  for (int i = 0; i < depth; ++i)
+    entity = (entity.transformed(translate({0x1p-20, 0, 0})) + dot) ^ room;
   Scene scene;
   scene.entities = {entity};
   const std::optional<Hit> hit = intersect(prepare(scene), {.origin = {depth * 0x1p-20, 0, -5}});
@@ -194,7 +199,8 @@ Scene { ball }
                                          "loop.crt", options);
   for (const Diagnostic& diagnostic : result.diagnostics) MESSAGE(format_diagnostic(diagnostic));
   REQUIRE(result.scene);
-  const std::optional<Hit> hit = intersect(prepare(*result.scene), {.origin = {1'000'000 * 0x1p-20, 0, -5}});
+  const std::optional<Hit> hit =
+      intersect(prepare(*result.scene), {.origin = {1'000'000 * 0x1p-20, 0, -5}});
   REQUIRE(hit);
   CHECK(hit->t == 4);
 }

@@ -1,4 +1,5 @@
-// Any bytes: lexer and parser must come back with a tree or with errors, whose places lie in the text.
+// Any bytes: lexer and parser must come back with a tree or with errors, whose places lie in the
+// text.
 #include <cstdint>
 #include <cstdlib>
 #include <string>
@@ -23,7 +24,8 @@ void parse(const std::string& text, crt::lang::TextKind kind, int compat) {
     require(reporter.has_errors());
   }
   for (const crt::Diagnostic& diagnostic : reporter.diagnostics()) {
-    require(diagnostic.place.line >= 1 && diagnostic.place.column >= 1 && diagnostic.place.length >= 1);
+    require(diagnostic.place.line >= 1 && diagnostic.place.column >= 1 &&
+            diagnostic.place.length >= 1);
     require(!diagnostic.message.empty() && diagnostic.message.find('\n') == std::string::npos);
     require(!crt::format_diagnostic(diagnostic).empty());
   }

@@ -18,12 +18,14 @@ long double true_turn(double x, double y) {
          (2 * std::numbers::pi_v<long double>);
 }
 
-/// Coordinates of all sizes that are at least 1e-290, of which the two of a point are alike or far apart.
+/// Coordinates of all sizes that are at least 1e-290, of which the two of a point are alike or far
+/// apart.
 class Coordinates {
  public:
   std::array<double, 2> next() {
     const int size = sizes_(engine_);
-    return {scaled(size), scaled(size - (engine_() % 2 == 0 ? 0 : static_cast<int>(engine_() % 60)))};
+    return {scaled(size),
+            scaled(size - (engine_() % 2 == 0 ? 0 : static_cast<int>(engine_() % 60)))};
   }
 
  private:
@@ -53,7 +55,8 @@ TEST_CASE("angles are the true ones to a few roundings") {
     REQUIRE(angle < 1);
     const long double apart = std::abs(angle - true_angle);
     REQUIRE(std::min(apart, std::abs(1 - apart)) <= 0x1.8p-53L);
-    REQUIRE(std::abs(rise(std::abs(x), y) - (0.5L + 2 * true_turn(std::abs(x), y))) <= 0x1.8p-52L);
+    REQUIRE(std::abs(latitude(std::abs(x), y) - (0.5L + 2 * true_turn(std::abs(x), y))) <=
+            0x1.8p-52L);
   }
 }
 
@@ -69,9 +72,9 @@ TEST_CASE("angles of the axes and of what is half way between them are exact") {
     CHECK(turn(0.0, -size) == 0.75);
     CHECK(turn(size, -size) == 0.875);
     CHECK(turn(size, -0.0) == 0);
-    CHECK(rise(size, 0.0) == 0.5);
-    CHECK(rise(0.0, size) == 1);
-    CHECK(rise(0.0, -size) == 0);
+    CHECK(latitude(size, 0.0) == 0.5);
+    CHECK(latitude(0.0, size) == 1);
+    CHECK(latitude(0.0, -size) == 0);
   }
   CHECK(turn(0.0, 0.0) == 0);
   CHECK(turn(-0.0, -0.0) == 0);
@@ -90,12 +93,12 @@ TEST_CASE("angles side by side are what each is by itself, to the last bit") {
       y[lane] = next[1];
     }
     const Lanes turns = turn(x, y);
-    const Lanes rises = rise(size_of(x), y);
+    const Lanes latitudes = latitude(abs(x), y);
     for (int lane = 0; lane < lane_count; ++lane) {
       const double one_turn = turn(double{x[lane]}, double{y[lane]});
-      const double one_rise = rise(std::abs(x[lane]), double{y[lane]});
+      const double one_latitude = latitude(std::abs(x[lane]), double{y[lane]});
       REQUIRE(double{turns[lane]} == one_turn);
-      REQUIRE(double{rises[lane]} == one_rise);
+      REQUIRE(double{latitudes[lane]} == one_latitude);
     }
   }
 }

@@ -61,8 +61,10 @@ std::vector<Primitive> faces_across_y(double y) {
   result.emplace_back(HalfPlane{.normal = {0, 3, 0}, .position = {-wide, y, 0}});
   result.emplace_back(Disc{.center = {0.1, y, 0.2}, .normal = {0, 1, 0}, .radius = wide});
   result.emplace_back(Cylinder{.from = {0.3, y, 0}, .to = {0.3, y - 2, 0}, .radius = wide});
-  result.emplace_back(Cone{.from = {0.3, y, 0}, .to = {0.3, y + 2, 0}, .radius = wide, .radius2 = wide / 2});
-  result.emplace_back(Triangle{.a = {-wide, y, -wide}, .b = {3 * wide, y, -wide}, .c = {-wide, y, 3 * wide}});
+  result.emplace_back(
+      Cone{.from = {0.3, y, 0}, .to = {0.3, y + 2, 0}, .radius = wide, .radius2 = wide / 2});
+  result.emplace_back(
+      Triangle{.a = {-wide, y, -wide}, .b = {3 * wide, y, -wide}, .c = {-wide, y, 3 * wide}});
   return result;
 }
 
@@ -107,7 +109,8 @@ TEST_CASE("box: rays through edges and corners go through once, or only touch") 
 
 TEST_CASE("box: a ray along its surface starts inside or outside as it says") {
   // In the plane of the face at y = 1.
-  core::ObjectRay ray{.origin = {0, 1, 0}, .direction = {1, 0, 0}, .start = {3, core::Side::outside}};
+  core::ObjectRay ray{
+      .origin = {0, 1, 0}, .direction = {1, 0, 0}, .start = {3, core::Side::outside}};
   CHECK(crossings(Box{}, ray).empty());
   ray.start.side = core::Side::inside;
   const auto within = crossings(Box{}, ray);
@@ -149,8 +152,8 @@ TEST_CASE("box: faces across the axes have the same t in every primitive") {
       const auto shape = core::make_shape(primitive);
       shape->crossings(ray, list);
       CAPTURE(primitive.index());
-      const auto same =
-          std::find_if(list.begin(), list.end(), [&](const core::Crossing& c) { return c.t == plane[0].t; });
+      const auto same = std::find_if(list.begin(), list.end(),
+                                     [&](const core::Crossing& c) { return c.t == plane[0].t; });
       REQUIRE(same != list.end());
       REQUIRE(same->root == 0);
       const core::Surface surface = shape->surface(same->face);
@@ -176,7 +179,8 @@ TEST_CASE("box: a ray that starts beside a face, on its plane, enters where it d
 }
 
 TEST_CASE(
-    "a side of a box, or the length of a cylinder or a cone, below 1e-100 is refused with what is right") {
+    "a side of a box, or the length of a cylinder or a cone, below 1e-100 is refused with what is "
+    "right") {
   const auto message = [](const Primitive& primitive) -> std::string {
     try {
       core::validate(primitive);

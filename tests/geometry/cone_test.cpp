@@ -123,7 +123,8 @@ TEST_CASE("cone: a ray that starts on its other nappe meets this one as any othe
   const Cone cone{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 1, .radius2 = 0};
   for (const core::Side side : {core::Side::outside, core::Side::inside}) {
     const core::RayStart start{.face = 0, .side = side, .on_face = false};
-    const auto down = crossings(cone, {.origin = {1, 2, 0}, .direction = {-0.3, -1, 0}, .start = start});
+    const auto down =
+        crossings(cone, {.origin = {1, 2, 0}, .direction = {-0.3, -1, 0}, .start = start});
     REQUIRE(down.size() == 2);
     CHECK(down[0].t == doctest::Approx(2 / 1.3).epsilon(1e-15));
     CHECK(down[0].entering);
@@ -133,12 +134,14 @@ TEST_CASE("cone: a ray that starts on its other nappe meets this one as any othe
 
 TEST_CASE("cone: frustums of one cone share its apex and slope") {
   const core::Surface a =
-      core::make_shape(Cone{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 2, .radius2 = 1})->surface(0);
+      core::make_shape(Cone{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 2, .radius2 = 1})
+          ->surface(0);
   const core::Surface b =
       core::make_shape(Cone{.from = {0, 2, 0}, .to = {0, 1, 0}, .radius = 0x1p-332, .radius2 = 1})
           ->surface(0);
   const core::Surface c =
-      core::make_shape(Cone{.from = {0, 1, 0}, .to = {0, 2, 0}, .radius = 1, .radius2 = 0})->surface(0);
+      core::make_shape(Cone{.from = {0, 1, 0}, .to = {0, 2, 0}, .radius = 1, .radius2 = 0})
+          ->surface(0);
   CHECK(a.kind == core::SurfaceKind::cone);
   CHECK(a.position == Vec3(0, 2, 0));
   CHECK(c.position == a.position);

@@ -1,5 +1,5 @@
-// What must hold of every primitive, checked over the list of all: a new one is tested by being listed.
-// Instances are made at random from the fields alone, so no primitive needs a line here.
+// What must hold of every primitive, checked over the list of all: a new one is tested by being
+// listed. Instances are made at random from the fields alone, so no primitive needs a line here.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -107,8 +107,8 @@ PreparedScene scene_of(const Entity& entity, Precision precision = Precision::st
 
 /// What it takes to say that two lengths of this instance are equal but for rounding.
 double tolerance(const core::ObjectRay& ray, double t) {
-  return 1e-12 *
-         (1 + core::largest_component(ray.origin) + std::abs(t) * core::largest_component(ray.direction));
+  return 1e-12 * (1 + core::largest_component(ray.origin) +
+                  std::abs(t) * core::largest_component(ray.direction));
 }
 
 }  // namespace
@@ -133,7 +133,8 @@ TEST_CASE("all primitives: crossings come in order and by turns, and solids that
   });
 }
 
-TEST_CASE("all primitives: points are where the ray is, in the bounds, with a normal that faces right") {
+TEST_CASE(
+    "all primitives: points are where the ray is, in the bounds, with a normal that faces right") {
   for_instances(300, [](const Primitive&, const core::Shape& shape, Random& random) {
     for (int i = 0; i < 30; ++i) {
       const core::ObjectRay ray = random_ray(random);
@@ -154,14 +155,16 @@ TEST_CASE("all primitives: points are where the ray is, in the bounds, with a no
   });
 }
 
-TEST_CASE("all primitives: both tiers tell the same crossings, as near to each other as is promised") {
+TEST_CASE(
+    "all primitives: both tiers tell the same crossings, as near to each other as is promised") {
   int rays = 0;
   int others = 0;
   for_instances(100, [&](const Primitive& primitive, const core::Shape& shape, Random& random) {
     for (int i = 0; i < 20; ++i) {
       const core::ObjectRay ray = random_ray(random);
       const core::CrossingList list = crossings_of(shape, ray).list;
-      const core::CrossingList exact = exact_crossings(primitive, Transform{}, ray.origin, ray.direction);
+      const core::CrossingList exact =
+          exact_crossings(primitive, Transform{}, ray.origin, ray.direction);
       ++rays;
       // Where a ray grazes or passes along a face, one tier may see what the other does not.
       if (exact.size() != list.size()) {
@@ -177,7 +180,8 @@ TEST_CASE("all primitives: both tiers tell the same crossings, as near to each o
   CHECK(others * 1000 < rays);
 }
 
-TEST_CASE("all primitives: every query of a scene tells what the shape does, at any scale to the bit") {
+TEST_CASE(
+    "all primitives: every query of a scene tells what the shape does, at any scale to the bit") {
   for_instances(40, [](const Primitive& primitive, const core::Shape& shape, Random& random) {
     std::vector<Ray> rays;
     for (int i = 0; i < 32; ++i) {
@@ -195,7 +199,8 @@ TEST_CASE("all primitives: every query of a scene tells what the shape does, at 
       RayQueries queries(scene);
       queries.distances(scaled_rays, distances);
       for (std::size_t i = 0; i < rays.size(); ++i) {
-        const core::CrossingList list = crossings_of(shape, {rays[i].origin, {}, rays[i].direction}).list;
+        const core::CrossingList list =
+            crossings_of(shape, {rays[i].origin, {}, rays[i].direction}).list;
         std::vector<double> ahead;
         for (const core::Crossing& crossing : list) {
           if (crossing.t - crossing.error > 0) ahead.push_back(crossing.t);
@@ -212,7 +217,8 @@ TEST_CASE("all primitives: every query of a scene tells what the shape does, at 
   });
 }
 
-TEST_CASE("all primitives: a solid is one with itself in CSG, and nothing is left of it without itself") {
+TEST_CASE(
+    "all primitives: a solid is one with itself in CSG, and nothing is left of it without itself") {
   for_instances(30, [](const Primitive& primitive, const core::Shape& shape, Random& random) {
     if (!shape.is_solid()) return;
     const Entity solid(primitive);

@@ -77,7 +77,8 @@ TEST_CASE("cylinder: rays along the axis meet the caps, or nothing on the side a
   CHECK(crossings(Cylinder{}, {.origin = {0.3, -5, 0.2}, .direction = {0, 1, 0}}).size() == 2);
   CHECK(crossings(Cylinder{}, {.origin = {1, -5, 0}, .direction = {0, 1, 0}}).empty());
   CHECK(crossings(Cylinder{}, {.origin = {1.5, -5, 0}, .direction = {0, 1, 0}}).empty());
-  CHECK(crossings(Cylinder{}, {.origin = {1 - 0x1p-53, -5, 0}, .direction = {0, 1, 0}}).size() == 2);
+  CHECK(crossings(Cylinder{}, {.origin = {1 - 0x1p-53, -5, 0}, .direction = {0, 1, 0}}).size() ==
+        2);
   CHECK(crossings(Cylinder{}, {.origin = {0.3, -5, 0.2}, .direction = {5e-324, 1, 0}}).size() == 2);
 }
 
@@ -89,8 +90,10 @@ TEST_CASE("cylinder: rays within a cap's plane or along the side do not enter") 
 }
 
 TEST_CASE("cylinder: both directions of the axis and stacked ones share their side") {
-  const core::Surface up = core::make_shape(Cylinder{.from = {1, 0, 2}, .to = {1, 4, 2}})->surface(0);
-  const core::Surface down = core::make_shape(Cylinder{.from = {1, 9, 2}, .to = {1, 4, 2}})->surface(0);
+  const core::Surface up =
+      core::make_shape(Cylinder{.from = {1, 0, 2}, .to = {1, 4, 2}})->surface(0);
+  const core::Surface down =
+      core::make_shape(Cylinder{.from = {1, 9, 2}, .to = {1, 4, 2}})->surface(0);
   CHECK(up.kind == core::SurfaceKind::cylinder);
   CHECK(up.direction == down.direction);
   CHECK(up.position == down.position);

@@ -1,4 +1,5 @@
-// Planes, half planes, discs, triangles and boxes of the exact tier against whole-number arithmetic.
+// Planes, half planes, discs, triangles and boxes of the exact tier against whole-number
+// arithmetic.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +31,8 @@ struct WholeMeeting {
       numerator = -numerator;
     }
     for (std::size_t i = 0; i < 3; ++i) {
-      offset[i] = denominator * (ray.origin[i] - ray.weight * position[i]) + numerator * ray.direction[i];
+      offset[i] =
+          denominator * (ray.origin[i] - ray.weight * position[i]) + numerator * ray.direction[i];
     }
   }
   Real t() const { return static_cast<Real>(numerator) / static_cast<Real>(denominator); }
@@ -76,8 +78,9 @@ TEST_CASE("exact disc: its rim belongs to it") {
     const Whole reach = radius * meeting.denominator * ray.weight;
     const Whole room = reach * reach - dot(meeting.offset, meeting.offset);
     rims += meeting.found && room == 0 ? 1 : 0;
-    const Disc disc{
-        .center = as_vec3(center), .normal = as_vec3(normal), .radius = static_cast<double>(radius)};
+    const Disc disc{.center = as_vec3(center),
+                    .normal = as_vec3(normal),
+                    .radius = static_cast<double>(radius)};
     require_hit(exact_crossings(disc, ray), meeting.found && room >= 0, meeting);
   }
   CHECK(rims > 50);
@@ -118,13 +121,15 @@ TEST_CASE("exact triangle: its edges and corners belong to it") {
     bool inside = meeting.found;
     bool on_edge = false;
     for (std::size_t k = 0; k < 3 && meeting.found; ++k) {
-      const WholeVec from = meeting.offset - (meeting.denominator * ray.weight) * (corners[k] - corners[0]);
+      const WholeVec from =
+          meeting.offset - (meeting.denominator * ray.weight) * (corners[k] - corners[0]);
       const Whole side = dot(normal, cross(corners[(k + 1) % 3] - corners[k], from));
       inside = inside && side >= 0;
       on_edge = on_edge || side == 0;
     }
     edges += inside && on_edge ? 1 : 0;
-    const Triangle triangle{.a = as_vec3(corners[0]), .b = as_vec3(corners[1]), .c = as_vec3(corners[2])};
+    const Triangle triangle{
+        .a = as_vec3(corners[0]), .b = as_vec3(corners[1]), .c = as_vec3(corners[2])};
     require_hit(exact_crossings(triangle, ray), inside, meeting);
   }
   CHECK(edges > 100);
@@ -212,7 +217,8 @@ TEST_CASE("exact flat primitives: powers of two scale them to the bit") {
       for (const int power : {-300, 300}) {
         const double factor = std::ldexp(1.0, power);
         const auto here = exact_crossings(primitive, {}, origin, direction);
-        const auto there = exact_crossings(scaled(primitive, factor), {}, origin * factor, direction);
+        const auto there =
+            exact_crossings(scaled(primitive, factor), {}, origin * factor, direction);
         REQUIRE(here.size() == there.size());
         for (std::size_t k = 0; k < here.size(); ++k) REQUIRE(here[k].t * factor == there[k].t);
       }

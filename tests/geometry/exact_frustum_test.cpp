@@ -18,7 +18,8 @@ struct WholeCone {
 
   Primitive primitive() const {
     if (from_radius == to_radius) {
-      return Cylinder{.from = as_vec3(from), .to = as_vec3(to), .radius = static_cast<double>(from_radius)};
+      return Cylinder{
+          .from = as_vec3(from), .to = as_vec3(to), .radius = static_cast<double>(from_radius)};
     }
     return Cone{.from = as_vec3(from),
                 .to = as_vec3(to),
@@ -37,14 +38,14 @@ WholeCone small_cone(Random& random) {
   return cone;
 }
 
-/// Where the line enters and leaves, found by asking on which side of every root of the two planes and
-/// of the double cone it is inside.
-struct Stretch {
+/// Where the line enters and leaves, found by asking on which side of every root of the two planes
+/// and of the double cone it is inside.
+struct Span {
   bool hit = false;
   Real enter = 0, leave = 0;
 };
 
-Stretch true_stretch(const WholeCone& cone, const WholeRay& ray) {
+Span true_span(const WholeCone& cone, const WholeRay& ray) {
   const WholeVec way = cone.to - cone.from;
   const Whole length2 = dot(way, way);
   const WholeVec offset = ray.origin - ray.weight * cone.from;
@@ -79,7 +80,7 @@ Stretch true_stretch(const WholeCone& cone, const WholeRay& ray) {
     const Real g = static_cast<Real>(c) + t * (2 * static_cast<Real>(b) + t * static_cast<Real>(a));
     return z > 0 && z < static_cast<Real>(ray.weight * length2) && g < 0;
   };
-  Stretch result;
+  Span result;
   constexpr Real same = 1e-20;  // far less than any two roots of numbers so small are apart
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     if (places[i + 1] - places[i] < same * (1 + magnitude(places[i]))) continue;
@@ -99,7 +100,7 @@ TEST_CASE("exact cylinder and cone: whole-number lines that miss, touch and hit 
   for (int i = 0; i < 60000; ++i) {
     const WholeRay ray = small_ray(random);
     const WholeCone cone = small_cone(random);
-    const Stretch truth = true_stretch(cone, ray);
+    const Span truth = true_span(cone, ray);
     const core::CrossingList found = exact_crossings(cone.primitive(), ray);
     CAPTURE(i);
     REQUIRE(found.size() == (truth.hit ? 2 : 0));
@@ -113,8 +114,10 @@ TEST_CASE("exact cylinder and cone: whole-number lines that miss, touch and hit 
   CHECK(hits > 10000);
 }
 
-TEST_CASE("exact cylinder: one ulp decides at the silhouette and at the rim, in a turned space as well") {
-  const Transform turn{{3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // by three, four, five, and five times
+TEST_CASE(
+    "exact cylinder: one ulp decides at the silhouette and at the rim, in a turned space as well") {
+  const Transform turn{
+      {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // by three, four, five, and five times
   const Cylinder cylinder{.from = {0, 0, -1}, .to = {0, 0, 1}, .radius = 1};
   for (const double far : {1.0, 1e3, 1e9, 1e15}) {
     // Past the side, across the axis.
@@ -174,7 +177,8 @@ TEST_CASE("exact cylinder and cone: powers of two scale them to the bit") {
 }
 
 TEST_CASE(
-    "exact cylinder and cone: a ray that starts on the side meets the rest as the standard tier has it") {
+    "exact cylinder and cone: a ray that starts on the side meets the rest as the standard tier "
+    "has it") {
   Random random(4);
   int compared = 0;
   for (int i = 0; i < 20000; ++i) {
@@ -191,7 +195,8 @@ TEST_CASE(
     const Vec3 direction = random.direction();
     if (std::abs(glm::dot(direction, normal)) < 1e-6) continue;
     const bool inwards = glm::dot(direction, normal) < 0;
-    const core::RayStart start{.face = 0, .side = inwards ? core::Side::inside : core::Side::outside};
+    const core::RayStart start{.face = 0,
+                               .side = inwards ? core::Side::inside : core::Side::outside};
     const core::CrossingList found = exact_crossings(cone, {}, point, direction, start);
     core::ObjectRay ray{.origin = point, .direction = direction};
     ray.start = start;

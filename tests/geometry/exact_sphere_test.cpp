@@ -21,8 +21,8 @@ TEST_CASE("exact sphere: whole-number lines that miss, touch and hit are told ap
     const Whole b = dot(ray.direction, offset);
     const Whole c = dot(offset, offset) - ray.weight * ray.weight * radius * radius;
     const Whole discriminant = b * b - a * c;
-    const core::CrossingList found =
-        exact_crossings(Sphere{.center = as_vec3(center), .radius = static_cast<double>(radius)}, ray);
+    const core::CrossingList found = exact_crossings(
+        Sphere{.center = as_vec3(center), .radius = static_cast<double>(radius)}, ray);
     REQUIRE(found.size() == (discriminant > 0 ? 2 : 0));
     touching += discriminant == 0 ? 1 : 0;
     if (found.empty()) continue;
@@ -108,7 +108,8 @@ TEST_CASE("exact sphere: a ray that starts on it meets it again where the identi
     const Vec3 point = glm::normalize(random.in_cube());
     const Vec3 direction = random.direction();
     const bool inwards = glm::dot(point, direction) < 0;
-    const core::RayStart start{.face = 0, .side = inwards ? core::Side::inside : core::Side::outside};
+    const core::RayStart start{.face = 0,
+                               .side = inwards ? core::Side::inside : core::Side::outside};
     const core::CrossingList found = exact_crossings(Sphere{}, {}, point, direction, start);
     const RealVec p(point);
     const RealVec d(direction);

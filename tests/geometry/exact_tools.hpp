@@ -1,5 +1,5 @@
-// What the tests of the exact tier share: rays through a placement, and whole-number geometry to compare
-// with.
+// What the tests of the exact tier share: rays through a placement, and whole-number geometry to
+// compare with.
 #pragma once
 
 #include <array>
@@ -49,7 +49,8 @@ struct WholeRay {
     weight *= sign;
     const auto solve = [&](const WholeVec& v) {
       WholeVec result;
-      for (std::size_t i = 0; i < 3; ++i) result[i] = sign * (x[i] * v[0] + y[i] * v[1] + z[i] * v[2]);
+      for (std::size_t i = 0; i < 3; ++i)
+        result[i] = sign * (x[i] * v[0] + y[i] * v[1] + z[i] * v[2]);
       return result;
     };
     origin = solve(world_origin - translation);
@@ -101,15 +102,18 @@ inline core::CrossingList exact_crossings(const Primitive& primitive, const Tran
   return result;
 }
 inline core::CrossingList exact_crossings(const Primitive& primitive, const WholeRay& ray) {
-  return exact_crossings(primitive, ray.transform(), as_vec3(ray.world_origin), as_vec3(ray.world_direction));
+  return exact_crossings(primitive, ray.transform(), as_vec3(ray.world_origin),
+                         as_vec3(ray.world_direction));
 }
 
 /// Whether t is within 0.51 ulp of the true value, and t + t_low within the error that is told.
 inline bool is_last_bit(const core::Crossing& crossing, Real truth) {
   const Real ulp = std::nextafter(std::abs(crossing.t), HUGE_VAL) - std::abs(crossing.t);
-  const Real tolerance = magnitude(truth) * 0x1p-105;  // of the truth itself, in quadruple precision
+  const Real tolerance =
+      magnitude(truth) * 0x1p-105;  // of the truth itself, in quadruple precision
   return magnitude(Real{crossing.t} - truth) <= 0.51 * ulp + tolerance &&
-         magnitude(Real{crossing.t} + Real{crossing.t_low} - truth) <= Real{crossing.error} + tolerance;
+         magnitude(Real{crossing.t} + Real{crossing.t_low} - truth) <=
+             Real{crossing.error} + tolerance;
 }
 
 }  // namespace crt::test

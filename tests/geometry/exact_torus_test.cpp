@@ -52,7 +52,8 @@ TEST_CASE("exact torus: lines that touch it miss, and an ulp decides") {
 }
 
 TEST_CASE("exact torus: the same in a turned space") {
-  const Transform turn{{3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // by three, four, five, and five times
+  const Transform turn{
+      {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // by three, four, five, and five times
   for (const double far : {1.0, 1e9}) {
     const auto past = [&](double x) { return count(ring, {x, -far, 0}, {0, 1, 0}, turn); };
     CHECK(past(15) == 0);
@@ -139,8 +140,9 @@ TEST_CASE("exact torus: a ray that starts on it meets the rest as the standard t
     const Vec3 direction = random.direction();
     if (std::abs(glm::dot(direction, normal)) < 1e-6) continue;
     core::ObjectRay ray{.origin = point, .direction = direction};
-    ray.start = {.face = 0,
-                 .side = glm::dot(direction, normal) < 0 ? core::Side::inside : core::Side::outside};
+    ray.start = {
+        .face = 0,
+        .side = glm::dot(direction, normal) < 0 ? core::Side::inside : core::Side::outside};
     core::CrossingList standard;
     core::make_shape(ring)->crossings(ray, standard);
     const core::CrossingList found = exact_crossings(ring, {}, point, direction, ray.start);

@@ -25,7 +25,8 @@ class FrustumOracle {
     const RealVec m = cross(ray.direction, axis_);
     const Real s0 = radius_ + slope_ * dot(o, axis_);
     const Real s1 = slope_ * dot(ray.direction, axis_);
-    std::vector<Real> result = quadratic_roots(dot(m, m) - s1 * s1, dot(p, m) - s0 * s1, dot(p, p) - s0 * s0);
+    std::vector<Real> result =
+        quadratic_roots(dot(m, m) - s1 * s1, dot(p, m) - s0 * s1, dot(p, p) - s0 * s0);
     for (const RealVec& end : {from_, to_}) {
       for (const Real root : plane_roots(ray, axis_, end)) result.push_back(root);
     }

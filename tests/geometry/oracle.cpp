@@ -32,7 +32,8 @@ std::vector<Root> true_roots(const Subject& subject, const RealRay& ray) {
     for (const Real root : t) {
       if (subject.on_surface(ray.at(root))) {
         const Real step = subject.size / length(ray.direction);
-        roots.push_back({root, subject.field(ray.at(root + step)) < subject.field(ray.at(root - step))});
+        roots.push_back(
+            {root, subject.field(ray.at(root + step)) < subject.field(ray.at(root - step))});
       }
     }
     return roots;
@@ -168,8 +169,10 @@ void check_against_oracle(const MakeSubject& make, int count) {
       REQUIRE(error <= found[k].error);
       const RealVec p = real.at(expected[k].t);
       if (!smooth_at(subject, p)) continue;
-      const double approach = static_cast<double>(magnitude(dot(gradient(subject, p), real.direction)));
-      const double reach = static_cast<double>(length(p - RealVec(subject.center))) + 4 * subject.size;
+      const double approach =
+          static_cast<double>(magnitude(dot(gradient(subject, p), real.direction)));
+      const double reach =
+          static_cast<double>(length(p - RealVec(subject.center))) + 4 * subject.size;
       REQUIRE(found[k].error <= 1.01 * (u * std::abs(found[k].t) + 8 * u * reach / approach));
     }
   }
@@ -253,8 +256,8 @@ void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
       t[static_cast<int>(lane)] = crossing.t * factor;
     }
     core::SurfacePointLanes points;
-    shape.points_on(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face, true,
-                    points);
+    shape.points_on(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face,
+                    true, points);
     const core::SurfacePoint point = shape.surface_point(ray, crossing);
     REQUIRE(points.position.lane(2) == point.position);
     REQUIRE(points.normal.lane(2) == point.normal);
@@ -389,7 +392,8 @@ void check_starts(const MakeSubject& make, int count, bool convex) {
       CrossingList again;
       shape->crossings(ray, again);
       if (random.one_in(10)) require_true_roots(subject, ray, point.normal, again);
-      if (std::any_of(again.begin(), again.end(), [](const Crossing& c) { return c.t == 0; })) ++exact;
+      if (std::any_of(again.begin(), again.end(), [](const Crossing& c) { return c.t == 0; }))
+        ++exact;
       // The side counts even if the direction is at odds with it.
       if (random.one_in(20)) {
         ray.start.side = outwards ? Side::inside : Side::outside;
@@ -398,7 +402,8 @@ void check_starts(const MakeSubject& make, int count, bool convex) {
       ++starts;
     }
   }
-  // All but those within the surface (of a box, one in six), or next to an edge, have their start as a root.
+  // All but those within the surface (of a box, one in six), or next to an edge, have their start
+  // as a root.
   CHECK(exact >= starts - starts / 4);
 }
 

@@ -86,8 +86,8 @@ struct Subject {
   double size;  ///< at about this distance from the center
   /// All parameters at which the ray might go through the boundary.
   std::function<std::vector<Real>(const RealRay&)> candidates;
-  /// Solids: the distance from the boundary as far as the gradient tells, negative inside. Surfaces: the
-  /// height over the plane, out of which `on_surface` cuts the surface.
+  /// Solids: the distance from the boundary as far as the gradient tells, negative inside.
+  /// Surfaces: the height over the plane, out of which `on_surface` cuts the surface.
   std::function<Real(const RealVec&)> field;
   std::function<bool(const RealVec&)> on_surface = nullptr;
 };
@@ -100,8 +100,8 @@ void check_against_oracle(const MakeSubject& make, int count);
 void check_scaling(const MakeSubject& make, int count);
 /// ... a ray turned round has the same crossings in reverse, within the bounds;
 void check_reversal(const MakeSubject& make, int count);
-/// ... points are on the surface and within the bounds, normals follow the gradient, (u, v) are finite
-/// (and, if `unit_square`, in [0, 1]);
+/// ... points are on the surface and within the bounds, normals follow the gradient, (u, v) are
+/// finite (and, if `unit_square`, in [0, 1]);
 void check_surface_points(const MakeSubject& make, int count, bool unit_square);
 /// ... rays that start on the surface have a root at exactly 0 or graze, and agree with their side:
 /// convex solids and surfaces are never met again from outside, solids always left from inside.

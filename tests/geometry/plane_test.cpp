@@ -47,7 +47,8 @@ TEST_CASE("plane: a ray that starts on it obeys its side") {
   check_starts(random_plane, 100000, true);
 }
 
-TEST_CASE("plane: a ray comes from inside or goes there, and one parallel to it is where its origin is") {
+TEST_CASE(
+    "plane: a ray comes from inside or goes there, and one parallel to it is where its origin is") {
   core::CrossingList list;
   CHECK(crossings(Plane{}, {.origin = {0, -5, 0}, .direction = {0, 1, 0}}, list));
   REQUIRE(list.size() == 1);
@@ -78,13 +79,15 @@ TEST_CASE("plane: a ray nearly parallel to it is met far away without losing its
     core::ObjectRay ray;
     ray.origin = subject.center + subject.size * random.in_cube();
     ray.direction = axes.u + random.uniform(-1, 1) * axes.v;
-    ray.direction += random.power_of_ten(-14, -3) *
-                     Vec3(static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z));
+    ray.direction +=
+        random.power_of_ten(-14, -3) *
+        Vec3(static_cast<double>(n.x), static_cast<double>(n.y), static_cast<double>(n.z));
     core::CrossingList list;
     shape->crossings(ray, list);
     const auto roots = subject.candidates(RealRay(ray));
     REQUIRE(list.size() == roots.size());
-    for (std::size_t k = 0; k < list.size(); ++k) REQUIRE(magnitude(list[k].t - roots[k]) <= list[k].error);
+    for (std::size_t k = 0; k < list.size(); ++k)
+      REQUIRE(magnitude(list[k].t - roots[k]) <= list[k].error);
   }
 }
 
@@ -93,7 +96,8 @@ TEST_CASE("plane: its surface has its own normal, and one position across an axi
       core::make_shape(Plane{.normal = {1, -4, 2}, .position = {1, 2, 3}})->surface(0);
   CHECK(slanted.direction == Vec3(0.25, -1, 0.5));
   CHECK(slanted.position == Vec3(1, 2, 3));
-  const core::Surface axis = core::make_shape(Plane{.normal = {0, 0, -5}, .position = {7, 8, 9}})->surface(0);
+  const core::Surface axis =
+      core::make_shape(Plane{.normal = {0, 0, -5}, .position = {7, 8, 9}})->surface(0);
   CHECK(axis.direction.z < 0);
   CHECK(axis.position == Vec3(0, 0, 9));
 }
@@ -125,6 +129,7 @@ TEST_CASE("plane: only one across an axis is bounded") {
   CHECK(bounds.upper.y == 2);
   CHECK(bounds.lower.y < -1e308);
   CHECK(bounds.upper.x > 1e308);
-  CHECK(core::make_shape(Plane{.normal = {0, -2, 0}, .position = {1, 2, 3}})->bounds().lower.y == 2);
+  CHECK(core::make_shape(Plane{.normal = {0, -2, 0}, .position = {1, 2, 3}})->bounds().lower.y ==
+        2);
   CHECK(core::make_shape(Plane{.normal = {0, 1, 1e-9}})->bounds().upper.y > 1e308);
 }

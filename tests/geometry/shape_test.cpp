@@ -60,7 +60,8 @@ TEST_CASE("an error says what is wrong with which field") {
   CHECK(fault(Sphere{.radius = 1e-101}) == "radius: radius must be at least 1e-100 (it is 1e-101)");
   CHECK(fault(Sphere{.radius = 1e101}) == "radius: radius must be at most 1e100 (it is 1e+101)");
   CHECK(fault(Sphere{.radius = not_a_number}) == "radius: radius must be finite (it is nan)");
-  CHECK(fault(Sphere{.center = {0, inf, 0}}) == "center: center must be finite (it is (0, inf, 0))");
+  CHECK(fault(Sphere{.center = {0, inf, 0}}) ==
+        "center: center must be finite (it is (0, inf, 0))");
   CHECK(fault(Sphere{.center = {0, 0, -1.5e100}}) ==
         "center: center must be at most 1e100 in magnitude (it is (0, 0, -1.5e+100))");
   CHECK(fault(Plane{.normal = {0, 0, 0}}) == "normal: normal must have a length (it is (0, 0, 0))");
@@ -98,7 +99,8 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Triangle{.b = bad}) == "b");
   CHECK(argument(Triangle{.c = bad}) == "c");
   CHECK(argument(Triangle{.a = {1, 1, 1}, .b = {2, 2, 2}, .c = {4, 4, 4}}) == "c");
-  CHECK(argument(Triangle{.a = {0.1, 0.1, 0.1}, .b = {0.3, 0.3, 0.3}, .c = {0.7, 0.7, 0.7}}) == "c");
+  CHECK(argument(Triangle{.a = {0.1, 0.1, 0.1}, .b = {0.3, 0.3, 0.3}, .c = {0.7, 0.7, 0.7}}) ==
+        "c");
 }
 
 TEST_CASE("values at the limits, slivers and spindles are accepted") {

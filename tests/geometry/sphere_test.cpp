@@ -61,7 +61,8 @@ TEST_CASE("sphere: from 1e12 radii away the error stays within the last digits o
   Random random(7);
   for (int i = 0; i < 20000; ++i) {
     const Vec3 direction = random.direction();
-    core::ObjectRay ray{.origin = -1e12 * direction + 0.5 * random.in_cube(), .direction = direction};
+    core::ObjectRay ray{.origin = -1e12 * direction + 0.5 * random.in_cube(),
+                        .direction = direction};
     for (const core::Crossing& crossing : crossings(Sphere{}, ray)) {
       const RealRay real(ray);
       const RealVec p = real.at(crossing.t);
@@ -75,7 +76,8 @@ TEST_CASE("sphere: from 1e12 radii away the error stays within the last digits o
 TEST_CASE("sphere: directions of any length meet it where the unit direction does") {
   for (const int exponent : {-498, -300, 1, 300, 498}) {
     const double length = std::ldexp(1.0, exponent);
-    const auto unit = crossings(Sphere{}, {.origin = {0.1, 0.2, -5}, .direction = Vec3(0.01, 0.02, 1)});
+    const auto unit =
+        crossings(Sphere{}, {.origin = {0.1, 0.2, -5}, .direction = Vec3(0.01, 0.02, 1)});
     const auto scaled =
         crossings(Sphere{}, {.origin = {0.1, 0.2, -5}, .direction = Vec3(0.01, 0.02, 1) * length});
     REQUIRE(scaled.size() == 2);
@@ -93,7 +95,8 @@ TEST_CASE("sphere: the smallest and the largest may be seen from anywhere") {
       crossings(Sphere{.radius = 1e-100}, {.origin = {0, 0, -1e-99}, .direction = {0, 0, 1e150}});
   REQUIRE(near.size() == 2);
   CHECK(near[0].t == doctest::Approx(9e-250));
-  const auto huge = crossings(Sphere{.radius = 1e100}, {.origin = {0, 0, 0}, .direction = {0, 0, 1e-150}});
+  const auto huge =
+      crossings(Sphere{.radius = 1e100}, {.origin = {0, 0, 0}, .direction = {0, 0, 1e-150}});
   REQUIRE(huge.size() == 2);
   CHECK(huge[1].t == doctest::Approx(1e250));
 }

@@ -44,8 +44,8 @@ std::vector<Real> polynomial_roots(const std::vector<Real>& polynomial, Real low
 }
 
 /// The textbook quartic (|p|^2 + R^2 - r^2)^2 = 4 R^2 rho^2, about the closest approach.
-std::vector<Real> torus_candidates(const RealRay& ray, const RealVec& center, const RealVec& axis, Real ring,
-                                   Real tube) {
+std::vector<Real> torus_candidates(const RealRay& ray, const RealVec& center, const RealVec& axis,
+                                   Real ring, Real tube) {
   const RealVec d = normalized(ray.direction);
   const RealVec from_center = ray.origin - center;
   const Real closest = -dot(from_center, d);
@@ -72,7 +72,8 @@ Subject torus_subject(const Torus& torus) {
   return {.primitive = torus,
           .center = torus.center,
           .size = torus.radius + torus.thickness,
-          .candidates = [=](const RealRay& ray) { return torus_candidates(ray, center, axis, ring, tube); },
+          .candidates =
+              [=](const RealRay& ray) { return torus_candidates(ray, center, axis, ring, tube); },
           .field =
               [=](const RealVec& p) {
                 const RealVec q = p - center;
@@ -85,8 +86,8 @@ Subject torus_subject(const Torus& torus) {
 /// Rings, now and then a horn or a spindle.
 Subject random_torus(Random& random) {
   const double radius = random.power_of_ten(-6, 6);
-  const double share =
-      random.one_in(4) ? random.uniform(1, 4) : (random.one_in(8) ? 1 : random.power_of_ten(-1.5, 0));
+  const double share = random.one_in(4) ? random.uniform(1, 4)
+                                        : (random.one_in(8) ? 1 : random.power_of_ten(-1.5, 0));
   return torus_subject({.center = random.in_cube() * (radius * random.power_of_ten(-2, 2)),
                         .axis = random.direction() * random.power_of_ten(-9, 9),
                         .radius = radius,
@@ -223,8 +224,8 @@ TEST_CASE("torus: points on its axis and seams have finite coordinates") {
     CHECK(glm::length(point.normal) == doctest::Approx(1).epsilon(1e-15));
     CHECK((point.normal.y > 0) == !crossing.entering);
   }
-  const core::SurfacePoint outermost =
-      core::make_shape(Torus{})->surface_point({.origin = {1.25, 0, 0}, .direction = {1, 0, 0}}, {});
+  const core::SurfacePoint outermost = core::make_shape(Torus{})->surface_point(
+      {.origin = {1.25, 0, 0}, .direction = {1, 0, 0}}, {});
   CHECK(outermost.u == 0.25);
   CHECK(outermost.v == 0);
   CHECK(outermost.normal == Vec3(1, 0, 0));

@@ -98,11 +98,13 @@ TEST_CASE("triangle: rays exactly through a corner or an edge hit") {
 }
 
 TEST_CASE("triangle: a sliver has the right normal") {
-  const Triangle sliver{.a = {0.1, 0.1, 0.1}, .b = {0.3, 0.3, 0.3}, .c = {0.7, 0.7, 0.7000000000000001}};
+  const Triangle sliver{
+      .a = {0.1, 0.1, 0.1}, .b = {0.3, 0.3, 0.3}, .c = {0.7, 0.7, 0.7000000000000001}};
   const auto shape = core::make_shape(sliver);
   const RealVec a(sliver.a);
   const RealVec expected = normalized(cross(RealVec(sliver.b) - a, RealVec(sliver.c) - a));
-  const RealVec normal(shape->surface_point({.origin = sliver.a, .direction = {1, 0, 0}}, {}).normal);
+  const RealVec normal(
+      shape->surface_point({.origin = sliver.a, .direction = {1, 0, 0}}, {}).normal);
   CHECK(length(normal - expected) < 1e-15);
 }
 

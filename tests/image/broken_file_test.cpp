@@ -48,7 +48,8 @@ Bytes with_right_checksums(const Bytes& content) {
   for (std::size_t at = 8; at + 12 <= text.size();) {
     const std::size_t length = from_big_endian(std::string_view(text).substr(at));
     if (length > text.size() - at - 12) break;
-    text.replace(at + 8 + length, 4, big_endian(crc32(std::string_view(text).substr(at + 4, 4 + length))));
+    text.replace(at + 8 + length, 4,
+                 big_endian(crc32(std::string_view(text).substr(at + 4, 4 + length))));
     at += 12 + length;
   }
   return to_bytes(text);
@@ -99,7 +100,8 @@ TEST_CASE("a file of any format that is cut to half, or to its first bytes, is a
          {content.size() / 2, content.size() * 3 / 4, std::size_t{16}, std::size_t{9}}) {
       CAPTURE(length);
       CHECK_FALSE(
-          decode_error({content.begin(), content.begin() + static_cast<std::ptrdiff_t>(length)}).empty());
+          decode_error({content.begin(), content.begin() + static_cast<std::ptrdiff_t>(length)})
+              .empty());
     }
   }
 }
@@ -123,7 +125,8 @@ TEST_CASE("an EXR header that claims what no file of its length can hold is refu
   smooth_picture(40, 70).write(directory / "a.exr");
   const Bytes sound = file_bytes(directory / "a.exr");
   const std::string text = file_text(directory / "a.exr");
-  // The name and type of the attribute with their zeros, its size, then the corner that is nearest to 0.
+  // The name and type of the attribute with their zeros, its size, then the corner that is nearest
+  // to 0.
   const std::size_t far_corner = text.find("dataWindow") + 11 + 6 + 4 + 8;
   for (const std::size_t coordinate : {far_corner, far_corner + 4}) {
     for (const int most : {0x7f, 0xff}) {
@@ -146,7 +149,8 @@ TEST_CASE("metadata of any kind and damage to it do not matter for the pixels") 
     const Bytes sound = file_bytes(directory / name);
     const std::string text = file_text(directory / name);
     Bytes damaged = sound;
-    for (std::size_t at = text.find("nnnn"); at != std::string::npos; at = text.find("nnnn", at + 300)) {
+    for (std::size_t at = text.find("nnnn"); at != std::string::npos;
+         at = text.find("nnnn", at + 300)) {
       for (std::size_t i = 0; i < 200; ++i) damaged[at + i] = std::byte{0x1c};
     }
     if (std::string(name) == "a.png") damaged = with_right_checksums(damaged);
@@ -175,7 +179,8 @@ TEST_CASE("a header that claims a huge picture is refused before anything is all
   CHECK_FALSE(decode_error(to_bytes("P6 99999999999999999999 1 255\nxyz")).empty());
   CHECK_FALSE(decode_error(to_bytes("PF\n1000000 1000000\n-1.0\n0000")).empty());
   CHECK_FALSE(
-      decode_error(to_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n")).empty());
+      decode_error(to_bytes("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y 1000000 +X 1000000\n"))
+          .empty());
 }
 
 TEST_CASE("a tall claim with few bytes behind it is an error soon") {
@@ -191,14 +196,17 @@ TEST_CASE("damaged files of every format are read or refused, and nothing worse"
       Bytes damaged = content;
       const int changes = 1 + static_cast<int>(random() % 8);
       // Headers hold what is most dangerous.
-      const std::size_t reach = round % 2 == 0 ? std::min<std::size_t>(damaged.size(), 300) : damaged.size();
-      for (int i = 0; i < changes; ++i) damaged[random() % reach] = static_cast<std::byte>(random());
+      const std::size_t reach =
+          round % 2 == 0 ? std::min<std::size_t>(damaged.size(), 300) : damaged.size();
+      for (int i = 0; i < changes; ++i)
+        damaged[random() % reach] = static_cast<std::byte>(random());
       if (name == "a.png" && round % 3 == 0) damaged = with_right_checksums(damaged);
       try {
         const Image image = Image::decode(damaged, name);
         REQUIRE_FALSE(image.empty());
       } catch (const Error& error) {
-        const bool expected = error.code() == ErrorCode::io || error.code() == ErrorCode::out_of_memory;
+        const bool expected =
+            error.code() == ErrorCode::io || error.code() == ErrorCode::out_of_memory;
         REQUIRE(expected);
       }
     }

@@ -1,5 +1,5 @@
-// Channels beside the colours, in memory and on the way into files. (What EXR files then hold is read by
-// OpenImageIO's own tool in tests/cli.)
+// Channels beside the colours, in memory and on the way into files. (What EXR files then hold is
+// read by OpenImageIO's own tool in tests/cli.)
 #include <doctest/doctest.h>
 
 #include <string>
@@ -24,11 +24,13 @@ ImageChannel integers(const std::string& name, std::size_t count, std::uint32_t 
 
 Image with_channels() {
   Image image = smooth_picture(5, 70);
-  image.set_channels({floats("Z", 350, 1.5f), integers("id", 350, 4000000007u), floats("N.X", 350, -1)});
+  image.set_channels(
+      {floats("Z", 350, 1.5f), integers("id", 350, 4000000007u), floats("N.X", 350, -1)});
   return image;
 }
 
-ErrorCode code_of_write(const Image& image, const std::string& ending, const WriteOptions& options = {}) {
+ErrorCode code_of_write(const Image& image, const std::string& ending,
+                        const WriteOptions& options = {}) {
   try {
     image.encode(ending, options);
   } catch (const Error& error) {
@@ -55,8 +57,9 @@ TEST_CASE("a channel needs a name of its own and a number for each pixel") {
   Image image(2, 2);
   const std::string longest(255, 'x');
   CHECK_NOTHROW(image.set_channels({floats("a", 4), floats("A.a", 4), floats(longest, 4)}));
-  for (const std::string& name : {std::string(), std::string("R"), std::string("A"), std::string("two words"),
-                                  std::string("\xc3\xa4"), std::string("a\n"), longest + "x"}) {
+  for (const std::string& name :
+       {std::string(), std::string("R"), std::string("A"), std::string("two words"),
+        std::string("\xc3\xa4"), std::string("a\n"), longest + "x"}) {
     CAPTURE(name);
     CHECK_THROWS_AS(image.set_channels({floats(name, 4)}), Error);
   }

@@ -76,7 +76,8 @@ TEST_CASE("lossless 8-bit formats keep every level, with gamma applied once") {
     CHECK(read.display_encoded());
     CHECK(read.to_rgba8() == image.to_rgba8());
     CHECK(read.at(0, 0).g == 1);
-    CHECK(read.at(1, 1).r == double{static_cast<float>(image.to_rgba8()[std::size_t{4} * 257] / 255.0)});
+    CHECK(read.at(1, 1).r ==
+          double{static_cast<float>(image.to_rgba8()[std::size_t{4} * 257] / 255.0)});
   }
 }
 
@@ -220,10 +221,10 @@ TEST_CASE("how many pixels of a file were not finite is told, and where the firs
   text.append(reinterpret_cast<const char*>(values.data()), values.size() * sizeof(float));
   const Image read = Image::decode(to_bytes(text), "sky.pfm");
   CHECK(read.not_finite() == NotFiniteValues{.file = "sky.pfm", .pixels = 2, .x = 2, .y = 0});
-  CHECK(
-      read.not_finite().message() ==
-      "'sky.pfm' has 2 pixels with values that are not finite (NaN, infinity), the first at (2, 0) from the "
-      "top left: they count as 0");
+  CHECK(read.not_finite().message() ==
+        "'sky.pfm' has 2 pixels with values that are not finite (NaN, infinity), the first at (2, "
+        "0) from the "
+        "top left: they count as 0");
   CHECK(read.at(2, 0) == Color{0.5, 0.5, 0, 1});
   CHECK(read.at(0, 1) == Color{0, 0, 0.5, 1});
 }

@@ -22,7 +22,8 @@ std::map<std::string, std::string> png_texts(const std::string& file) {
   while (at < file.size()) {
     const std::size_t length = from_big_endian(std::string_view(file).substr(at));
     const std::string type_and_data = file.substr(at + 4, 4 + length);
-    REQUIRE(from_big_endian(std::string_view(file).substr(at + 8 + length)) == crc32(type_and_data));
+    REQUIRE(from_big_endian(std::string_view(file).substr(at + 8 + length)) ==
+            crc32(type_and_data));
     const std::string type = type_and_data.substr(0, 4);
     // Nothing in the file tells the time by itself.
     CHECK(type != "tIME");
@@ -81,9 +82,11 @@ TEST_CASE("a picture that was rendered pass by pass tells how near to the truth 
   image.write(directory / "a.png");
   const auto texts = png_texts(file_text(directory / "a.png"));
   const std::map<std::string, std::string> expected = {
-      {"crt:targeterror", "0.25"},   {"crt:filter", "blackmanharris"}, {"crt:filterwidth", "3"},
-      {"crt:passes", "24"},          {"crt:samples", "16 17.5 32"},    {"crt:halfwidth", "0.125 0.1875 0.5"},
-      {"crt:unresolvedpixels", "3"}, {"crt:unseenshare", "0.1875"},    {"crt:cutoff", "0 0.0625"}};
+      {"crt:targeterror", "0.25"},   {"crt:filter", "blackmanharris"},
+      {"crt:filterwidth", "3"},      {"crt:passes", "24"},
+      {"crt:samples", "16 17.5 32"}, {"crt:halfwidth", "0.125 0.1875 0.5"},
+      {"crt:unresolvedpixels", "3"}, {"crt:unseenshare", "0.1875"},
+      {"crt:cutoff", "0 0.0625"}};
   for (const auto& text : expected) {
     CAPTURE(text.first);
     CHECK(texts.at(text.first) == text.second);
@@ -131,8 +134,9 @@ TEST_CASE("formats that know few names have the rest in their description") {
     described_picture().write(directory / name);
     const std::string file = file_text(directory / name);
     for (const std::string& part :
-         {std::string("Still life"), std::string("A. Painter"), std::string("Creation Time: May 2003"),
-          std::string("First line\nsecond line"), crt_version, std::string("crt:supersampling: 3")}) {
+         {std::string("Still life"), std::string("A. Painter"),
+          std::string("Creation Time: May 2003"), std::string("First line\nsecond line"),
+          crt_version, std::string("crt:supersampling: 3")}) {
       CAPTURE(part);
       CHECK(file.find(part) != std::string::npos);
     }
@@ -180,16 +184,18 @@ TEST_CASE("no file tells the time of its writing") {
   for (const char* name : {"a.png", "a.tif", "a.jpg", "a.exr", "a.hdr"}) {
     CAPTURE(name);
     described_picture().write(directory / name);
-    // The form that all of these formats give a time of theirs: 2003:05:31 12:00:00, in any century.
+    // The form that all of these formats give a time of theirs: 2003:05:31 12:00:00, in any
+    // century.
     const std::string file = file_text(directory / name);
     bool found = false;
-    for (std::size_t colon = file.find(':'); colon != std::string::npos; colon = file.find(':', colon + 1)) {
+    for (std::size_t colon = file.find(':'); colon != std::string::npos;
+         colon = file.find(':', colon + 1)) {
       const auto digit = [&](std::size_t at) {
         return at < file.size() && file[at] >= '0' && file[at] <= '9';
       };
-      found = found ||
-              (colon >= 4 && digit(colon - 4) && digit(colon - 1) && digit(colon + 1) && digit(colon + 2) &&
-               colon + 3 < file.size() && file[colon + 3] == ':' && digit(colon + 4));
+      found = found || (colon >= 4 && digit(colon - 4) && digit(colon - 1) && digit(colon + 1) &&
+                        digit(colon + 2) && colon + 3 < file.size() && file[colon + 3] == ':' &&
+                        digit(colon + 4));
     }
     CHECK_FALSE(found);
   }

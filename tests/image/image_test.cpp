@@ -81,7 +81,8 @@ TEST_CASE("every level comes out as itself, and halves between two go up") {
     CHECK(bytes_of({value, value, value}) == Pixel{level, level, level, 255});
   }
   // 0.5 is exactly between levels 127 and 128.
-  CHECK(bytes_of({0.5, std::nextafter(0.5f, 0.0f), std::nextafter(0.5f, 1.0f)}) == Pixel{128, 127, 128, 255});
+  CHECK(bytes_of({0.5, std::nextafter(0.5f, 0.0f), std::nextafter(0.5f, 1.0f)}) ==
+        Pixel{128, 127, 128, 255});
 }
 
 TEST_CASE("in 2015 values are cut to the level below") {
@@ -93,8 +94,8 @@ TEST_CASE("in 2015 values are cut to the level below") {
   crt::Settings settings;
   settings.compat = crt::compat_2015;
   image.set_settings(settings);
-  CHECK(image.to_rgba8() ==
-        std::vector<std::uint8_t>{254, 127, 255, 255, 0, 254, 254, 255, 255, 0, 0, 255, 255, 127, 0, 127});
+  CHECK(image.to_rgba8() == std::vector<std::uint8_t>{254, 127, 255, 255, 0, 254, 254, 255, 255, 0,
+                                                      0, 255, 255, 127, 0, 127});
 }
 
 TEST_CASE("in 2015 as well every level comes out as itself, at any gamma and alpha") {

@@ -70,7 +70,8 @@ inline std::uint32_t crc32(std::string_view text) {
 inline constexpr std::string_view png_signature = "\x89PNG\r\n\x1a\n";
 
 inline std::string png_chunk(const std::string& type, const std::string& data) {
-  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data + big_endian(crc32(type + data));
+  return big_endian(static_cast<std::uint32_t>(data.size())) + type + data +
+         big_endian(crc32(type + data));
 }
 
 /// A zlib stream of one block that is not compressed.
@@ -85,7 +86,8 @@ inline std::string zlib_stored(const std::string& data) {
   const auto low_high = [](std::uint32_t value) {
     return std::string{static_cast<char>(value & 0xff), static_cast<char>(value >> 8 & 0xff)};
   };
-  return std::string("\x78\x01\x01") + low_high(length) + low_high(~length) + data + big_endian(b << 16 | a);
+  return std::string("\x78\x01\x01") + low_high(length) + low_high(~length) + data +
+         big_endian(b << 16 | a);
 }
 
 /// `rows` holds the samples of all rows, each row after a 0 for "no filter".

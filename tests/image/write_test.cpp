@@ -95,7 +95,9 @@ TEST_CASE("a write that fails half-way leaves the old file and nothing else") {
   CHECK(directory.entries() == 1);
 }
 
-TEST_CASE("writing replaces what was there, leaves no other file, and takes odd names and relative paths") {
+TEST_CASE(
+    "writing replaces what was there, leaves no other file, and takes odd names and relative "
+    "paths") {
   const TemporaryDirectory directory;
   const std::string name = "a %d {} '\"? \xc3\xa9\n.png";
   smooth_picture(9, 9).write(directory / name);

@@ -10,7 +10,8 @@ namespace crt::tests {
 namespace {
 
 /// Red, green, blue and alpha of the pixel that starts at byte `i`: how much they differ.
-int largest_step(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b, std::size_t i) {
+int largest_step(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
+                 std::size_t i) {
   int largest = 0;
   for (std::size_t channel = i; channel < i + 4; ++channel) {
     largest = std::max(largest, std::abs(a[channel] - b[channel]));
@@ -22,7 +23,8 @@ int largest_step(const std::vector<std::uint8_t>& a, const std::vector<std::uint
 
 Difference compare(const Image& picture, const Image& reference) {
   Difference difference;
-  difference.same_size = picture.width() == reference.width() && picture.height() == reference.height();
+  difference.same_size =
+      picture.width() == reference.width() && picture.height() == reference.height();
   if (!difference.same_size) return difference;
 
   const std::vector<std::uint8_t> a = picture.to_rgba8();
@@ -49,7 +51,9 @@ Image difference_picture(const Image& picture, const Image& reference) {
   std::size_t i = 0;
   for (int y = 0; y < result.height(); ++y) {
     for (int x = 0; x < result.width(); ++x, i += 4) {
-      const auto channel = [&](std::size_t c) { return amplified * std::abs(a[i + c] - b[i + c]) / 255; };
+      const auto channel = [&](std::size_t c) {
+        return amplified * std::abs(a[i + c] - b[i + c]) / 255;
+      };
       result.set(x, y, {channel(0), channel(1), channel(2)});
     }
   }

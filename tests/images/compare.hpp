@@ -19,7 +19,8 @@ struct Difference {
 
 Difference compare(const Image& picture, const Image& reference);
 
-/// A picture of where two of the same size differ: black where they agree, and eight times the difference.
+/// A picture of where two of the same size differ: black where they agree, and eight times the
+/// difference.
 Image difference_picture(const Image& picture, const Image& reference);
 
 }  // namespace crt::tests

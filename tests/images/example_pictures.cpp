@@ -55,7 +55,8 @@ void add_pictures_of(const fs::path& script, std::vector<ExamplePicture>& pictur
     std::istringstream words(line.substr(mark.size()));
     std::string name;
     words >> name;
-    pictures.push_back({.name = scene + "-" + name, .script = script, .options = options_from(words, line)});
+    pictures.push_back(
+        {.name = scene + "-" + name, .script = script, .options = options_from(words, line)});
   }
 }
 
@@ -87,8 +88,9 @@ Scene small_scene(const ExamplePicture& picture) {
   settings.height = std::max(1, settings.height * width / settings.width);
   settings.width = width;
   // A picture about supersampling is about nothing without.
-  const bool asked_for = std::any_of(picture.options.settings.begin(), picture.options.settings.end(),
-                                     [](const auto& setting) { return setting.first == "supersampling"; });
+  const bool asked_for =
+      std::any_of(picture.options.settings.begin(), picture.options.settings.end(),
+                  [](const auto& setting) { return setting.first == "supersampling"; });
   if (!asked_for) settings.supersampling = 1;
   settings.dof_samples = std::min(settings.dof_samples, most_dof_samples);
   return scene;

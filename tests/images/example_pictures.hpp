@@ -1,5 +1,5 @@
-// The pictures of the example scripts, as the gallery has them, but small: quick to render and small
-// enough to keep references of.
+// The pictures of the example scripts, as the gallery has them, but small: quick to render and
+// small enough to keep references of.
 #pragma once
 
 #include <crt/prepared_scene.hpp>
@@ -21,8 +21,8 @@ struct ExamplePicture {
 /// Every picture of every script in examples/scenes, by name.
 std::vector<ExamplePicture> example_pictures();
 
-/// Runs the script and makes its picture small: at most 160 pixels wide, one ray a pixel (unless the
-/// picture is about that) and few points of the lens. Throws Error with the diagnostics if the
+/// Runs the script and makes its picture small: at most 160 pixels wide, one ray a pixel (unless
+/// the picture is about that) and few points of the lens. Throws Error with the diagnostics if the
 /// script has errors or warnings.
 Scene small_scene(const ExamplePicture& picture);
 

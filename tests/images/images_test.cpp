@@ -18,7 +18,8 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Keeps what a failed comparison looked like and says where.
-void keep_for_inspection(const ExamplePicture& picture, const Image& image, const Image& reference) {
+void keep_for_inspection(const ExamplePicture& picture, const Image& image,
+                         const Image& reference) {
   const fs::path folder = CRT_FAILED_IMAGES;
   fs::create_directories(folder);
   const fs::path rendered = folder / (picture.name + ".png");
@@ -44,13 +45,14 @@ Image render_in_quarters(const PreparedScene& scene, int width, int height) {
   for (const Region& quarter : quarters) {
     const Image part = render(scene, {.region = quarter});
     for (int y = 0; y < part.height(); ++y) {
-      const auto row =
-          part.pixels().subspan(4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width()),
-                                4 * static_cast<std::size_t>(part.width()));
+      const auto row = part.pixels().subspan(
+          4 * static_cast<std::size_t>(y) * static_cast<std::size_t>(part.width()),
+          4 * static_cast<std::size_t>(part.width()));
       const std::size_t start =
           4 * (static_cast<std::size_t>(quarter.y + y) * static_cast<std::size_t>(width) +
                static_cast<std::size_t>(quarter.x));
-      std::copy(row.begin(), row.end(), whole.pixels().begin() + static_cast<std::ptrdiff_t>(start));
+      std::copy(row.begin(), row.end(),
+                whole.pixels().begin() + static_cast<std::ptrdiff_t>(start));
     }
   }
   return whole;
@@ -88,7 +90,8 @@ TEST_CASE("each example looks like its reference, and any threads and regions gi
     CHECK(pixel_hash(render_in_quarters(prepared, image.width(), image.height())) == hash);
 
     const bool alike = difference.same_size && difference.rmse <= most_rmse &&
-                       difference.share_of_visible <= most_visible && hash == hashes.at(picture.name);
+                       difference.share_of_visible <= most_visible &&
+                       hash == hashes.at(picture.name);
     if (!alike) keep_for_inspection(picture, image, reference);
   }
 }
@@ -98,7 +101,8 @@ TEST_CASE("no reference is left of a picture that is no more") {
   for (const ExamplePicture& picture : example_pictures())
     known += fs::exists(reference_path(picture)) ? 1 : 0;
   std::size_t kept = 0;
-  for (const auto& entry : fs::directory_iterator(fs::path(CRT_SOURCE_DIR) / "tests/images/references")) {
+  for (const auto& entry :
+       fs::directory_iterator(fs::path(CRT_SOURCE_DIR) / "tests/images/references")) {
     kept += entry.path().extension() == ".png" ? 1 : 0;
   }
   CHECK(kept == known);

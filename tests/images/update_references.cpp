@@ -20,9 +20,9 @@ int main() try {
 
   fs::create_directories(reference_path(pictures.front()).parent_path());
   for (const auto& entry : fs::directory_iterator(reference_path(pictures.front()).parent_path())) {
-    const bool known = std::any_of(pictures.begin(), pictures.end(), [&](const ExamplePicture& picture) {
-      return reference_path(picture) == entry.path();
-    });
+    const bool known = std::any_of(
+        pictures.begin(), pictures.end(),
+        [&](const ExamplePicture& picture) { return reference_path(picture) == entry.path(); });
     if (!known) fs::remove(entry.path());
   }
 

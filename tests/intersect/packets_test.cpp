@@ -23,31 +23,37 @@ constexpr std::uint64_t seed = 20261121;
 /// Along the surface of a torus or sphere, a little outside or inside.
 WorldRay grazing_ray(const Target& target, Numbers& numbers) {
   const Vec3 radial = glm::normalize(glm::cross(target.axis, numbers.direction()));
-  const bool is_rod = target.half_length > 0;
-  const double turn = is_rod ? 0 : numbers.below(3) == 0 ? 3.14159265358979 : numbers.within(0, 6.3);
+  const bool is_cylinder = target.half_length > 0;
+  const double turn = is_cylinder             ? 0
+                      : numbers.below(3) == 0 ? 3.14159265358979
+                                              : numbers.within(0, 6.3);
   const Vec3 normal = std::cos(turn) * radial + std::sin(turn) * target.axis;
   const double off = 1 + numbers.size(1e-12, 0.1) * (numbers.below(2) == 0 ? 1 : -1);
-  const Vec3 along_rod = numbers.within(-1, 1) * target.half_length * target.axis;
-  const Vec3 place = target.center + along_rod + target.ring * radial + off * target.tube * normal;
+  const Vec3 along_cylinder = numbers.within(-1, 1) * target.half_length * target.axis;
+  const Vec3 place =
+      target.center + along_cylinder + target.ring * radial + off * target.tube * normal;
   const Vec3 along = numbers.below(2) == 0 && turn > 3.14 ? target.axis : numbers.direction();
   const Vec3 tangent = glm::normalize(along - glm::dot(along, normal) * normal);
   return {.origin = place - numbers.size(0.1, 100) * tangent, .direction = tangent};
 }
 
-/// Rays that go nearly the same way, some of them along the very rim of what they are aimed at, or from a
-/// surface.
+/// Rays that go nearly the same way, some of them along the very rim of what they are aimed at, or
+/// from a surface.
 std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Numbers& numbers,
                                 RayWorkspace& work) {
   const Vec3 eye = numbers.point(numbers.below(4) == 0 ? 1000 : 8);
   const Target& target =
-      crowd.targets[static_cast<std::size_t>(numbers.below(static_cast<int>(crowd.targets.size())))];
-  const double spread = numbers.size(1e-6, 2);
-  std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+      crowd
+          .targets[static_cast<std::size_t>(numbers.below(static_cast<int>(crowd.targets.size())))];
+  const double broadcast = numbers.size(1e-6, 2);
+  std::vector<WorldRay> rays(
+      static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
   for (WorldRay& ray : rays) {
     const Vec3 way = target.center - eye;
     const Vec3 across = glm::normalize(glm::cross(way, numbers.direction()));
-    const double off = numbers.below(2) == 0 ? 1 + numbers.size(1e-17, 0.1) * (numbers.below(2) == 0 ? 1 : -1)
-                                             : numbers.within(0, 1 + spread);
+    const double off = numbers.below(2) == 0
+                           ? 1 + numbers.size(1e-17, 0.1) * (numbers.below(2) == 0 ? 1 : -1)
+                           : numbers.within(0, 1 + broadcast);
     ray.origin = eye;
     ray.direction = glm::normalize(way + off * target.reach * across);
     const int kind = numbers.below(4);
@@ -90,7 +96,8 @@ void check_packets(Precision precision, int packets, std::size_t largest = 1000)
         REQUIRE(alone.found() == !line.empty());
         if (!alone.found()) continue;
         ++met;
-        REQUIRE((alone.has_company || (alone.t == line.front().t && alone.leaf == line.front().leaf)));
+        REQUIRE((alone.has_coincident ||
+                 (alone.t == line.front().t && alone.leaf == line.front().leaf)));
       }
       for (WorldRay& ray : rays) {
         if (std::isfinite(ray.t_max)) ray.end_error = 1e-14;
@@ -125,9 +132,11 @@ TEST_CASE("so it does where there are few objects") {
 
 namespace {
 
-/// From anywhere to anywhere, some of them all but along an axis, and some that begin behind their origins.
+/// From anywhere to anywhere, some of them all but along an axis, and some that begin behind their
+/// origins.
 WorldRay ray_anywhere(Numbers& numbers) {
-  WorldRay ray{.origin = numbers.point(numbers.below(4) == 0 ? 1e6 : 5), .direction = numbers.direction()};
+  WorldRay ray{.origin = numbers.point(numbers.below(4) == 0 ? 1e6 : 5),
+               .direction = numbers.direction()};
   if (numbers.below(3) == 0) ray.direction = glm::normalize(numbers.point(3) - ray.origin);
   if (numbers.below(5) == 0) ray.direction[numbers.below(3)] = numbers.below(2) == 0 ? 0 : 1e-305;
   if (numbers.below(5) == 0) ray.t_min = numbers.within(-5, 5);
@@ -148,7 +157,8 @@ TEST_CASE("so it does in a packet of rays that go anywhere") {
     keep(crowd, 2 + static_cast<std::size_t>(numbers.below(70)), numbers);
     const PreparedData data(crowd.scene);
     for (int i = 0; i < 300; ++i) {
-      std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+      std::vector<WorldRay> rays(
+          static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
       for (WorldRay& ray : rays) ray = ray_anywhere(numbers);
       const RayMask all = RayPacket::all(rays.size());
       const RayBatch batch = batch_of(rays, all);
@@ -226,13 +236,16 @@ TEST_CASE("so it does at lenses however far from the origin they are") {
     int hidden = 0;
     for (int i = 0; i < 3000; ++i) {
       const Vec3 d = numbers.direction();
-      const WorldRay ray{.origin = center + numbers.point(3) - numbers.size(1e-3, 100) * d, .direction = d};
+      const WorldRay ray{.origin = center + numbers.point(3) - numbers.size(1e-3, 100) * d,
+                         .direction = d};
       const RayHit hit = data.intersect(ray, work);
       data.crossings(ray, line, work);
       REQUIRE(hit.found() == !line.empty());
       if (!hit.found()) continue;
-      WorldRay onwards{.origin = data.hit_point(ray, hit).position, .direction = numbers.direction()};
-      onwards.start = data.start_point(ray, hit, numbers.below(2) == 0 ? Side::outside : Side::inside);
+      WorldRay onwards{.origin = data.hit_point(ray, hit).position,
+                       .direction = numbers.direction()};
+      onwards.start =
+          data.start_point(ray, hit, numbers.below(2) == 0 ? Side::outside : Side::inside);
       data.crossings(onwards, line, work);
       REQUIRE(data.occluded(onwards, work) == !line.empty());
       hidden += line.empty() ? 0 : 1;
@@ -252,13 +265,15 @@ WorldRay ray_near(const Sphere& sphere, Numbers& numbers) {
                      : kind == 1 ? 1 + numbers.size(1e-17, 1e-3) * (numbers.below(2) == 0 ? 1 : -1)
                      : kind == 2 ? numbers.size(1e-17, 1)
                                  : numbers.within(0, 1.5);
-  // From inside, from nearby, or from so far away that the way there has no digits left for the sphere.
+  // From inside, from nearby, or from so far away that the way there has no digits left for the
+  // sphere.
   const double away = numbers.below(3) == 0 ? numbers.within(0, 1) : numbers.size(1, 1e20);
   WorldRay ray{.origin = sphere.center + sphere.radius * (off * across - away * d), .direction = d};
   if (numbers.below(4) == 0) {
     // All but along the planes, or just along them.
     const int axis = numbers.below(3);
-    ray.direction[axis] = numbers.below(3) == 0 ? 0 : ray.direction[axis] * numbers.size(1e-300, 1e-3);
+    ray.direction[axis] =
+        numbers.below(3) == 0 ? 0 : ray.direction[axis] * numbers.size(1e-300, 1e-3);
     if (!(largest_component(ray.direction) > 0)) ray.direction = {0, 0, 1};
     ray.direction = glm::normalize(ray.direction);
   }
@@ -269,7 +284,9 @@ WorldRay ray_near(const Sphere& sphere, Numbers& numbers) {
 
 }  // namespace
 
-TEST_CASE("so it does at spheres and planes of any size, from inside, afar, all but beside, and from them") {
+TEST_CASE(
+    "so it does at spheres and planes of any size, from inside, afar, all but beside, and from "
+    "them") {
   Numbers numbers(seed);
   RayWorkspace work;
   int met = 0;
@@ -283,11 +300,13 @@ TEST_CASE("so it does at spheres and planes of any size, from inside, afar, all 
       Vec3 normal(0);
       normal[axis] = numbers.below(2) == 0 ? numbers.size(1e-3, 1e3) : -numbers.size(1e-3, 1e3);
       const Vec3 beside = sphere.center + sphere.radius * numbers.point(3);
-      if (numbers.below(2) == 0) scene.entities.emplace_back(Plane{.normal = normal, .position = beside});
+      if (numbers.below(2) == 0)
+        scene.entities.emplace_back(Plane{.normal = normal, .position = beside});
     }
     const PreparedData data(scene);
     for (int i = 0; i < 100; ++i) {
-      std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+      std::vector<WorldRay> rays(
+          static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
       for (WorldRay& ray : rays) ray = ray_near(sphere, numbers);
       check_first_crossings(data, rays, work, met);
       for (WorldRay& ray : rays) {
@@ -296,7 +315,8 @@ TEST_CASE("so it does at spheres and planes of any size, from inside, afar, all 
         const Vec3 place = data.hit_point(ray, hit).position;
         ray = {.origin = place,
                .direction = numbers.direction(),
-               .start = data.start_point(ray, hit, numbers.below(2) == 0 ? Side::outside : Side::inside)};
+               .start = data.start_point(ray, hit,
+                                         numbers.below(2) == 0 ? Side::outside : Side::inside)};
       }
       check_first_crossings(data, rays, work, met);
     }

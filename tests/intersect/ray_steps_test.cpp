@@ -96,7 +96,8 @@ TEST_CASE("a ray of too many steps ends with an error, alone and among others") 
     };
     const auto ask_for_packet = [&] {
       std::array<RayHit, packet_size> found;
-      prepared.intersect_each(packet_through(), RayPacket::all(packet_size), found, work, Packets::always);
+      prepared.intersect_each(packet_through(), RayPacket::all(packet_size), found, work,
+                              Packets::always);
     };
     work.csg.steps.rules = &rules;
     CHECK(code_of(ask_for_all) == ErrorCode::limit);

@@ -1,5 +1,5 @@
-// Runs each script of corpus/good, corpus/bad and scripts_2015 and compares what it does with what its
-// comments say: a line each, in this order.
+// Runs each script of corpus/good, corpus/bad and scripts_2015 and compares what it does with what
+// its comments say: a line each, in this order.
 //   -- prints: a line that `print` gave
 //   -- error 3:9: the message         (or warning; the file goes before the line if it is another)
 //   -- in macro 5:3                   a call that the error above lies in, innermost first
@@ -52,14 +52,15 @@ std::string without_folder(std::string text, const fs::path& folder) {
   return text;
 }
 
-void describe(const crt::Diagnostic& diagnostic, const fs::path& script, std::vector<std::string>& lines) {
+void describe(const crt::Diagnostic& diagnostic, const fs::path& script,
+              std::vector<std::string>& lines) {
   constexpr std::size_t most_calls = 4;
   const crt::SourcePlace& place = diagnostic.place;
   const std::string file =
       place.file == script.string() ? "" : without_folder(place.file, script.parent_path()) + ":";
-  lines.push_back(
-      fmt::format("-- {} {}{}:{}: {}", diagnostic.severity == crt::Severity::error ? "error" : "warning",
-                  file, place.line, place.column, without_folder(diagnostic.message, script.parent_path())));
+  lines.push_back(fmt::format(
+      "-- {} {}{}:{}: {}", diagnostic.severity == crt::Severity::error ? "error" : "warning", file,
+      place.line, place.column, without_folder(diagnostic.message, script.parent_path())));
   for (std::size_t i = 0; i < std::min(diagnostic.calls.size(), most_calls); ++i) {
     const auto& [name, call] = diagnostic.calls[i];
     lines.push_back(fmt::format("-- in {} {}:{}", name, call.line, call.column));
@@ -71,7 +72,9 @@ void describe(const crt::Diagnostic& diagnostic, const fs::path& script, std::ve
 std::vector<std::string> run(const fs::path& script) {
   std::vector<std::string> lines;
   crt::ScriptOptions options;
-  options.print = [&lines](std::string_view line) { lines.push_back(fmt::format("-- prints: {}", line)); };
+  options.print = [&lines](std::string_view line) {
+    lines.push_back(fmt::format("-- prints: {}", line));
+  };
   const crt::ScriptResult result = crt::run_script_file(script, options);
   for (const crt::Diagnostic& diagnostic : result.diagnostics) describe(diagnostic, script, lines);
   if (result.scene) lines.push_back(fmt::format("-- entities: {}", result.scene->entities.size()));

@@ -59,7 +59,8 @@ TEST_CASE("the calls are listed, innermost first, and not endlessly") {
         "                        ^\n"
         "  in 'f', called at test.crt:2:17\n"
         "  in 'g', called at test.crt:3:1\n");
-  CHECK(formatted("f = Macro (n) { f(n) }\nf(0)").find("  and 246 calls more\n") != std::string::npos);
+  CHECK(formatted("f = Macro (n) { f(n) }\nf(0)").find("  and 246 calls more\n") !=
+        std::string::npos);
 }
 
 TEST_CASE("what could upset a terminal is not shown") {
@@ -78,12 +79,14 @@ TEST_CASE("diagnostics as JSON") {
         "\"message\": \"'-' does not take a String and an Integer\", "
         "\"file\": \"test.crt\", \"line\": 1, \"column\": 24, \"length\": 1, "
         "\"source\": \"f = Macro () { \\\"tab\\\\t\\\" - 1 }\", "
-        "\"calls\": [{\"name\": \"f\", \"file\": \"test.crt\", \"line\": 2, \"column\": 1, \"length\": 3}]}\n"
+        "\"calls\": [{\"name\": \"f\", \"file\": \"test.crt\", \"line\": 2, \"column\": 1, "
+        "\"length\": 3}]}\n"
         "]\n");
 }
 
 TEST_CASE("JSON has no byte that JSON does not allow") {
-  const crt::test::Run result = run_statements("print(\"\x01\xc3\x28\", 1 / 0)\nprint(\"\t\", wrong)");
+  const crt::test::Run result =
+      run_statements("print(\"\x01\xc3\x28\", 1 / 0)\nprint(\"\t\", wrong)");
   const std::string json = crt::diagnostics_to_json(result.result.diagnostics);
   for (const char c : json) CHECK((static_cast<unsigned char>(c) >= 0x20 || c == '\n'));
   for (std::size_t position = 0; position < json.size();)
@@ -91,10 +94,13 @@ TEST_CASE("JSON has no byte that JSON does not allow") {
 }
 
 TEST_CASE("errors carry the kind of what went wrong") {
-  const auto code = [](const std::string& text) { return run_statements(text).errors().at(0).code; };
+  const auto code = [](const std::string& text) {
+    return run_statements(text).errors().at(0).code;
+  };
   CHECK(code("a = ") == crt::ErrorCode::script);
   CHECK(code("a = 1 + true") == crt::ErrorCode::script);
-  CHECK(code("s = Sphere { center -> vec3(0, 0, 0) radius -> -1 }") == crt::ErrorCode::invalid_argument);
+  CHECK(code("s = Sphere { center -> vec3(0, 0, 0) radius -> -1 }") ==
+        crt::ErrorCode::invalid_argument);
   CHECK(code("import \"nowhere.crt\"") == crt::ErrorCode::io);
   CHECK(code("a = range(1e12)") == crt::ErrorCode::limit);
 }

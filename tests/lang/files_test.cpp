@@ -46,7 +46,8 @@ class Folder {
 };
 
 /// Runs a script that lies in work/scene.crt of the folder.
-crt::test::Run run_in(const Folder& folder, const std::string& statements, ScriptOptions options = {}) {
+crt::test::Run run_in(const Folder& folder, const std::string& statements,
+                      ScriptOptions options = {}) {
   return crt::test::run(statements + "\nScene { }\n", std::move(options),
                         (folder.path() / "work" / "scene.crt").string());
 }
@@ -108,14 +109,16 @@ TEST_CASE("no path leads out of the directories unless the caller allows it") {
   const Folder folder;
   fill(folder);
   ScriptOptions options = with_resources(folder);
-  const std::vector<std::string> ways = {"../outside.crt", "sub/../../outside.crt", "lib/../../outside.crt",
-                                         "/../outside.crt", "/lib/../../outside.crt"};
+  const std::vector<std::string> ways = {"../outside.crt", "sub/../../outside.crt",
+                                         "lib/../../outside.crt", "/../outside.crt",
+                                         "/lib/../../outside.crt"};
   for (const std::string& way : ways) {
     CAPTURE(way);
     CHECK(refused(run_in(folder, "import \"" + way + "\"", options), "outside"));
   }
-  CHECK(refused(run_in(folder, "import \"" + (folder.path() / "outside.crt").string() + "\"", options),
-                "there is no file"));
+  CHECK(refused(
+      run_in(folder, "import \"" + (folder.path() / "outside.crt").string() + "\"", options),
+      "there is no file"));
   options.allow_outside_files = true;
   for (const std::string& way : ways) {
     CAPTURE(way);
@@ -179,7 +182,8 @@ TEST_CASE("imports are looked for from the script that imports, and run once") {
   fill(folder);
   folder.write("work/a/one.crt", "print(\"one\")\nimport \"two.crt\"\nimport \"../b/three.crt\"\n");
   folder.write("work/a/two.crt", "print(\"two\")\n");
-  folder.write("work/b/three.crt", "print(\"three\")\nimport \"../a/two.crt\"\nimport \"beside.crt\"\n");
+  folder.write("work/b/three.crt",
+               "print(\"three\")\nimport \"../a/two.crt\"\nimport \"beside.crt\"\n");
   const crt::test::Run result =
       run_in(folder, std::string("import \"a/one.crt\"\nimport \"a/two.crt\"") + then_print);
   CHECK(result.printed == std::vector<std::string>{"one", "two", "three", "beside"});
@@ -190,14 +194,16 @@ TEST_CASE("a script that imports itself is told so") {
   fill(folder);
   folder.write("work/scene.crt", "");
   CHECK(run_in(folder, "import \"scene.crt\"").errors().size() == 1);
-  CHECK(run_in(folder, "import \"sub/../scene.crt\"").errors()[0].message.find("import one another") !=
-        std::string::npos);
+  CHECK(run_in(folder, "import \"sub/../scene.crt\"")
+            .errors()[0]
+            .message.find("import one another") != std::string::npos);
 }
 
 TEST_CASE("an import brings definitions, but neither its Scene nor its Settings") {
   const Folder folder;
-  folder.write("work/other.crt",
-               "r = 2\nSettings { width -> 7 }\nScene { Sphere { center -> vec3(0, 0, 0) radius -> r } }\n");
+  folder.write(
+      "work/other.crt",
+      "r = 2\nSettings { width -> 7 }\nScene { Sphere { center -> vec3(0, 0, 0) radius -> r } }\n");
   const crt::test::Run result = run_in(folder, "import \"other.crt\"\nprint(r)");
   REQUIRE(result.ok());
   CHECK(result.printed == std::vector<std::string>{"2"});
@@ -214,7 +220,8 @@ TEST_CASE("open_file is asked for each place before the file system is") {
     asked.push_back(path);
     if (path.filename() != "virtual.crt") return std::nullopt;
     std::vector<std::byte> content;
-    for (const char c : std::string("where = \"memory\"\n")) content.push_back(static_cast<std::byte>(c));
+    for (const char c : std::string("where = \"memory\"\n"))
+      content.push_back(static_cast<std::byte>(c));
     return content;
   };
   CHECK(run_in(folder, std::string("import \"virtual.crt\"") + then_print, options).printed ==
@@ -258,7 +265,8 @@ TEST_CASE("an image can come from open_file") {
   const fs::path file = folder.path() / "picture.png";
   crt::Image(3, 1).write(file);
   std::ifstream stream(file, std::ios::binary);
-  const std::string bytes((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string bytes((std::istreambuf_iterator<char>(stream)),
+                          std::istreambuf_iterator<char>());
   ScriptOptions options;
   options.open_file = [&bytes](const fs::path& path) -> std::optional<std::vector<std::byte>> {
     if (path != "folder/there.png") return std::nullopt;
@@ -266,8 +274,8 @@ TEST_CASE("an image can come from open_file") {
     return std::vector<std::byte>(begin, begin + bytes.size());
   };
   const crt::test::Run result =
-      crt::test::run("Settings { background -> Background { image -> \"there.png\" } }\nScene { }", options,
-                     "folder/scene.crt");
+      crt::test::run("Settings { background -> Background { image -> \"there.png\" } }\nScene { }",
+                     options, "folder/scene.crt");
   REQUIRE(result.ok());
   CHECK(std::get<crt::PanoramaBackground>(result.result.scene->background).image->width() == 3);
 }
@@ -294,7 +302,8 @@ TEST_CASE("a script file that is longer than allowed is not read") {
   CHECK(result.diagnostics[0].code == ErrorCode::limit);
 }
 
-TEST_CASE("values of a picture that are not finite are warned of where it is named, once a picture") {
+TEST_CASE(
+    "values of a picture that are not finite are warned of where it is named, once a picture") {
   const Folder folder;
   std::string file = "PF\n2 1\n-1.0\n";
   const float values[] = {1, 1, 1, 0, std::numeric_limits<float>::quiet_NaN(), 0};
@@ -307,7 +316,8 @@ TEST_CASE("values of a picture that are not finite are warned of where it is nam
   REQUIRE(run.result.diagnostics.size() == 1);
   const crt::Diagnostic& warning = run.result.diagnostics[0];
   CHECK(warning.severity == crt::Severity::warning);
-  CHECK(warning.message.find("sky.pfm' has 1 pixel with values that are not finite") != std::string::npos);
+  CHECK(warning.message.find("sky.pfm' has 1 pixel with values that are not finite") !=
+        std::string::npos);
   CHECK(warning.message.find("at (1, 0)") != std::string::npos);
   CHECK(warning.place.line == 1);
 }

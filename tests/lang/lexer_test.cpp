@@ -22,7 +22,8 @@ Lexed lex(const std::string& text, int compat = 0) {
   crt::lang::SourceMap sources;
   crt::lang::SymbolTable symbols;
   crt::lang::Reporter reporter(sources, 100);
-  crt::lang::Lexer lexer(sources.add("test", text), crt::lang::TextKind::script, compat, symbols, reporter);
+  crt::lang::Lexer lexer(sources.add("test", text), crt::lang::TextKind::script, compat, symbols,
+                         reporter);
   Lexed result;
   CHECK(lexer.next().kind() == Kind::S_START_SCRIPT);
   for (;;) {
@@ -50,7 +51,8 @@ TEST_CASE("in scripts of 2015 new keywords are names where they cannot be meant 
     CAPTURE(word);
     const std::string name = word;
     CHECK(kinds(name, compat) == Kinds{Kind::S_IDENTIFIER});
-    CHECK(kinds(name + " = 1", compat) == Kinds{Kind::S_IDENTIFIER, Kind::S_ASSIGN, Kind::S_INTEGER});
+    CHECK(kinds(name + " = 1", compat) ==
+          Kinds{Kind::S_IDENTIFIER, Kind::S_ASSIGN, Kind::S_INTEGER});
     CHECK(kinds(name + "\n(", compat) == Kinds{Kind::S_IDENTIFIER, Kind::S_FIRST_PARENTHESIS});
     CHECK(kinds(name) != Kinds{Kind::S_IDENTIFIER});
   }
@@ -59,16 +61,18 @@ TEST_CASE("in scripts of 2015 new keywords are names where they cannot be meant 
   CHECK(kinds("else {", compat) == Kinds{Kind::S_ELSE, Kind::S_LEFT_BRACE});
   CHECK(kinds("else if (", compat) == Kinds{Kind::S_ELSE, Kind::S_IF, Kind::S_LEFT_PARENTHESIS});
   CHECK(kinds("import \"a\"", compat) == Kinds{Kind::S_IMPORT, Kind::S_STRING});
-  CHECK(kinds("for (in in in)", compat) == Kinds{Kind::S_FOR, Kind::S_LEFT_PARENTHESIS, Kind::S_IDENTIFIER,
-                                                 Kind::S_IN, Kind::S_IDENTIFIER, Kind::S_RIGHT_PARENTHESIS});
+  CHECK(kinds("for (in in in)", compat) == Kinds{Kind::S_FOR, Kind::S_LEFT_PARENTHESIS,
+                                                 Kind::S_IDENTIFIER, Kind::S_IN, Kind::S_IDENTIFIER,
+                                                 Kind::S_RIGHT_PARENTHESIS});
   // Those that were there from the beginning stay.
   CHECK(kinds("true scale Macro", compat) == Kinds{Kind::S_TRUE, Kind::S_SCALE, Kind::S_MACRO});
 }
 
 TEST_CASE("signs are read as long as they go") {
   CHECK(kinds("< <= = == ! != && || -> - > >=") ==
-        Kinds{Kind::S_LESS, Kind::S_LESS_EQUAL, Kind::S_ASSIGN, Kind::S_EQUAL, Kind::S_NOT, Kind::S_NOT_EQUAL,
-              Kind::S_AND, Kind::S_OR, Kind::S_ARROW, Kind::S_MINUS, Kind::S_GREATER, Kind::S_GREATER_EQUAL});
+        Kinds{Kind::S_LESS, Kind::S_LESS_EQUAL, Kind::S_ASSIGN, Kind::S_EQUAL, Kind::S_NOT,
+              Kind::S_NOT_EQUAL, Kind::S_AND, Kind::S_OR, Kind::S_ARROW, Kind::S_MINUS,
+              Kind::S_GREATER, Kind::S_GREATER_EQUAL});
   CHECK(kinds("a->b") == Kinds{Kind::S_IDENTIFIER, Kind::S_ARROW, Kind::S_IDENTIFIER});
 }
 
@@ -107,8 +111,8 @@ TEST_CASE("a '<' before scale, translate or rotate begins modifiers") {
 }
 
 TEST_CASE("before an arrow every keyword is the name of an attribute") {
-  for (const char* word : {"Settings", "Scene", "Macro", "scale", "translate", "rotate", "true", "false",
-                           "while", "if", "else", "for", "in", "import"}) {
+  for (const char* word : {"Settings", "Scene", "Macro", "scale", "translate", "rotate", "true",
+                           "false", "while", "if", "else", "for", "in", "import"}) {
     CHECK(kinds(std::string(word) + "->")[0] == Kind::S_IDENTIFIER);
     CHECK(kinds(std::string(word) + " -- comment\n ->")[0] == Kind::S_IDENTIFIER);
     CHECK(kinds(word)[0] != Kind::S_IDENTIFIER);
@@ -122,9 +126,9 @@ TEST_CASE("names of objects begin with a capital") {
 }
 
 TEST_CASE("numbers are Integers or Floats by how they are written") {
-  CHECK(kinds("0 7 1. .5 1.5 1e3 1.e-3 .5E+2 007") == Kinds{Kind::S_INTEGER, Kind::S_INTEGER, Kind::S_FLOAT,
-                                                            Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_FLOAT,
-                                                            Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_INTEGER});
+  CHECK(kinds("0 7 1. .5 1.5 1e3 1.e-3 .5E+2 007") ==
+        Kinds{Kind::S_INTEGER, Kind::S_INTEGER, Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_FLOAT,
+              Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_FLOAT, Kind::S_INTEGER});
   CHECK(kinds("1.2.3").size() == 2);
   CHECK(lex("9223372036854775807").errors.empty());
   CHECK(lex("9223372036854775808").errors.size() == 1);
@@ -148,7 +152,8 @@ TEST_CASE("bytes that are no token are told and passed over") {
   CHECK(lex("a \xff b").kinds.size() == 2);
   CHECK(lex("a \xff b").errors ==
         std::vector<std::string>{"this byte is not UTF-8, the encoding of scripts"});
-  CHECK(lex(std::string("a \0 b", 5)).errors == std::vector<std::string>{"unexpected character U+0000"});
+  CHECK(lex(std::string("a \0 b", 5)).errors ==
+        std::vector<std::string>{"unexpected character U+0000"});
   CHECK(lex(std::string("a \0 b", 5)).kinds.size() == 2);
 }
 

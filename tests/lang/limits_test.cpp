@@ -24,7 +24,8 @@ ScriptOptions with(ScriptLimits limits) {
 }
 
 /// Whether the script ends in one error of a limit whose message holds `words`.
-bool ends_in_limit(const std::string& text, const ScriptOptions& options, const std::string& words) {
+bool ends_in_limit(const std::string& text, const ScriptOptions& options,
+                   const std::string& words) {
   const crt::test::Run result = run_statements(text, options);
   if (!result.failed_with(ErrorCode::limit)) return false;
   INFO(result.errors()[0].message);
@@ -89,7 +90,8 @@ TEST_CASE("an endless loop is the one that goes round most, not what runs within
   const ScriptOptions options = with({.steps = 10'000});
   CHECK(ends_in_limit("i = 0\nwhile (true) { for (j in range(3)) { i = i + j } }", options,
                       "'while' at test.crt:2:1"));
-  CHECK(ends_in_limit("for (i in range(5)) { while (true) { i } }", options, "'while' at test.crt:1:23"));
+  CHECK(ends_in_limit("for (i in range(5)) { while (true) { i } }", options,
+                      "'while' at test.crt:1:23"));
   CHECK(ends_in_limit("f = Macro () { while (true) { g() } }\ng = Macro () { 1 + 1 }\nf()", options,
                       "'while' at test.crt:1:16"));
 }
@@ -114,11 +116,12 @@ TEST_CASE("work within a step is paid for in steps") {
 TEST_CASE("macros call one another to a depth") {
   const std::string recursion = "f = Macro (n) { if (n > 0) { f(n - 1) } }\n";
   CHECK(run_statements(recursion + "f(99)", with({.call_depth = 100})).ok());
-  CHECK(
-      ends_in_limit(recursion + "f(100)", with({.call_depth = 100}), "more than 100 deep, in the call 'f'"));
+  CHECK(ends_in_limit(recursion + "f(100)", with({.call_depth = 100}),
+                      "more than 100 deep, in the call 'f'"));
   CHECK(run_statements(recursion + "f(255)").ok());
   CHECK(ends_in_limit(recursion + "f(256)", {}, "more than 256 deep"));
-  CHECK(ends_in_limit("f = Macro () { g() }\ng = Macro () { x = f() }\nf()", {}, "more than 256 deep"));
+  CHECK(ends_in_limit("f = Macro () { g() }\ng = Macro () { x = f() }\nf()", {},
+                      "more than 256 deep"));
 }
 
 TEST_CASE("at all limits a script needs no more than about a megabyte of stack") {
@@ -126,9 +129,10 @@ TEST_CASE("at all limits a script needs no more than about a megabyte of stack")
   constexpr std::size_t stack_bytes = 3 << 19;
   const std::string brackets = repeated("[", 90);
   const std::string closed = repeated("]", 90);
-  const std::string deep_call = "f = Macro (n) { x = " + brackets + "f(n + 1)" + closed + " }\nf(0)";
-  const std::string deep_blocks =
-      "f = Macro (n) { " + repeated("if (true) { ", 90) + "f(n + 1)" + repeated("}", 90) + " }\nf(0)";
+  const std::string deep_call =
+      "f = Macro (n) { x = " + brackets + "f(n + 1)" + closed + " }\nf(0)";
+  const std::string deep_blocks = "f = Macro (n) { " + repeated("if (true) { ", 90) + "f(n + 1)" +
+                                  repeated("}", 90) + " }\nf(0)";
   const std::string deep_text = "l = []\nfor (i in range(98)) { l = [l] }\nprint(l, l == l)";
   const std::string deep_expression = "x = " + repeated("- ", 190) + "1";
   on_small_stack(stack_bytes, [&] {
@@ -156,24 +160,30 @@ TEST_CASE("long chains are worked off and freed without deep recursion") {
     CHECK(run_statements(sum + "\nprint(x)").printed == std::vector<std::string>{"100001"});
     CHECK(run_statements(both).ok());
     CHECK(run_statements(solid).ok());
-    // Chains that are made while it runs: macros that hold the scope of the last, entities of entities.
-    CHECK(run_statements("m = 0\nfor (i in range(100000)) { last = m\n m = Macro () { last } }").ok());
+    // Chains that are made while it runs: macros that hold the scope of the last, entities of
+    // entities.
+    CHECK(run_statements("m = 0\nfor (i in range(100000)) { last = m\n m = Macro () { last } }")
+              .ok());
     CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum + ball }").ok());
     CHECK(run_statements(ball + "sum = ball\nfor (i in range(100000)) { sum = sum - ball }").ok());
-    CHECK(run_statements(ball + "for (i in range(100000)) { ball = ball <translate vec3(0, 0.5, 0)> }").ok());
+    CHECK(run_statements(ball +
+                         "for (i in range(100000)) { ball = ball <translate vec3(0, 0.5, 0)> }")
+              .ok());
   });
 }
 
 TEST_CASE("strings and lists have a greatest size") {
   CHECK(run_statements("x = \"ab\" * 50", with({.string_bytes = 100})).ok());
-  CHECK(ends_in_limit("x = \"ab\" * 51", with({.string_bytes = 100}), "a string of more than 100 bytes"));
+  CHECK(ends_in_limit("x = \"ab\" * 51", with({.string_bytes = 100}),
+                      "a string of more than 100 bytes"));
   CHECK(ends_in_limit("x = \"abc\" * 9223372036854775807", {}, "a string of more than"));
   CHECK(ends_in_limit("s = \"x\"\nwhile (true) { s = s + s }", {}, "in the loop 'while'"));
   CHECK(run_statements("x = range(10)", with({.list_length = 10})).ok());
   CHECK(ends_in_limit("x = range(11)", with({.list_length = 10}), "a list of more than 10 items"));
   CHECK(ends_in_limit("x = [1, 2, 3]", with({.list_length = 2}), "a list of more than 2 items"));
   CHECK(ends_in_limit("x = [1] + [2, 3]", with({.list_length = 2}), "a list of more than 2 items"));
-  CHECK(ends_in_limit("x = range(-9223372036854775807, 9223372036854775807)", {}, "a list of more than"));
+  CHECK(ends_in_limit("x = range(-9223372036854775807, 9223372036854775807)", {},
+                      "a list of more than"));
   CHECK(ends_in_limit("x = range(0, 1, 1e-300)", {}, "a list of more than"));
 }
 
@@ -209,7 +219,9 @@ TEST_CASE("a script and its imports have a greatest size together") {
   ScriptOptions options = with({.source_bytes = 100});
   CHECK(run("Scene { }" + std::string(91, ' '), options).ok());
   CHECK(run("Scene { }" + std::string(92, ' '), options).failed_with(ErrorCode::limit));
-  options.open_file = [](const std::filesystem::path&) { return std::vector<std::byte>(60, std::byte{' '}); };
+  options.open_file = [](const std::filesystem::path&) {
+    return std::vector<std::byte>(60, std::byte{' '});
+  };
   CHECK(run_statements("import \"a\"", options).ok());
   CHECK(run_statements("import \"a\"\nimport \"b\"", options).failed_with(ErrorCode::limit));
 }

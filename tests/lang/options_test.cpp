@@ -34,7 +34,8 @@ TEST_CASE("a variable set from outside wins over the script's assignments at the
 }
 
 TEST_CASE("what the script would have assigned is not evaluated") {
-  CHECK(run_statements("n = 1 / 0\nprint(n)", with_variables({{"n", "5"}})).printed == Strings{"5"});
+  CHECK(run_statements("n = 1 / 0\nprint(n)", with_variables({{"n", "5"}})).printed ==
+        Strings{"5"});
 }
 
 TEST_CASE("macros have their own variables of that name") {
@@ -48,7 +49,8 @@ TEST_CASE("a variable that the script never sets is an error, with the one that 
       run_statements("radius = 3\nf = Macro () { inner = 1 }", with_variables({{"raduis", "1"}}));
   REQUIRE(result.failed_with(ErrorCode::script));
   const crt::Diagnostic error = result.errors()[0];
-  CHECK(error.message == "the script sets no variable 'raduis' at its top level; did you mean 'radius'?");
+  CHECK(error.message ==
+        "the script sets no variable 'raduis' at its top level; did you mean 'radius'?");
   CHECK(error.place == crt::SourcePlace{"<set raduis>", 1, 1, 1});
   CHECK(run_statements("f = Macro () { inner = 1 }", with_variables({{"inner", "1"}}))
             .failed_with(ErrorCode::script));
@@ -88,8 +90,8 @@ TEST_CASE("settings from outside win over the script's, and need none there") {
   CHECK(result.result.scene->settings.gamma == 2.2);
   CHECK(result.result.scene->settings.title == "outside");
   CHECK(run_statements("", with_settings({{"width", "5"}})).result.scene->settings.width == 5);
-  CHECK(run_statements("", with_settings({{"width", "5"}, {"width", "6"}})).result.scene->settings.width ==
-        6);
+  CHECK(run_statements("", with_settings({{"width", "5"}, {"width", "6"}}))
+            .result.scene->settings.width == 6);
 }
 
 TEST_CASE("a script's setting that is overridden is not checked") {

@@ -150,8 +150,9 @@ TEST_CASE("a tree larger than its memory is an ordinary error") {
   crt::lang::Reporter reporter(sources, 20);
   std::size_t memory = 10'000;
   const std::string text = repeated("a ", 10'000);
-  CHECK_THROWS_AS(crt::lang::parse(sources.add("test", text), TextKind::script, 0, symbols, reporter, memory),
-                  crt::lang::GiveUp);
+  CHECK_THROWS_AS(
+      crt::lang::parse(sources.add("test", text), TextKind::script, 0, symbols, reporter, memory),
+      crt::lang::GiveUp);
   REQUIRE(reporter.diagnostics().size() == 1);
   CHECK(reporter.diagnostics()[0].code == crt::ErrorCode::limit);
 }

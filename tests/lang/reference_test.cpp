@@ -99,7 +99,8 @@ std::vector<std::byte> png() {
   const fs::path file = fs::temp_directory_path() / fmt::format("crt_reference_{}.png", getpid());
   crt::Image(1, 1).write(file);
   std::ifstream stream(file, std::ios::binary);
-  const std::string text((std::istreambuf_iterator<char>(stream)), std::istreambuf_iterator<char>());
+  const std::string text((std::istreambuf_iterator<char>(stream)),
+                         std::istreambuf_iterator<char>());
   fs::remove(file);
   const auto* begin = reinterpret_cast<const std::byte*>(text.data());
   return std::vector<std::byte>(begin, begin + text.size());

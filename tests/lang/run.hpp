@@ -31,10 +31,13 @@ struct Run {
   }
 
   /// Whether the run ended in just one error, of this kind.
-  bool failed_with(ErrorCode code) const { return !ok() && errors().size() == 1 && errors()[0].code == code; }
+  bool failed_with(ErrorCode code) const {
+    return !ok() && errors().size() == 1 && errors()[0].code == code;
+  }
 };
 
-inline Run run(std::string_view text, ScriptOptions options = {}, const std::string& name = "test.crt") {
+inline Run run(std::string_view text, ScriptOptions options = {},
+               const std::string& name = "test.crt") {
   Run run;
   options.print = [&run](std::string_view line) { run.printed.emplace_back(line); };
   run.result = run_script(text, name, options);

@@ -109,7 +109,8 @@ TEST_CASE("lights arrive in their order, with their own defaults") {
 
 TEST_CASE("a background is of the kind that its attributes say") {
   const auto background = [](const std::string& attributes) {
-    return scene_of("Settings { background -> Background { " + attributes + " } } Scene { }").background;
+    return scene_of("Settings { background -> Background { " + attributes + " } } Scene { }")
+        .background;
   };
   CHECK(std::get<crt::SolidBackground>(background("")).color == crt::Color{1, 1, 1, 1});
   CHECK(std::get<crt::SolidBackground>(background("color -> rgba(1, 0, 0, 0.5)")).color ==
@@ -160,8 +161,10 @@ TEST_CASE("names in the table of objects are unique, and required attributes hav
 
 TEST_CASE("the default that the table states is the default") {
   const auto fov = [](const std::string& attribute) {
-    return scene_of("Settings { camera -> Camera { position -> vec3(0, 0, 0) pointing -> vec3(0, 0, 1) " +
-                    attribute + " } } Scene { }")
+    return scene_of(
+               "Settings { camera -> Camera { position -> vec3(0, 0, 0) pointing -> vec3(0, 0, "
+               "1) " +
+               attribute + " } } Scene { }")
         .camera;
   };
   CHECK(fov("").fov == fov("fov -> 60").fov);

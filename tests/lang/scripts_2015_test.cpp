@@ -1,5 +1,6 @@
-// Scripts in the manner of 2015 (the folder scripts_2015): what each construct gives, by closed form. What
-// they print and what is said of them is in their comments, which corpus_test.cpp checks.
+// Scripts in the manner of 2015 (the folder scripts_2015): what each construct gives, by closed
+// form. What they print and what is said of them is in their comments, which corpus_test.cpp
+// checks.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -73,8 +74,8 @@ Color seen(Scene scene, const Vec3& towards) {
   return pixel_of(scene);
 }
 
-/// Looks into the middle of each square: the middle column is straight ahead, turned by an angle to the
-/// right.
+/// Looks into the middle of each square: the middle column is straight ahead, turned by an angle to
+/// the right.
 void check_squares(const Scene& scene, double to_the_right) {
   for (int row = 0; row < rows; ++row) {
     for (int column = 0; column < columns; ++column) {
@@ -90,8 +91,9 @@ void check_squares(const Scene& scene, double to_the_right) {
 
 // ---- the lens
 
-/// How much of the lens sees the white background beside an edge at twice the distance in focus. A point at p
-/// of the plane in focus is seen by the lens's point l along a line that passes the edge's plane at 2 p - l.
+/// How much of the lens sees the white background beside an edge at twice the distance in focus. A
+/// point at p of the plane in focus is seen by the lens's point l along a line that passes the
+/// edge's plane at 2 p - l.
 double seen_beside_edge(double p, double half_width) {
   return 1 - std::clamp(0.5 + p / half_width, 0.0, 1.0);
 }
@@ -114,7 +116,8 @@ TEST_CASE("a script of today has the same panorama by its name and the opposite 
 
 TEST_CASE("the mode turns equal-area and cylindrical panoramas the other way, too") {
   Scene scene = scene_of("panorama.crt");
-  std::get<crt::PanoramaBackground>(scene.background).projection = crt::PanoramaProjection::equal_area;
+  std::get<crt::PanoramaBackground>(scene.background).projection =
+      crt::PanoramaProjection::equal_area;
   check_squares(scene, pi / 2);
   auto& panorama = std::get<crt::PanoramaBackground>(scene.background);
   panorama.projection = crt::PanoramaProjection::cylindrical;
@@ -125,8 +128,8 @@ TEST_CASE("the mode turns equal-area and cylindrical panoramas the other way, to
 }
 
 TEST_CASE("rand of 2015 is java.util.Random's nextDouble from the seed 1337") {
-  // As its documentation has it: next(bits) takes the upper bits of a linear congruential generator modulo
-  // 2^48.
+  // As its documentation has it: next(bits) takes the upper bits of a linear congruential generator
+  // modulo 2^48.
   std::uint64_t state = (1337 ^ 0x5DEECE66D) & 0xFFFFFFFFFFFF;
   const auto next = [&state](int bits) {
     state = (state * 0x5DEECE66D + 0xB) & 0xFFFFFFFFFFFF;
@@ -138,7 +141,8 @@ TEST_CASE("rand of 2015 is java.util.Random's nextDouble from the seed 1337") {
     const double number = static_cast<double>((high << 27) + next(27)) / 9007199254740992.0;
     expected.push_back(crt::lang::float_text(number));
   }
-  const auto drawn = run_statements("Settings { compat -> 2015 }\nfor (i in range(100)) { print(rand()) }");
+  const auto drawn =
+      run_statements("Settings { compat -> 2015 }\nfor (i in range(100)) { print(rand()) }");
   CHECK(drawn.printed == expected);
   // What `new java.util.Random(1337)` gave when it was asked.
   CHECK(drawn.printed[0] == "0.6599297847448217");
@@ -177,8 +181,8 @@ TEST_CASE("a lens of 2015 reaches aperture / height up and down") {
   for (int y = 0; y < scene.settings.height; ++y) {
     const double p = 2 - 4.0 * y / scene.settings.height;
     CAPTURE(y);
-    CHECK(std::abs(row_of(scene, y).at(0, 0).r - seen_beside_edge(p, 20.0 / scene.settings.height)) <
-          tolerance);
+    CHECK(std::abs(row_of(scene, y).at(0, 0).r -
+                   seen_beside_edge(p, 20.0 / scene.settings.height)) < tolerance);
   }
 }
 
@@ -196,12 +200,15 @@ TEST_CASE("a script of 2015 has a lens by default, with and without a camera") {
 }
 
 TEST_CASE("a colour above 1 sends back more light than comes") {
-  check_close(pixel_of(scene_of("bright_colours.crt")), {0.5 * 162 / 102, 0.5 * 255 / 204, 0.25, 1});
+  check_close(pixel_of(scene_of("bright_colours.crt")),
+              {0.5 * 162 / 102, 0.5 * 255 / 204, 0.25, 1});
 }
 
 TEST_CASE("what has no size draws nothing and cuts nothing; it grows with t") {
   const Scene at_start = scene_of("growing.crt");
-  const auto is_there = [](const Scene& scene, std::size_t i) { return !scene.entities[i].is_empty(); };
+  const auto is_there = [](const Scene& scene, std::size_t i) {
+    return !scene.entities[i].is_empty();
+  };
   REQUIRE(at_start.entities.size() == 9);
   CHECK(is_there(at_start, 0));
   CHECK(at_start.entities[0].primitive_count() == 1);
@@ -225,13 +232,14 @@ TEST_CASE("what has no size draws nothing and cuts nothing; it grows with t") {
 }
 
 TEST_CASE("a cone of radius 0 that widens has its tip at from") {
-  const auto scripts = {"Cone { from -> vec3(0, 0, 0) to -> vec3(0, 2, 0) radius -> 0 radius2 -> 1 }",
-                        "Cone { from -> vec3(0, 2, 0) to -> vec3(0, 0, 0) radius -> 1 }"};
+  const auto scripts = {
+      "Cone { from -> vec3(0, 0, 0) to -> vec3(0, 2, 0) radius -> 0 radius2 -> 1 }",
+      "Cone { from -> vec3(0, 2, 0) to -> vec3(0, 0, 0) radius -> 1 }"};
   std::vector<std::vector<std::uint8_t>> pictures;
   for (const char* script : scripts) {
-    const auto run =
-        crt::test::run(std::string("Settings { width -> 16 height -> 16 camera -> Camera { ") +
-                       "position -> vec3(0, 1, -4) pointing -> vec3(0, 1, 0) } }\nScene { " + script + " }");
+    const auto run = crt::test::run(
+        std::string("Settings { width -> 16 height -> 16 camera -> Camera { ") +
+        "position -> vec3(0, 1, -4) pointing -> vec3(0, 1, 0) } }\nScene { " + script + " }");
     REQUIRE(run.ok());
     CHECK(run.result.diagnostics.empty());
     pictures.push_back(picture_of(*run.result.scene).to_rgba8());
@@ -270,8 +278,8 @@ TEST_CASE("the samples of a grid of 2015 lie at i / n - 1/2, across and down") {
 
 TEST_CASE("without the mode what it allows is an error") {
   const auto fails = [](const char* script) { return !run_statements(script).ok(); };
-  for (const char* script : {"print(rand(2, 1))", "in = 1", "if = 1", "for = 1", "while = 1", "import = 1",
-                             "a = Material { caustics -> 1 }"}) {
+  for (const char* script : {"print(rand(2, 1))", "in = 1", "if = 1", "for = 1", "while = 1",
+                             "import = 1", "a = Material { caustics -> 1 }"}) {
     CAPTURE(script);
     CHECK(fails(script));
     CHECK(fails((std::string("Settings { compat -> 0 }\n") + script).c_str()));
@@ -296,8 +304,9 @@ TEST_CASE("the mode is asked for by the options, a setting from outside, or the 
         " compat -> 2015 }"}) {
     CHECK(run_statements(std::string(script) + "\n" + settings).ok());
   }
-  for (const char* no_settings : {"", "-- Settings { compat -> 2015 }", "a = \"Settings { compat -> 2015 }\"",
-                                  "compat = 2015", "Settings { } Scene { compat -> 2015 }"}) {
+  for (const char* no_settings :
+       {"", "-- Settings { compat -> 2015 }", "a = \"Settings { compat -> 2015 }\"",
+        "compat = 2015", "Settings { } Scene { compat -> 2015 }"}) {
     CHECK_FALSE(run_statements(std::string(script) + "\n" + no_settings).ok());
   }
 }
@@ -310,7 +319,8 @@ TEST_CASE("options win over the script, and can turn the mode off") {
   CHECK(run.printed[0] == run_statements("print(rand())").printed[0]);
   ScriptOptions on;
   on.compat = 2015;
-  CHECK(run_statements("Settings { compat -> 0 }\nin = 1", on).result.scene->settings.compat == 2015);
+  CHECK(run_statements("Settings { compat -> 0 }\nin = 1", on).result.scene->settings.compat ==
+        2015);
 }
 
 TEST_CASE("a year that there is not is refused, wherever it comes from") {

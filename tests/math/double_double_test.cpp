@@ -29,7 +29,8 @@ class Numbers {
   }
   DoubleDouble next_pair() {
     const double high = next();
-    return quick_two_sum(high, high * std::uniform_real_distribution<double>(-0x1p-54, 0x1p-54)(engine_));
+    return quick_two_sum(high,
+                         high * std::uniform_real_distribution<double>(-0x1p-54, 0x1p-54)(engine_));
   }
 
  private:
@@ -59,7 +60,8 @@ TEST_CASE("sums and products of two doubles lose nothing") {
 
 TEST_CASE("double-double operations keep the proven bounds") {
   Numbers numbers;
-  // Joldes, Muller, Popescu 2017: 3u^2 + 13u^3 for the sum, 5u^2 for the product, 15u^2 for the quotient.
+  // Joldes, Muller, Popescu 2017: 3u^2 + 13u^3 for the sum, 5u^2 for the product, 15u^2 for the
+  // quotient.
   const Real slack = 1 + 0x1p-4;  // quadruple precision is itself rounded
   for (int i = 0; i < rounds; ++i) {
     const DoubleDouble a = numbers.next_pair();
@@ -98,7 +100,8 @@ TEST_CASE("differences of products and cross products keep their digits when the
     const double c = a * (1 + 0x1p-60 * numbers.next());
     const double d = b * (1 + 0x1p-60 * numbers.next());
     const Real difference = Real(a) * Real(b) - Real(c) * Real(d);
-    REQUIRE(magnitude(difference_of_products(a, b, c, d) - difference) <= 2 * u * magnitude(difference));
+    REQUIRE(magnitude(difference_of_products(a, b, c, d) - difference) <=
+            2 * u * magnitude(difference));
   }
 }
 

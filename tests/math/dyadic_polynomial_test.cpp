@@ -55,7 +55,7 @@ TEST_CASE("a refined root is good to 100 bits, whatever it is added to") {
 
 TEST_CASE("a root of higher order is found by its sign alone") {
   const DyadicPolynomial polynomial = with_roots({3, 3, 3});
-  const Dyadic root =
-      refined_root(polynomial, 0, 10, {}, [&](const Dyadic& x) { return polynomial.value(x).sign() > 0; });
+  const Dyadic root = refined_root(polynomial, 0, 10, {},
+                                   [&](const Dyadic& x) { return polynomial.value(x).sign() > 0; });
   CHECK(std::abs((root - Dyadic(3)).rounded().unscaled().hi) < 0x1p-100);
 }

@@ -29,8 +29,9 @@ TEST_CASE("what a Dyadic is made of comes out again") {
     REQUIRE(Dyadic(x).rounded().unscaled().lo == 0);
     REQUIRE(Dyadic(x).sign() == (x > 0) - (x < 0));
   }
-  for (const double x : {std::numeric_limits<double>::max(), std::numeric_limits<double>::min(),
-                         std::numeric_limits<double>::denorm_min(), -0.0, 0x1p63, 0x1p64, -0x1p-64}) {
+  for (const double x :
+       {std::numeric_limits<double>::max(), std::numeric_limits<double>::min(),
+        std::numeric_limits<double>::denorm_min(), -0.0, 0x1p63, 0x1p64, -0x1p-64}) {
     CHECK(Dyadic(x).rounded().unscaled().hi == x);
   }
 }
@@ -48,11 +49,12 @@ TEST_CASE("Dyadic arithmetic is that of whole numbers") {
     const auto b = static_cast<std::int64_t>(random()) >> (12 + random() % 50);
     const Dyadic x(static_cast<double>(a));
     const Dyadic y(static_cast<double>(b));
-    // Two products of 52 bits fill what exact() can take apart: 40 low bits and a double of the others.
+    // Two products of 52 bits fill what exact() can take apart: 40 low bits and a double of the
+    // others.
     const Wide product = (Wide{a} >> 8) * (b >> 8);
     REQUIRE(
-        (Dyadic(static_cast<double>(a >> 8)) * Dyadic(static_cast<double>(b >> 8)) - exact(product)).sign() ==
-        0);
+        (Dyadic(static_cast<double>(a >> 8)) * Dyadic(static_cast<double>(b >> 8)) - exact(product))
+            .sign() == 0);
     REQUIRE((x + y - Dyadic(static_cast<double>(a + b))).sign() == 0);
     REQUIRE((x - y).sign() == (a > b) - (a < b));
   }

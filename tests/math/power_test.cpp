@@ -61,7 +61,8 @@ TEST_CASE("powers are as true as their documentation says, and by lanes the same
   for (int i = 0; i < 1000000; ++i) {
     const double base = i % 2 == 0 ? up_to_one(engine) : std::exp2(exponents(engine));
     const double exponent = i % 3 == 0 ? up_to_one(engine) : std::exp2(10 * up_to_one(engine));
-    const long double truth = std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
+    const long double truth =
+        std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
     const double found = power(base, exponent);
     if (truth >= std::numeric_limits<double>::min()) {
       REQUIRE(error_of(found, truth) <= 2 + 4 * std::abs(std::log2(truth)));
@@ -80,7 +81,8 @@ TEST_CASE("rough powers of what is at most 1 are within 10^-9, and by lanes the 
   for (int i = 0; i < 1000000; ++i) {
     const double base = i % 2 == 0 ? up_to_one(engine) : std::exp2(exponents(engine));
     const double exponent = std::pow(10, of_gammas(engine));
-    const long double truth = std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
+    const long double truth =
+        std::pow(static_cast<long double>(base), static_cast<long double>(exponent));
     const double found = rough_power(base, exponent);
     REQUIRE(std::abs(found - truth) <= 1e-9L);
     REQUIRE(rough_power(lanes_of(base), lanes_of(exponent))[i % lane_count] == found);

@@ -10,7 +10,8 @@
 using namespace crt::core;
 
 TEST_CASE("Philox4x32-10 gives the known answers that Random123 publishes") {
-  CHECK(philox4x32_10({0, 0, 0, 0}, {0, 0}) == PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
+  CHECK(philox4x32_10({0, 0, 0, 0}, {0, 0}) ==
+        PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
   CHECK(philox4x32_10({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
         PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
   // The digits of pi.
@@ -20,8 +21,8 @@ TEST_CASE("Philox4x32-10 gives the known answers that Random123 publishes") {
 
 TEST_CASE("seed and use become key and counter in the order that is documented") {
   const std::uint64_t seed = 0x299f31d0'a4093822u;
-  const auto pair =
-      random_pair(seed, {.x = 0x243f6a88, .y = 0x85a308d3, .sample = 0x13198a2e, .dimension = 0x03707344});
+  const auto pair = random_pair(
+      seed, {.x = 0x243f6a88, .y = 0x85a308d3, .sample = 0x13198a2e, .dimension = 0x03707344});
   CHECK(pair[0] == to_unit_interval(0x94fdcceb'd16cfe09u));
   CHECK(pair[1] == to_unit_interval(0x24126ea1'5001e420u));
 }
@@ -35,7 +36,8 @@ TEST_CASE("the unit interval is closed at 0, open at 1, and has 53 bits") {
 
 namespace {
 
-/// The pairs of a small picture with several samples and dimensions, all from neighbouring counters.
+/// The pairs of a small picture with several samples and dimensions, all from neighbouring
+/// counters.
 std::vector<std::array<double, 2>> many_pairs(std::uint64_t seed) {
   std::vector<std::array<double, 2>> pairs;
   for (std::uint32_t y = 0; y < 32; ++y)
@@ -62,8 +64,10 @@ TEST_CASE("numbers for neighbouring uses fill the unit square evenly") {
     }
     const double expected = static_cast<double>(pairs.size()) / (side * side);
     double chi_square = 0;
-    for (const double count : counts) chi_square += (count - expected) * (count - expected) / expected;
-    // 255 degrees of freedom: mean 255, standard deviation sqrt(510) = 22.6; five of them either way.
+    for (const double count : counts)
+      chi_square += (count - expected) * (count - expected) / expected;
+    // 255 degrees of freedom: mean 255, standard deviation sqrt(510) = 22.6; five of them either
+    // way.
     CHECK(chi_square > 255 - 5 * 22.6);
     CHECK(chi_square < 255 + 5 * 22.6);
   }
@@ -88,7 +92,8 @@ TEST_CASE("the numbers of one pixel do not correlate with those of the next") {
   constexpr int count = 100000;
   double sum_of_products = 0;
   for (std::uint32_t i = 0; i < count; ++i) {
-    sum_of_products += (random_number(0, {7, 3, i, 0}) - 0.5) * (random_number(0, {8, 3, i, 0}) - 0.5);
+    sum_of_products +=
+        (random_number(0, {7, 3, i, 0}) - 0.5) * (random_number(0, {8, 3, i, 0}) - 0.5);
   }
   // The product of two independent uniform numbers about 0 has standard deviation 1/12.
   CHECK(std::abs(sum_of_products / count) < 5 / (12 * std::sqrt(double{count})));
@@ -97,7 +102,8 @@ TEST_CASE("the numbers of one pixel do not correlate with those of the next") {
 TEST_CASE("pairs of four samples are those of each") {
   for (const std::uint64_t seed : {std::uint64_t{0}, std::uint64_t{0x299f31d0a4093822}}) {
     for (std::uint32_t sample = 0; sample < 4000; sample += 4) {
-      const RandomUse use = {.x = 0x243f6a88, .y = 0x85a308d3, .sample = sample - 2000, .dimension = 3};
+      const RandomUse use = {
+          .x = 0x243f6a88, .y = 0x85a308d3, .sample = sample - 2000, .dimension = 3};
       const auto [first, second] = random_pairs(seed, use);
       for (std::uint32_t i = 0; i < 4; ++i) {
         RandomUse one = use;

@@ -13,7 +13,8 @@ using crt::Vec3;
 namespace {
 
 Vec3 apply(const Transform& transform, const Vec3& p) {
-  return Vec3(glm::dot(transform.row_x, p), glm::dot(transform.row_y, p), glm::dot(transform.row_z, p)) +
+  return Vec3(glm::dot(transform.row_x, p), glm::dot(transform.row_y, p),
+              glm::dot(transform.row_z, p)) +
          transform.translation;
 }
 
@@ -61,8 +62,8 @@ TEST_CASE("every multiple of 90 degrees is exact, however often it turns") {
 
 TEST_CASE("a rotation turns about x, then y, then z") {
   const Vec3 p(0.3, -0.7, 1.9);
-  const Vec3 one_by_one =
-      apply(crt::rotate({0, 0, 70}), apply(crt::rotate({0, -140, 0}), apply(crt::rotate({20, 0, 0}), p)));
+  const Vec3 one_by_one = apply(
+      crt::rotate({0, 0, 70}), apply(crt::rotate({0, -140, 0}), apply(crt::rotate({20, 0, 0}), p)));
   CHECK(glm::distance(apply(crt::rotate({20, -140, 70}), p), one_by_one) < 1e-15);
 }
 

@@ -21,8 +21,8 @@ class Vectors {
     const double size = std::ldexp(1, static_cast<int>(exponents_(engine_)));
     Vec3 v;
     for (int axis = 0; axis < 3; ++axis) {
-      v[axis] =
-          size * components_(engine_) * (axis == 2 ? std::ldexp(1, -static_cast<int>(engine_() % 60)) : 1);
+      v[axis] = size * components_(engine_) *
+                (axis == 2 ? std::ldexp(1, -static_cast<int>(engine_() % 60)) : 1);
     }
     return v;
   }

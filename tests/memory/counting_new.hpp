@@ -1,5 +1,5 @@
-// Counts what this program takes from the heap by operator new, which it replaces: for a test program of its
-// own.
+// Counts what this program takes from the heap by operator new, which it replaces: for a test
+// program of its own.
 #pragma once
 
 #include <cstdint>

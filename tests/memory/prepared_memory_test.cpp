@@ -39,7 +39,8 @@ std::vector<Entity> mixed_entities(int count) {
   for (const Entity& ball : balls(count, 0.1, 2)) {
     entities.push_back((ball - Box{.corner_a = {-5, 0, -5}}).transformed(rotate({10, 20, 30})));
     entities.push_back(
-        Entity(Cylinder{}).transformed(translate({0, 0.5 + static_cast<double>(entities.size()), 0})));
+        Entity(Cylinder{})
+            .transformed(translate({0, 0.5 + static_cast<double>(entities.size()), 0})));
   }
   entities.push_back(csg_difference(block, balls(count, 0.1, 3)));
   return entities;
@@ -55,7 +56,8 @@ TEST_CASE("the memory that a prepared scene reports is what was taken for it") {
     MemoryUse claimed;
     const std::int64_t taken = taken_for(scene, claimed);
     // Embree's own memory does not come from operator new, or not all of it.
-    const double without_tree = static_cast<double>(claimed.primitives + claimed.csg + claimed.materials);
+    const double without_tree =
+        static_cast<double>(claimed.primitives + claimed.csg + claimed.materials);
     CHECK(static_cast<double>(taken) >= 0.99 * without_tree);
     CHECK(static_cast<double>(taken) <= 1.03 * static_cast<double>(claimed.total()));
   }
@@ -66,7 +68,8 @@ TEST_CASE("where Embree has next to nothing to do, the report agrees to some per
   prepare(scene);
   MemoryUse claimed;
   const std::int64_t taken = taken_for(scene, claimed);
-  CHECK(static_cast<double>(taken) == doctest::Approx(static_cast<double>(claimed.total())).epsilon(0.03));
+  CHECK(static_cast<double>(taken) ==
+        doctest::Approx(static_cast<double>(claimed.total())).epsilon(0.03));
   CHECK(claimed.csg > claimed.tree);
 }
 
@@ -89,7 +92,8 @@ TEST_CASE("a picture counts where it had to be taken to linear light, and once")
     picture->set_display_encoded(encoded);
     Scene scene = scene_of({});
     for (int i = 0; i < 3; ++i) {
-      scene.entities.emplace_back(Sphere{.material = Material{.color = ImageMap{.image = picture}}});
+      scene.entities.emplace_back(
+          Sphere{.material = Material{.color = ImageMap{.image = picture}}});
     }
     scene.settings.gamma = 2.2;
     return prepare(scene).memory().materials;

@@ -22,19 +22,23 @@ Scene rich_scene() {
   scene.entities.push_back(csg_difference(block.with_material(wood), balls(300, 0.8)));
   scene.entities.push_back(Entity(Sphere{.center = {-1, 1, -7}, .radius = 1.5, .material = glass}));
   scene.entities.push_back(Entity(Sphere{.center = {-1, 1, -7}, .radius = 0.7, .material = glass}));
-  scene.entities.push_back(Entity(Box{.corner_a = {1, -1, -8}, .corner_b = {3, 1, -6}, .material = glass}) -
-                           Cylinder{.from = {2, -2, -7}, .to = {2, 2, -7}, .radius = 0.5});
+  scene.entities.push_back(
+      Entity(Box{.corner_a = {1, -1, -8}, .corner_b = {3, 1, -6}, .material = glass}) -
+      Cylinder{.from = {2, -2, -7}, .to = {2, 2, -7}, .radius = 0.5});
   scene.entities.push_back(Entity(Torus{.radius = 2, .thickness = 0.4, .material = marble})
                                .transformed(rotate({40, 30, 20}))
                                .transformed(translate({-3, 3, -6})));
   scene.entities.push_back(Entity(Cone{.material = mirror}).transformed(translate({3, 3, -7})));
   scene.entities.push_back(Entity(Plane{.position = {0, -5, 0}, .material = mirror}));
-  scene.entities.push_back(Entity(Disc{.center = {0, 6, -6}, .normal = {0, 1, 1}, .material = glass}));
+  scene.entities.push_back(
+      Entity(Disc{.center = {0, 6, -6}, .normal = {0, 1, 1}, .material = glass}));
   for (const Entity& ball : balls(200, 0.1, 7))
     scene.entities.push_back(ball.transformed(translate({0, 0, -5})));
-  scene.lights = {PointLight{.origin = {5, 9, -12}}, SpotLight{.origin = {-8, 8, -9}, .pointing = {0, 0, 0}},
+  scene.lights = {PointLight{.origin = {5, 9, -12}},
+                  SpotLight{.origin = {-8, 8, -9}, .pointing = {0, 0, 0}},
                   ParallelLight{.from = {0, 10, 0}, .pointing = {1, 0, 1}}};
-  scene.camera = {.position = {0, 3, -14}, .pointing = {0, 0, 0}, .aperture = 5, .focal_distance = 8};
+  scene.camera = {
+      .position = {0, 3, -14}, .pointing = {0, 0, 0}, .aperture = 5, .focal_distance = 8};
   scene.background = GradientBackground{};
   scene.settings = {.width = 48, .height = 36, .dof_samples = 4, .recursion_depth = 6};
   return scene;
@@ -58,8 +62,8 @@ void check_rays_take_nothing(Scene scene) {
   const std::uint64_t of_large = allocations_of(large, alone);
   // Lists grow to the longest that any ray has needed: a few of them, a step each.
   constexpr std::uint64_t steps_of_growth = 64;
-  CHECK_MESSAGE(of_large <= of_small + steps_of_growth, of_small, " allocations grow to ", of_large, " by ",
-                rays, " rays");
+  CHECK_MESSAGE(of_large <= of_small + steps_of_growth, of_small, " allocations grow to ", of_large,
+                " by ", rays, " rays");
 }
 
 std::vector<Ray> rays_towards_origin(std::size_t count) {

@@ -55,8 +55,9 @@ std::string close_calls_by_kind(const Measured& of) {
 }
 
 std::string placed_row(std::size_t kind, const Record& record) {
-  return fmt::format("| {} | {} | {} | {} | {} |\n", name_of_primitive(kind), record.rays, record.wrong,
-                     number(record.largest_ratio), number(share(record.escalations, record.rays)));
+  return fmt::format("| {} | {} | {} | {} | {} |\n", name_of_primitive(kind), record.rays,
+                     record.wrong, number(record.largest_ratio),
+                     number(share(record.escalations, record.rays)));
 }
 
 constexpr const char* introduction = R"(# Accuracy, measured
@@ -174,9 +175,11 @@ class RowReplacement {
 
   void apply(std::string& page) const {
     const std::size_t table = page.find("\n" + heading_);
-    const std::size_t first = table == std::string::npos ? table : page.find("\n" + begin_, table + 1);
+    const std::size_t first =
+        table == std::string::npos ? table : page.find("\n" + begin_, table + 1);
     if (first == std::string::npos) {
-      throw std::runtime_error(fmt::format("the page has no rows \"{}\" after \"{}\"", begin_, heading_));
+      throw std::runtime_error(
+          fmt::format("the page has no rows \"{}\" after \"{}\"", begin_, heading_));
     }
     std::size_t end = first + 1;
     while (page.compare(end, begin_.size(), begin_) == 0) end = page.find('\n', end) + 1;
@@ -204,20 +207,22 @@ std::string tier_rows(const Measured& of) {
     const Histogram& plain = record.ulps_by_kind[0];
     const std::string escalations =
         tier.name == "exact" ? number(share(record.escalations, record.rays)) : "";
-    result +=
-        fmt::format("| {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} | {} |\n", name_of_primitive(of.kind),
-                    tier.name, record.rays, record.wrong, record.close_calls, number(record.largest_ratio),
-                    number(plain.quantile(0.999)), number(plain.largest()), tier.nanoseconds, escalations);
+    result += fmt::format(
+        "| {} | {} | {} | {} | {} | {} | {} | {} | {:.0f} | {} |\n", name_of_primitive(of.kind),
+        tier.name, record.rays, record.wrong, record.close_calls, number(record.largest_ratio),
+        number(plain.quantile(0.999)), number(plain.largest()), tier.nanoseconds, escalations);
   }
   return result;
 }
 
 std::string tree_rows(const CsgRecord& record) {
   std::string result;
-  for (const auto& [name, tier] : {std::pair{"standard", record.standard}, {"exact", record.exact}}) {
-    result += fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, record.trees, record.rays,
-                          record.crossings, tier.wrong, tier.close_calls,
-                          tier.escalations == 0 ? "" : number(share(tier.escalations, record.rays)));
+  for (const auto& [name, tier] :
+       {std::pair{"standard", record.standard}, {"exact", record.exact}}) {
+    result +=
+        fmt::format("| {} | {} | {} | {} | {} | {} | {} |\n", name, record.trees, record.rays,
+                    record.crossings, tier.wrong, tier.close_calls,
+                    tier.escalations == 0 ? "" : number(share(tier.escalations, record.rays)));
   }
   return result;
 }
@@ -225,8 +230,8 @@ std::string tree_rows(const CsgRecord& record) {
 std::string agreement_rows(const MeasuredAgreement& of) {
   std::string result;
   for (const auto& [name, record] : {std::pair{"standard", &of.standard}, {"exact", &of.exact}}) {
-    result += fmt::format("| {} | {} | {} | {} | {} |\n", name_of_agreement(of.kind), name, record->rays,
-                          record->hits, record->disagreements);
+    result += fmt::format("| {} | {} | {} | {} | {} |\n", name_of_agreement(of.kind), name,
+                          record->rays, record->hits, record->disagreements);
   }
   return result;
 }

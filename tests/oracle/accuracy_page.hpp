@@ -39,8 +39,9 @@ std::string tier_rows(const Measured& of);
 std::string tree_rows(const CsgRecord& record);
 std::string agreement_rows(const MeasuredAgreement& of);
 
-/// Puts the rows of primitives, and of trees and the agreement if any were measured, in the place of those in
-/// a page that is there already. Throws std::runtime_error, and changes nothing, if there is one without.
+/// Puts the rows of primitives, and of trees and the agreement if any were measured, in the place
+/// of those in a page that is there already. Throws std::runtime_error, and changes nothing, if
+/// there is one without.
 std::string with_rows_replaced(const std::string& page, const MeasuredAll& some);
 
 }  // namespace crt::test

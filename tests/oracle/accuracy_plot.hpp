@@ -18,7 +18,8 @@ struct Measured {
   std::vector<MeasuredTier> tiers;  ///< standard, exact, naive
 };
 
-/// An SVG: for each primitive the error that 99.9 % of plain rays stay below, in ulps, against distance.
+/// An SVG: for each primitive the error that 99.9 % of plain rays stay below, in ulps, against
+/// distance.
 std::string accuracy_plot(const std::vector<Measured>& all);
 
 }  // namespace crt::test

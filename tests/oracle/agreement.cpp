@@ -25,15 +25,16 @@ constexpr std::size_t most_failures = 10;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool same(const Hit& a, const Hit& b) {
-  return a.t == b.t && a.position == b.position && a.normal == b.normal && a.u == b.u && a.v == b.v &&
-         a.entity_id == b.entity_id && a.entering == b.entering;
+  return a.t == b.t && a.position == b.position && a.normal == b.normal && a.u == b.u &&
+         a.v == b.v && a.entity_id == b.entity_id && a.entering == b.entering;
 }
 bool same(const std::optional<Hit>& a, const std::optional<Hit>& b) {
   return a.has_value() == b.has_value() && (!a || same(*a, *b));
 }
 bool same(const std::optional<Hit>& a, const PlainHit& b) {
   if (!a) return b.t == infinity && b.side == HitSide::none;
-  return a->t == b.t && a->normal == b.normal && a->u == b.u && a->v == b.v && a->entity_id == b.entity_id &&
+  return a->t == b.t && a->normal == b.normal && a->u == b.u && a->v == b.v &&
+         a->entity_id == b.entity_id &&
          b.side == (a->entering ? HitSide::entering : HitSide::leaving);
 }
 
@@ -45,7 +46,10 @@ struct BatchAnswers {
   std::unique_ptr<bool[]> occluded;
 
   BatchAnswers(RayQueries& queries, std::span<const Ray> rays)
-      : hits(rays.size()), plain(rays.size()), distances(rays.size()), occluded(new bool[rays.size()]) {
+      : hits(rays.size()),
+        plain(rays.size()),
+        distances(rays.size()),
+        occluded(new bool[rays.size()]) {
     queries.intersect(rays, hits);
     queries.intersect(rays, plain);
     queries.distances(rays, distances);
@@ -57,21 +61,24 @@ struct BatchAnswers {
 std::string fault_of(const std::vector<Hit>& crossings, const Ray& ray) {
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const Hit& hit = crossings[i];
-    if (!(hit.t > ray.t_min && hit.t < ray.t_max)) return fmt::format("crossing {} is not on the ray", i);
+    if (!(hit.t > ray.t_min && hit.t < ray.t_max))
+      return fmt::format("crossing {} is not on the ray", i);
     if (i == 0) continue;
     if (!(hit.t >= crossings[i - 1].t)) return fmt::format("crossing {} is before the last", i);
-    if (hit.entering == crossings[i - 1].entering) return fmt::format("crossing {} is to the same side", i);
+    if (hit.entering == crossings[i - 1].entering)
+      return fmt::format("crossing {} is to the same side", i);
   }
   return "";
 }
 
 /// What differs between the answers about one ray.
-std::string difference(RayQueries& queries, const Ray& ray, const BatchAnswers& batch, std::size_t i,
-                       std::vector<Hit>& crossings) {
+std::string difference(RayQueries& queries, const Ray& ray, const BatchAnswers& batch,
+                       std::size_t i, std::vector<Hit>& crossings) {
   queries.crossings(ray, crossings);
   if (std::string fault = fault_of(crossings, ray); !fault.empty()) return fault;
   const std::optional<Hit> nearest = queries.intersect(ray);
-  const std::optional<Hit> first = crossings.empty() ? std::nullopt : std::optional(crossings.front());
+  const std::optional<Hit> first =
+      crossings.empty() ? std::nullopt : std::optional(crossings.front());
   if (!same(nearest, first)) {
     return fmt::format("intersect {:a}, first crossing {:a}", nearest ? nearest->t : infinity,
                        first ? first->t : infinity);
@@ -121,9 +128,11 @@ std::uint64_t digest_of(const Ray& ray, const std::vector<Hit>& crossings) {
 }
 
 std::string text_of(const Ray& ray) {
-  const auto text = [](const Vec3& v) { return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z); };
-  return fmt::format("origin {}, direction {}, t from {:a} to {:a}", text(ray.origin), text(ray.direction),
-                     ray.t_min, ray.t_max);
+  const auto text = [](const Vec3& v) {
+    return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z);
+  };
+  return fmt::format("origin {}, direction {}, t from {:a} to {:a}", text(ray.origin),
+                     text(ray.direction), ray.t_min, ray.t_max);
 }
 
 constexpr std::size_t trees = primitive_kinds;
@@ -203,7 +212,7 @@ Subject make_subject(Counted& random, std::size_t kind) {
 }
 
 /// A length near the ends of what doubles hold, of the whole or of some components.
-Vec3 stretched(Counted& random, const Vec3& direction) {
+Vec3 scaled(Counted& random, const Vec3& direction) {
   constexpr double farthest = 305;
   Vec3 result = direction * random.power_of_ten(-farthest, farthest);
   if (random.integer(0, 1) == 0) result[random.integer(0, 2)] *= random.power_of_ten(-farthest, 0);
@@ -215,11 +224,12 @@ Vec3 stretched(Counted& random, const Vec3& direction) {
 std::vector<Ray> make_rays(Counted& random, const Subject& subject, std::size_t count) {
   std::vector<Ray> rays;
   while (rays.size() < count) {
-    const auto part = static_cast<std::size_t>(random.integer(0, static_cast<int>(subject.parts.size()) - 1));
+    const auto part =
+        static_cast<std::size_t>(random.integer(0, static_cast<int>(subject.parts.size()) - 1));
     TestRay made = make_ray_at(random, subject.parts[part], subject.size);
     made.to_world = subject.to_world;
     move_to_world(made);
-    if (random.integer(0, 4) == 0) made.direction = stretched(random, made.direction);
+    if (random.integer(0, 4) == 0) made.direction = scaled(random, made.direction);
     rays.push_back({.origin = made.origin, .direction = made.direction});
     if (random.integer(0, 3) == 0) rays.back().t_min = -infinity;
     try {
@@ -239,9 +249,11 @@ void add_parts(Counted& random, RayQueries& queries, std::vector<Ray>& rays) {
     Ray part = rays[i];
     queries.crossings(part, crossings);
     if (crossings.empty()) continue;
-    const auto which = static_cast<std::size_t>(random.integer(0, static_cast<int>(crossings.size()) - 1));
+    const auto which =
+        static_cast<std::size_t>(random.integer(0, static_cast<int>(crossings.size()) - 1));
     const double t = crossings[which].t;
-    const std::array<double, 3> places = {t, std::nextafter(t, -infinity), std::nextafter(t, infinity)};
+    const std::array<double, 3> places = {t, std::nextafter(t, -infinity),
+                                          std::nextafter(t, infinity)};
     const double place = places[static_cast<std::size_t>(random.integer(0, 2))];
     (random.integer(0, 1) == 0 ? part.t_min : part.t_max) = place;
     rays.push_back(part);
@@ -260,7 +272,8 @@ std::string text_of(const Subject& subject) {
 
 constexpr std::size_t rays_of_subject = 48;
 
-void measure_subject(std::size_t kind, Precision precision, std::uint64_t number, AgreementRecord& record) {
+void measure_subject(std::size_t kind, Precision precision, std::uint64_t number,
+                     AgreementRecord& record) {
   // A size that is lost in the offset makes no subject; the next seed makes another.
   for (std::uint64_t seed = agreement_kinds + kind;; seed += agreement_kinds) {
     Counted random(seed, number);
@@ -273,7 +286,8 @@ void measure_subject(std::size_t kind, Precision precision, std::uint64_t number
       RayQueries queries(prepared);
       std::vector<Ray> rays = make_rays(random, subject, rays_of_subject);
       add_parts(random, queries, rays);
-      const std::string text = fmt::format("{} {}: {}", name_of_agreement(kind), number, text_of(subject));
+      const std::string text =
+          fmt::format("{} {}: {}", name_of_agreement(kind), number, text_of(subject));
       return compare_queries(prepared, text, rays, record);
     } catch (const Error&) {
     }
@@ -291,8 +305,8 @@ void AgreementRecord::add(const AgreementRecord& other) {
   if (failures.size() > most_failures) failures.resize(most_failures);
 }
 
-void compare_queries(const PreparedScene& scene, const std::string& subject, std::span<const Ray> rays,
-                     AgreementRecord& record) {
+void compare_queries(const PreparedScene& scene, const std::string& subject,
+                     std::span<const Ray> rays, AgreementRecord& record) {
   RayQueries queries(scene);
   const BatchAnswers batch(queries, rays);
   std::vector<Hit> crossings;

@@ -60,8 +60,9 @@ TEST_CASE("a ray that starts on a torus by rounded coordinates finds where it le
     const double a = random.uniform(0, 2 * std::numbers::pi);
     const double b = random.uniform(0, 2 * std::numbers::pi);
     const double rho = torus.radius + torus.thickness * std::cos(b);
-    starts.push_back({.origin = {rho * std::cos(a), rho * std::sin(a), torus.thickness * std::sin(b)},
-                      .direction = random.in_cube()});
+    starts.push_back(
+        {.origin = {rho * std::cos(a), rho * std::sin(a), torus.thickness * std::sin(b)},
+         .direction = random.in_cube()});
   }
   AgreementRecord record;
   compare_queries(scene, "torus", starts, record);
@@ -84,12 +85,14 @@ TEST_CASE("a ray along the axis of a spindle torus meets it") {
 }
 
 TEST_CASE("what a ray meets where points have no numbers any more is nothing") {
-  const PreparedScene scene = alone(Plane{.normal = {0, -1, 0}, .position = {0, -0x1.3f03d8a3f9066p+24, 0}});
+  const PreparedScene scene =
+      alone(Plane{.normal = {0, -1, 0}, .position = {0, -0x1.3f03d8a3f9066p+24, 0}});
   std::vector<Ray> beyond;
   for (int exponent = -360; exponent < -330; ++exponent) {
     beyond.push_back(
         {.origin = {0x1.250247e009544p+18, -0x1.627d25886c4b3p+24, -0x1.0f18c0056b427p+23},
-         .direction = {-0x1.f08197608d847p+654, std::ldexp(1.0, exponent), -0x1.5c0f94997241fp+655}});
+         .direction = {-0x1.f08197608d847p+654, std::ldexp(1.0, exponent),
+                       -0x1.5c0f94997241fp+655}});
   }
   AgreementRecord record;
   compare_queries(scene, "plane", beyond, record);

@@ -1,13 +1,14 @@
-// Ball arithmetic on short sums of doubles: what the oracle tries before MPFR, as it is some hundred times
-// faster.
+// Ball arithmetic on short sums of doubles: what the oracle tries before MPFR, as it is some
+// hundred times faster.
 //
-// A ball holds the true value for certain: it is within `radius` of the sum of the parts. Every operation
-// computes by error-free transformations and adds what it drops to the radius, as it happens: no estimate of
-// rounding is believed. Where nothing is dropped the radius stays 0, so small whole numbers remain exact.
-// Numbers that are not finite have a radius that is not, and are never certain.
+// A ball holds the true value for certain: it is within `radius` of the sum of the parts. Every
+// operation computes by error-free transformations and adds what it drops to the radius, as it
+// happens: no estimate of rounding is believed. Where nothing is dropped the radius stays 0, so
+// small whole numbers remain exact. Numbers that are not finite have a radius that is not, and are
+// never certain.
 //
-// Sources: Shewchuk, Adaptive precision floating-point arithmetic, 1997 (sums of doubles without error);
-// Johansson, Arb, 2017 (midpoint and radius).
+// Sources: Shewchuk, Adaptive precision floating-point arithmetic, 1997 (sums of doubles without
+// error); Johansson, Arb, 2017 (midpoint and radius).
 #pragma once
 
 #include <algorithm>
@@ -83,8 +84,9 @@ class Ball {
       const Two second = two_product(a.part_[1], b.part_[0]);
       const Two cross = two_sum(first.value, second.value);
       const Two low = two_sum(high.error, cross.value);
-      const double dropped = std::abs(first.error) + std::abs(second.error) + std::abs(cross.error) +
-                             std::abs(low.error) + std::abs(a.part_[1] * b.part_[1]);
+      const double dropped = std::abs(first.error) + std::abs(second.error) +
+                             std::abs(cross.error) + std::abs(low.error) +
+                             std::abs(a.part_[1] * b.part_[1]);
       return normal(high.value, low.value, radius + dropped + lost);
     } else {
       Sum sum;

@@ -1,4 +1,5 @@
-// The quick numbers of the oracle against MPFR: the same truth from all, and no wrong answer passes.
+// The quick numbers of the oracle against MPFR: the same truth from all, and no wrong answer
+// passes.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 

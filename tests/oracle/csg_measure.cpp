@@ -23,7 +23,8 @@ bool alternates(const FoundFlips& found) {
 }
 
 bool is_exactly(const FoundFlips& found, const TreeOracle::Flips& truth) {
-  if (found.inside_before != truth.inside_before || found.flips.size() != truth.flips.size()) return false;
+  if (found.inside_before != truth.inside_before || found.flips.size() != truth.flips.size())
+    return false;
   return std::equal(found.flips.begin(), found.flips.end(), truth.flips.begin(),
                     [](const FoundFlip& a, const TreeOracle::Flip& b) {
                       const double error = std::abs((b.t - Ball<4>(a.t)).value());
@@ -41,8 +42,8 @@ bool is_inside_at(double t, bool inside_before, const FlipList& flips, const Tim
 /// How an answer of the standard tier differs from the truth.
 enum class Difference { none, within_bounds, beyond };
 
-Difference difference(const FoundFlips& found, const TreeOracle::Flips& truth, const TreeOracle& tree,
-                      const GridRay& ray) {
+Difference difference(const FoundFlips& found, const TreeOracle::Flips& truth,
+                      const TreeOracle& tree, const GridRay& ray) {
   std::vector<double> places;
   for (const FoundFlip& flip : found.flips) places.push_back(flip.t);
   for (const TreeOracle::Flip& flip : truth.flips) places.push_back(flip.t.value());
@@ -54,12 +55,14 @@ Difference difference(const FoundFlips& found, const TreeOracle::Flips& truth, c
       samples.push_back(places[i] + share * (places[i + 1] - places[i]));
   }
   for (const double t : samples) {
-    const bool told = is_inside_at(t, found.inside_before, found.flips, [](const auto& f) { return f.t; });
-    const bool is =
-        is_inside_at(t, truth.inside_before, truth.flips, [](const auto& f) { return f.t.value(); });
+    const bool told =
+        is_inside_at(t, found.inside_before, found.flips, [](const auto& f) { return f.t; });
+    const bool is = is_inside_at(t, truth.inside_before, truth.flips,
+                                 [](const auto& f) { return f.t.value(); });
     if (told != is && tree.certain_side(ray, t) != 0) return Difference::beyond;
   }
-  const bool same = found.inside_before == truth.inside_before && found.flips.size() == truth.flips.size();
+  const bool same =
+      found.inside_before == truth.inside_before && found.flips.size() == truth.flips.size();
   return same ? Difference::none : Difference::within_bounds;
 }
 
@@ -82,7 +85,8 @@ void measure_tree(std::uint64_t number, std::uint64_t rays, CsgRecord& record) {
     ++record.rays;
     record.crossings += truth.flips.size();
     const FoundFlips rough = standard.flips(ray);
-    const Difference how = alternates(rough) ? difference(rough, truth, oracle, ray) : Difference::beyond;
+    const Difference how =
+        alternates(rough) ? difference(rough, truth, oracle, ray) : Difference::beyond;
     if (how == Difference::within_bounds) ++record.standard.close_calls;
     if (how == Difference::beyond) {
       ++record.standard.wrong;

@@ -1,5 +1,5 @@
-// The implicit equations of the primitives, restricted to a line: polynomials in x with exact coefficients.
-// Nothing here is shared with src/core/geometry. Number is a Ball or an Interval.
+// The implicit equations of the primitives, restricted to a line: polynomials in x with exact
+// coefficients. Nothing here is shared with src/core/geometry. Number is a Ball or an Interval.
 #pragma once
 
 #include <glm/common.hpp>
@@ -47,11 +47,12 @@ Polynomial<Number> square(const Polynomial<Number>& a) {
   return result;
 }
 
-/// A line in the space of a primitive, without rounding, with t = shift + x: x is 0 near the primitive.
+/// A line in the space of a primitive, without rounding, with t = shift + x: x is 0 near the
+/// primitive.
 template <class Number>
 struct ExactLine {
-  /// The primitive is where `to_world` has it, and that where those around it have it, the innermost first;
-  /// inverses are taken by Cramer's rule.
+  /// The primitive is where `to_world` has it, and that where those around it have it, the
+  /// innermost first; inverses are taken by Cramer's rule.
   ExactLine(const Vec3& world_origin, const Vec3& world_direction, const Transform& to_world,
             const Vec3& near, std::span<const Transform> around = {})
       : origin(exactly<Number>(world_origin)), direction(exactly<Number>(world_direction)) {
@@ -66,7 +67,9 @@ struct ExactLine {
     way = Number(t) * direction;
   }
   /// The point at x = 0, relative to another.
-  NumberVec<Number> from(const Vec3& position) const { return (origin - exactly<Number>(position)) + way; }
+  NumberVec<Number> from(const Vec3& position) const {
+    return (origin - exactly<Number>(position)) + way;
+  }
   NumberVec<Number> at(const Number& x) const { return (origin + way) + x * direction; }
 
   NumberVec<Number> origin;  ///< at t = 0
@@ -78,11 +81,13 @@ struct ExactLine {
   void enter(const Transform& to_world) {
     const std::array rows = {exactly<Number>(to_world.row_x), exactly<Number>(to_world.row_y),
                              exactly<Number>(to_world.row_z)};
-    const std::array columns = {cross(rows[1], rows[2]), cross(rows[2], rows[0]), cross(rows[0], rows[1])};
+    const std::array columns = {cross(rows[1], rows[2]), cross(rows[2], rows[0]),
+                                cross(rows[0], rows[1])};
     const Number determinant = dot(rows[0], columns[0]);
     const auto solve = [&](const NumberVec<Number>& v) {
       const NumberVec<Number> result = v[0] * columns[0] + v[1] * columns[1] + v[2] * columns[2];
-      return NumberVec<Number>{result[0] / determinant, result[1] / determinant, result[2] / determinant};
+      return NumberVec<Number>{result[0] / determinant, result[1] / determinant,
+                               result[2] / determinant};
     };
     origin = solve(origin - exactly<Number>(to_world.translation));
     direction = solve(direction);
@@ -130,7 +135,8 @@ Equations<Number> equations(const Frustum& c, const ExactLine<Number>& line) {
   const Polynomial<Number> h = relative.along(axis);
   const Number growth = Number(c.radius2) - Number(c.radius);
   const Polynomial<Number> radius = Polynomial<Number>{Number(c.radius) * a} + growth * h;
-  return {a * relative.squared_distance_from_axis(axis) - square(radius), -h, h - Polynomial<Number>{a}};
+  return {a * relative.squared_distance_from_axis(axis) - square(radius), -h,
+          h - Polynomial<Number>{a}};
 }
 template <class Number>
 Equations<Number> equations(const Cylinder& c, const ExactLine<Number>& line) {
@@ -143,7 +149,8 @@ Equations<Number> equations(const Cone& c, const ExactLine<Number>& line) {
 
 template <class Number>
 Equations<Number> equations(const Sphere& s, const ExactLine<Number>& line) {
-  return {Relative(line, s.center).squared_distance() - Polynomial<Number>{square(Number(s.radius))}};
+  return {Relative(line, s.center).squared_distance() -
+          Polynomial<Number>{square(Number(s.radius))}};
 }
 
 template <class Number>
@@ -163,8 +170,8 @@ Equations<Number> equations(const Plane& p, const ExactLine<Number>& line) {
   return {Relative(line, p.position).along(exactly<Number>(p.normal))};
 }
 
-// With S = |p|^2 + R^2 - r^2, inside means S < 2 R rho: S < 0 or Q = |axis|^2 (S^2 - 4 R^2 rho^2) < 0.
-// So the lemon within a spindle torus, where Q > 0 and S < 0, is filled.
+// With S = |p|^2 + R^2 - r^2, inside means S < 2 R rho: S < 0 or Q = |axis|^2 (S^2 - 4 R^2 rho^2) <
+// 0. So the lemon within a spindle torus, where Q > 0 and S < 0, is filled.
 template <class Number>
 Equations<Number> equations(const Torus& torus, const ExactLine<Number>& line) {
   const Relative relative(line, torus.center);
@@ -199,7 +206,8 @@ Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>&
 template <class Signs>
 bool is_inside(const Primitive& solid, const Signs& signs) {
   const auto negative = [](int sign) { return sign < 0; };
-  if (std::holds_alternative<Torus>(solid)) return std::any_of(signs.begin(), signs.end(), negative);
+  if (std::holds_alternative<Torus>(solid))
+    return std::any_of(signs.begin(), signs.end(), negative);
   return std::all_of(signs.begin(), signs.end(), negative);
 }
 

@@ -1,9 +1,9 @@
 // Interval arithmetic on MPFR: what every number of the oracle is.
 //
-// An interval holds the true value for certain, as every operation rounds outwards. A number that fits
-// the precision stays a point, so the sign of a dyadic expression is known exactly once the precision
-// is large enough. Where a sign is open, `Undecided` is thrown and the caller tries again with more bits.
-// It offers the same as Ball, so that all of the oracle is written once for both.
+// An interval holds the true value for certain, as every operation rounds outwards. A number that
+// fits the precision stays a point, so the sign of a dyadic expression is known exactly once the
+// precision is large enough. Where a sign is open, `Undecided` is thrown and the caller tries again
+// with more bits. It offers the same as Ball, so that all of the oracle is written once for both.
 #pragma once
 
 #include <mpfr.h>
@@ -69,8 +69,10 @@ class Interval {
     const int sign_b = b.certain_sign();
     if (sign_a == 0 || sign_b == 0) return hull_of_products(a, b);
     Interval result(Blank{});
-    mpfr_mul(result.lower_, sign_b > 0 ? a.lower_ : a.upper_, sign_a > 0 ? b.lower_ : b.upper_, MPFR_RNDD);
-    mpfr_mul(result.upper_, sign_b > 0 ? a.upper_ : a.lower_, sign_a > 0 ? b.upper_ : b.lower_, MPFR_RNDU);
+    mpfr_mul(result.lower_, sign_b > 0 ? a.lower_ : a.upper_, sign_a > 0 ? b.lower_ : b.upper_,
+             MPFR_RNDD);
+    mpfr_mul(result.upper_, sign_b > 0 ? a.upper_ : a.lower_, sign_a > 0 ? b.upper_ : b.lower_,
+             MPFR_RNDU);
     return result;
   }
   /// b must not hold 0.
@@ -107,7 +109,8 @@ class Interval {
     return sqrt(square(a));
   }
 
-  /// -1, 0 or 1. An interval around 0 that is more than 0 throws; with the highest precision it is 0.
+  /// -1, 0 or 1. An interval around 0 that is more than 0 throws; with the highest precision it is
+  /// 0.
   int sign() const {
     const int certain = certain_sign();
     if (certain != 0 || is_zero()) return certain;

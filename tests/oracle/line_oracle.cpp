@@ -27,7 +27,8 @@ double gradient(const Plane& p, std::size_t, const ExactLine<Number>&, const Num
   return glm::length(p.normal);
 }
 template <class Number>
-double gradient(const Frustum& c, std::size_t which, const ExactLine<Number>& line, const Number& x) {
+double gradient(const Frustum& c, std::size_t which, const ExactLine<Number>& line,
+                const Number& x) {
   const NumberVec<Number> axis = exactly<Number>(c.to) - exactly<Number>(c.from);
   const Number a = squared(axis);
   if (which > 0) return std::sqrt(a.value());
@@ -48,7 +49,8 @@ double gradient(const Cone& c, std::size_t which, const ExactLine<Number>& line,
   return gradient(frustum_of(c), which, line, x);
 }
 template <class Number>
-double gradient(const Torus& torus, std::size_t which, const ExactLine<Number>& line, const Number& x) {
+double gradient(const Torus& torus, std::size_t which, const ExactLine<Number>& line,
+                const Number& x) {
   if (which > 0) return infinity;
   const NumberVec<Number> p = line.from(torus.center) + x * line.direction;
   const double from_axis = glm::length(rounded(cross(p, exactly<Number>(torus.axis))));
@@ -113,7 +115,8 @@ class Solution {
     TrueLine result;
     const Polynomial<Number>& plane = equations_[0];
     if (plane[1].sign() == 0) return result;
-    if (!anywhere && !within_rim(primitive_, meeting(plane, line_, position_of(primitive_)))) return result;
+    if (!anywhere && !within_rim(primitive_, meeting(plane, line_, position_of(primitive_))))
+      return result;
     const Number x = -plane[0] / plane[1];
     result.crossings.push_back(crossing_at(x, 0, plane[1].sign() < 0, approach_at(x, 0)));
     return result;
@@ -125,15 +128,18 @@ class Solution {
     const auto inside = [&](const std::vector<int>& signs) { return is_inside(any_, signs); };
     result.inside_before = follow(places, inside, [&](const Place<Number>& place, bool entering) {
       const double own_approach = approach_at(place);
-      TrueCrossing crossing = crossing_at(place.x, place.flips[0].polynomial, entering, own_approach);
+      TrueCrossing crossing =
+          crossing_at(place.x, place.flips[0].polynomial, entering, own_approach);
       crossing.at_edge = place.flips.size() > 1;
       for (const Place<Number>& other : places.places()) {
         if (&other == &place) continue;
         const double gap = std::abs((other.x - place.x).value());
         const double approach = approach_at(other);
-        // Within the bounds of both, the rounding of either t included, one may be taken for the other.
-        const double bounds = 8 * unit_of_rounding * crossing.reach * (1 / approach + 1 / own_approach) +
-                              2 * unit_of_rounding * std::abs(crossing.t.value());
+        // Within the bounds of both, the rounding of either t included, one may be taken for the
+        // other.
+        const double bounds =
+            8 * unit_of_rounding * crossing.reach * (1 / approach + 1 / own_approach) +
+            2 * unit_of_rounding * std::abs(crossing.t.value());
         if (gap > bounds) continue;
         crossing.approach = std::min(crossing.approach, approach);
         crossing.at_edge = true;
@@ -151,11 +157,13 @@ class Solution {
   }
   double approach_at(const Place<Number>& place) const {
     double approach = infinity;
-    for (const auto& flip : place.flips) approach = std::min(approach, approach_at(place.x, flip.polynomial));
+    for (const auto& flip : place.flips)
+      approach = std::min(approach, approach_at(place.x, flip.polynomial));
     return approach;
   }
 
-  TrueCrossing crossing_at(const Number& x, std::size_t which, bool entering, double approach) const {
+  TrueCrossing crossing_at(const Number& x, std::size_t which, bool entering,
+                           double approach) const {
     const NumberVec<Number> from_center = line_.from(center_of(any_)) + x * line_.direction;
     return {.t = t_at(x, which),
             .entering = entering,

@@ -1,10 +1,10 @@
-// The truth about a line and a primitive: from the primitive's implicit equation, restricted to the line
-// o + t d of exactly the doubles given, by the roots of polynomials in t whose coefficients are exact
-// (equations.hpp). Nothing here is shared with src/core/geometry.
+// The truth about a line and a primitive: from the primitive's implicit equation, restricted to the
+// line o + t d of exactly the doubles given, by the roots of polynomials in t whose coefficients
+// are exact (equations.hpp). Nothing here is shared with src/core/geometry.
 //
-// Sums of two doubles with a bound on their error do for most lines, sums of three for nearly all others, and
-// MPFR for the rest: signs, tangencies, and roots that coincide are decided. Two roots that 4096 bits cannot
-// tell apart are taken as one.
+// Sums of two doubles with a bound on their error do for most lines, sums of three for nearly all
+// others, and MPFR for the rest: signs, tangencies, and roots that coincide are decided. Two roots
+// that 4096 bits cannot tell apart are taken as one.
 #pragma once
 
 #include <cmath>
@@ -20,8 +20,8 @@ namespace crt::test {
 struct TrueCrossing {
   Ball<4> t;  ///< to some 20 bits more than a double has
   bool entering = false;
-  /// |n . d| with d as given: t is conditioned by its inverse. Where several faces meet within their bounds,
-  /// at an edge, the least of theirs.
+  /// |n . d| with d as given: t is conditioned by its inverse. Where several faces meet within
+  /// their bounds, at an edge, the least of theirs.
   double approach = 0;
   bool at_edge = false;  ///< whether several do
   double reach = 0;      ///< R + |x|: the primitive's size, and the distance from its centre
@@ -47,9 +47,9 @@ TrueLine true_crossings(const Question& question, FirstTry first = FirstTry::two
 /// Where the line meets the plane of a surface, within the rim or not.
 TrueLine true_plane_crossings(const Question& question);
 
-/// How far the point at t is outside of the solid (negative: inside), in lengths of the primitive's space.
-/// For a surface: how far the point where the line meets its plane is beyond its rim; t is of no matter
-/// there.
+/// How far the point at t is outside of the solid (negative: inside), in lengths of the primitive's
+/// space. For a surface: how far the point where the line meets its plane is beyond its rim; t is
+/// of no matter there.
 double true_distance(const Question& question, double t);
 
 /// The point at t in the primitive's space, rounded, and the length of the direction there.

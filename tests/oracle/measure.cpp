@@ -11,7 +11,7 @@
 
 #include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
-#include "core/render/users_rays.hpp"
+#include "core/render/input_rays.hpp"
 #include "oracle/naive.hpp"
 
 namespace crt::test {
@@ -48,7 +48,8 @@ double bound_of(const TrueCrossing& crossing, const TestRay& ray, Promise promis
 }
 
 bool is_inside_at(double t, bool inside_before, const std::vector<double>& flips) {
-  const auto passed = std::count_if(flips.begin(), flips.end(), [&](double flip) { return flip < t; });
+  const auto passed =
+      std::count_if(flips.begin(), flips.end(), [&](double flip) { return flip < t; });
   return (passed % 2 == 1) != inside_before;
 }
 
@@ -64,7 +65,8 @@ bool differs_beyond_bound(const TestRay& ray, bool found_before, const std::vect
     const bool inside = is_inside_at(t, found_before, found);
     if (inside == is_inside_at(t, true_before, expected)) return false;
     const double outside = true_distance(question_of(ray), t);
-    const double from_center = glm::length(ray.origin - center_of(ray.primitive) + t * ray.direction);
+    const double from_center =
+        glm::length(ray.origin - center_of(ray.primitive) + t * ray.direction);
     // `from_center` is rounded on the way there, and the spacing of t covers that.
     const double allowed = 8 * u * (size + from_center) + ulp(t) * speed;
     return (inside ? outside : -outside) > allowed;
@@ -90,8 +92,8 @@ bool surface_differs_beyond_bound(const TestRay& ray, const CrossingList& found)
   return (found.empty() ? -beyond : beyond) > allowed;
 }
 
-void account(const Crossing& found, const TrueCrossing& crossing, const TestRay& ray, Promise promise,
-             Record& record) {
+void account(const Crossing& found, const TrueCrossing& crossing, const TestRay& ray,
+             Promise promise, Record& record) {
   const double error = error_of(found.t, crossing);
   const double true_t = crossing.t.value();
   // Where a ray starts on a surface t is nothing but rounding, and has no last place of its own.
@@ -112,13 +114,15 @@ void account(const Crossing& found, const TrueCrossing& crossing, const TestRay&
   }
 }
 
-/// Asks a shape as a query does: with the direction brought near length 1. What it tells is put back.
+/// Asks a shape as a query does: with the direction brought near length 1. What it tells is put
+/// back.
 template <class Ask>
 bool ask_as_query(const TestRay& ray, CrossingList& out, const Ask& ask) {
   core::WorldRay world;
-  core::follow({.origin = ray.origin, .direction = ray.stretch * ray.direction}, world);
+  core::follow({.origin = ray.origin, .direction = ray.scale * ray.direction}, world);
   const bool inside_before = ask(world.origin, world.direction);
-  const double factor = core::largest_component(world.direction) / core::largest_component(ray.direction);
+  const double factor =
+      core::largest_component(world.direction) / core::largest_component(ray.direction);
   for (Crossing& crossing : out) {
     crossing.t *= factor;
     crossing.t_low *= factor;
@@ -180,7 +184,8 @@ double Histogram::quantile(double share) const {
   for (std::size_t i = 0; i < bins_.size(); ++i) {
     passed += bins_[i];
     if (passed >= wanted)
-      return std::min(largest_, std::exp2(lowest_exponent + static_cast<double>(i) / bins_per_octave));
+      return std::min(largest_,
+                      std::exp2(lowest_exponent + static_cast<double>(i) / bins_per_octave));
   }
   return largest_;
 }
@@ -198,7 +203,8 @@ void Record::add(const Record& other) {
     close_calls_by_kind[i] += other.close_calls_by_kind[i];
     ulps_by_kind[i].add(other.ulps_by_kind[i]);
   }
-  for (std::size_t i = 0; i < ulps_by_decade.size(); ++i) ulps_by_decade[i].add(other.ulps_by_decade[i]);
+  for (std::size_t i = 0; i < ulps_by_decade.size(); ++i)
+    ulps_by_decade[i].add(other.ulps_by_decade[i]);
   failures.insert(failures.end(), other.failures.begin(), other.failures.end());
   std::sort(failures.begin(), failures.end());
   if (failures.size() > most_failures) failures.resize(most_failures);
@@ -210,7 +216,8 @@ Truth truth_of(const TestRay& ray, FirstTry first) {
   return {ray, true_crossings(question_of(ray), is_extreme ? FirstTry::mpfr : first)};
 }
 
-bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number, Record& record) {
+bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number,
+             Record& record) {
   const TestRay& ray = truth.ray;
   const std::vector<TrueCrossing>& expected = truth.line.crossings;
   CrossingList found;
@@ -219,9 +226,10 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
   ++record.rays_by_kind[static_cast<std::size_t>(ray.kind)];
   if (!expected.empty()) ++record.hits;
   bool kept = true;
-  const bool same = found_before == truth.line.inside_before && found.size() == expected.size() &&
-                    std::equal(found.begin(), found.end(), expected.begin(),
-                               [](const auto& a, const auto& b) { return a.entering == b.entering; });
+  const bool same =
+      found_before == truth.line.inside_before && found.size() == expected.size() &&
+      std::equal(found.begin(), found.end(), expected.begin(),
+                 [](const auto& a, const auto& b) { return a.entering == b.entering; });
   if (same) {
     const double ratio_before = record.largest_ratio;
     const double claim_before = record.largest_claim;
@@ -237,10 +245,10 @@ bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t num
     for (const Crossing& crossing : found) found_t.push_back(crossing.t);
     for (const TrueCrossing& crossing : expected) expected_t.push_back(crossing.t.value());
     const bool is_solid = core::is_solid(ray.primitive);
-    const bool wrong =
-        contestant.promise == Promise::exact ||
-        (is_solid ? differs_beyond_bound(ray, found_before, found_t, truth.line.inside_before, expected_t)
-                  : surface_differs_beyond_bound(ray, found));
+    const bool wrong = contestant.promise == Promise::exact ||
+                       (is_solid ? differs_beyond_bound(ray, found_before, found_t,
+                                                        truth.line.inside_before, expected_t)
+                                 : surface_differs_beyond_bound(ray, found));
     ++(wrong ? record.wrong : record.close_calls);
     if (!wrong) ++record.close_calls_by_kind[static_cast<std::size_t>(ray.kind)];
     kept = !wrong;
@@ -262,7 +270,8 @@ std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first,
       for (std::uint64_t number = begin; number < std::min(begin + batch, last); ++number) {
         // Now and then with more bits, for what the exact tier claims of t_low.
         constexpr std::uint64_t finer = 16;
-        const FirstTry first_try = number % finer == 0 ? FirstTry::three_doubles : FirstTry::two_doubles;
+        const FirstTry first_try =
+            number % finer == 0 ? FirstTry::three_doubles : FirstTry::two_doubles;
         const Truth truth = truth_of(maker(primitive_kind, number), first_try);
         for (std::size_t i = 0; i < contestants.size(); ++i)
           measure(truth, contestants[i], number, records[i]);
@@ -281,7 +290,9 @@ std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first,
 }
 
 std::string description(const TestRay& ray) {
-  const auto text = [](const Vec3& v) { return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z); };
+  const auto text = [](const Vec3& v) {
+    return fmt::format("{{{:a}, {:a}, {:a}}}", v.x, v.y, v.z);
+  };
   const auto primitive = [&]<class P>(const P& p) -> std::string {
     if constexpr (std::is_same_v<P, Sphere>)
       return fmt::format("sphere {} {:a}", text(p.center), p.radius);
@@ -290,13 +301,15 @@ std::string description(const TestRay& ray) {
     else if constexpr (std::is_same_v<P, Plane>)
       return fmt::format("plane {} {}", text(p.normal), text(p.position));
     else if constexpr (std::is_same_v<P, HalfPlane>)
-      return fmt::format("half plane {} {} {}", text(p.normal), text(p.position), text(p.direction));
+      return fmt::format("half plane {} {} {}", text(p.normal), text(p.position),
+                         text(p.direction));
     else if constexpr (std::is_same_v<P, Cylinder>)
       return fmt::format("cylinder {} {} {:a}", text(p.from), text(p.to), p.radius);
     else if constexpr (std::is_same_v<P, Cone>)
       return fmt::format("cone {} {} {:a} {:a}", text(p.from), text(p.to), p.radius, p.radius2);
     else if constexpr (std::is_same_v<P, Torus>)
-      return fmt::format("torus {} {} {:a} {:a}", text(p.center), text(p.axis), p.radius, p.thickness);
+      return fmt::format("torus {} {} {:a} {:a}", text(p.center), text(p.axis), p.radius,
+                         p.thickness);
     else if constexpr (std::is_same_v<P, Disc>)
       return fmt::format("disc {} {} {:a}", text(p.center), text(p.normal), p.radius);
     else
@@ -305,12 +318,13 @@ std::string description(const TestRay& ray) {
   const std::string placed =
       ray.to_world == Transform{}
           ? ""
-          : fmt::format(", rows {} {} {} translation {}", text(ray.to_world.row_x), text(ray.to_world.row_y),
-                        text(ray.to_world.row_z), text(ray.to_world.translation));
+          : fmt::format(", rows {} {} {} translation {}", text(ray.to_world.row_x),
+                        text(ray.to_world.row_y), text(ray.to_world.row_z),
+                        text(ray.to_world.translation));
   return fmt::format("{} ({}, 10^{} sizes away): origin {}, direction {}{}{}",
-                     std::visit(primitive, ray.primitive), name_of(ray.kind), ray.decade, text(ray.origin),
-                     text(ray.direction), placed,
-                     ray.stretch == 1 ? "" : fmt::format(", stretched {:a}", ray.stretch));
+                     std::visit(primitive, ray.primitive), name_of(ray.kind), ray.decade,
+                     text(ray.origin), text(ray.direction), placed,
+                     ray.scale == 1 ? "" : fmt::format(", stretched {:a}", ray.scale));
 }
 
 }  // namespace crt::test

@@ -1,13 +1,14 @@
 // Compares crossings with the true ones, and keeps account.
 //
-// What is promised of t: |t - true t| <= 0.5 ulp(t) + 8 u (R + |x|) / |n . d|, with u = 2^-53, R the size
-// of the primitive (the radius of a ball that holds it, 0 for planes and half planes), x the point
-// relative to its centre, n the unit normal.
+// What is promised of t: |t - true t| <= 0.5 ulp(t) + 8 u (R + |x|) / |n . d|, with u = 2^-53, R
+// the size of the primitive (the radius of a ball that holds it, 0 for planes and half planes), x
+// the point relative to its centre, n the unit normal.
 //
-// What is promised of hit or miss: the line is never told to be inside (or outside) at a point that is
-// farther outside (or inside) than 8 u (R + |x|) plus the spacing of t's doubles there, in length. For
-// surfaces: where the line meets the plane is not farther beyond (or within) the rim than the bound on t
-// is long plus 8 u (R + |x|). A ray whose decision differs from the true one within this is a *close call*.
+// What is promised of hit or miss: the line is never told to be inside (or outside) at a point that
+// is farther outside (or inside) than 8 u (R + |x|) plus the spacing of t's doubles there, in
+// length. For surfaces: where the line meets the plane is not farther beyond (or within) the rim
+// than the bound on t is long plus 8 u (R + |x|). A ray whose decision differs from the true one
+// within this is a *close call*.
 //
 // The exact tier promises more: no close calls, and t within 0.51 ulp (of a torus 1 ulp).
 #pragma once
@@ -36,7 +37,8 @@ struct Contestant {
   std::string name;
   Promise promise = Promise::none;
   /// As Shape::crossings; counts what only exact arithmetic answered.
-  std::function<bool(const TestRay& ray, core::CrossingList& out, std::uint64_t& escalations)> crossings;
+  std::function<bool(const TestRay& ray, core::CrossingList& out, std::uint64_t& escalations)>
+      crossings;
 };
 Contestant standard_tier();
 Contestant exact_tier();
@@ -87,11 +89,13 @@ struct Truth {
 Truth truth_of(const TestRay& ray, FirstTry first = FirstTry::two_doubles);
 
 /// Takes one ray into the account; whether every promise was kept.
-bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number, Record& record);
+bool measure(const Truth& truth, const Contestant& contestant, std::uint64_t number,
+             Record& record);
 
 /// Measures rays first to last (not included) of a primitive on all cores.
 std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first, std::uint64_t last,
-                                const std::vector<Contestant>& contestants, RayMaker maker = make_ray);
+                                const std::vector<Contestant>& contestants,
+                                RayMaker maker = make_ray);
 
 /// A ray in full, to repeat it.
 std::string description(const TestRay& ray);

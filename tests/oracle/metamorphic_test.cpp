@@ -86,8 +86,8 @@ bool is_inside_at(double t, const FoundFlips& found) {
   return (passed % 2 == 1) != found.inside_before;
 }
 
-/// Whether two answers about one tree are the same, but next to its surfaces by what the standard tier may be
-/// off by.
+/// Whether two answers about one tree are the same, but next to its surfaces by what the standard
+/// tier may be off by.
 bool same_but_for_rounding(const FoundFlips& a, const FoundFlips& b, const TreeOracle& tree,
                            const GridRay& ray) {
   std::vector<double> places;
@@ -107,7 +107,8 @@ bool same_to_an_ulp(const FoundFlips& a, const FoundFlips& b) {
   return a.inside_before == b.inside_before &&
          std::equal(a.flips.begin(), a.flips.end(), b.flips.begin(), b.flips.end(),
                     [](const FoundFlip& one, const FoundFlip& other) {
-                      return one.entering == other.entering && std::abs(one.t - other.t) <= ulp(one.t);
+                      return one.entering == other.entering &&
+                             std::abs(one.t - other.t) <= ulp(one.t);
                     });
 }
 
@@ -121,7 +122,8 @@ FoundFlips reversed(const FoundFlips& found) {
 
 }  // namespace
 
-TEST_CASE("a primitive and a ray that are scaled by a power of two meet at the same t, bit for bit") {
+TEST_CASE(
+    "a primitive and a ray that are scaled by a power of two meet at the same t, bit for bit") {
   constexpr std::uint64_t rays = 10'000;
   for (std::size_t kind = 0; kind < primitive_kinds; ++kind) {
     for (std::uint64_t number = 0; number < rays; ++number) {
@@ -141,7 +143,8 @@ TEST_CASE("a primitive and a ray that are scaled by a power of two meet at the s
         const Answer one = answer(tier, ray);
         const Answer two = answer(tier, larger);
         const auto same = [&](const core::Crossing& a, const core::Crossing& b) {
-          return a.t * (with_direction ? 1 : factor) == b.t && a.entering == b.entering && a.face == b.face;
+          return a.t * (with_direction ? 1 : factor) == b.t && a.entering == b.entering &&
+                 a.face == b.face;
         };
         if (one.inside_before != two.inside_before ||
             !std::equal(one.crossings.begin(), one.crossings.end(), two.crossings.begin(),
@@ -184,10 +187,11 @@ TEST_CASE("a reversed ray meets a primitive at the same places") {
       const Answer one = answer(exact_tier(), ray);
       Answer two = answer(exact_tier(), back);
       std::reverse(two.crossings.begin(), two.crossings.end());
-      const bool same = std::equal(one.crossings.begin(), one.crossings.end(), two.crossings.begin(),
-                                   two.crossings.end(), [](const core::Crossing& a, const core::Crossing& b) {
-                                     return a.entering != b.entering && std::abs(a.t + b.t) <= ulp(a.t);
-                                   });
+      const bool same =
+          std::equal(one.crossings.begin(), one.crossings.end(), two.crossings.begin(),
+                     two.crossings.end(), [](const core::Crossing& a, const core::Crossing& b) {
+                       return a.entering != b.entering && std::abs(a.t + b.t) <= ulp(a.t);
+                     });
       const bool odd = core::is_solid(ray.primitive) && one.crossings.size() % 2 == 1;
       if (!same || two.inside_before != (one.inside_before != odd)) {
         FAIL_CHECK(fmt::format("ray {}: {}", number, description(ray)));
@@ -210,7 +214,8 @@ TEST_CASE("a reversed ray meets a tree of solids at the same places") {
       CAPTURE(number);
       CAPTURE(i);
       CHECK(same_to_an_ulp(exact.flips(ray), reversed(exact.flips(back))));
-      CHECK(same_but_for_rounding(standard.flips(ray), reversed(standard.flips(back)), oracle, ray));
+      CHECK(
+          same_but_for_rounding(standard.flips(ray), reversed(standard.flips(back)), oracle, ray));
     }
   }
 }
@@ -230,7 +235,8 @@ TEST_CASE("a bounded solid is entered and left by turns, as often the one as the
           inside = !inside;
           by_turns = by_turns && crossing.entering == inside;
         }
-        if (!by_turns) FAIL_CHECK(fmt::format("{} tier, ray {}: {}", tier.name, number, description(ray)));
+        if (!by_turns)
+          FAIL_CHECK(fmt::format("{} tier, ray {}: {}", tier.name, number, description(ray)));
       }
     }
   }
@@ -253,12 +259,15 @@ TEST_CASE("the laws of sets hold for trees of solids along every ray") {
         {"A + B = B + A", a + b, b + a},
         {"(A - B) + (A ^ B) = A", (a - b) + (a ^ b), a},
         {"A - (A - B) = A ^ B", a - (a - b), a ^ b},
-        {"U - (A + B) = (U - A) ^ (U - B)", everything - (a + b), (everything - a) ^ (everything - b)},
-        {"U - (A ^ B) = (U - A) + (U - B)", everything - (a ^ b), (everything - a) + (everything - b)},
+        {"U - (A + B) = (U - A) ^ (U - B)", everything - (a + b),
+         (everything - a) ^ (everything - b)},
+        {"U - (A ^ B) = (U - A) + (U - B)", everything - (a ^ b),
+         (everything - a) + (everything - b)},
     };
     for (const Precision precision : both_tiers) {
       PreparedTree nothing((a - a).entity(), precision);
-      for (std::uint64_t i = 0; i < 60; ++i) CHECK(nothing.flips(random_ray(number, i)) == FoundFlips{});
+      for (std::uint64_t i = 0; i < 60; ++i)
+        CHECK(nothing.flips(random_ray(number, i)) == FoundFlips{});
       for (const Law& law : laws) {
         const TreeOracle oracle(law.one);
         PreparedTree one(law.one.entity(), precision);
@@ -267,12 +276,13 @@ TEST_CASE("the laws of sets hold for trees of solids along every ray") {
           const GridRay ray = random_ray(number, i);
           const FoundFlips first = one.flips(ray);
           const FoundFlips second = other.flips(ray);
-          const bool same = precision == Precision::exact ? same_to_an_ulp(first, second)
-                                                          : same_but_for_rounding(first, second, oracle, ray);
+          const bool same = precision == Precision::exact
+                                ? same_to_an_ulp(first, second)
+                                : same_but_for_rounding(first, second, oracle, ray);
           if (!same) {
             FAIL_CHECK(fmt::format("{} tier, {}: trees {} and {}, ray {}",
-                                   precision == Precision::exact ? "exact" : "standard", law.name, 2 * number,
-                                   2 * number + 1, i));
+                                   precision == Precision::exact ? "exact" : "standard", law.name,
+                                   2 * number, 2 * number + 1, i));
           }
         }
       }
@@ -306,13 +316,14 @@ TEST_CASE("any number of threads gives the same answers") {
     };
     const auto alone = answers(1);
     const auto same = [](const Hit& a, const Hit& b) {
-      return a.t == b.t && a.position == b.position && a.normal == b.normal && a.u == b.u && a.v == b.v &&
-             a.entity_id == b.entity_id && a.entering == b.entering;
+      return a.t == b.t && a.position == b.position && a.normal == b.normal && a.u == b.u &&
+             a.v == b.v && a.entity_id == b.entity_id && a.entering == b.entering;
     };
     for (const int threads : {2, 3, 8}) {
       const auto together = answers(threads);
       for (std::size_t i = 0; i < rays.size(); ++i)
-        CHECK(std::equal(alone[i].begin(), alone[i].end(), together[i].begin(), together[i].end(), same));
+        CHECK(std::equal(alone[i].begin(), alone[i].end(), together[i].begin(), together[i].end(),
+                         same));
     }
   }
 }

@@ -88,7 +88,8 @@ bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::Crossing
   const double u = glm::dot(from_a, p) / determinant;
   const Vec3 q = glm::cross(from_a, ab);
   const double v = glm::dot(d, q) / determinant;
-  if (u >= 0 && v >= 0 && u + v <= 1) emit_surface(glm::cross(ab, ac), d, glm::dot(ac, q) / determinant, out);
+  if (u >= 0 && v >= 0 && u + v <= 1)
+    emit_surface(glm::cross(ab, ac), d, glm::dot(ac, q) / determinant, out);
   return false;
 }
 
@@ -159,9 +160,9 @@ bool meet(const Torus& torus, const Vec3& o, const Vec3& d, core::CrossingList& 
   const double fw = glm::dot(f, w);
   const double vw = glm::dot(v, w);
   const double k = glm::dot(f, f) + ring - torus.thickness * torus.thickness;
-  const auto all =
-      quartic_roots(4 * fd, 4 * fd * fd + 2 * k - 4 * ring * (1 - vw * vw),
-                    4 * fd * k - 8 * ring * (fd - fw * vw), k * k - 4 * ring * (glm::dot(f, f) - fw * fw));
+  const auto all = quartic_roots(4 * fd, 4 * fd * fd + 2 * k - 4 * ring * (1 - vw * vw),
+                                 4 * fd * k - 8 * ring * (fd - fw * vw),
+                                 k * k - 4 * ring * (glm::dot(f, f) - fw * fw));
   constexpr double real = 1e-6;
   std::array<double, 4> t{};
   t.fill(infinity);

@@ -1,4 +1,5 @@
-// The textbook's intersections in plain double precision: the yardstick that accuracy is compared with.
+// The textbook's intersections in plain double precision: the yardstick that accuracy is compared
+// with.
 #pragma once
 
 #include "core/geometry/shape.hpp"

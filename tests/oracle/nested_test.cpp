@@ -1,4 +1,5 @@
-// Nested transforms in the exact tier against the product without rounding, of the very doubles given.
+// Nested transforms in the exact tier against the product without rounding, of the very doubles
+// given.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -14,8 +15,10 @@ using namespace crt::test;
 
 namespace {
 
-/// One transform after the other: on the entity itself, or on what it is a part of, the innermost first.
-Entity nested(const Primitive& primitive, const std::vector<Transform>& transforms, bool in_unions) {
+/// One transform after the other: on the entity itself, or on what it is a part of, the innermost
+/// first.
+Entity nested(const Primitive& primitive, const std::vector<Transform>& transforms,
+              bool in_unions) {
   Entity entity(primitive);
   const Entity far_away = Sphere{.center = {1e9, 0, 0}};
   for (const Transform& transform : transforms) {
@@ -49,7 +52,10 @@ Primitive random_primitive(SolidMaker& make) {
     case 2:
       return Cylinder{.from = place, .to = place + way, .radius = make.real(0.2, 1)};
     case 3:
-      return Cone{.from = place, .to = place + way, .radius = make.real(0.2, 1), .radius2 = make.real(0, 1)};
+      return Cone{.from = place,
+                  .to = place + way,
+                  .radius = make.real(0.2, 1),
+                  .radius2 = make.real(0, 1)};
     case 4:
       return Torus{.center = place, .axis = way, .radius = 1, .thickness = make.real(0.1, 0.6)};
     default:
@@ -70,8 +76,8 @@ struct Count {
 };
 
 /// Compares along one ray.
-void compare(const Primitive& primitive, const std::vector<Transform>& transforms, PreparedTree& scene,
-             const Vec3& origin, const Vec3& direction, Count& count) {
+void compare(const Primitive& primitive, const std::vector<Transform>& transforms,
+             PreparedTree& scene, const Vec3& origin, const Vec3& direction, Count& count) {
   const TrueLine truth = true_crossings({.primitive = primitive,
                                          .origin = origin,
                                          .direction = direction,
@@ -91,8 +97,8 @@ void compare(const Primitive& primitive, const std::vector<Transform>& transform
     const Ball<4>& t = truth.crossings[i].t;
     const double tolerance = std::holds_alternative<Torus>(primitive) ? 1 : 0.51;
     const double error = std::abs((Ball<4>(near[i].t) - t).value());
-    const bool right =
-        near[i].entering == truth.crossings[i].entering && error <= tolerance * ulp(t.value()) + t.radius();
+    const bool right = near[i].entering == truth.crossings[i].entering &&
+                       error <= tolerance * ulp(t.value()) + t.radius();
     count.wrong += right ? 0 : 1;
   }
 }
@@ -100,7 +106,8 @@ void compare(const Primitive& primitive, const std::vector<Transform>& transform
 }  // namespace
 
 TEST_CASE(
-    "a unit ball scaled by 1/3 and then by 1/5 is met where the product of both without rounding has it") {
+    "a unit ball scaled by 1/3 and then by 1/5 is met where the product of both without rounding "
+    "has it") {
   constexpr double third = 1.0 / 3;
   constexpr double fifth = 1.0 / 5;
   const core::DoubleDouble product = core::two_product(third, fifth);
@@ -148,15 +155,16 @@ TEST_CASE("rays that graze nested spheres hit or miss as the product without rou
       transforms.push_back(scale(factor));
       transforms.push_back(make.integer(0, 1) == 0 ? random_transform(make) : Transform{});
       if (transforms.back().row_x != Vec3(1, 0, 0)) {
-        transforms.back() = rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)});
+        transforms.back() =
+            rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)});
       }
     }
     PreparedTree scene(nested(Sphere{}, transforms, make.integer(0, 1) == 0), Precision::exact);
     const Vec3 center = applied(transforms, Vec3(0));
     for (int i = 0; i < 20; ++i) {
       const Vec3 direction(make.real(-1, 1), make.real(-1, 1), make.real(-1, 1));
-      const Vec3 across =
-          glm::normalize(glm::cross(direction, Vec3(make.real(-1, 1), make.real(-1, 1), make.real(-1, 1))));
+      const Vec3 across = glm::normalize(
+          glm::cross(direction, Vec3(make.real(-1, 1), make.real(-1, 1), make.real(-1, 1))));
       const Vec3 touch = center + size * (1 + make.integer(-8, 8) * 0x1p-53) * across;
       compare(Sphere{}, transforms, scene, touch - 2.0 * direction, direction, count);
     }

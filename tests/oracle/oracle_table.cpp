@@ -1,8 +1,7 @@
-// Measures the accuracy of every primitive, and of trees of them, and whether all queries agree, and writes
-// docs/accuracy.md and its plot.
-// usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...]
-// With names of primitives ("half plane"), "trees" or "agreement" only those are measured, and their rows in
-// the page replaced; the plot and everything else stays as it is.
+// Measures the accuracy of every primitive, and of trees of them, and whether all queries agree,
+// and writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...] With
+// names of primitives ("half plane"), "trees" or "agreement" only those are measured, and their
+// rows in the page replaced; the plot and everything else stays as it is.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -111,8 +110,9 @@ class Measuring {
   bool all_kept = true;
 
   void primitive(std::size_t kind) {
-    all.primitives.push_back({measured(kind, rays_), measure_all(kind, 0, rays_ / placed_share,
-                                                                 {exact_tier()}, make_placed_ray)[0]});
+    all.primitives.push_back(
+        {measured(kind, rays_),
+         measure_all(kind, 0, rays_ / placed_share, {exact_tier()}, make_placed_ray)[0]});
     const MeasuredPrimitive& one = all.primitives.back();
     for (std::size_t tier = 0; tier < 2; ++tier) {
       const MeasuredTier& of = one.in_place.tiers[tier];
@@ -123,7 +123,8 @@ class Measuring {
   }
 
   void trees() {
-    all.trees = measure_csg(0, std::max<std::uint64_t>(1, rays_ / csg_share / rays_per_tree), rays_per_tree);
+    all.trees = measure_csg(0, std::max<std::uint64_t>(1, rays_ / csg_share / rays_per_tree),
+                            rays_per_tree);
     note(kept(all.trees.failures));
     tell(tree_rows(all.trees));
   }

@@ -8,8 +8,8 @@ using namespace crt::test;
 
 namespace {
 
-// Some 50 s of two cores in all. A torus of the exact tier costs a hundred times what others do. Where a
-// build is slow by intent, a twentieth.
+// Some 50 s of two cores in all. A torus of the exact tier costs a hundred times what others do.
+// Where a build is slow by intent, a twentieth.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t rays = 1'000'000;
 #else
@@ -22,7 +22,8 @@ std::uint64_t rays_for(std::size_t kind) {
   return name_of_primitive(kind) == "torus" ? torus_rays : rays;
 }
 
-void check(std::size_t kind, std::uint64_t count, const std::vector<Contestant>& tiers, RayMaker maker) {
+void check(std::size_t kind, std::uint64_t count, const std::vector<Contestant>& tiers,
+           RayMaker maker) {
   const std::string name(name_of_primitive(kind));
   CAPTURE(name);
   const std::vector<Record> records = measure_all(kind, 0, count, tiers, maker);

@@ -20,8 +20,8 @@ struct Place {
   std::span<const Flip> flips;
 };
 
-/// Whether two polynomials have the same roots, as they are one but for a factor: known at once where
-/// faces coincide, and where lines meet the edge of two planes.
+/// Whether two polynomials have the same roots, as they are one but for a factor: known at once
+/// where faces coincide, and where lines meet the edge of two planes.
 template <class Number>
 bool are_proportional(const Polynomial<Number>& a, const Polynomial<Number>& b) {
   if (a.size() != b.size()) return false;
@@ -65,7 +65,8 @@ class Places {
       signs_before_.push_back(changes.before);
       for (auto& change : changes.at) flips_.push_back({std::move(change.x), i, change.after});
     }
-    std::sort(flips_.begin(), flips_.end(), [](const Flip& a, const Flip& b) { return is_less(a.x, b.x); });
+    std::sort(flips_.begin(), flips_.end(),
+              [](const Flip& a, const Flip& b) { return is_less(a.x, b.x); });
     for (std::size_t begin = 0; begin < flips_.size();) begin = join(begin);
   }
   Places(const Places&) = delete;
@@ -96,7 +97,8 @@ class Places {
   std::vector<Place<Number>> places_;
 };
 
-/// Calls changed(place, now inside) where inside(signs) changes; whether it is true at t = -infinity.
+/// Calls changed(place, now inside) where inside(signs) changes; whether it is true at t =
+/// -infinity.
 template <class Number, class Inside, class Changed>
 bool follow(const Places<Number>& places, const Inside& inside, const Changed& changed) {
   std::vector<int> signs = places.signs_before();

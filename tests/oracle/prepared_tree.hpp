@@ -28,8 +28,11 @@ class PreparedTree {
 
   FoundFlips flips(const GridRay& ray) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    const core::WorldRay line{
-        .origin = ray.origin, .direction = ray.direction, .t_min = -infinity, .t_max = infinity, .start = {}};
+    const core::WorldRay line{.origin = ray.origin,
+                              .direction = ray.direction,
+                              .t_min = -infinity,
+                              .t_max = infinity,
+                              .start = {}};
     FoundFlips result;
     scene_.surrounding(line, hits_, work_);
     result.inside_before = !hits_.empty();

@@ -9,13 +9,13 @@
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
 #include "oracle/ruling_rays.hpp"
-#include "oracle/stretched_rays.hpp"
+#include "oracle/scaled_rays.hpp"
 
 namespace crt::test {
 
 double Counted::uniform(double low, double high) {
-  const core::RandomUse use{static_cast<std::uint32_t>(number_), static_cast<std::uint32_t>(number_ >> 32), 0,
-                            drawn_++};
+  const core::RandomUse use{static_cast<std::uint32_t>(number_),
+                            static_cast<std::uint32_t>(number_ >> 32), 0, drawn_++};
   return low + (high - low) * core::random_number(seed_, use);
 }
 
@@ -73,8 +73,8 @@ double angle(Counted& random) {
   return random.uniform(0, 2 * std::numbers::pi);
 }
 
-// For each primitive: make() one of a size at a place, a random spot() on its surface, a random point of
-// an edge().
+// For each primitive: make() one of a size at a place, a random spot() on its surface, a random
+// point of an edge().
 
 void make(Counted& random, const Vec3& at, double size, Sphere& s) {
   s.center = at;
@@ -92,7 +92,8 @@ Vec3 edge(Counted& random, const Sphere& s) {
 
 void make(Counted& random, const Vec3& at, double size, Box& b) {
   b.corner_a = at;
-  b.corner_b = at + size * Vec3(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1));
+  b.corner_b =
+      at + size * Vec3(random.uniform(0.1, 1), random.uniform(0.1, 1), random.uniform(0.1, 1));
 }
 Spot spot(Counted& random, const Box& b) {
   Vec3 p;
@@ -154,7 +155,8 @@ Spot on_frustum(Counted& random, const Vec3& from, const Vec3& to, double r1, do
   const Vec3 out = around(across(axis), angle(random));
   const double height = glm::length(axis);
   const Vec3 w = axis / height;
-  if (random.integer(0, 2) == 0) return {from + r1 * std::sqrt(random.uniform(0, 1)) * out, -w, out};
+  if (random.integer(0, 2) == 0)
+    return {from + r1 * std::sqrt(random.uniform(0, 1)) * out, -w, out};
   const double share = random.uniform(0, 1);
   const Vec3 normal = glm::normalize(height * out + (r1 - r2) * w);
   const Vec3 ruling = glm::normalize(axis + (r2 - r1) * out);
@@ -190,8 +192,9 @@ void make(Counted& random, const Vec3& at, double size, Torus& t) {
   t.axis = random.direction() * random.uniform(0.5, 2);
   t.radius = size * random.uniform(0.1, 1);
   const int form = random.integer(0, 9);  // a ring mostly, now and then a horn or a spindle
-  t.thickness =
-      form == 0 ? t.radius : t.radius * (form < 3 ? random.uniform(1, 3) : random.uniform(0.05, 0.95));
+  t.thickness = form == 0
+                    ? t.radius
+                    : t.radius * (form < 3 ? random.uniform(1, 3) : random.uniform(0.05, 0.95));
 }
 Spot spot(Counted& random, const Torus& t) {
   const Vec3 w = glm::normalize(t.axis);
@@ -323,7 +326,8 @@ template <class P>
 constexpr bool has_rulings = std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone>;
 
 bool is_usable(const TestRay& ray) {
-  if (ray.direction == Vec3(0) || !std::isfinite(glm::dot(ray.direction, ray.direction))) return false;
+  if (ray.direction == Vec3(0) || !std::isfinite(glm::dot(ray.direction, ray.direction)))
+    return false;
   try {
     core::validate(ray.primitive);
   } catch (const Error&) {
@@ -339,7 +343,9 @@ Vec3 apply(const Transform& transform, const Vec3& v) {
 
 /// The linear part of first and then second, rounded.
 Transform product(const Transform& second, const Transform& first) {
-  const auto row = [&](const Vec3& r) { return r.x * first.row_x + r.y * first.row_y + r.z * first.row_z; };
+  const auto row = [&](const Vec3& r) {
+    return r.x * first.row_x + r.y * first.row_y + r.z * first.row_z;
+  };
   return {row(second.row_x), row(second.row_y), row(second.row_z)};
 }
 
@@ -379,8 +385,8 @@ Transform random_transform(Counted& random) {
   };
   constexpr double spread = 4;  // of decades, up and down
   const auto factor = [&] {
-    return random.sign() *
-           (unrounded ? std::ldexp(1.0, random.integer(-8, 8)) : random.power_of_ten(-spread, spread));
+    return random.sign() * (unrounded ? std::ldexp(1.0, random.integer(-8, 8))
+                                      : random.power_of_ten(-spread, spread));
   };
   const double x = factor();
   const double y = factor();
@@ -409,7 +415,7 @@ TestRay make_ray(std::size_t primitive_kind, std::uint64_t number) {
     const double size = random.power_of_ten(-9, 9);
     const Vec3 at = random.power_of_ten(-9, 9) * random.direction();
     TestRay ray = make_ray_at(random, make_primitive(random, primitive_kind, at, size), size);
-    if (number / 10 % 10 == extreme_digit) stretch(random, ray);
+    if (number / 10 % 10 == extreme_digit) scale_direction(random, ray);
     if (is_usable(ray)) return ray;
   }
 }
@@ -427,7 +433,7 @@ TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number) {
   ray.to_world = transform;
   if (random.integer(0, 1) == 0) ray.to_world.translation = shift;
   move_to_world(ray);
-  round_stretched(ray);
+  round_scaled(ray);
   return ray;
 }
 

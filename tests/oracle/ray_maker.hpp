@@ -1,9 +1,9 @@
 // Random primitives and rays over many orders of size and distance, each a function of its number.
 //
-// Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3 to
-// 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the rays at
-// cylinders and cones one tenth more is along rulings and another at solids of extreme proportions
-// (ruling_rays.hpp). One in ten of all has a direction of extreme length.
+// Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3
+// to 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the
+// rays at cylinders and cones one tenth more is along rulings and another at solids of extreme
+// proportions (ruling_rays.hpp). One in ten of all has a direction of extreme length.
 #pragma once
 
 #include <cstdint>
@@ -39,9 +39,9 @@ struct TestRay {
   Vec3 origin{0};
   Vec3 direction{0};
   Transform to_world{};  ///< where the primitive is
-  /// A power of two. Asked is a ray with a direction so many times as long, which all that t is compared with
-  /// need not know.
-  double stretch = 1;
+  /// A power of two. Asked is a ray with a direction so many times as long, which all that t is
+  /// compared with need not know.
+  double scale = 1;
 };
 inline constexpr int lowest_decade = -3;
 inline constexpr int highest_decade = 11;
@@ -69,7 +69,8 @@ class Counted {
 Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size);
 TestRay make_ray_at(Counted& random, const Primitive& primitive, double size);
 
-/// Rotates, scales by factors that differ by up to 10^8 and rotates again; one in four rounds nothing.
+/// Rotates, scales by factors that differ by up to 10^8 and rotates again; one in four rounds
+/// nothing.
 Transform random_transform(Counted& random);
 
 /// Moves a ray along with its primitive, by ray.to_world.
@@ -77,8 +78,9 @@ void move_to_world(TestRay& ray);
 
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
 
-/// The same with the primitive and the ray moved by a transform: rotated, scaled by factors that differ by up
-/// to 10^8, rotated again and shifted; or turned and scaled so that nothing is rounded.
+/// The same with the primitive and the ray moved by a transform: rotated, scaled by factors that
+/// differ by up to 10^8, rotated again and shifted; or turned and scaled so that nothing is
+/// rounded.
 TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number);
 
 using RayMaker = TestRay (*)(std::size_t primitive_kind, std::uint64_t number);

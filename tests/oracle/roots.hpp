@@ -38,7 +38,8 @@ Number evaluate(const Polynomial<Number>& p, const Number& x) {
 template <class Number>
 Polynomial<Number> derivative(const Polynomial<Number>& p) {
   Polynomial<Number> result;
-  for (std::size_t i = 1; i < p.size(); ++i) result.push_back(p[i] * Number(static_cast<double>(i)));
+  for (std::size_t i = 1; i < p.size(); ++i)
+    result.push_back(p[i] * Number(static_cast<double>(i)));
   return result;
 }
 
@@ -52,13 +53,15 @@ double bound_of_roots(const Polynomial<Number>& p) {
     if (p[i].largest_size() == 0) continue;
     const int steps = static_cast<int>(degree - i);
     const int quotient = std::ilogb(p[i].largest_size()) + 1 - leading;
-    exponent = std::max(exponent, quotient >= 0 ? (quotient + steps - 1) / steps : quotient / steps);
+    exponent =
+        std::max(exponent, quotient >= 0 ? (quotient + steps - 1) / steps : quotient / steps);
   }
   if (exponent > 1000) throw Undecided{};
   return std::ldexp(1.0, exponent + 2);
 }
 
-/// A root between two points of different sign as doubles have it: Newton's iteration, or else halving.
+/// A root between two points of different sign as doubles have it: Newton's iteration, or else
+/// halving.
 template <class Number>
 double rounded_root(const Polynomial<Number>& p, double low, double high, int sign_low) {
   constexpr int most_steps = 100;
@@ -84,7 +87,8 @@ double rounded_root(const Polynomial<Number>& p, double low, double high, int si
   return x;
 }
 
-/// The one root between two points of different sign: a guess, and an enclosure that is proved by signs.
+/// The one root between two points of different sign: a guess, and an enclosure that is proved by
+/// signs.
 template <class Number>
 Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, const Number& from,
                const Number& to, int sign_low) {
@@ -93,7 +97,8 @@ Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, con
   constexpr double widening = 8;
   if (p[0].is_zero() && from.certain_sign() < 0 && to.certain_sign() > 0) return Number(0.0);
   constexpr int most_bits = 900;  // of what is left of the way, as long as doubles hold it
-  const double shortest = std::ldexp((to - from).largest_size(), -std::min(Number::precision(), most_bits));
+  const double shortest =
+      std::ldexp((to - from).largest_size(), -std::min(Number::precision(), most_bits));
   Number low = from;
   Number high = to;
   Number x(rounded_root(p, low.value(), high.value(), sign_low));
@@ -114,8 +119,9 @@ Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, con
   for (int i = 0; i < most_widenings && std::isfinite(margin); ++i, margin *= widening) {
     const Number left = (x - Number(2 * margin)).middle();
     const Number right = (x + Number(2 * margin)).middle();
-    if (evaluate(p, left).certain_sign() == sign_low && evaluate(p, right).certain_sign() == -sign_low &&
-        from.surely_below(left) && right.surely_below(to))
+    if (evaluate(p, left).certain_sign() == sign_low &&
+        evaluate(p, right).certain_sign() == -sign_low && from.surely_below(left) &&
+        right.surely_below(to))
       return hull(left, right);
   }
   if (!is_last_try()) throw Undecided{};
@@ -137,9 +143,9 @@ SignChanges<Number> quadratic_changes(const Polynomial<Number>& p, int leading) 
   return result;
 }
 
-/// Every place where the polynomial changes its sign. Degrees up to 2 by formula; above, roots are isolated
-/// by those of the derivative. Throws Undecided if the precision does not do; with the highest, extrema that
-/// nothing tells from 0 are double roots, which are left out.
+/// Every place where the polynomial changes its sign. Degrees up to 2 by formula; above, roots are
+/// isolated by those of the derivative. Throws Undecided if the precision does not do; with the
+/// highest, extrema that nothing tells from 0 are double roots, which are left out.
 template <class Number>
 SignChanges<Number> sign_changes(const Polynomial<Number>& polynomial) {
   Polynomial<Number> p = polynomial;
@@ -168,7 +174,8 @@ SignChanges<Number> sign_changes(const Polynomial<Number>& polynomial) {
     sign_low = sign_high;
   };
   for (const auto& extremum : extrema) {
-    // On the whole enclosure: the extreme value itself has this sign, and all between it and the middle.
+    // On the whole enclosure: the extreme value itself has this sign, and all between it and the
+    // middle.
     const int sign = evaluate(p, extremum.x).sign();
     if (sign != 0) up_to(extremum.x, sign);
   }

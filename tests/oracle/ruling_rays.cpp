@@ -33,7 +33,8 @@ Proportions any_proportions(Counted& random, double size) {
   return random.integer(0, 1) == 0 ? Proportions{size, less} : Proportions{less, size};
 }
 
-/// A unit vector across `v`: anywhere, or one of the first two turns of a coordinate axis without rounding.
+/// A unit vector across `v`: anywhere, or one of the first two turns of a coordinate axis without
+/// rounding.
 Vec3 any_across(Counted& random, const Vec3& v) {
   const Vec3 n = glm::normalize(v);
   const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
@@ -151,9 +152,10 @@ Ruling::Ruling(Counted& random, const Cone& cone) {
 }
 
 TestRay make_ruling_ray(Counted& random, const Cylinder& cylinder) {
-  TestRay ray = ray_along(
-      random,
-      {.from = cylinder.from, .to = cylinder.to, .radius = cylinder.radius, .radius2 = cylinder.radius});
+  TestRay ray = ray_along(random, {.from = cylinder.from,
+                                   .to = cylinder.to,
+                                   .radius = cylinder.radius,
+                                   .radius2 = cylinder.radius});
   ray.primitive = cylinder;
   return ray;
 }

@@ -1,4 +1,5 @@
-// Cylinders and cones of extreme proportions, and rays along the straight lines of their sides (rulings).
+// Cylinders and cones of extreme proportions, and rays along the straight lines of their sides
+// (rulings).
 #pragma once
 
 #include "oracle/ray_maker.hpp"
@@ -6,7 +7,8 @@
 namespace crt::test {
 
 /// Sets a cylinder's or cone's place and proportions: its height and radius are up to 10^6 apart, a
-/// cone's two radii up to 10^6 or next to none; the axis is slanted, along a coordinate axis or nearly so.
+/// cone's two radii up to 10^6 or next to none; the axis is slanted, along a coordinate axis or
+/// nearly so.
 void make_extreme(Counted& random, const Vec3& at, double size, Cylinder& c);
 void make_extreme(Counted& random, const Vec3& at, double size, Cone& c);
 
@@ -21,9 +23,9 @@ struct Ruling {
   Vec3 at(double share) const { return from + share * way; }
 };
 
-/// A ray that is 10^-16 to 0.1 off a ruling: turned by such an angle, shifted by so many sizes, both or
-/// neither, in any direction. It passes the ruling within the solid or beyond either end, and starts there or
-/// up to 10^12 sizes away.
+/// A ray that is 10^-16 to 0.1 off a ruling: turned by such an angle, shifted by so many sizes,
+/// both or neither, in any direction. It passes the ruling within the solid or beyond either end,
+/// and starts there or up to 10^12 sizes away.
 TestRay make_ruling_ray(Counted& random, const Cylinder& cylinder);
 TestRay make_ruling_ray(Counted& random, const Cone& cone);
 

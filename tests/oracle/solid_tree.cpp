@@ -54,13 +54,15 @@ Vec3 apply(const Transform& transform, const Vec3& v) {
 }
 
 Transform compose(const Transform& second, const Transform& first) {
-  const auto row = [&](const Vec3& r) { return r.x * first.row_x + r.y * first.row_y + r.z * first.row_z; };
+  const auto row = [&](const Vec3& r) {
+    return r.x * first.row_x + r.y * first.row_y + r.z * first.row_z;
+  };
   return {row(second.row_x), row(second.row_y), row(second.row_z),
           apply(second, first.translation) + second.translation};
 }
 
-/// A turn by quarters; now and then by an eighth, which takes planes of the grid to diagonal ones (and makes
-/// all of it the root of 2 larger across), or half or twice the size.
+/// A turn by quarters; now and then by an eighth, which takes planes of the grid to diagonal ones
+/// (and makes all of it the root of 2 larger across), or half or twice the size.
 Transform grid_transform(Counted& random) {
   Transform result;
   if (random.integer(0, 2) > 0) return result;
@@ -69,7 +71,8 @@ Transform grid_transform(Counted& random) {
   result = rotate({x, y, 90.0 * random.integer(0, 3)});
   if (random.integer(0, 3) == 0)
     result = compose({.row_x = {1, -1, 0}, .row_y = {1, 1, 0}, .row_z = {0, 0, 1}}, result);
-  if (random.integer(0, 3) == 0) result = compose(scale(random.integer(0, 1) == 0 ? 0.5 : 2.0), result);
+  if (random.integer(0, 3) == 0)
+    result = compose(scale(random.integer(0, 1) == 0 ? 0.5 : 2.0), result);
   result.translation = whole_vector(random, 1);
   return result;
 }
@@ -99,7 +102,8 @@ SolidTree part_of_depth(Counted& random, int depth, const Transform& outer) {
 bool value_of(SolidTree::Kind kind, const std::vector<bool>& parts) {
   const auto is_true = [](bool part) { return part; };
   if (kind == SolidTree::Kind::set_union) return std::any_of(parts.begin(), parts.end(), is_true);
-  if (kind == SolidTree::Kind::intersection) return std::all_of(parts.begin(), parts.end(), is_true);
+  if (kind == SolidTree::Kind::intersection)
+    return std::all_of(parts.begin(), parts.end(), is_true);
   return parts[0] && std::none_of(parts.begin() + 1, parts.end(), is_true);
 }
 
@@ -185,7 +189,8 @@ GridRay random_ray(std::uint64_t tree, std::uint64_t number) {
     case 3: {  // along an edge of the grid
       const int axis = random.integer(0, 2);
       ray.direction[axis] = random.sign() * random.uniform(0.5, 2);
-      for (int i = 0; i < 3; ++i) ray.origin[i] = i == axis ? ray.origin[i] : random.integer(-6, 6) / 2.0;
+      for (int i = 0; i < 3; ++i)
+        ray.origin[i] = i == axis ? ray.origin[i] : random.integer(-6, 6) / 2.0;
       break;
     }
     case 4:  // within a diagonal plane
@@ -208,9 +213,9 @@ void TreeOracle::collect(const SolidTree& tree) {
   for (const SolidTree& part : tree.parts) collect(part);
 }
 
-/// Two surfaces are one if their equations are the same, but for a factor, along some lines of small whole
-/// numbers, where everything is computed without rounding: more lines than surfaces of these kinds have
-/// coefficients.
+/// Two surfaces are one if their equations are the same, but for a factor, along some lines of
+/// small whole numbers, where everything is computed without rounding: more lines than surfaces of
+/// these kinds have coefficients.
 void TreeOracle::find_coincident() {
   constexpr std::uint64_t probes = 12;
   using Number = Ball<4>;
@@ -219,7 +224,8 @@ void TreeOracle::find_coincident() {
     for (std::uint64_t probe = 0; probe < probes; ++probe) {
       Counted random(102, probe);
       const Vec3 origin = whole_vector(random, 40);
-      along[leaf].push_back(equations_along<Number>({origin, whole_vector(random, 40)}, *leaves_[leaf]));
+      along[leaf].push_back(
+          equations_along<Number>({origin, whole_vector(random, 40)}, *leaves_[leaf]));
     }
   }
   std::vector<int> leaves_of_surface;
@@ -228,7 +234,8 @@ void TreeOracle::find_coincident() {
     for (std::size_t i = 0; i < along[leaf][0].size(); ++i) {
       const auto is_same = [&](const Surface& surface) {
         for (std::size_t probe = 0; probe < probes; ++probe) {
-          if (!are_proportional(along[leaf][probe][i], along[surface.leaf][probe][surface.equation]))
+          if (!are_proportional(along[leaf][probe][i],
+                                along[surface.leaf][probe][surface.equation]))
             return false;
         }
         return true;
@@ -239,8 +246,8 @@ void TreeOracle::find_coincident() {
       const Surface& surface = surfaces_[place];
       int orientation = 0;
       for (std::size_t probe = 0; orientation == 0; ++probe) {
-        orientation =
-            along[leaf][probe][i].back().sign() * along[surface.leaf][probe][surface.equation].back().sign();
+        orientation = along[leaf][probe][i].back().sign() *
+                      along[surface.leaf][probe][surface.equation].back().sign();
       }
       equations_.back().push_back({place, orientation});
     }

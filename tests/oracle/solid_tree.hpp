@@ -1,5 +1,6 @@
-// Random trees of solids most of whose faces coincide, and rays that meet them where it is hardest. All
-// numbers of the trees are small and dyadic, so that faces which coincide on paper coincide in doubles.
+// Random trees of solids most of whose faces coincide, and rays that meet them where it is hardest.
+// All numbers of the trees are small and dyadic, so that faces which coincide on paper coincide in
+// doubles.
 #pragma once
 
 #include <vector>
@@ -46,8 +47,8 @@ class TreeOracle {
   };
   Flips flips(const GridRay& ray) const;
 
-  /// Whether the point at t is inside (1) or outside (-1) of the tree, even if every leaf that it is next to,
-  /// within the bounds of the standard tier, were otherwise; else 0.
+  /// Whether the point at t is inside (1) or outside (-1) of the tree, even if every leaf that it
+  /// is next to, within the bounds of the standard tier, were otherwise; else 0.
   int certain_side(const GridRay& ray, double t) const;
 
   /// All faces, and those which lie on a surface that another solid has too.

@@ -61,8 +61,8 @@ double outside(const Frustum& c, const IntervalVec& p) {
   const Interval h = dot(w, axis) / height;
   const Interval growth = Interval(c.radius2) - Interval(c.radius);
   const Interval radial = length(cross(w, axis)) / height;
-  const Interval side =
-      (radial - Interval(c.radius) - growth * (h / height)) * height / sqrt(square(height) + square(growth));
+  const Interval side = (radial - Interval(c.radius) - growth * (h / height)) * height /
+                        sqrt(square(height) + square(growth));
   return std::max({side.value(), -h.value(), (h - height).value()});
 }
 double outside(const Cylinder& c, const IntervalVec& p) {
@@ -103,7 +103,8 @@ Ball ball_of(const Cylinder& c) {
   return {middle(c.from, c.to), std::hypot(c.radius, glm::length(c.to - c.from) / 2)};
 }
 Ball ball_of(const Cone& c) {
-  return {middle(c.from, c.to), std::hypot(std::max(c.radius, c.radius2), glm::length(c.to - c.from) / 2)};
+  return {middle(c.from, c.to),
+          std::hypot(std::max(c.radius, c.radius2), glm::length(c.to - c.from) / 2)};
 }
 Ball ball_of(const Torus& t) {
   return {t.center, t.radius + t.thickness};
@@ -113,8 +114,8 @@ Ball ball_of(const Disc& d) {
 }
 Ball ball_of(const Triangle& t) {
   const Vec3 center = t.a / 3.0 + t.b / 3.0 + t.c / 3.0;
-  return {center,
-          std::max({glm::length(t.a - center), glm::length(t.b - center), glm::length(t.c - center)})};
+  return {center, std::max({glm::length(t.a - center), glm::length(t.b - center),
+                            glm::length(t.c - center)})};
 }
 
 }  // namespace
@@ -138,7 +139,8 @@ double true_distance(const Question& question, double t) {
 
 PointAndSpeed point_and_speed(const Question& question, double t) {
   const ExactLine<Interval> line(question.origin, question.direction, question.to_world, Vec3(0));
-  return {rounded(line.at(Interval(t) - Interval(line.shift))), glm::length(rounded(line.direction))};
+  return {rounded(line.at(Interval(t) - Interval(line.shift))),
+          glm::length(rounded(line.direction))};
 }
 
 Vec3 center_of(const Primitive& primitive) {

@@ -16,7 +16,8 @@ Scene small_scene() {
   Scene scene;
   const Box block{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}};
   scene.entities.push_back(Entity(block) - Entity(Sphere{.center = {1, 1, -1}}));
-  scene.entities.emplace_back(Sphere{.center = {-2, 0, 0}, .material = Material{.color = Color{1, 0, 0}}});
+  scene.entities.emplace_back(
+      Sphere{.center = {-2, 0, 0}, .material = Material{.color = Color{1, 0, 0}}});
   scene.lights = {PointLight{.origin = {3, 5, -6}}};
   scene.camera = {.position = {0, 1, -8}, .pointing = {0, 0, 0}};
   scene.settings = {.width = 32, .height = 24};

@@ -40,20 +40,24 @@ Scene scene_of(std::vector<Entity> entities) {
 
 /// One of each primitive around the origin, none larger than about 2.
 std::vector<Entity> one_of_each(double scale) {
-  const auto v = [scale](double x, double y, double z) { return Vec3(x * scale, y * scale, z * scale); };
-  return {
-      Sphere{.center = v(0.3, 0.1, 0.2), .radius = 0.7 * scale},
-      Box{.corner_a = v(-0.9, -0.8, -0.7), .corner_b = v(0.3, 0.6, 0.5)},
-      Cylinder{.from = v(-0.5, -0.5, 0.1), .to = v(0.4, 0.7, 0.3), .radius = 0.3 * scale},
-      Cone{.from = v(0.5, -0.5, 0.1), .to = v(-0.4, 0.7, 0.3), .radius = 0.6 * scale, .radius2 = 0.1 * scale},
-      Torus{.center = v(0.1, 0.2, 0.1),
-            .axis = {0.2, 1, 0.3},
-            .radius = 0.8 * scale,
-            .thickness = 0.25 * scale},
-      Disc{.center = v(0, 0.9, 0), .normal = {0.1, 1, 0.1}, .radius = 0.8 * scale},
-      Triangle{.a = v(-1, -1, 0.5), .b = v(1, -1, 0.7), .c = v(0, 1, 0.2)},
-      Plane{.normal = {0.1, 1, 0.2}, .position = v(0, -1, 0)},
-      HalfPlane{.normal = {1, 0.2, 0}, .position = v(-0.95, 0, 0), .direction = {0, 1, 0}}};
+  const auto v = [scale](double x, double y, double z) {
+    return Vec3(x * scale, y * scale, z * scale);
+  };
+  return {Sphere{.center = v(0.3, 0.1, 0.2), .radius = 0.7 * scale},
+          Box{.corner_a = v(-0.9, -0.8, -0.7), .corner_b = v(0.3, 0.6, 0.5)},
+          Cylinder{.from = v(-0.5, -0.5, 0.1), .to = v(0.4, 0.7, 0.3), .radius = 0.3 * scale},
+          Cone{.from = v(0.5, -0.5, 0.1),
+               .to = v(-0.4, 0.7, 0.3),
+               .radius = 0.6 * scale,
+               .radius2 = 0.1 * scale},
+          Torus{.center = v(0.1, 0.2, 0.1),
+                .axis = {0.2, 1, 0.3},
+                .radius = 0.8 * scale,
+                .thickness = 0.25 * scale},
+          Disc{.center = v(0, 0.9, 0), .normal = {0.1, 1, 0.1}, .radius = 0.8 * scale},
+          Triangle{.a = v(-1, -1, 0.5), .b = v(1, -1, 0.7), .c = v(0, 1, 0.2)},
+          Plane{.normal = {0.1, 1, 0.2}, .position = v(0, -1, 0)},
+          HalfPlane{.normal = {1, 0.2, 0}, .position = v(-0.95, 0, 0), .direction = {0, 1, 0}}};
 }
 
 }  // namespace
@@ -69,7 +73,8 @@ TEST_CASE("many objects: what Embree's boxes let through is all that brute force
   }
   const PreparedData all(scene_of(spheres));
   std::vector<std::unique_ptr<PreparedData>> each;
-  for (const Entity& sphere : spheres) each.push_back(std::make_unique<PreparedData>(scene_of({sphere})));
+  for (const Entity& sphere : spheres)
+    each.push_back(std::make_unique<PreparedData>(scene_of({sphere})));
   RayWorkspace work;
   for (int i = 0; i < 300; ++i) {
     const WorldRay ray = ray_from({make.real(-12, 12), make.real(-12, 12), make.real(-12, 12)},
@@ -126,10 +131,11 @@ TEST_CASE("a transformed ray meets a transformed entity where the plain ones mee
   const PreparedData plain(scene_of(one_of_each(1)));
   for (int round = 0; round < 20; ++round) {
     // Non-uniform, mirrored in every second round.
-    const Transform steps[] = {scale(Vec3(make.real(0.3, 3), make.real(0.3, 3),
-                                          round % 2 == 0 ? make.real(0.3, 3) : -make.real(0.3, 3))),
-                               rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)}),
-                               translate({make.real(-5, 5), make.real(-5, 5), make.real(-5, 5)})};
+    const Transform steps[] = {
+        scale(Vec3(make.real(0.3, 3), make.real(0.3, 3),
+                   round % 2 == 0 ? make.real(0.3, 3) : -make.real(0.3, 3))),
+        rotate({make.real(-180, 180), make.real(-180, 180), make.real(-180, 180)}),
+        translate({make.real(-5, 5), make.real(-5, 5), make.real(-5, 5)})};
     std::vector<Entity> moved;
     for (Entity entity : one_of_each(1)) {
       for (const Transform& step : steps) entity = entity.transformed(step);
@@ -188,7 +194,8 @@ TEST_CASE("surrounding solids come outermost first") {
   std::vector<RayHit> around;
   data.surrounding(ray_from({0, 0, 0}, {1, 0, 0.1}), around, work);
   REQUIRE(around.size() == 4);
-  CHECK(around[0].t == std::numeric_limits<double>::infinity());  // along the ground it is never left
+  CHECK(around[0].t ==
+        std::numeric_limits<double>::infinity());  // along the ground it is never left
   CHECK(around[1].object == 1);
   CHECK(around[2].object == 2);
   CHECK(around[3].object == 0);
@@ -215,8 +222,8 @@ TEST_CASE("a distant ray finds a small scene as precisely as its numbers allow")
 }
 
 TEST_CASE("a scene holds sizes 1e20 apart") {
-  const PreparedData data(scene_of(
-      {Sphere{.center = {0, 0, 1e12}, .radius = 1e11}, Sphere{.center = {0, 0, 0}, .radius = 1e-9}}));
+  const PreparedData data(scene_of({Sphere{.center = {0, 0, 1e12}, .radius = 1e11},
+                                    Sphere{.center = {0, 0, 0}, .radius = 1e-9}}));
   RayWorkspace work;
   const RayHit small = data.intersect(ray_from({0, 0, -1e-6}, {0, 0, 1}), work);
   CHECK(small.object == 1);
@@ -240,17 +247,17 @@ TEST_CASE("the empty entity is what the empty set is") {
   CHECK(nothing.primitive_count() == 0);
   const Entity ball = Sphere{};
   const Entity disc = Disc{};
-  for (const Entity& same :
-       {ball + nothing, nothing + ball, ball - nothing, csg_difference(ball, std::array{nothing, nothing}),
-        csg_union(std::array{nothing, ball, nothing})}) {
+  for (const Entity& same : {ball + nothing, nothing + ball, ball - nothing,
+                             csg_difference(ball, std::array{nothing, nothing}),
+                             csg_union(std::array{nothing, ball, nothing})}) {
     CHECK(same.shared_node() == ball.shared_node());
   }
   CHECK((disc + nothing).shared_node() == disc.shared_node());
   const Entity bitten = csg_difference(ball, std::array{nothing, Entity(Box{}), nothing});
   CHECK(bitten.primitive_count() == 2);
-  for (const Entity& empty :
-       {ball ^ nothing, nothing ^ ball, nothing - ball, nothing + nothing, nothing - nothing,
-        nothing.transformed(translate({1, 2, 3})), nothing.with_id(7), nothing.with_material(Material{})}) {
+  for (const Entity& empty : {ball ^ nothing, nothing ^ ball, nothing - ball, nothing + nothing,
+                              nothing - nothing, nothing.transformed(translate({1, 2, 3})),
+                              nothing.with_id(7), nothing.with_material(Material{})}) {
     CHECK(empty.is_empty());
   }
   CHECK_FALSE(ball.is_empty());
@@ -266,8 +273,9 @@ TEST_CASE("no ray meets the empty entity, and those behind it keep their ids") {
   const RayHit hit = data.intersect(ray_from({0, 0, 0}, {0, 0, 1}), work);
   REQUIRE(hit.found());
   CHECK(data.entity_id(hit) == 1);
-  CHECK_FALSE(
-      PreparedData(scene_of({empty_entity()})).intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
+  CHECK_FALSE(PreparedData(scene_of({empty_entity()}))
+                  .intersect(ray_from({0, 0, -5}, {0, 0, 1}), work)
+                  .found());
 }
 
 TEST_CASE("transforms that flatten space are refused") {

@@ -37,7 +37,8 @@ Image with_aovs(const Scene& scene, RenderOptions options = {}) {
 }
 
 std::size_t index_of(const Image& image, int x, int y) {
-  return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) + static_cast<std::size_t>(x);
+  return static_cast<std::size_t>(y) * static_cast<std::size_t>(image.width()) +
+         static_cast<std::size_t>(x);
 }
 
 double depth_at(const Image& image, int x, int y) {
@@ -71,8 +72,8 @@ Vec3 direction_through(const Image& image, double x, double y) {
 }
 
 bool same_channels(const Image& a, const Image& b) {
-  return std::equal(a.channels().begin(), a.channels().end(), b.channels().begin(), b.channels().end(),
-                    [](const ImageChannel& one, const ImageChannel& other) {
+  return std::equal(a.channels().begin(), a.channels().end(), b.channels().begin(),
+                    b.channels().end(), [](const ImageChannel& one, const ImageChannel& other) {
                       return one.name == other.name && one.values == other.values;
                     });
 }
@@ -87,10 +88,11 @@ Scene busy_scene() {
   scene.lights = {PointLight{.origin = {3, 5, -4}}};
   Material crystal = glass(1.5);
   crystal.absorption = {0.1, 0.4, 0.2};
-  scene.entities = {Plane{.position = {0, -1, 0}, .material = Material{.color = Pattern(Checker{})}},
-                    Sphere{.center = {-1, 0, 0}, .radius = 0.9, .material = crystal},
-                    Entity(Box{.corner_a = {0, -1, 0}, .corner_b = {1.5, 1, 1}}) -
-                        Entity(Sphere{.center = {0.8, 0.2, 0}, .radius = 0.5})};
+  scene.entities = {
+      Plane{.position = {0, -1, 0}, .material = Material{.color = Pattern(Checker{})}},
+      Sphere{.center = {-1, 0, 0}, .radius = 0.9, .material = crystal},
+      Entity(Box{.corner_a = {0, -1, 0}, .corner_b = {1.5, 1, 1}}) -
+          Entity(Sphere{.center = {0.8, 0.2, 0}, .radius = 0.5})};
   return scene;
 }
 
@@ -111,13 +113,14 @@ TEST_CASE("each AOV is told by itself as with all others") {
   const PreparedScene scene = prepare(busy_scene());
   const Image all = render(scene, {.aovs = all_aovs});
   std::size_t count = 0;
-  for (const Aovs& aovs : {Aovs{.depth = true}, Aovs{.normal = true}, Aovs{.id = true}, Aovs{.albedo = true},
-                           Aovs{.samples = true}, Aovs{.error = true}}) {
+  for (const Aovs& aovs : {Aovs{.depth = true}, Aovs{.normal = true}, Aovs{.id = true},
+                           Aovs{.albedo = true}, Aovs{.samples = true}, Aovs{.error = true}}) {
     const Image one = render(scene, {.aovs = aovs});
     for (const ImageChannel& channel : one.channels()) {
       CAPTURE(channel.name);
-      const auto same = std::find_if(all.channels().begin(), all.channels().end(),
-                                     [&](const ImageChannel& other) { return other.name == channel.name; });
+      const auto same =
+          std::find_if(all.channels().begin(), all.channels().end(),
+                       [&](const ImageChannel& other) { return other.name == channel.name; });
       REQUIRE(same != all.channels().end());
       CHECK(same->values == channel.values);
       ++count;
@@ -131,8 +134,9 @@ TEST_CASE("a ball's depth, normal, id and albedo are those of the closed form") 
   const Vec3 center(0.3, -0.2, 1);
   const double radius = 1.7;
   const Material red{.color = Color{0.7, 0.2, 0.1}};
-  scene.entities = {Plane{.position = {0, -100, 0}},
-                    Entity(Sphere{.center = center, .radius = radius, .material = red}).with_id(70000007)};
+  scene.entities = {
+      Plane{.position = {0, -100, 0}},
+      Entity(Sphere{.center = center, .radius = radius, .material = red}).with_id(70000007)};
   const Image image = with_aovs(scene);
   int hits = 0;
   for (int y = 0; y < 25; ++y) {
@@ -140,7 +144,8 @@ TEST_CASE("a ball's depth, normal, id and albedo are those of the closed form") 
       const Vec3 direction = direction_through(image, x + 0.5, y + 0.5);
       const Vec3 to_center = center - scene.camera.position;
       const double middle = glm::dot(to_center, direction);
-      const double discriminant = middle * middle - glm::dot(to_center, to_center) + radius * radius;
+      const double discriminant =
+          middle * middle - glm::dot(to_center, to_center) + radius * radius;
       if (discriminant < 0) continue;
       ++hits;
       const double distance = middle - std::sqrt(discriminant);
@@ -155,10 +160,12 @@ TEST_CASE("a ball's depth, normal, id and albedo are those of the closed form") 
 }
 
 TEST_CASE(
-    "a plane is told from outside and from within: its normal is turned to the viewer, its id is its place") {
+    "a plane is told from outside and from within: its normal is turned to the viewer, its id is "
+    "its place") {
   Scene scene = scene_before_eye(9, 9);
   for (const double facing : {-1.0, 1.0}) {
-    scene.entities = {Sphere{.center = {0, 0, -50}}, Plane{.normal = {0, 0, facing}, .position = {0, 0, 2}}};
+    scene.entities = {Sphere{.center = {0, 0, -50}},
+                      Plane{.normal = {0, 0, facing}, .position = {0, 0, 2}}};
     const Image image = with_aovs(scene);
     for (int y = 0; y < 9; ++y) {
       for (int x = 0; x < 9; ++x) {
@@ -189,8 +196,8 @@ TEST_CASE("an ellipsoid's normal is that of its surface, not its sphere's") {
     for (int x = 0; x < 21; ++x) {
       if (depth_at(image, x, y) == double{infinity}) continue;
       ++hits;
-      const Vec3 point =
-          scene.camera.position + depth_at(image, x, y) * direction_through(image, x + 0.5, y + 0.5);
+      const Vec3 point = scene.camera.position +
+                         depth_at(image, x, y) * direction_through(image, x + 0.5, y + 0.5);
       // The gradient of (x/a)^2 + (y/b)^2 + (z/c)^2 = 1. Near the rim it turns fast.
       const Vec3 scaled = point / half_axes;
       CHECK(glm::dot(scaled, scaled) == doctest::Approx(1).epsilon(1e-5));
@@ -222,8 +229,9 @@ TEST_CASE("normal and albedo are means over a pixel's samples, depth and id thos
   const Material red{.color = Color{1, 0, 0}};
   const Material blue{.color = Color{0, 0, 1}};
   const auto slab = [&](double from, double to, double z, const Material& material) {
-    return Entity(
-        Box{.corner_a = {from * edge, -9, z}, .corner_b = {to * edge, 9, z + 0.5}, .material = material});
+    return Entity(Box{.corner_a = {from * edge, -9, z},
+                      .corner_b = {to * edge, 9, z + 0.5},
+                      .material = material});
   };
   scene.entities = {slab(-9, 9, 1, red), slab(-0.5, 9, 0, blue)};
   const Image two = with_aovs(scene);
@@ -249,13 +257,15 @@ TEST_CASE("a lens blurs albedo as it blurs colours, and leaves depth and id shar
   const Image image = with_aovs(scene);
   scene.camera.aperture = 0;
   const Image sharp = with_aovs(scene);
-  CHECK(std::equal(image.channel("Z").begin(), image.channel("Z").end(), sharp.channel("Z").begin()));
+  CHECK(
+      std::equal(image.channel("Z").begin(), image.channel("Z").end(), sharp.channel("Z").begin()));
   CHECK(image.integer_channel("id")[0] == no_entity_id);
   int partly = 0;
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 24; ++x) {
       // The ball is white and evenly lit: what its light is, its albedo is.
-      REQUIRE(albedo_at(image, x, y).x == doctest::Approx(image.at(x, y).r).epsilon(float_rounding));
+      REQUIRE(albedo_at(image, x, y).x ==
+              doctest::Approx(image.at(x, y).r).epsilon(float_rounding));
       partly += image.at(x, y).r > 0.1 && image.at(x, y).r < 0.9 ? 1 : 0;
     }
   }
@@ -266,7 +276,8 @@ TEST_CASE("the first surface counts, be it a mirror or glass") {
   Scene scene = scene_before_eye(1, 1);
   Material clear = glass(1.5);
   clear.color = Color{0.9, 0.8, 0.7};
-  for (const Material& material : {clear, Material{.color = Color{0.9, 0.8, 0.7}, .reflectivity = 1}}) {
+  for (const Material& material :
+       {clear, Material{.color = Color{0.9, 0.8, 0.7}, .reflectivity = 1}}) {
     scene.entities = {Sphere{.center = {0, 0, 9}}, Sphere{.radius = 1, .material = material}};
     const Image image = with_aovs(scene);
     CHECK(depth_at(image, 0, 0) == 3);
@@ -360,11 +371,13 @@ TEST_CASE("of an adaptive picture samples and errors are those that the statisti
   CHECK(stats.samples_min < stats.samples_max);
   CHECK(double{*std::max_element(errors.begin(), errors.end())} == stats.half_width_max);
   std::uint64_t unresolved = 0;
-  for (const float error : errors) unresolved += double{error} > scene.settings.target_error ? 1 : 0;
+  for (const float error : errors)
+    unresolved += double{error} > scene.settings.target_error ? 1 : 0;
   CHECK(unresolved == stats.pixels_unresolved);
 }
 
-TEST_CASE("in an adaptive picture normal and albedo are means over the samples that each pixel has") {
+TEST_CASE(
+    "in an adaptive picture normal and albedo are means over the samples that each pixel has") {
   Scene scene = scene_before_eye(16, 16);
   scene.settings.target_error = 2.0 / 255;
   scene.lights = {glow(1)};
@@ -386,8 +399,9 @@ TEST_CASE("depth and id are those that a ray query through the pixel's middle fi
   const Image image = render(prepared, {.aovs = all_aovs});
   for (int y = 0; y < image.height(); y += 3) {
     for (int x = 0; x < image.width(); x += 2) {
-      const auto hit = intersect(prepared, {.origin = scene.camera.position,
-                                            .direction = direction_through(image, x + 0.5, y + 0.5)});
+      const auto hit =
+          intersect(prepared, {.origin = scene.camera.position,
+                               .direction = direction_through(image, x + 0.5, y + 0.5)});
       REQUIRE(id_at(image, x, y) == (hit ? hit->entity_id : no_entity_id));
       if (hit) REQUIRE(depth_at(image, x, y) == doctest::Approx(hit->t).epsilon(float_rounding));
     }

@@ -45,7 +45,9 @@ std::string content_of(const std::filesystem::path& path) {
 
 }  // namespace
 
-TEST_CASE("a picture that was stopped after any pass goes on to the same picture, and to the same counts") {
+TEST_CASE(
+    "a picture that was stopped after any pass goes on to the same picture, and to the same "
+    "counts") {
   const PreparedScene scene = prepare(varied_scene());
   const Image reference = render(scene);
   REQUIRE(reference.stats().passes > 80);
@@ -79,7 +81,8 @@ TEST_CASE("many breaks, with other threads and a time budget, and what is told b
   const auto checkpoint = directory / "state";
   int breaks = 0;
   for (int passes = 2; passes < reference.stats().passes; passes += 9, ++breaks) {
-    render(scene, {.threads = 1 + passes % 3, .passes = passes, .checkpoint = checkpoint, .aovs = aovs});
+    render(scene,
+           {.threads = 1 + passes % 3, .passes = passes, .checkpoint = checkpoint, .aovs = aovs});
   }
   CHECK(breaks > 5);
   description.settings.time_budget = 1000;
@@ -116,7 +119,8 @@ TEST_CASE("a picture that is cancelled goes on from what was kept") {
 }
 
 TEST_CASE(
-    "a picture that is cancelled anywhere, even before the first pass is whole, goes on to the same one") {
+    "a picture that is cancelled anywhere, even before the first pass is whole, goes on to the "
+    "same one") {
   Scene description = varied_scene();
   description.settings.max_samples = 16;
   const PreparedScene scene = prepare(description);
@@ -131,11 +135,11 @@ TEST_CASE(
       for (; !whole && breaks < 1000; ++breaks) {
         std::atomic<int> left = calls + breaks / 4;
         core::Rendering* running = nullptr;
-        core::Rendering rendering(scene.data(), {.threads = threads, .checkpoint = checkpoint, .aovs = aovs},
-                                  [&] {
-                                    if (--left == 0) running->cancel();
-                                    return 0.0;
-                                  });
+        core::Rendering rendering(
+            scene.data(), {.threads = threads, .checkpoint = checkpoint, .aovs = aovs}, [&] {
+              if (--left == 0) running->cancel();
+              return 0.0;
+            });
         running = &rendering;
         try {
           rendering.run();
@@ -158,7 +162,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "the first checkpoint is there after 10 seconds, though no pass is whole, and is good to go on from") {
+    "the first checkpoint is there after 10 seconds, though no pass is whole, and is good to go on "
+    "from") {
   Scene description = varied_scene();
   description.settings.width = description.settings.height = 100;
   description.settings.max_samples = 16;
@@ -191,7 +196,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a picture that is cancelled at once leaves a checkpoint of nothing, and none that was there is lost") {
+    "a picture that is cancelled at once leaves a checkpoint of nothing, and none that was there "
+    "is lost") {
   const PreparedScene scene = prepare(varied_scene());
   const TemporaryDirectory directory;
   const auto checkpoint = directory / "state";
@@ -242,15 +248,18 @@ TEST_CASE("a checkpoint of another picture is refused") {
   for (const Scene& other : others) {
     CHECK(failure(prepare(other), {.checkpoint = checkpoint}) == ErrorCode::invalid_argument);
   }
-  CHECK(failure(prepare(scene), {.seed = 7, .checkpoint = checkpoint}) == ErrorCode::invalid_argument);
-  CHECK(failure(prepare(scene), {.passes = 69, .checkpoint = checkpoint}) == ErrorCode::invalid_argument);
+  CHECK(failure(prepare(scene), {.seed = 7, .checkpoint = checkpoint}) ==
+        ErrorCode::invalid_argument);
+  CHECK(failure(prepare(scene), {.passes = 69, .checkpoint = checkpoint}) ==
+        ErrorCode::invalid_argument);
   CHECK(failure(prepare(scene), {.checkpoint = checkpoint, .aovs = {.normal = true}}) ==
         ErrorCode::invalid_argument);
   CHECK(content_of(checkpoint) == before);
 
   Scene grid = scene;
   grid.settings.target_error = 0;
-  CHECK(failure(prepare(grid), {.checkpoint = directory / "of-grid"}) == ErrorCode::invalid_argument);
+  CHECK(failure(prepare(grid), {.checkpoint = directory / "of-grid"}) ==
+        ErrorCode::invalid_argument);
 }
 
 TEST_CASE("a checkpoint that is damaged is an error, wherever it is") {
@@ -289,12 +298,13 @@ TEST_CASE("nonsense with a right checksum does no harm") {
   const std::string written = content_of(checkpoint);
   const std::string content = written.substr(0, written.size() - 8);
   const auto write = [&](const std::string& changed) {
-    core::write_state_file(checkpoint,
-                           [&](core::StateWriter& out) { out.put_all(std::span<const char>(changed)); });
+    core::write_state_file(
+        checkpoint, [&](core::StateWriter& out) { out.put_all(std::span<const char>(changed)); });
   };
   write(content);
   CHECK(content_of(checkpoint) == written);
-  for (std::size_t place = 0; place < content.size(); place += place < 200 ? 1 : 1 + content.size() / 150) {
+  for (std::size_t place = 0; place < content.size();
+       place += place < 200 ? 1 : 1 + content.size() / 150) {
     for (const char value : {'\0', '\xff', '\x7f'}) {
       std::string changed = content;
       changed[place] = value;
@@ -312,9 +322,10 @@ TEST_CASE("where no checkpoint can be written the picture is the same, and the l
   const PreparedScene scene = prepare(varied_scene());
   int warnings = 0;
   const Image image = render(
-      scene, {.checkpoint = "/nowhere/at/all/state", .log = [&](LogLevel level, std::string_view line) {
-                if (level == LogLevel::warning && line.find("checkpoint") != line.npos) ++warnings;
-              }});
+      scene,
+      {.checkpoint = "/nowhere/at/all/state", .log = [&](LogLevel level, std::string_view line) {
+         if (level == LogLevel::warning && line.find("checkpoint") != line.npos) ++warnings;
+       }});
   CHECK(same_pixels(image, render(scene)));
   CHECK(warnings == 1);
 }

@@ -57,8 +57,10 @@ TEST_CASE("a shadow ray is sent only where the light would count") {
   };
   CHECK(shadow_rays(ParallelLight{}) > 0);
   CHECK(shadow_rays(ParallelLight{}) < pixels);
-  // From below the floor it lights nothing that is seen; black light, and a cone that looks away, too.
-  CHECK(shadow_rays(ParallelLight{.from = {0, -1, 0}, .pointing = {0, 0, 0}}) < shadow_rays(ParallelLight{}));
+  // From below the floor it lights nothing that is seen; black light, and a cone that looks away,
+  // too.
+  CHECK(shadow_rays(ParallelLight{.from = {0, -1, 0}, .pointing = {0, 0, 0}}) <
+        shadow_rays(ParallelLight{}));
   CHECK(shadow_rays(PointLight{.origin = {0, 5, 0}, .color = {0, 0, 0}}) == 0);
   CHECK(shadow_rays(SpotLight{.origin = {0, 5, 0}, .pointing = {0, 6, 0}}) == 0);
   // Nor does a surface ask that answers no light.
@@ -87,7 +89,9 @@ TEST_CASE("mirrors cost reflection rays, glass refraction rays and media") {
   CHECK(window.media_changes == window.refraction_rays);
 }
 
-TEST_CASE("what surrounds the camera is looked up once a picture, or for each ray where they start apart") {
+TEST_CASE(
+    "what surrounds the camera is looked up once a picture, or for each ray where they start "
+    "apart") {
   Scene scene = small_scene(glass(1.5));
   CHECK(stats_of(scene).media_lookups == 1);
   scene.camera.projection = Projection::spherical;
@@ -121,7 +125,8 @@ TEST_CASE("patterns are looked up once a hit, bumps by the neighbours that a slo
   const std::uint64_t lookups = stats_of(scene).pattern_lookups;
   CHECK(lookups > 0);
   CHECK(lookups < pixels);
-  scene.entities[0] = Sphere{.center = {0, 1, 0}, .radius = 0.8, .material = Material{.bump = Noise{}}};
+  scene.entities[0] =
+      Sphere{.center = {0, 1, 0}, .radius = 0.8, .material = Material{.bump = Noise{}}};
   CHECK(stats_of(scene).pattern_lookups == 6 * lookups);
 }
 

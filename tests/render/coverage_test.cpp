@@ -1,5 +1,6 @@
-// Whether the half-width that is told of a pixel keeps its promise: in each class of pixels by itself, where
-// the renderer stopped, against references with many more samples. And what cutting off paths takes.
+// Whether the half-width that is told of a pixel keeps its promise: in each class of pixels by
+// itself, where the renderer stopped, against references with many more samples. And what cutting
+// off paths takes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -47,10 +48,11 @@ PixelClass flat_pixels() {
 
 PixelClass edge_pixels() {
   Scene scene = white_on_black();
-  scene.entities = {Sphere{.center = {-4, 3, 0}, .radius = 3.3, .material = inert()},
-                    Sphere{.center = {3, -4, 0}, .radius = 2.4, .material = inert()},
-                    Entity(Box{.corner_a = {-1.2, -1.2, -1}, .corner_b = {4.1, 2.3, 1}, .material = inert()})
-                        .transformed(rotate({0, 0, 17}))};
+  scene.entities = {
+      Sphere{.center = {-4, 3, 0}, .radius = 3.3, .material = inert()},
+      Sphere{.center = {3, -4, 0}, .radius = 2.4, .material = inert()},
+      Entity(Box{.corner_a = {-1.2, -1.2, -1}, .corner_b = {4.1, 2.3, 1}, .material = inert()})
+          .transformed(rotate({0, 0, 17}))};
   return {"edge", scene};
 }
 
@@ -107,9 +109,10 @@ TEST_CASE("the bound of Clopper and Pearson is as in tables") {
 TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say") {
   // The reference's own error, and rounding.
   constexpr double tolerance = 0.1 / 255;
-  for (PixelClass& pixels :
-       std::array{flat_pixels(), edge_pixels(), thin_pixels(), defocused_pixels(), refractive_pixels()}) {
-    const Image truth = reference_of(pixels.scene, pixels.scene.settings.dof_samples > 1 ? 16384 : 4096);
+  for (PixelClass& pixels : std::array{flat_pixels(), edge_pixels(), thin_pixels(),
+                                       defocused_pixels(), refractive_pixels()}) {
+    const Image truth =
+        reference_of(pixels.scene, pixels.scene.settings.dof_samples > 1 ? 16384 : 4096);
     for (const double target : {8.0 / 255, 4.0 / 255}) {
       pixels.scene.settings.target_error = target;
       const PreparedScene scene = prepare(pixels.scene);
@@ -124,9 +127,11 @@ TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say"
           const Color b = truth.at(i % side, i / side);
           if (pixels.mixed_only && (b.r == 0 || b.r == 1)) continue;
           const auto shown = [](double x) { return std::clamp(x, 0.0, 1.0); };
-          const double error = std::max({std::abs(shown(a.r) - shown(b.r)), std::abs(shown(a.g) - shown(b.g)),
-                                         std::abs(shown(a.b) - shown(b.b))});
-          const double half_width = double{rendering.measures().half_widths[static_cast<std::size_t>(i)]};
+          const double error =
+              std::max({std::abs(shown(a.r) - shown(b.r)), std::abs(shown(a.g) - shown(b.g)),
+                        std::abs(shown(a.b) - shown(b.b))});
+          const double half_width =
+              double{rendering.measures().half_widths[static_cast<std::size_t>(i)]};
           ++count;
           if (error <= half_width + tolerance) ++within;
         }

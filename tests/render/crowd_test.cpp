@@ -1,10 +1,11 @@
-// Many things at one place: in the picture they are what they are once, or what they are one by one.
+// Many things at one place: in the picture they are what they are once, or what they are one by
+// one.
 #include <doctest/doctest.h>
 
 #include <random>
 #include <vector>
 
-#include "core/render/media_on_way.hpp"
+#include "core/render/media_along_ray.hpp"
 #include "crt/error.hpp"
 #include "pictures.hpp"
 
@@ -43,8 +44,10 @@ TEST_CASE("a picture with things twice has the bytes of that with them once") {
   const SharedMaterial glass = tinted_glass();
   const Entity ball = Sphere{.material = glass};
   const Entity bite = Sphere{.center = {0.6, 0.4, -0.6}, .radius = 0.7};
-  const Entity disc = Disc{.center = {0, 0, -2}, .normal = {0, 0, 1}, .radius = 0.5, .material = glass};
-  for (const Entity& entity : {ball, Entity(Sphere{}), disc, ball - bite, ball + bite, bite ^ ball}) {
+  const Entity disc =
+      Disc{.center = {0, 0, -2}, .normal = {0, 0, 1}, .radius = 0.5, .material = glass};
+  for (const Entity& entity :
+       {ball, Entity(Sphere{}), disc, ball - bite, ball + bite, bite ^ ball}) {
     const Image once = picture(lit_scene({entity}));
     CHECK(same_pixels(picture(lit_scene({entity, entity, entity})), once));
     CHECK(same_pixels(picture(lit_scene({entity + entity, entity})), once));
@@ -53,7 +56,8 @@ TEST_CASE("a picture with things twice has the bytes of that with them once") {
     CHECK(same_pixels(picture(lit_scene({(entity + bite) ^ entity})), once));
   }
   const Image cut = picture(lit_scene({ball - bite}));
-  CHECK(same_pixels(picture(lit_scene({csg_difference(ball, std::vector<Entity>(1000, bite))})), cut));
+  CHECK(same_pixels(picture(lit_scene({csg_difference(ball, std::vector<Entity>(1000, bite))})),
+                    cut));
   CHECK(same_pixels(picture(lit_scene({csg_union(std::vector<Entity>(1000, ball - bite))})), cut));
 }
 
@@ -72,7 +76,8 @@ TEST_CASE("a picture whose rays take too many steps is an error, at any number o
   for (const int threads : {1, 3}) {
     const auto failure = [&](std::uint64_t most) {
       try {
-        render(prepared, {.region = Region{11, 8, 2, 2}, .threads = threads, .max_ray_steps = most});
+        render(prepared,
+               {.region = Region{11, 8, 2, 2}, .threads = threads, .max_ray_steps = most});
       } catch (const Error& error) {
         CHECK(std::string(error.what()).find("max_ray_steps") != std::string::npos);
         return error.code();
@@ -86,12 +91,15 @@ TEST_CASE("a picture whose rays take too many steps is an error, at any number o
 }
 
 TEST_CASE(
-    "light through tens of thousands of absorbing solids that overlap costs no square of their number") {
-  // Each is left in the order in which they are entered; what was kept before were lists of all, for each.
+    "light through tens of thousands of absorbing solids that overlap costs no square of their "
+    "number") {
+  // Each is left in the order in which they are entered; what was kept before were lists of all,
+  // for each.
   std::vector<Entity> balls;
   const SharedMaterial clear =
       Material{.color = grey(1), .transparency = 1, .absorption = {1e-6, 1e-6, 1e-6}};
-  for (int i = 0; i < 30'000; ++i) balls.emplace_back(Sphere{.center = {1e-6 * i, 0, 0}, .material = clear});
+  for (int i = 0; i < 30'000; ++i)
+    balls.emplace_back(Sphere{.center = {1e-6 * i, 0, 0}, .material = clear});
   Scene scene = lit_scene(balls);
   scene.settings.recursion_depth = 0;
   scene.lights = {PointLight{.origin = {0, 20, 0}}};
@@ -127,7 +135,8 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
 
     const auto exit_after = [&](std::size_t index, std::uint32_t object) {
       for (; index < crossings.size(); ++index) {
-        if (crossings[index].object == object && !crossings[index].entering) return crossings[index];
+        if (crossings[index].object == object && !crossings[index].entering)
+          return crossings[index];
       }
       return RayHit{.t = beyond[object], .error = 1e-9, .object = object};
     };
@@ -136,7 +145,7 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
     for (auto object = around.rbegin(); object != around.rend(); ++object) {
       list = lists.entered(list, Medium{*object, 0});
     }
-    class Line final : public MediaOnWay::Line {
+    class Line final : public MediaAlongRay::Line {
      public:
       explicit Line(const std::vector<double>& beyond) : beyond_(beyond) {}
       RayHit exit_beyond(std::uint32_t object) const override {
@@ -147,7 +156,7 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
       const std::vector<double>& beyond_;
     };
     const Line line(beyond);
-    MediaOnWay way;
+    MediaAlongRay way;
     way.begin(crossings, line);
     for (const std::uint32_t object : around) way.surround({object, 0});
     for (std::size_t i = 0; i < crossings.size(); ++i) {

@@ -101,7 +101,8 @@ TEST_CASE("a single pixel that would take days is cancelled in its middle") {
   for (const int threads : {1, 2}) {
     int calls = 0;
     CHECK(error_of([&] {
-            render(prepare(scene), {.threads = threads, .progress = [&](double) { return ++calls < 3; }});
+            render(prepare(scene),
+                   {.threads = threads, .progress = [&](double) { return ++calls < 3; }});
           }) == ErrorCode::cancelled);
     CHECK(calls == 3);
   }
@@ -149,9 +150,9 @@ TEST_CASE("a region outside the picture, or of no pixels, is refused") {
   const PreparedScene scene = prepare(lit_scene(20, 10));
   const int most = std::numeric_limits<int>::max();
   for (const Region& region :
-       {Region{-1, 0, 5, 5}, Region{0, -1, 5, 5}, Region{16, 0, 5, 5}, Region{0, 6, 5, 5}, Region{0, 0, 0, 5},
-        Region{0, 0, 5, 0}, Region{0, 0, 21, 1}, Region{most, 0, most, 1}, Region{1, 1, most, most},
-        Region{0, 0, -5, 5}}) {
+       {Region{-1, 0, 5, 5}, Region{0, -1, 5, 5}, Region{16, 0, 5, 5}, Region{0, 6, 5, 5},
+        Region{0, 0, 0, 5}, Region{0, 0, 5, 0}, Region{0, 0, 21, 1}, Region{most, 0, most, 1},
+        Region{1, 1, most, most}, Region{0, 0, -5, 5}}) {
     try {
       render(scene, {.region = region});
       FAIL("not refused");
@@ -208,7 +209,8 @@ TEST_CASE("one thread means the calling one: none is started") {
 #endif
 
 TEST_CASE(
-    "values of a picture that are not finite are warned of once, whatever it serves for, and count as 0") {
+    "values of a picture that are not finite are warned of once, whatever it serves for, and count "
+    "as 0") {
   auto image = std::make_shared<Image>(8, 4);
   const float infinity = std::numeric_limits<float>::infinity();
   for (int y = 0; y < 4; ++y) {
@@ -224,7 +226,8 @@ TEST_CASE(
   }};
   const Image picture = render(prepare(scene), options);
   REQUIRE(warnings.size() == 1);
-  CHECK(warnings[0].find("an image has 32 pixels with values that are not finite") != std::string::npos);
+  CHECK(warnings[0].find("an image has 32 pixels with values that are not finite") !=
+        std::string::npos);
   CHECK(warnings[0].find("(0, 0)") != std::string::npos);
   CHECK(picture.at(4, 0) == Color{0, 0.5, 0.25, 1});
 

@@ -88,7 +88,8 @@ TEST_CASE("a cancelled job says so, before its first tile and after") {
 
 TEST_CASE("what a callback of a job throws comes out of wait()") {
   const PreparedScene scene = prepare(lit_ball(60, 40));
-  const RenderJob job(scene, {.progress = [](double) -> bool { throw std::out_of_range("the host's own"); }});
+  const RenderJob job(
+      scene, {.progress = [](double) -> bool { throw std::out_of_range("the host's own"); }});
   CHECK_THROWS_AS(static_cast<void>(job.wait()), std::out_of_range);
 }
 
@@ -101,7 +102,8 @@ TEST_CASE("a job that cannot start says so at once") {
 TEST_CASE("a batch of rays is asked once each, on one thread or several") {
   const PreparedScene scene = prepare(lit_ball(60, 40));
   for (const int threads : {1, 0, 3}) {
-    for (const std::size_t count : {std::size_t{0}, std::size_t{1}, std::size_t{511}, std::size_t{100'001}}) {
+    for (const std::size_t count :
+         {std::size_t{0}, std::size_t{1}, std::size_t{511}, std::size_t{100'001}}) {
       std::vector<std::uint8_t> asked(count, 0);
       std::atomic<int> wrong = 0;
       query_in_parallel(
@@ -136,7 +138,8 @@ TEST_CASE("a direction of any length gives the same place, and t in its units") 
   RayQueries queries(scene);
   const Hit unit = queries.intersect({.origin = {0.1, 0.2, -1}}).value();
   for (const double length : {1e-300, 0x1p-1022, 0.3, 7.0, 1e300, 0x1p1023}) {
-    const Hit hit = queries.intersect({.origin = {0.1, 0.2, -1}, .direction = {0, 0, length}}).value();
+    const Hit hit =
+        queries.intersect({.origin = {0.1, 0.2, -1}, .direction = {0, 0, length}}).value();
     CHECK(hit.t == doctest::Approx(unit.t / length));
     CHECK(hit.position.z == doctest::Approx(unit.position.z));
   }

@@ -23,9 +23,13 @@ void check_color(const Color& color, double r, double g, double b) {
 }  // namespace
 
 TEST_CASE("a lit sphere has the ambient, diffuse and specular light of the formulas") {
-  const Material material{
-      .color = Color{0.9, 0.6, 0.3}, .reflectivity = 0.2, .diffuse = 0.7, .specular = 0.5, .shininess = 12};
-  const PointLight lamp{.origin = {3, 4, -5}, .color = {1, 0.9, 0.8}, .falloff = 60, .ambient = 0.1};
+  const Material material{.color = Color{0.9, 0.6, 0.3},
+                          .reflectivity = 0.2,
+                          .diffuse = 0.7,
+                          .specular = 0.5,
+                          .shininess = 12};
+  const PointLight lamp{
+      .origin = {3, 4, -5}, .color = {1, 0.9, 0.8}, .falloff = 60, .ambient = 0.1};
   const Vec3 eye(0, 0, -6);
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 0;
@@ -40,15 +44,17 @@ TEST_CASE("a lit sphere has the ambient, diffuse and specular light of the formu
       const Vec3 view = glm::normalize(point - eye);
       const Vec3 to_lamp = lamp.origin - point;
       const Vec3 l = glm::normalize(to_lamp);
-      const double way = glm::length(to_lamp) + (model == FalloffModel::path ? glm::length(point - eye) : 0);
+      const double way =
+          glm::length(to_lamp) + (model == FalloffModel::path ? glm::length(point - eye) : 0);
       const double intensity = 60 / (way * way);
       const double cosine = std::max(0.0, glm::dot(l, normal));
       const Vec3 reflected = 2 * glm::dot(l, normal) * normal - l;
-      const double highlight = cosine > 0 ? std::pow(std::max(0.0, -glm::dot(reflected, view)), 12) : 0;
+      const double highlight =
+          cosine > 0 ? std::pow(std::max(0.0, -glm::dot(reflected, view)), 12) : 0;
       const double answer = intensity * (0.7 * cosine + 0.5 * highlight);
       const double ambient = 0.1 * (1 - 0.2);
-      check_color(seen(scene, eye, point), 1.0 * (ambient + 0.9 * answer), 0.9 * (ambient + 0.6 * answer),
-                  0.8 * (ambient + 0.3 * answer));
+      check_color(seen(scene, eye, point), 1.0 * (ambient + 0.9 * answer),
+                  0.9 * (ambient + 0.6 * answer), 0.8 * (ambient + 0.3 * answer));
     }
   }
 }
@@ -57,8 +63,9 @@ TEST_CASE("the diffuse strength defaults to what is neither mirrored nor let thr
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 0;
   scene.lights = {ParallelLight{.from = {0, 0, -1}, .pointing = {0, 0, 0}}};
-  scene.entities = {Plane{.normal = {0, 0, -1},
-                          .material = Material{.color = grey(1), .reflectivity = 0.25, .transparency = 0.5}}};
+  scene.entities = {
+      Plane{.normal = {0, 0, -1},
+            .material = Material{.color = grey(1), .reflectivity = 0.25, .transparency = 0.5}}};
   check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 0.25, 0.25, 0.25);
 }
 
@@ -109,14 +116,15 @@ TEST_CASE("the inside of an opaque solid is lit by a light inside") {
 }
 
 TEST_CASE("light is tinted at each crossing of its way, and absorbed by the length inside") {
-  const Material stained{.color = Color{1, 0.5, 0.25}, .transparency = 0.8, .absorption = {0.1, 0.2, 0.4}};
+  const Material stained{
+      .color = Color{1, 0.5, 0.25}, .transparency = 0.8, .absorption = {0.1, 0.2, 0.4}};
   Scene scene = dark_scene();
   scene.lights = {ParallelLight{.from = {0, 1, 0}, .pointing = {0, 0, 0}}};
   const Entity floor = Plane{.material = Material{.color = grey(1)}};
   const Entity block = Box{.corner_a = {-1, 1, -1}, .corner_b = {1, 4, 1}, .material = stained};
   scene.entities = {floor, block};
-  check_color(seen(scene, {5, 0.5, 0}, {0, 0, 0}), 0.64 * std::exp(-0.3), 0.64 * 0.25 * std::exp(-0.6),
-              0.64 * 0.0625 * std::exp(-1.2));
+  check_color(seen(scene, {5, 0.5, 0}, {0, 0, 0}), 0.64 * std::exp(-0.3),
+              0.64 * 0.25 * std::exp(-0.6), 0.64 * 0.0625 * std::exp(-1.2));
 
   // A mere surface is crossed once and has no inside.
   scene.entities = {floor, Disc{.center = {0, 2, 0}, .material = stained}};
@@ -143,14 +151,16 @@ TEST_CASE("light that starts in a medium is absorbed from there") {
   scene.entities = {
       Box{.corner_a = {-9, -9, -9},
           .corner_b = {9, 9, 9},
-          .material = Material{.color = grey(1), .transparency = 1, .diffuse = 0, .absorption = grey(0.2)}},
+          .material =
+              Material{.color = grey(1), .transparency = 1, .diffuse = 0, .absorption = grey(0.2)}},
       Plane{.material = Material{.color = grey(1)}}};
   const double expected = std::exp(-0.2 * (3 + 2));
   check_color(seen(scene, {0, 2, 0}, {0, 0, 0}), expected, expected, expected);
 }
 
 TEST_CASE("the gaps of a pattern let light through") {
-  const Material lattice{.color = Pattern(Checker{.color_a = {1, 1, 1, 1}, .color_b = {1, 1, 1, 0}})};
+  const Material lattice{.color =
+                             Pattern(Checker{.color_a = {1, 1, 1, 1}, .color_b = {1, 1, 1, 0}})};
   Scene scene = dark_scene();
   scene.lights = {ParallelLight{.from = {0, 0, -1}, .pointing = {0, 0, 0}}};
   scene.entities = {
@@ -165,17 +175,19 @@ TEST_CASE("the gaps of a pattern let light through") {
   check_color(seen(scene, {1.5, 0.5, -3}, {1.5, 0.5, 5}), 1, 1, 1);
 }
 
-TEST_CASE("a bump tilts the normal by the slope of its height, also on an entity that is stretched") {
+TEST_CASE(
+    "a bump tilts the normal by the slope of its height, also on an entity that is stretched") {
   // The bump's height is 0.2 (0.5 + 0.5 cos(2 pi x)) in the entity's space.
-  const Material bumpy{.color = grey(1), .bump = Gradient{.direction = {1, 0, 0}}, .bump_height = 0.2};
-  for (const double stretch : {1.0, 4.0}) {
+  const Material bumpy{
+      .color = grey(1), .bump = Gradient{.direction = {1, 0, 0}}, .bump_height = 0.2};
+  for (const double factor : {1.0, 4.0}) {
     Scene scene = dark_scene();
     scene.lights = {ParallelLight{.from = {0, 1, 0}, .pointing = {0, 0, 0}}};
-    scene.entities = {Entity(Plane{.material = bumpy}).transformed(scale(Vec3(stretch, 1, 1)))};
+    scene.entities = {Entity(Plane{.material = bumpy}).transformed(scale(Vec3(factor, 1, 1)))};
     for (const double x : {0.1, 0.25, 0.4, 0.7}) {
-      const double slope = -0.2 * std::numbers::pi * std::sin(2 * std::numbers::pi * x) / stretch;
+      const double slope = -0.2 * std::numbers::pi * std::sin(2 * std::numbers::pi * x) / factor;
       const double expected = 1 / std::sqrt(1 + slope * slope);
-      const Color color = seen(scene, {x * stretch, 5, 0}, {x * stretch, 0, 0});
+      const Color color = seen(scene, {x * factor, 5, 0}, {x * factor, 0, 0});
       CHECK(color.r == doctest::Approx(expected).epsilon(1e-3));
     }
   }

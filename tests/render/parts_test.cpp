@@ -13,7 +13,8 @@ namespace {
 
 std::vector<std::uint32_t> objects(const MediaLists& lists, MediaLists::List list) {
   std::vector<std::uint32_t> result;
-  for (; list != MediaLists::empty; list = lists.around(list)) result.push_back(lists.innermost(list).object);
+  for (; list != MediaLists::empty; list = lists.around(list))
+    result.push_back(lists.innermost(list).object);
   return result;
 }
 
@@ -72,6 +73,7 @@ TEST_CASE("tiles cover each pixel of a region once and nothing else") {
     }
     CHECK(covered.size() == static_cast<std::size_t>(region.width * region.height));
     CHECK(*covered.begin() == std::pair(region.x, region.y));
-    CHECK(*covered.rbegin() == std::pair(region.x + region.width - 1, region.y + region.height - 1));
+    CHECK(*covered.rbegin() ==
+          std::pair(region.x + region.width - 1, region.y + region.height - 1));
   }
 }

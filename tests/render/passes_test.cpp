@@ -38,8 +38,8 @@ bool same_part(const Image& part, int left, int top, const Image& whole) {
 }
 
 /// The same of what is known of the pixels in a part of a picture that is so wide.
-bool same_part(const core::PixelMeasures& part, const Region& region, const core::PixelMeasures& whole,
-               int width) {
+bool same_part(const core::PixelMeasures& part, const Region& region,
+               const core::PixelMeasures& whole, int width) {
   for (int y = 0; y < region.height; ++y) {
     for (int x = 0; x < region.width; ++x) {
       const auto here = static_cast<std::size_t>(y * region.width + x);
@@ -92,7 +92,8 @@ TEST_CASE("pass by pass, it makes no difference where the tiles meet that thread
   for (const double target : {2.0 / 255, 1e-6}) {
     Scene description = disc_scene(size);
     description.settings.target_error = target;
-    description.settings.max_samples = target < 1e-3 ? 16 : 64;  // the first samples may be the last
+    description.settings.max_samples =
+        target < 1e-3 ? 16 : 64;  // the first samples may be the last
     const PreparedScene scene = prepare(description);
     const Image whole = render(scene);
     const core::PixelMeasures all = measures_of(scene);
@@ -105,7 +106,8 @@ TEST_CASE("pass by pass, it makes no difference where the tiles meet that thread
 }
 
 TEST_CASE("a pixel goes on for what is seen beside it in another tile") {
-  // The edge of a white wall goes between the pixels 15 and 16, which none of their samples can see.
+  // The edge of a white wall goes between the pixels 15 and 16, which none of their samples can
+  // see.
   Scene scene = disc_scene(32);
   scene.camera.projection = Projection::orthographic;
   scene.entities = {Box{.corner_a = {0, -9, 0}, .corner_b = {9, 9, 1}, .material = inert()}};
@@ -132,12 +134,13 @@ TEST_CASE("the pass count that a picture tells gives the same picture, whatever 
     first.run();
     const Image timed = first.take();
     const int passes = timed.stats().passes;
-    // The first eight come in one, and as long as all of the others are of one size the end is within half a
-    // pass.
+    // The first eight come in one, and as long as all of the others are of one size the end is
+    // within half a pass.
     if (budget < 50) CHECK(passes == 7 + std::max(1, static_cast<int>(std::floor(budget + 0.5))));
     if (budget > 50) CHECK(passes > 50);
     CHECK(same_pixels(render(by_clock, {.threads = 1, .passes = passes}), timed));
-    CHECK(same_part(render(by_clock, {.region = Region{9, 2, 11, 20}, .passes = passes}), 9, 2, timed));
+    CHECK(same_part(render(by_clock, {.region = Region{9, 2, 11, 20}, .passes = passes}), 9, 2,
+                    timed));
   }
 }
 
@@ -248,8 +251,9 @@ TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it 
     if (i == 0) scene.entities.push_back(Cylinder{from, to, width / 2, inert()});
     if (i == 1) scene.entities.push_back(Cone{from, to, width / 2, 0.9 * width / 2, inert()});
     if (i == 2) {
-      const Entity bar =
-          Box{.corner_a = {-24, -width / 2, -0.02}, .corner_b = {24, width / 2, 0.02}, .material = inert()};
+      const Entity bar = Box{.corner_a = {-24, -width / 2, -0.02},
+                             .corner_b = {24, width / 2, 0.02},
+                             .material = inert()};
       scene.entities.push_back(bar.transformed(rotate({0, 0, 41})));
     }
   }
@@ -290,8 +294,9 @@ TEST_CASE("no ball that covers more than a 20th of a pixel vanishes") {
   for (int y = -2; y <= 2; ++y) {
     for (int x = -2; x <= 2; ++x) {
       const double radius = std::sqrt(0.055 / std::numbers::pi);
-      scene.entities.push_back(
-          Sphere{.center = {5.0 * x + 0.1 * y, 5.0 * y - 0.1 * x, 0}, .radius = radius, .material = inert()});
+      scene.entities.push_back(Sphere{.center = {5.0 * x + 0.1 * y, 5.0 * y - 0.1 * x, 0},
+                                      .radius = radius,
+                                      .material = inert()});
     }
   }
   const PreparedScene prepared = prepare(scene);

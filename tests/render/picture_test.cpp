@@ -19,7 +19,8 @@ Scene busy_scene() {
   scene.settings.height = 34;
   scene.settings.supersampling = 2;
   scene.settings.dof_samples = 3;
-  scene.camera = {.position = {0.3, 1.5, -5}, .pointing = {0, 0.5, 0}, .aperture = 50, .focal_distance = 5};
+  scene.camera = {
+      .position = {0.3, 1.5, -5}, .pointing = {0, 0.5, 0}, .aperture = 50, .focal_distance = 5};
   scene.background = GradientBackground{};
   scene.lights = {PointLight{.origin = {3, 5, -4}, .falloff = 80, .ambient = 0.05},
                   SpotLight{.origin = {-4, 6, -2}, .pointing = {0, 0, 0}}};
@@ -28,7 +29,8 @@ Scene busy_scene() {
   const Material tiles{.color = Pattern(Checker{}), .reflectivity = 0.2};
   const Material clouds{
       .color = Pattern(Noise{}), .specular = 0.5, .bump = Noise{.scale = 0.2}, .bump_height = 0.02};
-  scene.entities = {Plane{.material = tiles}, Sphere{.center = {0, 1, 0}, .radius = 1, .material = crystal},
+  scene.entities = {Plane{.material = tiles},
+                    Sphere{.center = {0, 1, 0}, .radius = 1, .material = crystal},
                     (Entity(Box{.corner_a = {1, 0, 0}, .corner_b = {2, 1, 1}, .material = clouds}) -
                      Entity(Sphere{.center = {1.5, 1, 0.5}, .radius = 0.4})),
                     Sphere{.center = {-1.5, 0.5, 1}, .radius = 0.5, .material = clouds}};
@@ -46,7 +48,8 @@ void paste(const Image& part, int left, int top, Image& whole) {
 TEST_CASE("a picture has the same bytes for any number of threads") {
   const PreparedScene scene = prepare(busy_scene());
   const Image reference = render(scene, {.threads = 1});
-  for (const int threads : {0, 2, 7}) CHECK(same_pixels(render(scene, {.threads = threads}), reference));
+  for (const int threads : {0, 2, 7})
+    CHECK(same_pixels(render(scene, {.threads = threads}), reference));
 }
 
 TEST_CASE("counts are the same for any number of threads") {
@@ -104,7 +107,8 @@ TEST_CASE("in a white furnace every pixel is exactly 1") {
   scene.lights = {glow(1)};
   scene.settings.recursion_depth = 20;
   scene.entities = {Sphere{.center = {0, 1, 0}, .radius = 1, .material = inert(0.5)},
-                    Plane{.material = inert()}, Torus{.center = {2, 1, 2}, .material = inert(0.25)}};
+                    Plane{.material = inert()},
+                    Torus{.center = {2, 1, 2}, .material = inert(0.25)}};
   scene.settings.min_weight = 0;
   const Image image = render(prepare(scene));
   for (int y = 0; y < image.height(); ++y) {
@@ -119,11 +123,11 @@ TEST_CASE("a scene that is its own mirror image gives a picture that is too") {
   scene.settings.supersampling = 2;
   scene.camera = {.position = {0, 1, -5}, .pointing = {0, 0.5, 0}};
   scene.lights = {PointLight{.origin = {0, 6, -3}, .falloff = 50}};
-  scene.entities = {
-      Plane{.material = Material{.reflectivity = 0.3}},
-      Sphere{.center = {-1, 1, 0}, .radius = 0.7, .material = glass(1.5)},
-      Sphere{.center = {1, 1, 0}, .radius = 0.7, .material = glass(1.5)},
-      Torus{.center = {0, 0.5, 2}, .material = Material{.color = Color{0.8, 0.3, 0.2}, .specular = 1}}};
+  scene.entities = {Plane{.material = Material{.reflectivity = 0.3}},
+                    Sphere{.center = {-1, 1, 0}, .radius = 0.7, .material = glass(1.5)},
+                    Sphere{.center = {1, 1, 0}, .radius = 0.7, .material = glass(1.5)},
+                    Torus{.center = {0, 0.5, 2},
+                          .material = Material{.color = Color{0.8, 0.3, 0.2}, .specular = 1}}};
   const Image image = render(prepare(scene));
   for (int y = 0; y < 30; ++y) {
     for (int x = 0; x < 20; ++x) {
@@ -149,7 +153,8 @@ Scene scaled_scene(double unit) {
   scene.lights = {
       PointLight{.origin = unit * Vec3(3, 5, -4), .ambient = 0.05},
       SpotLight{.origin = unit * Vec3(-4, 6, -2), .pointing = Vec3(0)},
-      CylinderLight{.origin = unit * Vec3(0, 6, 2), .pointing = unit * Vec3(0, 0, 2), .radius = unit}};
+      CylinderLight{
+          .origin = unit * Vec3(0, 6, 2), .pointing = unit * Vec3(0, 0, 2), .radius = unit}};
   Material crystal = glass(1.5);
   crystal.absorption = {0.1 / unit, 0.4 / unit, 0.2 / unit};
   const Material tiles{.color = Pattern(Checker{.scale = unit}), .reflectivity = 0.2};
@@ -157,10 +162,12 @@ Scene scaled_scene(double unit) {
                         .specular = 0.5,
                         .bump = Noise{.scale = 0.25 * unit},
                         .bump_height = 0.02 * unit};
-  scene.entities = {
-      Plane{.material = tiles}, Sphere{.center = unit * Vec3(0, 1, 0), .radius = unit, .material = crystal},
-      (Entity(Box{.corner_a = unit * Vec3(1, 0, 0), .corner_b = unit * Vec3(2, 1, 1), .material = clouds}) -
-       Entity(Sphere{.center = unit * Vec3(1.5, 1, 0.5), .radius = 0.4 * unit}))};
+  scene.entities = {Plane{.material = tiles},
+                    Sphere{.center = unit * Vec3(0, 1, 0), .radius = unit, .material = crystal},
+                    (Entity(Box{.corner_a = unit * Vec3(1, 0, 0),
+                                .corner_b = unit * Vec3(2, 1, 1),
+                                .material = clouds}) -
+                     Entity(Sphere{.center = unit * Vec3(1.5, 1, 0.5), .radius = 0.4 * unit}))};
   return scene;
 }
 
@@ -242,17 +249,18 @@ TEST_CASE("on the focal plane a lens changes nothing") {
   scene.settings.height = 20;
   scene.camera = {.position = {0, 0, 0}, .pointing = {0, 0, 1}, .focal_distance = 3};
   scene.lights = {ParallelLight{.from = {0, 0, 0}, .pointing = {0, 0, 1}}};
-  scene.entities = {
-      Plane{.normal = {0, 0, -1},
-            .position = {0, 0, 3},
-            .material = Material{.color = Pattern(Gradient{.direction = {1, 0.3, 0}, .scale = 2})}}};
+  scene.entities = {Plane{
+      .normal = {0, 0, -1},
+      .position = {0, 0, 3},
+      .material = Material{.color = Pattern(Gradient{.direction = {1, 0.3, 0}, .scale = 2})}}};
   const Image sharp = render(prepare(scene));
   scene.camera.aperture = 300;
   scene.settings.dof_samples = 16;
   const Image lens = render(prepare(scene));
   CHECK(lens.stats().lens_samples == 20 * 20 * 16);
   for (int y = 0; y < 20; ++y) {
-    for (int x = 0; x < 20; ++x) CHECK(lens.at(x, y).r == doctest::Approx(sharp.at(x, y).r).epsilon(1e-5));
+    for (int x = 0; x < 20; ++x)
+      CHECK(lens.at(x, y).r == doctest::Approx(sharp.at(x, y).r).epsilon(1e-5));
   }
 }
 

@@ -36,12 +36,14 @@ inline bool same_pixels(const Image& a, const Image& b) {
 
 /// A light that only has an ambient share: every surface that mirrors nothing is `level` bright.
 inline Light glow(double level) {
-  return ParallelLight{.from = {0, 0, 0}, .pointing = {0, 1e-3, 0}, .color = grey(level), .ambient = 1};
+  return ParallelLight{
+      .from = {0, 0, 0}, .pointing = {0, 1e-3, 0}, .color = grey(level), .ambient = 1};
 }
 
 /// A material that answers no light but the ambient one.
 inline Material inert(double reflectivity = 0, double transparency = 0) {
-  return {.color = grey(1), .reflectivity = reflectivity, .transparency = transparency, .diffuse = 0};
+  return {
+      .color = grey(1), .reflectivity = reflectivity, .transparency = transparency, .diffuse = 0};
 }
 
 /// Clear glass.
@@ -61,7 +63,8 @@ inline Scene varied_scene() {
   Scene scene;
   scene.settings = {
       .width = 37, .height = 26, .dof_samples = 2, .target_error = 8.0 / 255, .max_samples = 64};
-  scene.camera = {.position = {0.3, 1.5, -5}, .pointing = {0, 0.5, 0}, .aperture = 50, .focal_distance = 5};
+  scene.camera = {
+      .position = {0.3, 1.5, -5}, .pointing = {0, 0.5, 0}, .aperture = 50, .focal_distance = 5};
   scene.background = GradientBackground{};
   scene.lights = {PointLight{.origin = {3, 5, -4}, .falloff = 80, .ambient = 0.05}};
   const Material tiles{.color = Pattern(Checker{}), .reflectivity = 0.2};

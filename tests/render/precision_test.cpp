@@ -43,7 +43,8 @@ TEST_CASE("exact: crossings whose t is the same double are told apart, and equal
   scene.entities.push_back(Entity(Box{.corner_a = {9, -1, 0}, .corner_b = {11, 1, 1}}) -
                            Entity(Box{.corner_a = {8, -2, 0}, .corner_b = {12, 2, 1}}));
   const PreparedScene prepared = prepare(scene);
-  const std::vector<Hit> slab = crossings(prepared, {.origin = {0, 0, -0x1p40}, .direction = {0, 0, 1}});
+  const std::vector<Hit> slab =
+      crossings(prepared, {.origin = {0, 0, -0x1p40}, .direction = {0, 0, 1}});
   REQUIRE(slab.size() == 2);
   CHECK(slab[0].entering);
   CHECK_FALSE(slab[1].entering);
@@ -51,7 +52,8 @@ TEST_CASE("exact: crossings whose t is the same double are told apart, and equal
   CHECK(crossings(prepared, {.origin = {10, 0, -0x1p40}, .direction = {0, 0, 1}}).empty());
 }
 
-TEST_CASE("exact: the picture and the count of escalations do not depend on the number of threads") {
+TEST_CASE(
+    "exact: the picture and the count of escalations do not depend on the number of threads") {
   Scene scene = exact_scene();
   scene.settings.width = 48;
   scene.settings.height = 32;

@@ -51,13 +51,14 @@ std::array<OnSurface, 6> surfaces(Chance& chance, double r) {
   const double along = chance.between(0.1, 0.9);
   const Vec3 around = std::cos(turn) * a + std::sin(turn) * b;
   const Vec3 half = r * Vec3(1, along, 0.5);
-  return {{{Sphere{.center = c, .radius = r}, c + r * n},
-           {Box{c - half, c + half}, c + Vec3(half.x, 0.3 * half.y, -0.2 * half.z)},
-           {Plane{.normal = n, .position = c}, c + r * along * around},
-           {Cylinder{.from = c, .to = c + 2 * r * n, .radius = r}, c + 2 * r * along * n + r * around},
-           {Cone{.from = c, .to = c + 2 * r * n, .radius = r, .radius2 = 0},
-            c + 2 * r * along * n + r * (1 - along) * around},
-           {Disc{.center = c, .normal = n, .radius = r}, c + r * along * around}}};
+  return {
+      {{Sphere{.center = c, .radius = r}, c + r * n},
+       {Box{c - half, c + half}, c + Vec3(half.x, 0.3 * half.y, -0.2 * half.z)},
+       {Plane{.normal = n, .position = c}, c + r * along * around},
+       {Cylinder{.from = c, .to = c + 2 * r * n, .radius = r}, c + 2 * r * along * n + r * around},
+       {Cone{.from = c, .to = c + 2 * r * n, .radius = r, .radius2 = 0},
+        c + 2 * r * along * n + r * (1 - along) * around},
+       {Disc{.center = c, .normal = n, .radius = r}, c + r * along * around}}};
 }
 
 /// What four queries say alike: how far the nearest hit is.
@@ -90,7 +91,8 @@ std::optional<Hit> crossing_at_start(const PreparedScene& exact, const Ray& ray,
 }  // namespace
 
 TEST_CASE(
-    "a surface at the start of a ray is behind it within rounding, and as the doubles say in the exact "
+    "a surface at the start of a ray is behind it within rounding, and as the doubles say in the "
+    "exact "
     "tier") {
   Chance chance;
   int passed = 0;

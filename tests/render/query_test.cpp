@@ -43,11 +43,11 @@ PreparedScene many_kinds() {
 
 bool same(const PlainHit& plain, const std::optional<Hit>& hit) {
   if (!hit) {
-    return plain.t == std::numeric_limits<double>::infinity() && plain.normal == Vec3(0) && plain.u == 0 &&
-           plain.v == 0 && plain.entity_id == 0 && plain.side == HitSide::none;
+    return plain.t == std::numeric_limits<double>::infinity() && plain.normal == Vec3(0) &&
+           plain.u == 0 && plain.v == 0 && plain.entity_id == 0 && plain.side == HitSide::none;
   }
-  return plain.t == hit->t && plain.normal == hit->normal && plain.u == hit->u && plain.v == hit->v &&
-         plain.entity_id == hit->entity_id &&
+  return plain.t == hit->t && plain.normal == hit->normal && plain.u == hit->u &&
+         plain.v == hit->v && plain.entity_id == hit->entity_id &&
          plain.side == (hit->entering ? HitSide::entering : HitSide::leaving);
 }
 
@@ -111,7 +111,8 @@ TEST_CASE("t is in units of the direction's length, whatever that is") {
 TEST_CASE("only crossings between t_min and t_max count") {
   const PreparedScene scene = two_balls();
   const auto count = [&](double t_min, double t_max) {
-    return crossings(scene, {.origin = {0, 0, 0}, .direction = {0, 0, 1}, .t_min = t_min, .t_max = t_max})
+    return crossings(scene,
+                     {.origin = {0, 0, 0}, .direction = {0, 0, 1}, .t_min = t_min, .t_max = t_max})
         .size();
   };
   const double inf = std::numeric_limits<double>::infinity();

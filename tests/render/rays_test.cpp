@@ -49,12 +49,14 @@ TEST_CASE("a mirror shows what lies in the mirrored direction") {
   const Entity mirror = scene.entities[0];
   scene.entities = {mirror, Sphere{.center = on_ray, .radius = 1e-6, .material = inert()}};
   check_level(seen(scene, {0, 0, -5}, {0, 0, 0}), 0.25 + 0.75);
-  scene.entities = {mirror,
-                    Sphere{.center = on_ray + Vec3(1.1e-6, 0, 0), .radius = 1e-6, .material = inert()}};
+  scene.entities = {
+      mirror, Sphere{.center = on_ray + Vec3(1.1e-6, 0, 0), .radius = 1e-6, .material = inert()}};
   check_level(seen(scene, {0, 0, -5}, {0, 0, 0}), 0.25);
 }
 
-TEST_CASE("a slab of glass displaces a ray by d sin(a - b) / cos(b), and dims it by Fresnel's law twice") {
+TEST_CASE(
+    "a slab of glass displaces a ray by d sin(a - b) / cos(b), and dims it by Fresnel's law "
+    "twice") {
   const double thickness = 2;
   const double n = 1.5;
   const double angle = 0.8;
@@ -76,17 +78,19 @@ TEST_CASE("a slab of glass displaces a ray by d sin(a - b) / cos(b), and dims it
   const Vec3 expected = 10.0 * direction + shift * across;
   scene.entities = {glass_slab, Sphere{.center = expected, .radius = 1e-7, .material = inert()}};
   check_level(seen(scene, eye, {0, 0, 0}), f);
-  scene.entities = {glass_slab,
-                    Sphere{.center = expected + 1.1e-7 * across, .radius = 1e-7, .material = inert()}};
+  scene.entities = {
+      glass_slab,
+      Sphere{.center = expected + 1.1e-7 * across, .radius = 1e-7, .material = inert()}};
   check_level(seen(scene, eye, {0, 0, 0}), f + (1 - f) * (1 - f));
 }
 
 TEST_CASE("glass of index 1 is not there, but for its colour and what it absorbs") {
   Scene scene = dark_scene();
   scene.background = SolidBackground{{1, 1, 1}};
-  scene.entities = {slab(
-      2,
-      Material{.color = Color{1, 0.5, 0.5}, .transparency = 0.5, .diffuse = 0, .absorption = {0.3, 0, 0.7}})};
+  scene.entities = {slab(2, Material{.color = Color{1, 0.5, 0.5},
+                                     .transparency = 0.5,
+                                     .diffuse = 0,
+                                     .absorption = {0.3, 0, 0.7}})};
   const Vec3 direction(0.6, -0.8, 0);
   const double length = 2 / 0.8;
   const Color color = seen(scene, -2.0 * direction, {0, 0, 0});
@@ -113,7 +117,9 @@ TEST_CASE("beyond the critical angle glass mirrors everything, below it a part")
   scene.background = two_halves({0, 0, 0}, {1, 1, 1});
   scene.entities = {Plane{.material = glass(1.5)}};
   const double critical = std::asin(1 / 1.5);
-  const auto looking_up = [&](double angle) { return seen(scene, {0, -1, 0}, {std::tan(angle), 0, 0}); };
+  const auto looking_up = [&](double angle) {
+    return seen(scene, {0, -1, 0}, {std::tan(angle), 0, 0});
+  };
   check_level(looking_up(critical + 0.01), 1);
   check_level(looking_up(1.2), 1);
   const double angle = 0.5;
@@ -169,8 +175,8 @@ TEST_CASE("a ray that leaves an inner solid is back in the outer one") {
   scene.settings.recursion_depth = 4;
   scene.entities = {Box{.corner_a = {-2, -2, -2}, .corner_b = {2, 2, 2}, .material = glass(1.5)},
                     Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}, .material = glass(1)}};
-  // Besides the straight way, light of up to four bounces: mirrored at the front, or once inside and
-  // back out of the front.
+  // Besides the straight way, light of up to four bounces: mirrored at the front, or once inside
+  // and back out of the front.
   const double through = std::pow(1 - f, 4);
   const double from_front = f;
   const double from_bubble = (1 - f) * f * (1 - f);
@@ -298,7 +304,9 @@ TEST_CASE("a ray is followed that a bright surface can still make matter") {
   CHECK(weak.stats().cutoff_max == doctest::Approx(0.8));
 }
 
-TEST_CASE("light stays a number however many surfaces brighten it, on its way to the eye and from a lamp") {
+TEST_CASE(
+    "light stays a number however many surfaces brighten it, on its way to the eye and from a "
+    "lamp") {
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 256;
   scene.settings.min_weight = 1.0 / 1024;
@@ -331,9 +339,10 @@ TEST_CASE("a sample that could go on for ever is bounded") {
   // Every hit mirrors everything and lets everything through: 2^250 rays, if nobody stopped them.
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 250;
-  scene.entities = {Disc{.center = {0, 0, 1}, .normal = {0, 0, 1}, .radius = 1e9, .material = inert(1, 1)},
-                    Disc{.center = {0, 0, -1}, .normal = {0, 0, 1}, .radius = 1e9, .material = inert(1, 1)},
-                    Disc{.center = {0, 0, 2}, .normal = {0, 0, 1}, .radius = 1e9, .material = inert(1, 1)}};
+  scene.entities = {
+      Disc{.center = {0, 0, 1}, .normal = {0, 0, 1}, .radius = 1e9, .material = inert(1, 1)},
+      Disc{.center = {0, 0, -1}, .normal = {0, 0, 1}, .radius = 1e9, .material = inert(1, 1)},
+      Disc{.center = {0, 0, 2}, .normal = {0, 0, 1}, .radius = 1e9, .material = inert(1, 1)}};
   const Image image = look(scene, {0, 0, 0}, {0, 0, 1});
   const RenderStats& stats = image.stats();
   CHECK(stats.samples_over_ray_bound == 1);

@@ -21,7 +21,8 @@ namespace {
 std::vector<Material> materials() {
   const Color gap = {0.9, 0.5, 0.25, 0.75};
   const auto image = std::make_shared<Image>(4, 4);
-  for (int i = 0; i < 16; ++i) image->set(i % 4, i / 4, {i / 16.0, 1 - i / 16.0, 0.5, i % 3 == 0 ? 0.5 : 1});
+  for (int i = 0; i < 16; ++i)
+    image->set(i % 4, i / 4, {i / 16.0, 1 - i / 16.0, 0.5, i % 3 == 0 ? 0.5 : 1});
   const Pattern checker = Checker{.color_b = gap, .scale = 0.37, .offset = {0.1, 0.2, 0.3}};
   const Pattern picture = ImageMap{.image = image, .repeat_u = 3, .repeat_v = 2};
   return {{.color = gap, .transparency = 0.25},
@@ -39,7 +40,9 @@ Scene solids(Numbers& numbers) {
   Scene scene;
   for (const Material& material : materials()) {
     const auto add = [&](const Entity& entity) { scene.entities.push_back(entity); };
-    const auto worn = [&](const Primitive& primitive) { return Entity(primitive).with_material(material); };
+    const auto worn = [&](const Primitive& primitive) {
+      return Entity(primitive).with_material(material);
+    };
     const auto sphere = [&] {
       return worn(Sphere{.center = numbers.point(4), .radius = numbers.size(0.3, 1.5)});
     };
@@ -69,8 +72,8 @@ Scene solids(Numbers& numbers) {
   return scene;
 }
 
-void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hit, const SurfaceLane& found,
-                 Workspace& work) {
+void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hit,
+                 const SurfaceLane& found, Workspace& work) {
   const HitPoint point = data.hit_point(ray, hit);
   const PreparedMaterial& material = data.materials()[point.material];
   const SurfacePoint in_object = {point.object_position, point.object_normal, point.u, point.v};

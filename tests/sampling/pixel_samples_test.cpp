@@ -20,9 +20,11 @@ struct OneSample {
   double dropped = 0;
 };
 
-/// Gives a pixel that has `count` samples the sum of its next step of them; what they show goes into `seen`.
+/// Gives a pixel that has `count` samples the sum of its next step of them; what they show goes
+/// into `seen`.
 template <class SampleAt>
-void add_sum(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at, SeenSamples& seen) {
+void add_sum(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at,
+             SeenSamples& seen) {
   const std::int64_t size = samples_of_next_step(count);
   Lanes sum{};
   for (std::int64_t i = count; i < count + size; ++i) {
@@ -43,9 +45,9 @@ void add_step(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at
 
 /// The pixel takes note of a neighbour.
 void take_note(PixelSamples& pixel, const PixelSamples& neighbour) {
-  PixelSamples::Notes notes = pixel.notes();
-  notes.take(neighbour.notes());
-  pixel.keep(notes);
+  PixelSamples::Statistics statistics = pixel.statistics();
+  statistics.take(neighbour.statistics());
+  pixel.keep(statistics);
 }
 
 /// Gives a pixel its first `end` samples of a grey function.
@@ -93,7 +95,8 @@ TEST_CASE("the mean is that of all samples, whatever the pass") {
   };
   for (const std::int64_t count : {1, 5, 8, 9, 16, 18, 30, 64, 72, 1024}) {
     double sum = 0;
-    for (std::int64_t i = 0; i < count; ++i) sum += wave(sequence.point(static_cast<std::uint32_t>(i)));
+    for (std::int64_t i = 0; i < count; ++i)
+      sum += wave(sequence.point(static_cast<std::uint32_t>(i)));
     const PixelSamples pixel = sampled(sequence, count, wave);
     CHECK(pixel.mean(SampleCount(count))[1] ==
           doctest::Approx(sum / static_cast<double>(count)).epsilon(1e-6));
@@ -118,7 +121,9 @@ TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its
   CHECK(half_width(quiet, 16) == doctest::Approx(0.6 / 16));
 }
 
-TEST_CASE("what neighbours show counts more where a pixel shows several things itself or is out of focus") {
+TEST_CASE(
+    "what neighbours show counts more where a pixel shows several things itself or is out of "
+    "focus") {
   const auto of_thing = [](double value, std::uint64_t identity) {
     return [=](std::int64_t) { return OneSample{Lanes{value, value, value, 1}, identity}; };
   };
@@ -126,7 +131,8 @@ TEST_CASE("what neighbours show counts more where a pixel shows several things i
   add_step(neighbour, 0, of_thing(0.9, 1));
   const auto width_of = [&](std::uint64_t last_identity, bool with_lens) {
     PixelSamples pixel;
-    for (std::int64_t i = 0; i < 8; ++i) add_step(pixel, i, of_thing(0.5, i == 7 ? last_identity : 1));
+    for (std::int64_t i = 0; i < 8; ++i)
+      add_step(pixel, i, of_thing(0.5, i == 7 ? last_identity : 1));
     take_note(pixel, neighbour);
     return linear.half_widths({pixel.interval(SampleCount(8, with_lens))})[0];
   };
@@ -167,8 +173,8 @@ TEST_CASE("what a display clips has no width, and dark colours at a high gamma h
     interval.half_width[channel] = half_width;
     return interval;
   };
-  const Lanes widths = linear.half_widths(
-      {of_channel(0, 5, 1), of_channel(1, 0.5, 0.1), of_channel(2, 0.95, 0.1), of_channel(3, 1, 0.25)});
+  const Lanes widths = linear.half_widths({of_channel(0, 5, 1), of_channel(1, 0.5, 0.1),
+                                           of_channel(2, 0.95, 0.1), of_channel(3, 1, 0.25)});
   CHECK(widths[0] == 0);
   CHECK(widths[1] == doctest::Approx(0.1));
   CHECK(widths[2] == doctest::Approx(0.1));
@@ -179,20 +185,26 @@ TEST_CASE("what a display clips has no width, and dark colours at a high gamma h
   CHECK(of_gamma[2] == 0);
 }
 
-TEST_CASE("a width on a display is that of the worst channel, whatever pixels are looked at beside it") {
+TEST_CASE(
+    "a width on a display is that of the worst channel, whatever pixels are looked at beside it") {
   const MeanInterval dark{.mean = {0.01, 0.5, 0.2, 1}, .half_width = {0.01, 0.01, 0.3, 0}};
-  const MeanInterval bright{.mean = {2, 0.9, 0.7, 1}, .half_width = {0.5, 0.2, 0.01, 0}, .least_shown = 0.2};
+  const MeanInterval bright{
+      .mean = {2, 0.9, 0.7, 1}, .half_width = {0.5, 0.2, 0.01, 0}, .least_shown = 0.2};
   const MeanInterval none{};
   const MeanInterval known{.least_shown = 0.5};
   for (const double gamma : {0.5, 1.0, 2.2}) {
     const DisplayScale scale(gamma);
-    const auto alone = [&](const MeanInterval& interval) { return scale.half_widths({interval})[0]; };
+    const auto alone = [&](const MeanInterval& interval) {
+      return scale.half_widths({interval})[0];
+    };
     const Lanes together = scale.half_widths({dark, none, bright, known});
     CHECK(together[0] == alone(dark));
     CHECK(together[1] == 0);
     CHECK(together[2] == alone(bright));
     CHECK(together[3] == 0.5);
-    const auto shown = [&](double value) { return std::pow(std::clamp(value, 0.0, 1.0), 1 / gamma); };
+    const auto shown = [&](double value) {
+      return std::pow(std::clamp(value, 0.0, 1.0), 1 / gamma);
+    };
     const double blue = std::max(shown(0.5) - shown(0.2), shown(0.2) - shown(0));
     const double red = std::max(shown(0.02) - shown(0.01), shown(0.01) - shown(0));
     CHECK(alone(dark) == doctest::Approx(std::max(red, blue)).epsilon(1e-6));
@@ -212,7 +224,8 @@ TEST_CASE("values beyond all bounds do no harm") {
   }
 }
 
-TEST_CASE("at the stopping point the truth lies within the half-width in 95 of 100 pixels with an edge") {
+TEST_CASE(
+    "at the stopping point the truth lies within the half-width in 95 of 100 pixels with an edge") {
   constexpr int pixels = 3000;
   for (const double target : {8.0 / 255, 2.0 / 255}) {
     int within = 0;
@@ -227,13 +240,15 @@ TEST_CASE("at the stopping point the truth lies within the half-width in 95 of 1
       };
       std::int64_t count = 16;
       PixelSamples pixel = sampled(sequence, count, edge);
-      while (half_width(pixel, count) > target && count < 1024) pixel = sampled(sequence, count *= 2, edge);
+      while (half_width(pixel, count) > target && count < 1024)
+        pixel = sampled(sequence, count *= 2, edge);
       constexpr int grid = 200;
       double truth = 0;
       for (int k = 0; k < grid * grid; ++k)
         truth += edge({.pixel_u = (k % grid + 0.5) / grid, .pixel_v = (k / grid + 0.5) / grid});
       truth /= grid * grid;
-      if (std::abs(pixel.mean(SampleCount(count))[0] - truth) <= half_width(pixel, count) + 0.0002) ++within;
+      if (std::abs(pixel.mean(SampleCount(count))[0] - truth) <= half_width(pixel, count) + 0.0002)
+        ++within;
     }
     CHECK(within >= 0.95 * pixels);
   }

@@ -16,8 +16,10 @@ using namespace crt::core;
 
 namespace {
 
-/// Whether `count` points from `begin` on hit each of as many equal rectangles in so many columns once.
-bool is_net(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t count, std::uint32_t columns) {
+/// Whether `count` points from `begin` on hit each of as many equal rectangles in so many columns
+/// once.
+bool is_net(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t count,
+            std::uint32_t columns) {
   std::vector<int> hits(count, 0);
   const std::uint32_t rows = count / columns;
   for (std::uint32_t i = 0; i < count; ++i) {
@@ -48,7 +50,8 @@ double spread(std::uint32_t count, const Integrand& integrand) {
 
 }  // namespace
 
-TEST_CASE("points that follow each other from a multiple of their number on fill the pixel evenly") {
+TEST_CASE(
+    "points that follow each other from a multiple of their number on fill the pixel evenly") {
   for (int pixel = 0; pixel < 20; ++pixel) {
     const PixelSequence sequence(7, pixel, 100 - pixel);
     for (const std::uint32_t count : {1u, 2u, 4u, 16u, 64u, 512u}) {
@@ -113,7 +116,8 @@ TEST_CASE("points side by side are those that are found one by one") {
       const std::uint32_t end = first == 8 ? 13 : first == 16 ? 48 : first / size * size + size - 1;
       sequence.points(first, end, with_lens, window);
       const auto number = [&](std::size_t dimension, std::uint32_t i) {
-        return window.coordinates[dimension][i % size / lane_count][static_cast<int>(i % lane_count)];
+        return window
+            .coordinates[dimension][i % size / lane_count][static_cast<int>(i % lane_count)];
       };
       for (std::uint32_t i = first; i < end; ++i) {
         const SequencePoint expected = with_lens ? sequence.point(i) : sequence.pixel_point(i);
@@ -130,7 +134,9 @@ TEST_CASE("four times the points halve the error at least, on an edge they do be
   const auto edge = [](const SequencePoint& p) {
     return 0.3 * p.pixel_u + 0.7 * p.pixel_v < 0.5 ? 0.5 : -0.5;
   };
-  const auto blur = [](const SequencePoint& p) { return p.pixel_u + p.lens_u + p.lens_v < 1.5 ? 0.5 : -0.5; };
+  const auto blur = [](const SequencePoint& p) {
+    return p.pixel_u + p.lens_u + p.lens_v < 1.5 ? 0.5 : -0.5;
+  };
   // Independent points would be at 0.125 with 16 of them.
   CHECK(spread(16, edge) < 0.06);
   CHECK(spread(256, edge) < spread(16, edge) / 6);
@@ -194,10 +200,12 @@ TEST_CASE("a wide filter's places have its weight as their density") {
     square += (place - 0.5) * (place - 0.5) / count;
   }
   CHECK(mean == doctest::Approx(0.5));
-  // The window's second moment: a cosine of frequency k weighs x^2 by its integral over [-1/2, 1/2], which is
+  // The window's second moment: a cosine of frequency k weighs x^2 by its integral over [-1/2,
+  // 1/2], which is
   // (-1)^k / (2 pi^2 k^2).
   const double pi_2 = std::numbers::pi * std::numbers::pi;
   const double moment =
-      (0.35875 / 12 - 0.48829 / (2 * pi_2) + 0.14128 / (8 * pi_2) - 0.01168 / (18 * pi_2)) / 0.35875;
+      (0.35875 / 12 - 0.48829 / (2 * pi_2) + 0.14128 / (8 * pi_2) - 0.01168 / (18 * pi_2)) /
+      0.35875;
   CHECK(square == doctest::Approx(9 * moment).epsilon(1e-3));
 }

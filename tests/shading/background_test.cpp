@@ -85,12 +85,15 @@ TEST_CASE("an equal-area panorama shows each texel in the middle of its share of
   CHECK(background.color({0, -1, 0}).g == 3 / 16.0);
 }
 
-TEST_CASE("panoramas of 2015 are equal-area ones where today's are spherical, and turn the other way") {
+TEST_CASE(
+    "panoramas of 2015 are equal-area ones where today's are spherical, and turn the other way") {
   using enum crt::PanoramaProjection;
   const auto picture = test_picture(8, 4);
-  for (const auto& [in_2015, today] : {std::pair(spherical, equal_area), std::pair(equal_area, equal_area),
-                                       std::pair(cylindrical, cylindrical)}) {
-    const PreparedBackground old_one = prepared(crt::PanoramaBackground{picture, in_2015, 0.7}, 1, 2015);
+  for (const auto& [in_2015, today] :
+       {std::pair(spherical, equal_area), std::pair(equal_area, equal_area),
+        std::pair(cylindrical, cylindrical)}) {
+    const PreparedBackground old_one =
+        prepared(crt::PanoramaBackground{picture, in_2015, 0.7}, 1, 2015);
     const PreparedBackground new_one = prepared(crt::PanoramaBackground{picture, today, -0.7});
     for (int i = 0; i < 100; ++i) {
       const Vec3 towards = direction(0.37 * i, std::sin(1.3 * i) * pi / 2);
@@ -99,7 +102,8 @@ TEST_CASE("panoramas of 2015 are equal-area ones where today's are spherical, an
   }
 }
 
-TEST_CASE("a panorama's middle is straight ahead, its right half to the right, its edges meet behind") {
+TEST_CASE(
+    "a panorama's middle is straight ahead, its right half to the right, its edges meet behind") {
   const auto picture = test_picture(8, 1);
   const PreparedBackground background = prepared(crt::PanoramaBackground{picture});
   CHECK(background.color({0, 0, 1}).r == doctest::Approx(3.5 / 16));
@@ -112,7 +116,8 @@ TEST_CASE("a panorama's middle is straight ahead, its right half to the right, i
 TEST_CASE("the angle turns a panorama about y") {
   const auto picture = test_picture(8, 4);
   const PreparedBackground straight = prepared(crt::PanoramaBackground{picture});
-  const PreparedBackground turned = prepared(crt::PanoramaBackground{.image = picture, .angle = 0.7});
+  const PreparedBackground turned =
+      prepared(crt::PanoramaBackground{.image = picture, .angle = 0.7});
   for (const double yaw : {-3.0, -1.0, 0.0, 2.0, 3.0}) {
     check_same(turned.color(direction(yaw, 0.3)), straight.color(direction(yaw + 0.7, 0.3)));
   }
@@ -120,7 +125,8 @@ TEST_CASE("the angle turns a panorama about y") {
 
 TEST_CASE("straight up and down are the first and the last row") {
   const auto picture = test_picture(8, 4);
-  for (const auto projection : {crt::PanoramaProjection::spherical, crt::PanoramaProjection::cylindrical}) {
+  for (const auto projection :
+       {crt::PanoramaProjection::spherical, crt::PanoramaProjection::cylindrical}) {
     const PreparedBackground background = prepared(crt::PanoramaBackground{picture, projection});
     CHECK(background.color({0, 1, 0}).g == doctest::Approx(0.0));
     CHECK(background.color({0, -1, 0}).g == doctest::Approx(3 / 16.0));
@@ -132,7 +138,8 @@ TEST_CASE("a cylindrical panorama's rows are as high as its columns are wide, se
   const PreparedBackground background =
       prepared(crt::PanoramaBackground{picture, crt::PanoramaProjection::cylindrical});
   for (int y = 0; y < 4; ++y) {
-    // On the cylinder of radius 1 a texel is 2 pi / 8 high; the horizon is the middle of the picture.
+    // On the cylinder of radius 1 a texel is 2 pi / 8 high; the horizon is the middle of the
+    // picture.
     const double height = (2 - (y + 0.5)) * 2 * pi / 8;
     for (int x = 0; x < 8; ++x) {
       const double yaw = ((x + 0.5) / 8 - 0.5) * 2 * pi;

@@ -20,7 +20,8 @@ LuminanceGradient gradient_on(const crt::Primitive& primitive, const crt::Patter
                               const SurfacePoint& point, std::uint32_t face = 0) {
   TexturePool textures(1);
   CrossingList scratch;
-  return luminance_gradient(PreparedPattern(pattern, textures), point, *make_shape(primitive), face, scratch);
+  return luminance_gradient(PreparedPattern(pattern, textures), point, *make_shape(primitive), face,
+                            scratch);
 }
 
 void check_near(const Vec3& a, const Vec3& b, double tolerance) {
@@ -73,8 +74,10 @@ TEST_CASE("(u, v) of a sphere change by longitude and latitude") {
   const Vec3 normal(std::cos(latitude) * std::cos(longitude), std::sin(latitude),
                     std::cos(latitude) * std::sin(longitude));
   CrossingList scratch;
-  const UvGradient uv = uv_gradient(*make_shape(sphere), 0, sphere.center + radius * normal, normal, scratch);
-  CHECK(glm::length(uv.u) == doctest::Approx(1 / (2 * pi * radius * std::cos(latitude))).epsilon(1e-4));
+  const UvGradient uv =
+      uv_gradient(*make_shape(sphere), 0, sphere.center + radius * normal, normal, scratch);
+  CHECK(glm::length(uv.u) ==
+        doctest::Approx(1 / (2 * pi * radius * std::cos(latitude))).epsilon(1e-4));
   CHECK(glm::length(uv.v) == doctest::Approx(1 / (pi * radius)).epsilon(1e-4));
   CHECK(std::abs(glm::dot(uv.u, uv.v)) < 1e-4);
   CHECK(std::abs(glm::dot(uv.u, normal)) < 1e-9);

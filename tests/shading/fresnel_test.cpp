@@ -36,7 +36,8 @@ double textbook_reflectance(double cosine, double index_1, double index_2) {
 
 }  // namespace
 
-TEST_CASE("straight on, ((n1 - n2) / (n1 + n2))^2 is reflected and the rest goes straight through") {
+TEST_CASE(
+    "straight on, ((n1 - n2) / (n1 + n2))^2 is reflected and the rest goes straight through") {
   for (const double n1 : indices) {
     for (const double n2 : indices) {
       const double amplitude = (n1 - n2) / (n1 + n2);
@@ -47,7 +48,8 @@ TEST_CASE("straight on, ((n1 - n2) / (n1 + n2))^2 is reflected and the rest goes
   }
 }
 
-TEST_CASE("at Brewster's angle only the part polarised across the plane of incidence is reflected") {
+TEST_CASE(
+    "at Brewster's angle only the part polarised across the plane of incidence is reflected") {
   for (const double n1 : indices) {
     for (const double n2 : indices) {
       if (n1 == n2) continue;
@@ -66,7 +68,8 @@ TEST_CASE("the reflected share is that of the textbook's equations at all angles
         const double cosine = step / 1000.0;
         const double expected = n1 == n2 ? 0 : textbook_reflectance(cosine, n1, n2);
         const double sine_behind = n1 / n2 * std::sqrt(1 - cosine * cosine);
-        if (std::abs(sine_behind - 1) < 1e-9) continue;  // at the critical angle any error is magnified
+        if (std::abs(sine_behind - 1) < 1e-9)
+          continue;  // at the critical angle any error is magnified
         REQUIRE(fresnel_reflectance(cosine, n1, n2) == doctest::Approx(expected).epsilon(1e-10));
       }
     }
@@ -167,7 +170,8 @@ TEST_CASE("a mirror turns the part along the normal round and nothing else") {
 
 TEST_CASE("four rays side by side are refracted as each alone, to the last bit") {
   std::vector<Vec3> directions = {-up, {1, 0, 0}, {1, 1e-9, 0}};
-  for (int step = 0; step < 90; ++step) directions.push_back(incoming(step * std::numbers::pi / 180));
+  for (int step = 0; step < 90; ++step)
+    directions.push_back(incoming(step * std::numbers::pi / 180));
   for (const Vec3& direction : directions) {
     for (std::size_t i = 0; i < indices.size(); ++i) {
       const double n1 = indices[i];

@@ -35,7 +35,8 @@ TEST_CASE("a material is opaque if neither its transparency nor its colour lets 
   CHECK(prepared({.color = crt::Pattern(crt::Checker{})}).opaque);
 }
 
-TEST_CASE("what lets light through brightens it by its brightest channel at most, and darkens nothing") {
+TEST_CASE(
+    "what lets light through brightens it by its brightest channel at most, and darkens nothing") {
   CHECK(prepared({.color = crt::Color{7, 2, 3}}).gain == 1);
   CHECK(prepared({.color = crt::Color{7, 2, 3}, .transparency = 0.1}).gain == 7);
   CHECK(prepared({.color = crt::Color{0.7, 0.2, 0}, .transparency = 1}).gain == 1);

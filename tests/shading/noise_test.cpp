@@ -39,7 +39,8 @@ TEST_CASE("noise is normalised by the most that its gradients can add up to") {
   std::uniform_real_distribution<double> uniform(0, 1);
   double largest = largest_possible_sum({0.518508, 0.355257, 0.5});
   for (int i = 0; i < 300'000; ++i) {
-    largest = std::max(largest, largest_possible_sum({uniform(random), uniform(random), uniform(random)}));
+    largest = std::max(largest,
+                       largest_possible_sum({uniform(random), uniform(random), uniform(random)}));
   }
   CHECK(largest <= divisor);
   CHECK(largest == doctest::Approx(divisor).epsilon(1e-9));
@@ -101,8 +102,10 @@ TEST_CASE("noise does not repeat after 256 cells, as a table of permutations wou
 }
 
 TEST_CASE("noise takes any coordinate there is") {
-  for (const double huge : {1e15, 4503599627370497.5, 1e19, 1e100, 1e300, 1.7e308, -1e19, -1.7e308}) {
-    for (const Vec3& place : {Vec3(huge, 0.5, 0.5), Vec3(huge, huge, huge), Vec3(0.5, 0.25, -huge)}) {
+  for (const double huge :
+       {1e15, 4503599627370497.5, 1e19, 1e100, 1e300, 1.7e308, -1e19, -1.7e308}) {
+    for (const Vec3& place :
+         {Vec3(huge, 0.5, 0.5), Vec3(huge, huge, huge), Vec3(0.5, 0.25, -huge)}) {
       CHECK(std::abs(gradient_noise(place)) <= 1);
       CHECK(std::abs(fractal_noise(place, 16)) <= 1);
     }

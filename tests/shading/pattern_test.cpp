@@ -40,13 +40,15 @@ std::vector<crt::Pattern> all_patterns(double scale) {
   const auto image = std::make_shared<crt::Image>(3, 3);
   for (int i = 0; i < 9; ++i) image->set(i % 3, i / 3, mix(a, b, i / 8.0));
   const Vec3 offset(0.3, -0.2, 0.7);
-  return {crt::Checker{.color_a = a, .color_b = b, .scale = scale, .offset = offset},
-          crt::Stripes{.color_a = a, .color_b = b, .direction = {1, 2, -1}, .scale = scale, .offset = offset},
-          crt::Gradient{.color_a = a, .color_b = b, .scale = scale},
-          crt::Noise{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
-          crt::Marble{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
-          crt::Wood{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
-          crt::ImageMap{.image = image, .repeat_u = 1 / scale, .repeat_v = -3}};
+  return {
+      crt::Checker{.color_a = a, .color_b = b, .scale = scale, .offset = offset},
+      crt::Stripes{
+          .color_a = a, .color_b = b, .direction = {1, 2, -1}, .scale = scale, .offset = offset},
+      crt::Gradient{.color_a = a, .color_b = b, .scale = scale},
+      crt::Noise{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
+      crt::Marble{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
+      crt::Wood{.color_a = a, .color_b = b, .octaves = 2, .scale = scale},
+      crt::ImageMap{.image = image, .repeat_u = 1 / scale, .repeat_v = -3}};
 }
 
 /// Of all sizes and signs, some of them whole, some no numbers.
@@ -54,10 +56,11 @@ class Coordinates {
  public:
   double next() {
     constexpr double inf = std::numeric_limits<double>::infinity();
-    constexpr double special[] = {0.0,        -0.0,       1.0,      -1.0,
-                                  0x1p52,     0x1p53 + 2, -0x1p53,  0x1p53 - 1,
-                                  1 - 0x1p53, 1.7e308,    -1.7e308, 5e-324,
-                                  -5e-324,    inf,        -inf,     std::numeric_limits<double>::quiet_NaN()};
+    constexpr double special[] = {
+        0.0,        -0.0,       1.0,      -1.0,
+        0x1p52,     0x1p53 + 2, -0x1p53,  0x1p53 - 1,
+        1 - 0x1p53, 1.7e308,    -1.7e308, 5e-324,
+        -5e-324,    inf,        -inf,     std::numeric_limits<double>::quiet_NaN()};
     const double fraction = std::uniform_real_distribution<double>(-1, 1)(engine_);
     switch (engine_() % 4) {
       case 0:
@@ -72,7 +75,10 @@ class Coordinates {
   }
   SurfacePoint point() {
     const Vec3 normals[] = {{0, 1, 0}, {0, -1, 0}, {0.6, 0, -0.8}};
-    return {.position = {next(), next(), next()}, .normal = normals[engine_() % 3], .u = next(), .v = next()};
+    return {.position = {next(), next(), next()},
+            .normal = normals[engine_() % 3],
+            .u = next(),
+            .v = next()};
   }
 
  private:
@@ -101,7 +107,9 @@ TEST_CASE("a checkerboard changes colour from cube to cube, in all directions an
   }
 }
 
-TEST_CASE("a surface that lies on the border of cubes wears those inside, however its points are rounded") {
+TEST_CASE(
+    "a surface that lies on the border of cubes wears those inside, however its points are "
+    "rounded") {
   const crt::Checker checker;
   for (const double rounding : {-1e-15, -1e-300, 0.0, 1e-300, 1e-15}) {
     // The top of a floor: the cubes below it, from y = -1 to 0.
@@ -113,7 +121,8 @@ TEST_CASE("a surface that lies on the border of cubes wears those inside, howeve
         color_at(checker, {1e6 + 0.5, 1e6 - 0.5, 0.5}));
 }
 
-TEST_CASE("a checkerboard's colour is that of its plain formula, also where coordinates are no numbers") {
+TEST_CASE(
+    "a checkerboard's colour is that of its plain formula, also where coordinates are no numbers") {
   const auto is_odd = [](double cell) { return std::fmod(cell, 2) != 0; };
   Coordinates coordinates;
   for (const double scale : {1.0, 0.37, 1e-100, 1e100}) {
@@ -121,9 +130,10 @@ TEST_CASE("a checkerboard's colour is that of its plain formula, also where coor
     const PreparedPattern pattern = prepared(checker);
     for (int i = 0; i < 50000; ++i) {
       const SurfacePoint point = coordinates.point();
-      const double largest =
-          std::max({std::abs(point.position.x), std::abs(point.position.y), std::abs(point.position.z)});
-      const Vec3 under = point.position - point.normal * std::max(scale * 0x1p-20, largest * 0x1p-48);
+      const double largest = std::max(
+          {std::abs(point.position.x), std::abs(point.position.y), std::abs(point.position.z)});
+      const Vec3 under =
+          point.position - point.normal * std::max(scale * 0x1p-20, largest * 0x1p-48);
       const Vec3 cell = glm::floor((under - checker.offset) / scale);
       const bool odd = is_odd(cell.x) != (is_odd(cell.y) != is_odd(cell.z));
       REQUIRE(pattern.color(point) == (odd ? checker.color_b : checker.color_a));
@@ -139,7 +149,8 @@ TEST_CASE("points side by side have the colours that each has by itself") {
       for (std::uint32_t i = 0; i < 5000; ++i) {
         const std::uint32_t lanes = i % 16;
         SurfacePointLanes points;
-        for (std::size_t lane = 0; lane < lane_count; ++lane) set_lane(points, lane, coordinates.point());
+        for (std::size_t lane = 0; lane < lane_count; ++lane)
+          set_lane(points, lane, coordinates.point());
         const ColorLanes colors = pattern.colors(points, lanes);
         for (std::size_t lane = 0; lane < lane_count; ++lane) {
           if ((lanes >> lane & 1u) == 0) continue;
@@ -213,8 +224,11 @@ TEST_CASE("marble without turbulence is a wave, with it a shifted one") {
 }
 
 TEST_CASE("wood without turbulence has rings about its line") {
-  const crt::Wood wood{
-      .color_a = white, .color_b = black, .direction = {0, 2, 0}, .turbulence = 0, .offset = {1, 0, 0}};
+  const crt::Wood wood{.color_a = white,
+                       .color_b = black,
+                       .direction = {0, 2, 0},
+                       .turbulence = 0,
+                       .offset = {1, 0, 0}};
   CHECK(level_at(wood, {1, 0, 0}) == 1);
   CHECK(level_at(wood, {1, 9, 0}) == 1);
   CHECK(level_at(wood, {1.5, -3, 0}) == doctest::Approx(0));
@@ -222,7 +236,8 @@ TEST_CASE("wood without turbulence has rings about its line") {
   CHECK(level_at(wood, {1.6, 0, 0.8}) == doctest::Approx(1));
 }
 
-TEST_CASE("an image map lies upright, from u = 0 at its left and v = 0 at its lower edge, and repeats") {
+TEST_CASE(
+    "an image map lies upright, from u = 0 at its left and v = 0 at its lower edge, and repeats") {
   const auto image = std::make_shared<crt::Image>(4, 2);
   for (int y = 0; y < 2; ++y) {
     for (int x = 0; x < 4; ++x) image->set(x, y, {x / 4.0, y / 2.0, 0, 1});
@@ -267,7 +282,8 @@ TEST_CASE("every pattern takes any point that a ray can reach") {
     for (const double far : {0.0, 1.0, 1e20, 1e200, 1.7e308}) {
       for (const double sign : {-1.0, 1.0}) {
         const double c = sign * far;
-        const Color color = ready.color({.position = {c, -c, c}, .normal = {0.6, 0, 0.8}, .u = c, .v = -c});
+        const Color color =
+            ready.color({.position = {c, -c, c}, .normal = {0.6, 0, 0.8}, .u = c, .v = -c});
         REQUIRE(color.r >= 0);
         REQUIRE(color.r <= 1);
       }

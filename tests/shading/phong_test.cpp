@@ -64,11 +64,16 @@ TEST_CASE("diffuse light is the cosine times the light, the material and their s
 
 TEST_CASE("the highlight is a power of the cosine between the mirrored light and the viewer") {
   const double angle = 0.3;
-  const LightSample light{.direction = {std::sin(0.5), std::cos(0.5), 0}, .distance = 1, .intensity = 0.5};
+  const LightSample light{
+      .direction = {std::sin(0.5), std::cos(0.5), 0}, .distance = 1, .intensity = 0.5};
   // The viewer stands an angle away from where a mirror would show the light.
   const Vec3 view(std::sin(0.5 + angle), -std::cos(0.5 + angle), 0);
-  const PhongSurface surface{
-      .color = {1, 0.5, 0}, .diffuse = 0, .specular = 0.7, .shininess = 20, .normal = up, .view = view};
+  const PhongSurface surface{.color = {1, 0.5, 0},
+                             .diffuse = 0,
+                             .specular = 0.7,
+                             .shininess = 20,
+                             .normal = up,
+                             .view = view};
   const Rgb result = direct_light(surface, light, {2, 2, 2});
   const double expected = std::pow(std::cos(angle), 20) * 0.7 * 0.5 * 2;
   CHECK(result.x == doctest::Approx(expected).epsilon(1e-13));
@@ -88,7 +93,8 @@ TEST_CASE("a viewer on the other side of the mirrored light sees no highlight") 
 }
 
 TEST_CASE("light from behind gives nothing") {
-  const PhongSurface surface{.diffuse = 1, .specular = 1, .shininess = 0, .normal = up, .view = -up};
+  const PhongSurface surface{
+      .diffuse = 1, .specular = 1, .shininess = 0, .normal = up, .view = -up};
   CHECK(direct_light(surface, {.direction = {0.8, -0.6, 0}, .distance = 1}, Rgb(1)) == Rgb(0));
   CHECK(direct_light(surface, {.direction = {1, 0, 0}, .distance = 1}, Rgb(1)) == Rgb(0));
 }

@@ -26,7 +26,8 @@ TEST_CASE("texels have their own colour at their centres") {
   const Texture texture(image, 1);
   for (int y = 0; y < 3; ++y) {
     for (int x = 0; x < 4; ++x) {
-      CHECK(texture.bilinear(x + 0.5, y + 0.5, TextureWrap::repeat, TextureWrap::clamp) == image->at(x, y));
+      CHECK(texture.bilinear(x + 0.5, y + 0.5, TextureWrap::repeat, TextureWrap::clamp) ==
+            image->at(x, y));
     }
   }
 }
@@ -38,16 +39,18 @@ TEST_CASE("texels that are not finite count as 0, and the pool tells of them onc
   TexturePool pool(2.2);
   const auto texture = pool.get(image);
   pool.get(image);
-  CHECK(texture->bilinear(2.5, 1.5, TextureWrap::repeat, TextureWrap::clamp) == Color{0, 0.5, 0, 1});
+  CHECK(texture->bilinear(2.5, 1.5, TextureWrap::repeat, TextureWrap::clamp) ==
+        Color{0, 0.5, 0, 1});
   CHECK(texture->bilinear(3.5, 2.5, TextureWrap::repeat, TextureWrap::clamp) == Color{0, 0, 0, 0});
   CHECK_FALSE(texture->opaque());
   CHECK(texture->bytes() > image->pixels().size_bytes());
   CHECK(std::isnan(image->at(2, 1).r));  // the user's stays as it is
   const auto clean = ramp(2, 2);
   pool.get(clean);
-  CHECK(pool.warnings() == std::vector<std::string>{"an image has 2 pixels with values that are not finite "
-                                                    "(NaN, infinity), the first at (2, 1) from the top left: "
-                                                    "they count as 0"});
+  CHECK(pool.warnings() ==
+        std::vector<std::string>{"an image has 2 pixels with values that are not finite "
+                                 "(NaN, infinity), the first at (2, 1) from the top left: "
+                                 "they count as 0"});
 }
 
 TEST_CASE("between four texels a colour is the mean that is linear in x and in y") {
@@ -59,17 +62,22 @@ TEST_CASE("between four texels a colour is the mean that is linear in x and in y
 
 TEST_CASE("a repeating side blends the last texel with the first, a clamped one ends") {
   const Texture texture(ramp(4, 4), 1);
-  CHECK(texture.bilinear(0, 0.5, TextureWrap::repeat, TextureWrap::repeat).r == doctest::Approx(0.15));
-  CHECK(texture.bilinear(4, 0.5, TextureWrap::repeat, TextureWrap::repeat).r == doctest::Approx(0.15));
-  CHECK(texture.bilinear(-4, 0.5, TextureWrap::repeat, TextureWrap::repeat).r == doctest::Approx(0.15));
+  CHECK(texture.bilinear(0, 0.5, TextureWrap::repeat, TextureWrap::repeat).r ==
+        doctest::Approx(0.15));
+  CHECK(texture.bilinear(4, 0.5, TextureWrap::repeat, TextureWrap::repeat).r ==
+        doctest::Approx(0.15));
+  CHECK(texture.bilinear(-4, 0.5, TextureWrap::repeat, TextureWrap::repeat).r ==
+        doctest::Approx(0.15));
   CHECK(texture.bilinear(0, 0.5, TextureWrap::clamp, TextureWrap::clamp).r == 0);
   CHECK(texture.bilinear(-1e300, 0.5, TextureWrap::clamp, TextureWrap::clamp).r == 0);
-  CHECK(texture.bilinear(1e300, 0.5, TextureWrap::clamp, TextureWrap::clamp).r == doctest::Approx(0.3));
+  CHECK(texture.bilinear(1e300, 0.5, TextureWrap::clamp, TextureWrap::clamp).r ==
+        doctest::Approx(0.3));
 }
 
 TEST_CASE("any finite position gives one of the picture's colours or a mean of them") {
   const Texture texture(ramp(3, 2), 1);
-  for (const double x : {-1e300, -1e17, -3 - 1e-16, -1e-300, 0.0, 2.9999999999999996, 1e16, 1e300}) {
+  for (const double x :
+       {-1e300, -1e17, -3 - 1e-16, -1e-300, 0.0, 2.9999999999999996, 1e16, 1e300}) {
     const Color color = texture.bilinear(x, x, TextureWrap::repeat, TextureWrap::repeat);
     CHECK(color.r >= 0);
     CHECK(color.r <= doctest::Approx(0.2));

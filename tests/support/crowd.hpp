@@ -10,8 +10,8 @@
 
 namespace crt::test {
 
-/// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a sphere, or if
-/// it has a length a rod) lines can be laid along its surface.
+/// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a
+/// sphere, or if it has a length a rod) lines can be laid along its surface.
 struct Target {
   Vec3 center;
   double reach;
@@ -59,7 +59,8 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
     crowd.add(torus, center, factor * (ring + tube));
     if (i % 4 == 0) continue;
     Target& target = crowd.targets.back();
-    target.axis = {glm::dot(turned.row_x, axis), glm::dot(turned.row_y, axis), glm::dot(turned.row_z, axis)};
+    target.axis = {glm::dot(turned.row_x, axis), glm::dot(turned.row_y, axis),
+                   glm::dot(turned.row_z, axis)};
     target.ring = factor * ring;
     target.tube = factor * tube;
   }
@@ -71,17 +72,20 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
     const Vec3 from = center - half_length * axis;
     const Vec3 to = center + half_length * axis;
     const Transform scaled = scale(Vec3(numbers.size(0.2, 3)));
-    if (i % 3 == 0) crowd.add(Cylinder{.from = from, .to = to, .radius = radius}, center, half_length);
+    if (i % 3 == 0)
+      crowd.add(Cylinder{.from = from, .to = to, .radius = radius}, center, half_length);
     if (i % 3 == 1) {
-      crowd.add(Cone{.from = from, .to = to, .radius = radius, .radius2 = radius * numbers.within(0, 1)},
-                center, half_length);
+      crowd.add(
+          Cone{.from = from, .to = to, .radius = radius, .radius2 = radius * numbers.within(0, 1)},
+          center, half_length);
     }
     if (i % 3 == 2) {
       const Vec3 corner(radius, half_length, radius / 2);
       const Entity bar = Entity(Box{.corner_a = -corner, .corner_b = corner});
-      crowd.add(
-          bar.transformed(rotate(numbers.point(180))).transformed(scaled).transformed(translate(center)),
-          center, half_length);
+      crowd.add(bar.transformed(rotate(numbers.point(180)))
+                    .transformed(scaled)
+                    .transformed(translate(center)),
+                center, half_length);
       continue;
     }
     Target& target = crowd.targets.back();
@@ -92,11 +96,13 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
   for (int i = 0; i < 10; ++i) {
     const Vec3 center = numbers.point(4);
     const double size = numbers.size(0.05, 0.8);
-    const Entity box = Box{.corner_a = center - Vec3(size), .corner_b = center + Vec3(size, size / 2, size)};
+    const Entity box =
+        Box{.corner_a = center - Vec3(size), .corner_b = center + Vec3(size, size / 2, size)};
     const Entity ball = Sphere{.center = center + Vec3(size / 2), .radius = size};
     const Entity other = Sphere{.center = center - Vec3(size / 2), .radius = size};
     crowd.add(i % 3 == 0 ? box : i % 3 == 1 ? box - ball : ball ^ other, center, size);
-    crowd.add(Disc{.center = center, .normal = numbers.direction(), .radius = 2 * size}, center, 2 * size);
+    crowd.add(Disc{.center = center, .normal = numbers.direction(), .radius = 2 * size}, center,
+              2 * size);
   }
   crowd.scene.entities.emplace_back(Plane{.normal = {0, 1, 0}, .position = {0, -3, 0}});
   crowd.scene.entities.emplace_back(Plane{.normal = {0.3, 1, -0.2}, .position = {0, -2, 0}});

@@ -18,7 +18,9 @@ class Numbers {
     return std::uniform_real_distribution<double>(low, high)(engine_);
   }
   int below(int end) { return std::uniform_int_distribution<int>(0, end - 1)(engine_); }
-  Vec3 point(double size) { return {within(-size, size), within(-size, size), within(-size, size)}; }
+  Vec3 point(double size) {
+    return {within(-size, size), within(-size, size), within(-size, size)};
+  }
   Vec3 direction() {
     Vec3 v = point(1);
     while (glm::dot(v, v) < 0.01) v = point(1);

@@ -29,7 +29,8 @@ struct Placed {
   }
   Vec3 to_place(Vec3 p) const {
     for (const Transform& step : steps) {
-      p = Vec3(glm::dot(step.row_x, p), glm::dot(step.row_y, p), glm::dot(step.row_z, p)) + step.translation;
+      p = Vec3(glm::dot(step.row_x, p), glm::dot(step.row_y, p), glm::dot(step.row_z, p)) +
+          step.translation;
     }
     return p;
   }
@@ -42,18 +43,22 @@ inline std::vector<Transform> some_steps(Numbers& numbers, double scale) {
   const Transform moved = translate(scale * numbers.point(numbers.below(2) == 0 ? 1 : 1e3));
   const Vec3 factors(numbers.size(0.1, 10), numbers.size(0.1, 10), numbers.size(0.1, 10));
   if (kind > 1) {
-    steps = {kind == 2 ? crt::scale(numbers.size(0.1, 10)) : crt::scale(factors), rotate(numbers.point(180))};
+    steps = {kind == 2 ? crt::scale(numbers.size(0.1, 10)) : crt::scale(factors),
+             rotate(numbers.point(180))};
   }
   if (kind > 0) steps.push_back(moved);
   return steps;
 }
 
-/// Along d (in the primitive's own space) through a place of something of that size, from nearby or afar.
+/// Along d (in the primitive's own space) through a place of something of that size, from nearby or
+/// afar.
 template <class Primitive>
 core::WorldRay ray_through(const Placed<Primitive>& placed, const Vec3& place, const Vec3& d,
                            double object_size, Numbers& numbers) {
-  const double away = object_size * (numbers.below(4) == 0 ? numbers.within(-1, 1) : numbers.size(1, 1e6));
-  core::WorldRay ray{.origin = placed.to_place(place - away * d), .direction = placed.direction_to_world(d)};
+  const double away =
+      object_size * (numbers.below(4) == 0 ? numbers.within(-1, 1) : numbers.size(1, 1e6));
+  core::WorldRay ray{.origin = placed.to_place(place - away * d),
+                     .direction = placed.direction_to_world(d)};
   ray.direction /= core::largest_component(ray.direction);
   const double size = core::largest_component(ray.origin - placed.to_place(place));
   if (numbers.below(8) == 0) ray.direction *= numbers.size(1e-3, 1e3);

@@ -18,9 +18,9 @@ namespace crt::test {
 using namespace crt::core;
 
 inline bool same(const RayHit& a, const RayHit& b) {
-  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.object == b.object && a.leaf == b.leaf &&
-         a.face == b.face && a.surface == b.surface && a.root == b.root && a.entering == b.entering &&
-         a.has_company == b.has_company;
+  return a.t == b.t && a.t_low == b.t_low && a.error == b.error && a.object == b.object &&
+         a.leaf == b.leaf && a.face == b.face && a.surface == b.surface && a.root == b.root &&
+         a.entering == b.entering && a.has_coincident == b.has_coincident;
 }
 
 /// Those rays that have their bit in `some`; in the other lanes is no ray at all.
@@ -29,7 +29,8 @@ inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
   RayBatch batch;
   for (std::size_t i = 0; i < packet_size; ++i) {
     const bool is_one = (some >> i & 1u) != 0;
-    batch.set(i, is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan});
+    batch.set(
+        i, is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan});
     // As those who have rays in free space make them.
     if (batch.starts[i].leaf == nothing) batch.with_starts &= ~(RayMask{1} << i);
   }
@@ -48,8 +49,8 @@ inline RayMask occluded_as_packet(const PreparedData& data, std::span<const Worl
   return data.occluded_each(batch_of(rays, all), all, work, Packets::always);
 }
 
-/// With `rough_errors` the bounds on the errors of first crossings may be larger than where the others are
-/// found as well.
+/// With `rough_errors` the bounds on the errors of first crossings may be larger than where the
+/// others are found as well.
 inline void check_first_crossings(const PreparedData& data, const std::vector<WorldRay>& rays,
                                   RayWorkspace& work, int& met, bool rough_errors = false) {
   std::array<RayHit, packet_size> hits;
@@ -63,7 +64,7 @@ inline void check_first_crossings(const PreparedData& data, const std::vector<Wo
     data.crossings(rays[k], line, work);
     REQUIRE(alone.found() == !line.empty());
     REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
-    if (!alone.found() || alone.has_company) continue;
+    if (!alone.found() || alone.has_coincident) continue;
     RayHit first = line.front();
     if (rough_errors && first.error < alone.error) first.error = alone.error;
     REQUIRE(same(alone, first));
@@ -71,11 +72,11 @@ inline void check_first_crossings(const PreparedData& data, const std::vector<Wo
   }
 }
 
-/// Lets most of the rays that hit something start there, whereto and how set_way(point, ray) says; mostly to
-/// the side that the start says, but not always.
+/// Lets most of the rays that hit something start there, whereto and how set_way(point, ray) says;
+/// mostly to the side that the start says, but not always.
 template <class SetWay>
-void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work, std::vector<WorldRay>& rays,
-           const SetWay& set_way) {
+void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work,
+           std::vector<WorldRay>& rays, const SetWay& set_way) {
   for (WorldRay& ray : rays) {
     const RayHit hit = data.intersect(ray, work);
     if (!hit.found() || numbers.below(8) == 0) continue;
@@ -88,18 +89,20 @@ void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work, std::
     if (!(largest_component(ray.direction) > 0)) ray.direction = {0, 0, 1};
     ray.direction /= largest_component(ray.direction);
     const bool outwards = glm::dot(ray.direction, point.normal) > 0;
-    if (outwards != (side == Side::outside) && numbers.below(8) != 0) ray.direction = -ray.direction;
+    if (outwards != (side == Side::outside) && numbers.below(8) != 0)
+      ray.direction = -ray.direction;
   }
 }
 
-/// The same of so many packets of rays that some_ray() makes, and of those that go on from what they hit,
-/// many of them to where others start.
+/// The same of so many packets of rays that some_ray() makes, and of those that go on from what
+/// they hit, many of them to where others start.
 template <class SomeRay>
-void check_bounces(const PreparedData& data, Numbers& numbers, int packets, const SomeRay& some_ray, int& met,
-                   bool rough_errors = false) {
+void check_bounces(const PreparedData& data, Numbers& numbers, int packets, const SomeRay& some_ray,
+                   int& met, bool rough_errors = false) {
   RayWorkspace work;
   for (int i = 0; i < packets; ++i) {
-    std::vector<WorldRay> rays(static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
+    std::vector<WorldRay> rays(
+        static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
     for (WorldRay& ray : rays) ray = some_ray();
     for (int bounce = 0; bounce < 3; ++bounce) {
       check_first_crossings(data, rays, work, met, rough_errors);

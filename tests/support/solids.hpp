@@ -24,7 +24,8 @@ struct Solid {
   enum class Kind { box, sphere, half_space, cylinder, set_union, intersection, difference };
 
   Kind kind = Kind::box;
-  // box: corners; sphere: centre, radius; half_space: point, normal; cylinder along z: base, radius, height
+  // box: corners; sphere: centre, radius; half_space: point, normal; cylinder along z: base,
+  // radius, height
   Vec3 a{0};
   Vec3 b{0};
   double size = 0;
@@ -88,7 +89,8 @@ struct Solid {
     return csg_difference(made[0], std::span(made).subspan(1));
   }
 
-  /// Every t at which the ray passes a surface of any part, unsorted: t where membership may change.
+  /// Every t at which the ray passes a surface of any part, unsorted: t where membership may
+  /// change.
   void candidate_ts(const Vec3& o, const Vec3& d, std::vector<Quad>& out) const {
     const auto plane = [&](int axis, double at) {
       if (d[axis] != 0) out.push_back((Quad(at) - o[axis]) / d[axis]);
@@ -122,7 +124,8 @@ struct Solid {
       plane(2, b.z);
     } else if (kind == Kind::half_space) {
       const Quad across = Quad(d.x) * b.x + Quad(d.y) * b.y + Quad(d.z) * b.z;
-      const Quad height = (Quad(a.x) - o.x) * b.x + (Quad(a.y) - o.y) * b.y + (Quad(a.z) - o.z) * b.z;
+      const Quad height =
+          (Quad(a.x) - o.x) * b.x + (Quad(a.y) - o.y) * b.y + (Quad(a.z) - o.z) * b.z;
       if (across != 0) out.push_back(height / across);
     }
     for (const Solid& part : parts) part.candidate_ts(o, d, out);
@@ -178,7 +181,8 @@ class SolidMaker {
   Solid tree(int depth) {
     if (depth == 0 || integer(0, 5) == 0) return leaf();
     Solid solid;
-    const Solid::Kind kinds[] = {Solid::Kind::set_union, Solid::Kind::intersection, Solid::Kind::difference};
+    const Solid::Kind kinds[] = {Solid::Kind::set_union, Solid::Kind::intersection,
+                                 Solid::Kind::difference};
     solid.kind = kinds[integer(0, 2)];
     const int count = integer(2, 3);
     for (int i = 0; i < count; ++i) solid.parts.push_back(tree(depth - 1));

@@ -76,7 +76,8 @@ TEST_CASE("ranges cover each item once, and few items stay on this thread") {
     for (const auto& run : runs) REQUIRE(run == 1);
   }
   const auto here = std::this_thread::get_id();
-  for_ranges(10, 10, 0, [&](std::size_t, std::size_t) { CHECK(std::this_thread::get_id() == here); });
+  for_ranges(10, 10, 0,
+             [&](std::size_t, std::size_t) { CHECK(std::this_thread::get_id() == here); });
 }
 
 TEST_CASE("sorting gives the same on any number of threads") {

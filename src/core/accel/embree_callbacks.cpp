@@ -30,12 +30,14 @@ bool has_groups(unsigned count) {
 RayMask mask_of_valid(const int* valid, unsigned count) {
   if (!has_groups(count)) return valid[0] != 0 ? 1 : 0;
   RayMask mask = 0;
-  for (unsigned i = 0; i < count; i += lane_count) mask |= mask_of(lanes_at<IntLanes>(valid + i)) << i;
+  for (unsigned i = 0; i < count; i += lane_count)
+    mask |= mask_of(lanes_at<IntLanes>(valid + i)) << i;
   return mask;
 }
 
 /// Visits a box with those rays of a packet whose own boxes Embree met.
-void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRayN* rays, unsigned count) {
+void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRayN* rays,
+               unsigned count) {
   auto* traversal = reinterpret_cast<PacketTraversal*>(context);
   const RayMask mask = mask_of_valid(valid, count);
   if (mask == 0) return;
@@ -65,19 +67,21 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
   if (valid[0] != 0) ray.tfar = std::min(ray.tfar, visit_box(context, box));
 }
 
-/// Rays of a packet come to a ball.
-void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) {
-  auto& traversal = *reinterpret_cast<BallTraversal*>(arguments.context);
-  BallSearch& search = traversal.search;
+/// Rays of a packet come to a sphere.
+void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) {
+  auto& traversal = *reinterpret_cast<SphereTraversal*>(arguments.context);
+  NearestSphereFilter& search = traversal.search;
   const unsigned count = arguments.N;
-  const FloatBall& ball = static_cast<const Things*>(arguments.geometryUserPtr)->balls[arguments.primID];
+  const FloatSphere& sphere =
+      static_cast<const Things*>(arguments.geometryUserPtr)->spheres[arguments.primID];
   const auto meet_octets = [&](auto& of_part) {
     for (std::size_t first = 0; first < std::size(of_part.tfar); first += octet_size) {
       const FloatRays octet{
           .origin = {&of_part.org_x[first], &of_part.org_y[first], &of_part.org_z[first]},
           .direction = {&of_part.dir_x[first], &of_part.dir_y[first], &of_part.dir_z[first]},
           .end = &of_part.tfar[first]};
-      search.meet(ball, arguments.primID, first, lanes_at<OctetMask>(arguments.valid + first), octet);
+      search.meet(sphere, arguments.primID, first, lanes_at<OctetMask>(arguments.valid + first),
+                  octet);
     }
   };
   if (count == packet_size) return meet_octets(*reinterpret_cast<RTCRay16*>(rays));
@@ -92,15 +96,16 @@ void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) 
       columns[index].fill(value);
       return columns[index].data();
     };
-    const FloatRays octet{
-        .origin = {column(0, RTCRayN_org_x(rays, count, i)), column(1, RTCRayN_org_y(rays, count, i)),
-                   column(2, RTCRayN_org_z(rays, count, i))},
-        .direction = {column(3, RTCRayN_dir_x(rays, count, i)), column(4, RTCRayN_dir_y(rays, count, i)),
-                      column(5, RTCRayN_dir_z(rays, count, i))},
-        .end = column(6, RTCRayN_tfar(rays, count, i))};
+    const FloatRays octet{.origin = {column(0, RTCRayN_org_x(rays, count, i)),
+                                     column(1, RTCRayN_org_y(rays, count, i)),
+                                     column(2, RTCRayN_org_z(rays, count, i))},
+                          .direction = {column(3, RTCRayN_dir_x(rays, count, i)),
+                                        column(4, RTCRayN_dir_y(rays, count, i)),
+                                        column(5, RTCRayN_dir_z(rays, count, i))},
+                          .end = column(6, RTCRayN_tfar(rays, count, i))};
     OctetMask only{};
     only[ray % octet_size] = -1;
-    search.meet(ball, arguments.primID, first, only, octet);
+    search.meet(sphere, arguments.primID, first, only, octet);
     RTCRayN_tfar(rays, count, i) = columns[6][ray % octet_size];
   }
 }
@@ -108,15 +113,16 @@ void visit_ball(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) 
 }  // namespace
 
 void bounds_callback(const RTCBoundsFunctionArguments* arguments) {
-  *arguments->bounds_o = static_cast<const Things*>(arguments->geometryUserPtr)->boxes[arguments->primID];
+  *arguments->bounds_o =
+      static_cast<const Things*>(arguments->geometryUserPtr)->boxes[arguments->primID];
 }
 
 void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
   using Kind = AnyTraversal::Kind;
   RTCRayN* rays = RTCRayHitN_RayN(arguments->rayhit, arguments->N);
   switch (reinterpret_cast<const AnyTraversal*>(arguments->context)->kind) {
-    case Kind::among_balls:
-      return visit_ball(*arguments, rays);
+    case Kind::among_spheres:
+      return visit_sphere(*arguments, rays);
     case Kind::of_packet:
       return visit_box(arguments->context, arguments->primID, arguments->valid, rays, arguments->N);
     case Kind::of_ray:

@@ -36,7 +36,8 @@ inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray)
 }
 
 /// Of rays that go nearly the same way.
-inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid, RTCRayHit8& ray_hits) {
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
+                             RTCRayHit8& ray_hits) {
   RTCIntersectArguments arguments = arguments_with(context);
   arguments.flags = RTC_RAY_QUERY_FLAG_COHERENT;
   rtcIntersect8(valid, scene, &ray_hits, &arguments);
@@ -64,7 +65,8 @@ inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray)
 }
 
 /// Of rays that go nearly the same way.
-inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid, RTCRayHit8& ray_hits) {
+inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
+                             RTCRayHit8& ray_hits) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;
   rtcIntersect8(valid, scene, &context, &ray_hits);
 }

@@ -37,15 +37,17 @@ inline FloatLanes round_up_length(const Lanes& length) {
   const FloatLanes nearest = to_floats(length);
   // -1 where it is true.
   const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
-  const auto rounded_up = reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
+  const auto rounded_up =
+      reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
   return max(rounded_up, FloatLanes{} + shortest_way);
 }
 
-/// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts rays by the
-/// sign that it has: one that goes downwards by next to nothing would cost others their boxes.
+/// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts
+/// rays by the sign that it has: one that goes downwards by next to nothing would cost others their
+/// boxes.
 inline FloatLanes direction_floats(const Lanes& component) {
   constexpr double least = 0x1p-59;  // Embree's is 1e-18
-  return to_floats(size_of(component) > least ? component : Lanes{});
+  return to_floats(abs(component) > least ? component : Lanes{});
 }
 
 }  // namespace crt::core

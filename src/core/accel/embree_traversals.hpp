@@ -8,22 +8,24 @@
 #include <limits>
 #include <vector>
 
-#include "core/accel/ball_search.hpp"
 #include "core/accel/embree_compat.hpp"
 #include "core/accel/embree_floats.hpp"
 #include "core/accel/embree_tree.hpp"
+#include "core/accel/nearest_sphere_filter.hpp"
 
 namespace crt::core {
 
 inline constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
-/// In units in which the half extent of all is below 1: Embree takes no ray that starts farther away. None
-/// that does so where it should enter the box around all meets anything, but rounding may put it there.
+/// In units in which the half extent of all is below 1: Embree takes no ray that starts farther
+/// away. None that does so where it should enter the box around all meets anything, but rounding
+/// may put it there.
 inline constexpr double farthest_place = 0x1p60;
 
-/// What the callbacks get of Embree: the context is the first member, so that the two have one address.
+/// What the callbacks get of Embree: the context is the first member, so that the two have one
+/// address.
 struct AnyTraversal {
-  enum class Kind { of_ray, of_packet, among_balls };
+  enum class Kind { of_ray, of_packet, among_spheres };
 
   EmbreeContext context;
   Kind kind = Kind::of_ray;
@@ -59,21 +61,21 @@ struct PacketTraversal {
 };
 
 /// A packet's whose rays are looked for by floats alone.
-struct BallTraversal {
+struct SphereTraversal {
   AnyTraversal any;
   std::size_t first_ray;  ///< of the packet, that the search has as its first
-  BallSearch search;
+  NearestSphereFilter search;
 
-  explicit BallTraversal(std::size_t first) : first_ray(first) {
+  explicit SphereTraversal(std::size_t first) : first_ray(first) {
     init_context(any.context);
-    any.kind = AnyTraversal::Kind::among_balls;
+    any.kind = AnyTraversal::Kind::among_spheres;
   }
 };
 
 /// What Embree's geometry is of.
 struct Things {
   std::vector<RTCBounds> boxes;  ///< until Embree has built its tree
-  std::vector<FloatBall> balls;
+  std::vector<FloatSphere> spheres;
 };
 
 struct EmbreeTree::Handles {

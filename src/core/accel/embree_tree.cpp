@@ -21,22 +21,23 @@ namespace crt::core {
 
 namespace {
 
-/// How much boxes grow by, in units in which the whole scene's half extent is between 1/2 and 1: as much as
-/// roundings may put a ray next to where it is, u = 2^-24 being a float's.
+/// How much boxes grow by, in units in which the whole scene's half extent is between 1/2 and 1: as
+/// much as roundings may put a ray next to where it is, u = 2^-24 being a float's.
 ///
-/// Embree gets the ray's start o and direction d as floats, which moves its points by u and, for each unit of
-/// the way, by u again: rays start within 2 of the middle, so that is 9 u. It finds where they meet the plane
-/// x = l at l r - o r, with r = 1 / d known to 4 u (a processor's estimate, and a step of Newton's method):
-/// another 2 u for the product and 5 u of |l - o| < 3. RTC_SCENE_FLAG_ROBUST, which would spare the latter,
-/// makes no difference to boxes of users (Embree 3.13).
+/// Embree gets the ray's start o and direction d as floats, which moves its points by u and, for
+/// each unit of the direction, by u again: rays start within 2 of the middle, so that is 9 u. It
+/// finds where they meet the plane x = l at l r - o r, with r = 1 / d known to 4 u (a processor's
+/// estimate, and a step of Newton's method): another 2 u for the product and 5 u of |l - o| < 3.
+/// RTC_SCENE_FLAG_ROBUST, which would spare the latter, makes no difference to boxes of users
+/// (Embree 3.13).
 constexpr double box_margin = 0x1p-19;  // 32 u
 
-/// And by more than rays' starts may be off what they are on, relative to their coordinates: beside a scene
-/// that is far from the origin that is no small part of it.
+/// And by more than rays' starts may be off what they are on, relative to their coordinates: beside
+/// a scene that is far from the origin that is no small part of it.
 constexpr double place_margin = 2 * start_rounding;
 
-/// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is not
-/// worth starting any for.
+/// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is
+/// not worth starting any for.
 void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
 #ifndef CRT_TASKS_THREADS
   constexpr std::size_t worth_threads = 2048;
@@ -55,7 +56,8 @@ void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
   if (error == RTC_ERROR_UNSUPPORTED_CPU) {
     throw Error(ErrorCode::unsupported, "this processor is too old for Embree");
   }
-  throw Error(ErrorCode::internal, "Embree failed with error " + std::to_string(static_cast<int>(error)));
+  throw Error(ErrorCode::internal,
+              "Embree failed with error " + std::to_string(static_cast<int>(error)));
 }
 
 void check(RTCDevice device) {
@@ -88,30 +90,34 @@ bool may_go_on(void* stoppable_build, double /*share*/) {
 }
 
 /// None if most of them are so small that floats hardly know them.
-std::vector<FloatBall> float_balls(std::span<const Ball> balls, const Vec3& center, double scale) {
+std::vector<FloatSphere> float_spheres(std::span<const BoundedSphere> spheres, const Vec3& center,
+                                       double scale) {
   constexpr double smallest = 0x1p-12;
-  const auto is_small = [&](const Ball& ball) { return ball.radius * scale < smallest; };
-  const auto small_balls = std::count_if(balls.begin(), balls.end(), is_small);
-  std::vector<FloatBall> floats;
-  if (static_cast<std::size_t>(small_balls) > balls.size() / 8) return floats;
-  floats.reserve(balls.size());
+  const auto is_small = [&](const BoundedSphere& sphere) {
+    return sphere.radius * scale < smallest;
+  };
+  const auto small_spheres = std::count_if(spheres.begin(), spheres.end(), is_small);
+  std::vector<FloatSphere> floats;
+  if (static_cast<std::size_t>(small_spheres) > spheres.size() / 8) return floats;
+  floats.reserve(spheres.size());
   const auto to_float = [](double value) { return static_cast<float>(value); };
-  for (const Ball& ball : balls) {
-    const Vec3 place = (ball.center - center) * scale;
-    floats.push_back(
-        {{to_float(place.x), to_float(place.y), to_float(place.z)}, to_float(ball.radius * scale)});
+  for (const BoundedSphere& sphere : spheres) {
+    const Vec3 place = (sphere.center - center) * scale;
+    floats.push_back({{to_float(place.x), to_float(place.y), to_float(place.z)},
+                      to_float(sphere.radius * scale)});
   }
   return floats;
 }
 
 }  // namespace
 
-EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls,
-                       StopCheck* stop) {
+EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
+                       std::span<const BoundedSphere> spheres, StopCheck* stop) {
   double extent = 0;
   for (int axis = 0; axis < 3; ++axis) {
     center_[axis] = total.lower[axis] / 2 + total.upper[axis] / 2;
-    extent = std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
+    extent =
+        std::max({extent, total.upper[axis] - center_[axis], center_[axis] - total.lower[axis]});
   }
   if (extent > 0) scale_ = 0.5 / power_of_two_below(extent);
   const double margin = box_margin + place_margin * total.farthest() * scale_;
@@ -154,7 +160,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::
   if (stoppable.failure) std::rethrow_exception(stoppable.failure);
   check(handles->device);
   floats = {};
-  handles->things.balls = float_balls(balls, center_, scale_);
+  handles->things.spheres = float_spheres(spheres, center_, scale_);
   handles->takes_sixteen =
       rtcGetDeviceProperty(handles->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   handles_ = std::move(handles);
@@ -164,7 +170,7 @@ EmbreeTree::~EmbreeTree() = default;
 
 std::uint64_t EmbreeTree::bytes() const {
   return static_cast<std::uint64_t>(handles_->embree_bytes) +
-         handles_->things.balls.capacity() * sizeof(FloatBall);
+         handles_->things.spheres.capacity() * sizeof(FloatSphere);
 }
 
 void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
@@ -184,21 +190,21 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
 
   // Axes side by side, and the start as ObjectRay::from_center() has it.
   const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 0}; };
-  const Lanes way = by_axis(direction);
+  const Lanes along = by_axis(direction);
   const DoubleDoubleLanes offset = two_sum(by_axis(origin), -by_axis(center_));
-  const Lanes place = (fma(lanes_of(t_start), way, offset.hi) + offset.lo) * scale_;
+  const Lanes place = (fma(lanes_of(t_start), along, offset.hi) + offset.lo) * scale_;
   const Lanes far = lanes_of(farthest_place);
   const FloatLanes place_floats = to_floats(clamp(place, -far, far));
-  const FloatLanes way_floats = to_floats(way * (1 / length));
+  const FloatLanes direction_floats = to_floats(along * (1 / length));
   RTCRayHit ray_hit;
   RTCRay& ray = ray_hit.ray;
   ray = {};
   ray.org_x = place_floats[0];
   ray.org_y = place_floats[1];
   ray.org_z = place_floats[2];
-  ray.dir_x = way_floats[0];
-  ray.dir_y = way_floats[1];
-  ray.dir_z = way_floats[2];
+  ray.dir_x = direction_floats[0];
+  ray.dir_y = direction_floats[1];
+  ray.dir_z = direction_floats[2];
   ray.tnear = 0;
   ray.tfar = traversal.far_end(t_end);
   ray.mask = ~0u;

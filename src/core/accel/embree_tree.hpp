@@ -29,31 +29,31 @@ class PacketVisitor {
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
 };
 
-/// A ball that is all there is in its box.
-struct Ball {
+/// A sphere that is all there is in its box.
+struct BoundedSphere {
   Vec3 center;
   double radius;
 };
 
-/// What floats tell of rays among balls. Of those that are in neither mask nothing is known.
-struct FirstBalls {
-  RayMask meeting = 0;  ///< cross a ball, if they go on as far as that, and nothing else before
+/// What floats tell of rays among spheres. Of those that are in neither mask nothing is known.
+struct NearestSpheres {
+  RayMask meeting = 0;  ///< cross a sphere, if they go on as far as that, and nothing else before
   RayMask missing = 0;  ///< cross nothing
-  // Of those that meet a ball:
+  // Of those that meet a sphere:
   std::array<std::uint32_t, packet_size> boxes;  ///< its box
   std::array<Lanes, RayBatch::group_count> to;   ///< up to this t there is nothing else
 };
 
 /// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved
 /// and scaled by a power of two to around 1, and grown by more than all roundings on the way: it
-/// decides nothing, it only spares tests; and what it says of balls is so whatever the roundings. The
-/// scene's own size and place never matter.
+/// decides nothing, it only spares tests; and what it says of spheres is so whatever the roundings.
+/// The scene's own size and place never matter.
 class EmbreeTree {
  public:
-  /// All boxes must be finite; `total` is the box around them. `balls` are what is in the boxes, if there is
-  /// a ball in each; else none. `stop` may stop the building.
-  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total, std::span<const Ball> balls,
-             StopCheck* stop = nullptr);
+  /// All boxes must be finite; `total` is the box around them. `spheres` are what is in the boxes,
+  /// if there is a sphere in each; else none. `stop` may stop the building.
+  EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
+             std::span<const BoundedSphere> spheres, StopCheck* stop = nullptr);
   ~EmbreeTree();
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
@@ -61,16 +61,16 @@ class EmbreeTree {
   /// Of memory: Embree's and the boxes.
   std::uint64_t bytes() const;
 
-  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max: roughly from
-  /// near to far or, which is faster, in any order, where nothing but a stop spares boxes. `direction` may
-  /// have any length.
-  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max, bool from_near,
-                BoxVisitor& visitor) const;
+  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max:
+  /// roughly from near to far or, which is faster, in any order, where nothing but a stop spares
+  /// boxes. `direction` may have any length.
+  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+                bool from_near, BoxVisitor& visitor) const;
 
   /// The same with visit(box) for a visitor.
   template <class Visit>
-  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max, bool from_near,
-                const Visit& visit) const {
+  void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
+                bool from_near, const Visit& visit) const {
     class Caller final : public BoxVisitor {
      public:
       explicit Caller(const Visit& call) : call_(call) {}
@@ -99,10 +99,12 @@ class EmbreeTree {
     traverse(packet, rays, static_cast<PacketVisitor&>(caller));
   }
 
-  /// Whether first_balls() may be asked: all boxes hold balls, most of them large enough for floats.
-  bool knows_balls() const;
-  /// Which balls some rays cross first, up to their limits. They must start on none.
-  FirstBalls first_balls(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some) const;
+  /// Whether nearest_spheres() may be asked: all boxes hold spheres, most of them large enough for
+  /// floats.
+  bool filters_spheres() const;
+  /// Which spheres some rays cross first, up to their limits. They must start on none.
+  NearestSpheres nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
+                                 RayMask some) const;
 
  private:
   struct Handles;
@@ -111,15 +113,16 @@ class EmbreeTree {
   struct Part;
 
   /// Those of a group's rays that are asked for.
-  void enter(const OutlineLine<Lanes>& lines, const Lanes& limits, RayMask lanes, Entry& entry) const;
-  void enter_among_balls(const RayBatch& rays, const RayBatch::Numbers& limits, std::size_t group,
-                         RayMask lanes, Entry& entry) const;
+  void enter(const FilterLine<Lanes>& lines, const Lanes& limits, RayMask lanes,
+             Entry& entry) const;
+  void enter_among_spheres(const RayBatch& rays, const RayBatch::Numbers& limits, std::size_t group,
+                           RayMask lanes, Entry& entry) const;
   template <class RayHits>
   void traverse_part(const RayPacket& packet, RayMask rays, std::size_t first_ray,
                      PacketVisitor& visitor) const;
   template <class RayHits>
-  void find_first_balls(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some,
-                        std::size_t first_ray, FirstBalls& known) const;
+  void find_nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits, RayMask some,
+                            std::size_t first_ray, NearestSpheres& known) const;
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};

@@ -23,8 +23,9 @@ fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The number that the file system shows one of this process's own descriptors under. The name is a link to
-/// the file that is open, but whoever names the descriptor means what is open, with its place in the file.
+/// The number that the file system shows one of this process's own descriptors under. The name is a
+/// link to the file that is open, but whoever names the descriptor means what is open, with its
+/// place in the file.
 std::optional<int> own_descriptor(const fs::path& path) {
   const std::string name = path.filename().string();
   int number = -1;
@@ -45,8 +46,8 @@ void check_folder(const fs::path& path) {
   const fs::path folder = folder_of(path);
   std::error_code unreachable;
   if (fs::is_directory(folder, unreachable)) return;
-  fail_to_write(path,
-                fmt::format("there is no folder '{}'; make it first, or name another", folder.string()));
+  fail_to_write(path, fmt::format("there is no folder '{}'; make it first, or name another",
+                                  folder.string()));
 }
 
 }  // namespace
@@ -63,7 +64,8 @@ OutputPlace output_place(const fs::path& path) {
   using Kind = OutputPlace::Kind;
   fs::path at = path;
   for (int links = 0; links <= most_links; ++links) {
-    if (const std::optional<int> number = own_descriptor(at)) return {Kind::descriptor, path, *number};
+    if (const std::optional<int> number = own_descriptor(at))
+      return {Kind::descriptor, path, *number};
     struct stat status {};
     if (::lstat(at.c_str(), &status) != 0) {
       if (errno != ENOENT && errno != ENOTDIR) fail_to_write(path, system_message(errno));

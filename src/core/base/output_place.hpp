@@ -1,4 +1,5 @@
-// Where what is written to a path goes: links are followed, and what is no regular file is told apart.
+// Where what is written to a path goes: links are followed, and what is no regular file is told
+// apart.
 #pragma once
 
 #include <sys/stat.h>
@@ -16,7 +17,8 @@ struct OutputPlace {
     special,       ///< a device, a pipe: to be written to as it is
   };
   Kind kind = Kind::new_file;
-  std::filesystem::path path;  ///< whose last part is no link; of a descriptor the path as it was given
+  std::filesystem::path
+      path;  ///< whose last part is no link; of a descriptor the path as it was given
   int descriptor = -1;
   struct stat status {};  ///< of a regular file
 };

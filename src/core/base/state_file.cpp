@@ -43,7 +43,8 @@ void StateWriter::flush() {
   buffer_.clear();
 }
 
-void write_state_file(const std::filesystem::path& path, const std::function<void(StateWriter&)>& store) {
+void write_state_file(const std::filesystem::path& path,
+                      const std::function<void(StateWriter&)>& store) {
   write_whole_file(path, [&](const StateWriter::Sink& sink) {
     StateWriter writer(sink);
     store(writer);

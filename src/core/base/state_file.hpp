@@ -54,7 +54,8 @@ class StateWriter {
 };
 
 /// Writes such a file in place of the one that is there, whole or not at all. Throws Error (io).
-void write_state_file(const std::filesystem::path& path, const std::function<void(StateWriter&)>& store);
+void write_state_file(const std::filesystem::path& path,
+                      const std::function<void(StateWriter&)>& store);
 
 class StateReader {
  public:

@@ -203,7 +203,8 @@ bool may_write_in_place(const OutputPlace& place, int refusal) {
 
 /// A new file is not to take the place of one that is protected.
 void check_protection(const OutputPlace& place) {
-  if (place.kind == OutputPlace::Kind::new_file || place.kind == OutputPlace::Kind::descriptor) return;
+  if (place.kind == OutputPlace::Kind::new_file || place.kind == OutputPlace::Kind::descriptor)
+    return;
   if (::faccessat(AT_FDCWD, place.path.c_str(), W_OK, AT_EACCESS) != 0) {
     fail_to_write(place.path, system_message(errno));
   }
@@ -276,9 +277,11 @@ void check_writable(const std::filesystem::path& path) {
   using namespace core;
   const OutputPlace place = output_place(path);
   check_protection(place);
-  if (place.kind == OutputPlace::Kind::special || place.kind == OutputPlace::Kind::descriptor) return;
+  if (place.kind == OutputPlace::Kind::special || place.kind == OutputPlace::Kind::descriptor)
+    return;
   const TemporaryFile probe(place);
-  if (!probe.is_made() && !may_write_in_place(place, errno)) fail_to_write(path, system_message(errno));
+  if (!probe.is_made() && !may_write_in_place(place, errno))
+    fail_to_write(path, system_message(errno));
 }
 
 }  // namespace crt

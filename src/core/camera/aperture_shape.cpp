@@ -54,10 +54,11 @@ template <class Real>
 PlanePointOf<Real> point_of_disc(const Real& u, const Real& v) {
   const Real x = 2.0 * u - 1.0;
   const Real y = 2.0 * v - 1.0;
-  const auto beside = size_of(x) > size_of(y);
+  const auto beside = abs(x) > abs(y);
   const Real radius = beside ? x : y;
   const Real across = beside ? y : x;
-  const auto [sine, cosine] = of_eighth_turns(across / (radius == 0.0 ? spread<Real>(1) : radius));
+  const auto [sine, cosine] =
+      of_eighth_turns(across / (radius == 0.0 ? broadcast<Real>(1) : radius));
   return {radius * (beside ? cosine : sine), radius * (beside ? sine : cosine)};
 }
 
@@ -77,7 +78,8 @@ LensPoint gaussian_point(double u, double v) {
   constexpr double two_variances = 2 * 0.5 * 0.5;
   constexpr double cut_radius = 2;
   const double share_within_cut = -std::expm1(-cut_radius * cut_radius / two_variances);
-  const double radius = std::min(cut_radius, std::sqrt(-two_variances * std::log1p(-u * share_within_cut)));
+  const double radius =
+      std::min(cut_radius, std::sqrt(-two_variances * std::log1p(-u * share_within_cut)));
   const double angle = 2 * std::numbers::pi * v;
   return {radius * std::cos(angle), radius * std::sin(angle)};
 }

@@ -67,10 +67,10 @@ CameraRay CameraRays::ray(double x, double y, const LensPoint& lens_point) const
 }
 
 std::optional<PicturePlace> CameraRays::place_of(const Vec3& point) const {
-  const Vec3 way = point - position_;
-  const double to_right = glm::dot(way, right_);
-  const double to_top = glm::dot(way, up_);
-  const double depth = glm::dot(way, forward_);
+  const Vec3 direction = point - position_;
+  const double to_right = glm::dot(direction, right_);
+  const double to_top = glm::dot(direction, up_);
+  const double depth = glm::dot(direction, forward_);
   if (depth <= 0 && !turns_across(projection_)) return std::nullopt;
   const double level = std::hypot(to_right, depth);
   double nx = 0;
@@ -124,9 +124,11 @@ void CameraRays::ray(double x, double y, CameraRay& ray) const {
 
 void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const {
   ray(x, y, result);
-  // A pinhole camera's way along `forward` is 1: times the focal distance it ends on the focal plane.
+  // A pinhole camera's direction along `forward` is 1: times the focal distance it ends on the
+  // focal plane.
   const bool is_pinhole = projection_ == Projection::pinhole;
-  const Vec3 in_focus = focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : result.direction);
+  const Vec3 in_focus =
+      focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : result.direction);
   const Vec3 offset = lens_radius_ * (lens_point.x * lens_right_ + lens_point.y * up_);
   const Vec3 to_focus = in_focus - offset;
   result.origin += offset;
@@ -135,7 +137,8 @@ void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay&
 }
 
 void CameraRays::rays(std::size_t count, std::span<const PicturePlaceLanes> places,
-                      std::span<const LensPointLanes> lens_points, std::span<RayLanes> result) const {
+                      std::span<const LensPointLanes> lens_points,
+                      std::span<RayLanes> result) const {
   for (std::size_t group = 0; group * lane_count < count; ++group) {
     const PicturePlaceLanes& at = places[group];
     const LensPointLanes* const through = lens_points.empty() ? nullptr : &lens_points[group];
@@ -161,26 +164,28 @@ bool CameraRays::rays_to_plane(const PicturePlaceLanes& places, const LensPointL
   const double scale = is_pinhole ? 1 : focal_distance_;
   const Lanes to_right = across(places.x) * half_across_ * scale;
   const Lanes to_top = upwards(places.y) * half_up_ * scale;
-  std::array<Lanes, 3> way;
+  std::array<Lanes, 3> direction;
   std::array<Lanes, 3> origin;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    way[i] = lanes_of(forward_[axis]);
+    direction[i] = lanes_of(forward_[axis]);
     origin[i] = lanes_of(position_[axis]);
-    Lanes& moved = is_pinhole ? way[i] : origin[i];
+    Lanes& moved = is_pinhole ? direction[i] : origin[i];
     moved = moved + to_right * right_[axis] + to_top * up_[axis];
     if (lens_points == nullptr) continue;
-    const Lanes offset = lens_radius_ * (lens_points->x * lens_right_[axis] + lens_points->y * up_[axis]);
-    way[i] = focal_distance_ * way[i] - offset;
+    const Lanes offset =
+        lens_radius_ * (lens_points->x * lens_right_[axis] + lens_points->y * up_[axis]);
+    direction[i] = focal_distance_ * direction[i] - offset;
     origin[i] += offset;
   }
   if (is_pinhole || lens_points != nullptr) {
-    const Lanes square = dot(way, way);
+    const Lanes square = dot(direction, direction);
     if (!all((square > safe_square_min) & (square < safe_square_max))) return false;
     const Lanes length = sqrt(square);
-    for (Lanes& component : way) component /= length;
+    for (Lanes& component : direction) component /= length;
   }
-  result = {.origin = {origin[0], origin[1], origin[2]}, .direction = {way[0], way[1], way[2]}};
+  result = {.origin = {origin[0], origin[1], origin[2]},
+            .direction = {direction[0], direction[1], direction[2]}};
   return true;
 }
 

@@ -29,27 +29,28 @@ using PicturePlaceLanes = PlanePointLanes;
 class CameraRays {
  public:
   /// Takes a camera whose values are valid (crt::validate), a picture of at least one pixel, and
-  /// Settings::compat: a lens of 2015 reaches aperture / width across and aperture / height up, in units.
+  /// Settings::compat: a lens of 2015 reaches aperture / width across and aperture / height up, in
+  /// units.
   CameraRays(const Camera& camera, int width, int height, int compat = 0);
 
   /// The ray through the middle of the lens.
   CameraRay ray(double x, double y) const;
   void ray(double x, double y, CameraRay& ray) const;
 
-  /// The ray from a point of the lens (see aperture_point) to where the ray through its middle is in
-  /// focus: on the plane at the focal distance for pinhole and orthographic cameras. Spherical and
-  /// cylindrical ones look backwards too, where no such plane is; they are in focus at the focal
-  /// distance along each ray, that is on a sphere.
+  /// The ray from a point of the lens (see aperture_point) to where the ray through its middle is
+  /// in focus: on the plane at the focal distance for pinhole and orthographic cameras. Spherical
+  /// and cylindrical ones look backwards too, where no such plane is; they are in focus at the
+  /// focal distance along each ray, that is on a sphere.
   void ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
-  /// `count` of the same rays, as many side by side as there are lanes; without points of the lens those
-  /// through its middle. What lanes beyond the last ray get is of no use.
+  /// `count` of the same rays, as many side by side as there are lanes; without points of the lens
+  /// those through its middle. What lanes beyond the last ray get is of no use.
   void rays(std::size_t count, std::span<const PicturePlaceLanes> places,
             std::span<const LensPointLanes> lens_points, std::span<RayLanes> result) const;
 
-  /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a camera
-  /// that does not look there.
+  /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a
+  /// camera that does not look there.
   std::optional<PicturePlace> place_of(const Vec3& point) const;
 
   /// How many pixels there are at least to a unit of length across the view, at a point.
@@ -75,8 +76,8 @@ class CameraRays {
   void spherical_ray(double nx, double ny, CameraRay& ray) const;
   void cylindrical_ray(double nx, double ny, CameraRay& ray) const;
   void orthographic_ray(double nx, double ny, CameraRay& ray) const;
-  /// Of a pinhole or an orthographic camera; no lens points for the rays through its middle. False if lengths
-  /// are so extreme that each must be found by itself.
+  /// Of a pinhole or an orthographic camera; no lens points for the rays through its middle. False
+  /// if lengths are so extreme that each must be found by itself.
   bool rays_to_plane(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
                      RayLanes& result) const;
   template <class Real>
@@ -102,7 +103,8 @@ class CameraRays {
   double half_up_;
   double focal_distance_;
   double lens_radius_;
-  Vec3 lens_right_;  ///< `right`, or as much shorter or longer as the lens is narrower or wider than high
+  Vec3 lens_right_;  ///< `right`, or as much shorter or longer as the lens is narrower or wider
+                     ///< than high
 };
 
 }  // namespace crt::core

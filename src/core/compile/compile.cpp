@@ -31,8 +31,8 @@ void finish_nodes(CsgProgram& program, std::span<const Leaf> leaves) {
   }
 }
 
-/// Numbers the surfaces that several faces of a program are on; so far they are called by the first such
-/// face.
+/// Numbers the surfaces that several faces of a program are on; so far they are called by the first
+/// such face.
 std::uint32_t number_shared(std::span<const Leaf> leaves, std::span<FaceSurface> faces) {
   std::uint32_t count = 0;
   for (const Leaf& leaf : leaves) {
@@ -48,10 +48,10 @@ std::uint32_t number_shared(std::span<const Leaf> leaves, std::span<FaceSurface>
 /// Narrows the boxes of the leaves to where they matter; returns the box around the object.
 //
 // Every node has a box outside of which it has the value that it has where all leaves are outside
-// of their primitives, whatever its leaves do there. If one child's having that value is enough for it,
-// the boxes of such children are all boxes of the node, and so is what they have in common. What a
-// leaf does outside of the boxes of all nodes above it does not matter: a ray that misses what
-// they leave of the leaf's own box may leave out the leaf.
+// of their primitives, whatever its leaves do there. If one child's having that value is enough for
+// it, the boxes of such children are all boxes of the node, and so is what they have in common.
+// What a leaf does outside of the boxes of all nodes above it does not matter: a ray that misses
+// what they leave of the leaf's own box may leave out the leaf.
 Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
   const auto outside_value = [&](std::size_t node) {
     return program.nodes[node].count_outside >= program.nodes[node].needed;
@@ -148,25 +148,28 @@ void Compiler::make_leaves() {
   result_.leaves.clear();
   result_.leaves.resize(flat_.leaves.size());
   std::atomic<std::uint64_t> shape_bytes = 0;
-  for_ranges(flat_.leaves.size(), items_for_a_thread / 4, workers_, [&](std::size_t begin, std::size_t end) {
-    std::uint64_t bytes = 0;
-    for (std::size_t i = begin; i < end; ++i) {
-      const LeafSource& source = flat_.leaves[i];
-      Leaf& leaf = result_.leaves[i];
-      leaf.shape = make_shape(*source.primitive);
-      if (precision_ == Precision::exact) leaf.exact = make_exact_shape(*source.primitive);
-      leaf.placement = &result_.placements[source.placement];
-      leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
-      leaf.material = source.material;
-      leaf.entity_id = source.entity_id;
-      leaf.complemented = source.complemented;
-      const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
-      leaf.plain_sphere = is_plain ? proxy_as<SphereShape>(leaf.shape->proxy()) : nullptr;
-      leaf.face_count = leaf.shape->face_count();
-      bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
-    }
-    shape_bytes += bytes;
-  });
+  for_ranges(flat_.leaves.size(), items_for_a_thread / 4, workers_,
+             [&](std::size_t begin, std::size_t end) {
+               std::uint64_t bytes = 0;
+               for (std::size_t i = begin; i < end; ++i) {
+                 const LeafSource& source = flat_.leaves[i];
+                 Leaf& leaf = result_.leaves[i];
+                 leaf.shape = make_shape(*source.primitive);
+                 if (precision_ == Precision::exact)
+                   leaf.exact = make_exact_shape(*source.primitive);
+                 leaf.placement = &result_.placements[source.placement];
+                 leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
+                 leaf.material = source.material;
+                 leaf.entity_id = source.entity_id;
+                 leaf.complemented = source.complemented;
+                 const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
+                 leaf.plain_sphere =
+                     is_plain ? shape_as<SphereShape>(leaf.shape->typed()) : nullptr;
+                 leaf.face_count = leaf.shape->face_count();
+                 bytes += leaf.shape->bytes() + (leaf.exact ? leaf.exact->bytes() : 0);
+               }
+               shape_bytes += bytes;
+             });
   result_.shape_bytes = shape_bytes;
 }
 
@@ -198,11 +201,12 @@ void Compiler::finish_programs() {
 }
 
 void Compiler::finish_program(CsgProgram& program) {
-  const std::span<Leaf> leaves = std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
+  const std::span<Leaf> leaves =
+      std::span(result_.leaves).subspan(program.first_leaf, program.leaf_count());
   workers_.poll();
   finish_nodes(program, leaves);
   workers_.poll();
-  program.paths = NodePaths(program.nodes);
+  program.paths = HeavyPaths(program.nodes);
   workers_.poll();
   program.nodes.shrink_to_fit();
   program.leaf_parents.shrink_to_fit();
@@ -212,15 +216,15 @@ void Compiler::finish_program(CsgProgram& program) {
   std::vector<Bounds> boxes;
   boxes.reserve(leaves.size());
   for (const Leaf& leaf : leaves) boxes.push_back(leaf.bounds);
-  program.tree = LeafTree(boxes, workers_);
-  program.sketch = CsgSketch(program, leaves, result_.face_surfaces);
+  program.tree = LeafBvh(boxes, workers_);
+  program.filter = IntervalFilter(program, leaves, result_.face_surfaces);
 }
 
 void Compiler::finish_objects() {
   result_.objects.reserve(flat_.objects.size());
   for (SceneObject& object : flat_.objects) {
-    object.bounds =
-        object.is_csg() ? result_.programs[object.program].bounds : result_.leaves[object.first_leaf].bounds;
+    object.bounds = object.is_csg() ? result_.programs[object.program].bounds
+                                    : result_.leaves[object.first_leaf].bounds;
     // A surface that is no solid is an object by itself.
     if (!object.solid) result_.leaves[object.first_leaf].of_solid = false;
     if (!object.bounds.empty()) result_.objects.push_back(object);
@@ -229,7 +233,8 @@ void Compiler::finish_objects() {
 
 }  // namespace
 
-CompiledScene compile(std::span<const Entity> entities, Precision precision, const Workers& workers) {
+CompiledScene compile(std::span<const Entity> entities, Precision precision,
+                      const Workers& workers) {
   return Compiler(entities, precision, workers).compile();
 }
 

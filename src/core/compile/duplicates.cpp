@@ -79,8 +79,8 @@ class Duplicates {
   std::map<std::vector<std::uint32_t>, std::uint32_t> classes_;
 };
 
-/// Equal leaves have equal first faces, which lie on one surface: of most leaves this tells that there is no
-/// other.
+/// Equal leaves have equal first faces, which lie on one surface: of most leaves this tells that
+/// there is no other.
 bool Duplicates::find_equal_leaves() {
   const auto first_surface = [&](const Leaf& leaf) { return faces_[leaf.first_face].surface; };
   const bool all_differ = std::all_of(leaves_.begin(), leaves_.end(), [&](const Leaf& leaf) {
@@ -192,7 +192,8 @@ std::uint32_t Duplicates::reduce(const CsgProgram& program) {
   // Children come after their parents.
   for (auto node = static_cast<std::uint32_t>(nodes.size()); node-- > 0;) {
     workers_.poll_at(node);
-    const std::span<Child> of_node = std::span(children).subspan(ends[node], ends[node + 1] - ends[node]);
+    const std::span<Child> of_node =
+        std::span(children).subspan(ends[node], ends[node + 1] - ends[node]);
     std::sort(of_node.begin(), of_node.end(), [](const Child& a, const Child& b) {
       return std::tie(a.equal, a.first_leaf) < std::tie(b.equal, b.first_leaf);
     });
@@ -251,7 +252,8 @@ void Duplicates::compact() {
     if (!object.is_csg()) continue;
     CsgProgram& program = scene_.programs[object.program];
     program.first_leaf = object.first_leaf;
-    std::fill_n(scene_.programs_of_leaves.begin() + object.first_leaf, program.leaf_count(), object.program);
+    std::fill_n(scene_.programs_of_leaves.begin() + object.first_leaf, program.leaf_count(),
+                object.program);
   }
 }
 
@@ -283,8 +285,8 @@ void Duplicates::compact(CsgProgram& program) {
 
 }  // namespace
 
-bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
-                       const Workers& workers) {
+bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves,
+                       std::span<const FaceSurface> faces, const Workers& workers) {
   return Duplicates(scene, leaves, faces, workers).remove();
 }
 

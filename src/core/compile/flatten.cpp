@@ -12,7 +12,8 @@ namespace crt::core {
 
 namespace {
 
-/// Whether a part is the one before it once more: without this a = a + a, done n times, would be 2^n parts.
+/// Whether a part is the one before it once more: without this a = a + a, done n times, would be
+/// 2^n parts.
 bool repeats(const CsgOperation& operation, std::size_t part) {
   const std::size_t first = operation.op == CsgOperator::difference ? 1 : 0;
   return part > first && operation.parts[part] == operation.parts[part - 1];
@@ -25,7 +26,8 @@ class Flattening {
   FlatScene flatten(std::span<const Entity> entities);
 
  private:
-  /// A place in a program still to be filled: `part`, negated if `complemented`, below node `parent`.
+  /// A place in a program still to be filled: `part`, negated if `complemented`, below node
+  /// `parent`.
   struct Pending {
     Part part;
     std::uint32_t parent = 0;
@@ -99,7 +101,7 @@ void Flattening::add_entity(const Part& entity) {
   }
   // Solids that cannot touch need not know of each other.
   std::size_t begin = 0;
-  for (const std::size_t end : group_apart(solids_, workers_)) {
+  for (const std::size_t end : disjoint_groups(solids_, workers_)) {
     add_group(std::span<const Part>(solids_).subspan(begin, end - begin));
     begin = end;
   }
@@ -126,7 +128,8 @@ void Flattening::add_group(std::span<const Part> parts) {
 void Flattening::build_program(std::span<const Part> parts, CsgProgram& program) {
   program.nodes.push_back({.parent = 0, .needed = 1, .count_outside = 0});
   stack_.clear();
-  for (auto part = parts.rbegin(); part != parts.rend(); ++part) stack_.push_back({*part, 0, false});
+  for (auto part = parts.rbegin(); part != parts.rend(); ++part)
+    stack_.push_back({*part, 0, false});
   while (!stack_.empty()) {
     const Pending pending = stack_.back();
     stack_.pop_back();
@@ -146,7 +149,8 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
   const bool is_or = (operation.op == CsgOperator::set_union) != pending.complemented;
   const std::uint32_t needed = is_or ? 1 : all_children;
   std::uint32_t node = pending.parent;
-  const bool only_root = program.leaf_parents.empty() && program.nodes.size() == 1 && stack_.empty();
+  const bool only_root =
+      program.leaf_parents.empty() && program.nodes.size() == 1 && stack_.empty();
   if (only_root) {
     program.nodes[0].needed = needed;
   } else if (program.nodes[node].needed != needed) {
@@ -156,8 +160,8 @@ void Flattening::expand(const Pending& pending, CsgProgram& program) {
   for (std::size_t i = operation.parts.size(); i-- > 0;) {
     if (repeats(operation, i)) continue;
     const bool cutter = operation.op == CsgOperator::difference && i > 0;
-    stack_.push_back(
-        {pending.part.child(operation.parts[i], result_.transforms), node, pending.complemented != cutter});
+    stack_.push_back({pending.part.child(operation.parts[i], result_.transforms), node,
+                      pending.complemented != cutter});
   }
 }
 
@@ -198,8 +202,8 @@ std::uint32_t Flattening::material_number(const Part& part) {
     material = &*default_material_;
   }
   if (&**material == last_material_) return last_material_number_;
-  const auto [entry, added] =
-      material_numbers_.try_emplace(&**material, static_cast<std::uint32_t>(result_.materials.size()));
+  const auto [entry, added] = material_numbers_.try_emplace(
+      &**material, static_cast<std::uint32_t>(result_.materials.size()));
   if (added) result_.materials.push_back(*material);
   last_material_ = &**material;
   last_material_number_ = entry->second;

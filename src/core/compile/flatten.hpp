@@ -26,15 +26,16 @@ struct FlatScene {
   std::vector<std::uint32_t> programs_of_leaves;  ///< or no_program
   std::vector<const TransformChain*> placements;
   std::vector<SceneObject> objects;  ///< without bounds
-  std::vector<CsgProgram> programs;  ///< nodes and parents of leaves only; an AND needs all_children
+  std::vector<CsgProgram>
+      programs;  ///< nodes and parents of leaves only; an AND needs all_children
   std::vector<SharedMaterial> materials;
 };
 
 /// Marks a node that is an AND until its children are counted.
 inline constexpr std::uint32_t all_children = 0xffffffffu;
 
-/// Walks through the entities without recursion, however deep they are. The entities must outlive the
-/// placements.
+/// Walks through the entities without recursion, however deep they are. The entities must outlive
+/// the placements.
 FlatScene flatten(std::span<const Entity> entities, Precision precision, const Workers& workers);
 
 }  // namespace crt::core

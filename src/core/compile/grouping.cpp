@@ -49,7 +49,8 @@ class Grouping {
       // Each set is cut along one axis after the other until no axis has cut it.
       if (set.size() == 1 || set.axes_without_gap == 3 || set.cuts == most_cuts) {
         const std::span<Extent> group = extents_of(set);
-        sort_in_parallel(group, workers_, [](const Extent& a, const Extent& b) { return a.part < b.part; });
+        sort_in_parallel(group, workers_,
+                         [](const Extent& a, const Extent& b) { return a.part < b.part; });
         result.emplace_back(group);
       } else {
         cut_at_gaps(set, open);
@@ -68,12 +69,13 @@ class Grouping {
   /// Cuts a set wherever there is a gap between boxes along its axis.
   void cut_at_gaps(const PartSet& set, std::vector<PartSet>& pieces) {
     const std::span<Extent> extents = extents_of(set);
-    for_ranges(extents.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
-      for (Extent& extent : extents.subspan(begin, end - begin)) {
-        extent.lower = bounds_[extent.part].lower[set.axis];
-        extent.upper = bounds_[extent.part].upper[set.axis];
-      }
-    });
+    for_ranges(extents.size(), items_for_a_thread, workers_,
+               [&](std::size_t begin, std::size_t end) {
+                 for (Extent& extent : extents.subspan(begin, end - begin)) {
+                   extent.lower = bounds_[extent.part].lower[set.axis];
+                   extent.upper = bounds_[extent.part].upper[set.axis];
+                 }
+               });
     sort_in_parallel(extents, workers_, [](const Extent& a, const Extent& b) {
       return std::tie(a.lower, a.part) < std::tie(b.lower, b.part);
     });
@@ -112,8 +114,9 @@ Bounds part_bounds(const Part& part) {
     open.pop_back();
     if (const auto* primitive = std::get_if<Primitive>(&next.node->content)) {
       const Bounds bounds = make_shape(*primitive)->bounds();
-      total.include(next.to_world == nullptr ? bounds
-                                             : Placement(next.to_world->product).bounds_to_world(bounds));
+      total.include(next.to_world == nullptr
+                        ? bounds
+                        : Placement(next.to_world->product).bounds_to_world(bounds));
       continue;
     }
     // A difference lies within its first part, and so does an intersection.
@@ -124,12 +127,13 @@ Bounds part_bounds(const Part& part) {
   return total;
 }
 
-std::vector<std::size_t> group_apart(std::vector<Part>& parts, const Workers& workers) {
+std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts, const Workers& workers) {
   if (parts.size() < 2) return std::vector<std::size_t>(parts.size(), parts.size());
   std::vector<Bounds> bounds(parts.size());
-  for_ranges(parts.size(), items_for_a_thread / 4, workers, [&](std::size_t begin, std::size_t end) {
-    for (std::size_t i = begin; i < end; ++i) bounds[i] = part_bounds(parts[i]);
-  });
+  for_ranges(parts.size(), items_for_a_thread / 4, workers,
+             [&](std::size_t begin, std::size_t end) {
+               for (std::size_t i = begin; i < end; ++i) bounds[i] = part_bounds(parts[i]);
+             });
   Grouping grouping(bounds, workers);
   std::vector<Part> grouped;
   grouped.reserve(parts.size());

@@ -10,11 +10,11 @@
 
 namespace crt::core {
 
-/// Brings the parts of a union into groups such that a plane across an axis separates any two: their
-/// boxes do not even touch, so the union of the groups is just all of them side by side. The order
-/// within a group is kept; groups come in the order of their first parts. Returns where each ends. O(n log
-/// n), by as many threads as `workers` says; what comes out is always the same.
-std::vector<std::size_t> group_apart(std::vector<Part>& parts, const Workers& workers);
+/// Brings the parts of a union into groups such that a plane across an axis separates any two:
+/// their boxes do not even touch, so the union of the groups is just all of them side by side. The
+/// order within a group is kept; groups come in the order of their first parts. Returns where each
+/// ends. O(n log n), by as many threads as `workers` says; what comes out is always the same.
+std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts, const Workers& workers);
 
 /// A box around a part in the world.
 Bounds part_bounds(const Part& part);

@@ -11,7 +11,7 @@ std::uint64_t csg_bytes(const CompiledScene& scene) {
   std::uint64_t bytes = bytes_of(scene.programs);
   for (const CsgProgram& program : scene.programs) {
     bytes += bytes_of(program.nodes) + bytes_of(program.leaf_parents) + program.tree.bytes() +
-             program.paths.bytes() + program.sketch.bytes();
+             program.paths.bytes() + program.filter.bytes();
   }
   return bytes;
 }

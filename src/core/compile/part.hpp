@@ -7,7 +7,8 @@
 
 namespace crt::core {
 
-/// The transforms that come about where one is applied after another. A null pointer is none at all.
+/// The transforms that come about where one is applied after another. A null pointer is none at
+/// all.
 class TransformPool {
  public:
   const TransformChain* composed(const TransformChain* second, const TransformChain* first) {

@@ -16,8 +16,8 @@ namespace {
 /// Faces, leaves and nodes have numbers of 32 bits, some per primitive.
 constexpr std::uint64_t most_numbered = std::uint64_t{1} << 25;
 
-/// Bytes that a process may have: of the machine, of its container (Linux's control groups, of either
-/// version) and of itself, whichever are the fewest.
+/// Bytes that a process may have: of the machine, of its container (Linux's control groups, of
+/// either version) and of itself, whichever are the fewest.
 std::uint64_t memory_limit() {
   std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -45,26 +45,29 @@ std::uint64_t count(std::span<const Entity> entities) {
 
 }  // namespace
 
-void check_primitive_count(std::span<const Entity> entities, Precision precision, std::uint64_t most) {
+void check_primitive_count(std::span<const Entity> entities, Precision precision,
+                           std::uint64_t most) {
   constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which nobody needs to be asked
   const std::uint64_t primitives = count(entities);
   if (primitives > most_numbered) {
-    throw Error(ErrorCode::limit, fmt::format("the scene has more than {} primitives", most_numbered),
-                "entities");
+    throw Error(ErrorCode::limit,
+                fmt::format("the scene has more than {} primitives", most_numbered), "entities");
   }
   if (most != 0 && primitives > most) {
-    throw Error(ErrorCode::limit,
-                fmt::format("the scene has {} primitives, more than {} (max_primitives)", primitives, most),
-                "entities");
+    throw Error(
+        ErrorCode::limit,
+        fmt::format("the scene has {} primitives, more than {} (max_primitives)", primitives, most),
+        "entities");
   }
   if (most != 0 || primitives <= few) return;
   const std::uint64_t fitting = memory_limit() / bytes_to_prepare(precision);
   if (primitives <= fitting) return;
-  throw Error(ErrorCode::limit,
-              fmt::format("the scene has {} primitives, but the memory here may be enough for {} only "
-                          "(see max_primitives)",
-                          primitives, fitting),
-              "entities");
+  throw Error(
+      ErrorCode::limit,
+      fmt::format("the scene has {} primitives, but the memory here may be enough for {} only "
+                  "(see max_primitives)",
+                  primitives, fitting),
+      "entities");
 }
 
 }  // namespace crt::core

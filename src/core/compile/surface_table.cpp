@@ -63,9 +63,11 @@ ExactSurface in_world(const ExactSurface& surface, const Placement& placement) {
     }
     return result;
   }
-  // With the inverse as rows / weight, n . p = c is (n rows) . q = weight c + (n rows) . translation.
+  // With the inverse as rows / weight, n . p = c is (n rows) . q = weight c + (n rows) .
+  // translation.
   const DyadicInverse inverse(map);
-  const DyadicVector normal = surface.numbers[0] * inverse.rows[0] + surface.numbers[1] * inverse.rows[1] +
+  const DyadicVector normal = surface.numbers[0] * inverse.rows[0] +
+                              surface.numbers[1] * inverse.rows[1] +
                               surface.numbers[2] * inverse.rows[2];
   const auto& [x, y, z] = normal;
   result.numbers = {x, y, z, inverse.weight * surface.numbers[3] + dot(normal, map.translation)};
@@ -114,24 +116,32 @@ class Numbering {
  public:
   Numbering(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
             std::span<FaceSurface> faces, const Workers& workers)
-      : leaves_(leaves), programs_(programs), faces_(faces), workers_(workers), hashed_(faces.size()) {}
+      : leaves_(leaves),
+        programs_(programs),
+        faces_(faces),
+        workers_(workers),
+        hashed_(faces.size()) {}
 
   void run() {
-    for_ranges(leaves_.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t leaf = begin; leaf < end; ++leaf) hash_faces(static_cast<std::uint32_t>(leaf));
-    });
+    for_ranges(leaves_.size(), items_for_a_thread, workers_,
+               [&](std::size_t begin, std::size_t end) {
+                 for (std::size_t leaf = begin; leaf < end; ++leaf)
+                   hash_faces(static_cast<std::uint32_t>(leaf));
+               });
     sort_in_parallel(std::span(hashed_), workers_, [](const HashedFace& a, const HashedFace& b) {
       return std::tie(a.hash, a.face) < std::tie(b.hash, b.face);
     });
     // A range has the runs of equal hashes that begin in it.
-    for_ranges(hashed_.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
-      while (begin > 0 && begin < end && hashed_[begin].hash == hashed_[begin - 1].hash) ++begin;
-      while (begin < end) {
-        const std::size_t first = begin;
-        while (begin < hashed_.size() && hashed_[begin].hash == hashed_[first].hash) ++begin;
-        number_equal_hashes(std::span<const HashedFace>(hashed_).subspan(first, begin - first));
-      }
-    });
+    for_ranges(
+        hashed_.size(), items_for_a_thread, workers_, [&](std::size_t begin, std::size_t end) {
+          while (begin > 0 && begin < end && hashed_[begin].hash == hashed_[begin - 1].hash)
+            ++begin;
+          while (begin < end) {
+            const std::size_t first = begin;
+            while (begin < hashed_.size() && hashed_[begin].hash == hashed_[first].hash) ++begin;
+            number_equal_hashes(std::span<const HashedFace>(hashed_).subspan(first, begin - first));
+          }
+        });
   }
 
  private:
@@ -187,10 +197,12 @@ class Numbering {
     surfaces.reserve(faces.size());
     for (const HashedFace& face : faces) {
       const Leaf& leaf = leaves_[face.leaf];
-      surfaces.emplace_back(in_world(leaf.exact->surface(face.face - leaf.first_face), *leaf.placement),
-                            face);
+      surfaces.emplace_back(
+          in_world(leaf.exact->surface(face.face - leaf.first_face), *leaf.placement), face);
     }
-    const auto is_before = [](const auto& a, const auto& b) { return compared(a.first, b.first) < 0; };
+    const auto is_before = [](const auto& a, const auto& b) {
+      return compared(a.first, b.first) < 0;
+    };
     std::stable_sort(surfaces.begin(), surfaces.end(), is_before);
     std::vector<HashedFace> equal;
     for (std::size_t i = 0; i < surfaces.size(); ++i) {
@@ -243,7 +255,8 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
     position += map.translation;
   } else {
     const Vec3 rows[] = {map.row_x, map.row_y, map.row_z, map.translation};
-    for (std::size_t i = 0; i < 12; ++i) set(words_of_surface + i, rows[i / 3][static_cast<int>(i % 3)]);
+    for (std::size_t i = 0; i < 12; ++i)
+      set(words_of_surface + i, rows[i / 3][static_cast<int>(i % 3)]);
   }
   for (int axis = 0; axis < 3; ++axis) {
     set(static_cast<std::size_t>(axis) + 1, position[axis]);
@@ -255,8 +268,8 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
 }
 
 std::uint64_t CanonicalSurface::hash() const {
-  // FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits. Most placements
-  // leave their words 0.
+  // FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits. Most
+  // placements leave their words 0.
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto mix = [&](std::uint64_t word) {
     hash = (hash ^ word) * 0x100000001b3u;

@@ -27,7 +27,8 @@ constexpr double pi = std::numbers::pi;
 /// A number in [lowest, highest].
 void require_between(std::string_view field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
-  if (!std::isfinite(value)) reject(field, fmt::format("must be a finite number (it is {})", value));
+  if (!std::isfinite(value))
+    reject(field, fmt::format("must be a finite number (it is {})", value));
   if (highest == largest_factor || highest == largest_coordinate) {
     if (value < lowest) reject(field, fmt::format("must be at least {} (it is {})", lowest, value));
     reject(field, fmt::format("must be at most {} (it is {})", highest, value));
@@ -46,7 +47,8 @@ void require_power_of_two(std::string_view field, int value, int lowest, int hig
 /// A number in (0, highest].
 void require_positive(std::string_view field, double value, double highest) {
   if (value > 0 && value <= highest) return;
-  if (!std::isfinite(value)) reject(field, fmt::format("must be a finite number (it is {})", value));
+  if (!std::isfinite(value))
+    reject(field, fmt::format("must be a finite number (it is {})", value));
   if (value <= 0) reject(field, fmt::format("must be greater than 0 (it is {})", value));
   reject(field, fmt::format("must be at most {} (it is {})", highest, value));
 }
@@ -54,7 +56,8 @@ void require_positive(std::string_view field, double value, double highest) {
 void require_point(std::string_view field, const Vec3& point) {
   for (int axis = 0; axis < 3; ++axis) {
     if (!std::isfinite(point[axis])) reject(field, "must consist of finite numbers");
-    if (std::abs(point[axis]) > largest_coordinate) reject(field, "must have coordinates of at most 1e100");
+    if (std::abs(point[axis]) > largest_coordinate)
+      reject(field, "must have coordinates of at most 1e100");
   }
 }
 
@@ -213,7 +216,8 @@ void validate(const Camera& camera) {
   require_different(camera.position, camera.pointing, "position");
   const bool may_be_pi = camera.projection == Projection::spherical;
   require_positive("fov", camera.fov, pi);
-  if (camera.fov == pi && !may_be_pi) reject("fov", "must be less than half a turn (180 degrees, pi)");
+  if (camera.fov == pi && !may_be_pi)
+    reject("fov", "must be less than half a turn (180 degrees, pi)");
   require_between("roll", camera.roll, -largest_factor, largest_factor);
   require_between("aperture", camera.aperture, 0, largest_coordinate);
   require_positive("focal_distance", camera.focal_distance, largest_coordinate);
@@ -228,8 +232,8 @@ void validate(const Settings& settings) {
   require_between("height", settings.height, 1, 65536);
   constexpr std::int64_t most_pixels = std::int64_t{1} << 27;
   if (std::int64_t{settings.width} * settings.height > most_pixels) {
-    reject("height",
-           fmt::format("makes a picture of {} x {}: over 134217728 pixels", settings.width, settings.height));
+    reject("height", fmt::format("makes a picture of {} x {}: over 134217728 pixels",
+                                 settings.width, settings.height));
   }
   require_between("gamma", settings.gamma, 0.1, 10);
   require_between("supersampling", settings.supersampling, 1, 64);

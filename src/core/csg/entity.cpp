@@ -14,8 +14,9 @@ namespace crt {
 namespace {
 
 std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
-  return a > std::numeric_limits<std::uint64_t>::max() - b ? std::numeric_limits<std::uint64_t>::max()
-                                                           : a + b;
+  return a > std::numeric_limits<std::uint64_t>::max() - b
+             ? std::numeric_limits<std::uint64_t>::max()
+             : a + b;
 }
 
 Entity make_entity(EntityNode::Content content) {
@@ -32,9 +33,10 @@ EntityWrapper wrapper_of(const Entity& entity) {
 
 void require_solid(const Entity& entity, const char* operation) {
   if (entity.is_solid()) return;
-  throw Error(ErrorCode::invalid_argument,
-              std::string("an operand of the ") + operation +
-                  " has no inside: Disc, Triangle and HalfPlane are surfaces, and only solids can be cut");
+  throw Error(
+      ErrorCode::invalid_argument,
+      std::string("an operand of the ") + operation +
+          " has no inside: Disc, Triangle and HalfPlane are surfaces, and only solids can be cut");
 }
 
 /// Of parts of which empty ones make no difference, the first one is not empty if there are any.
@@ -52,7 +54,8 @@ void require_finite(const Transform& transform) {
   for (const Vec3& v : {transform.row_x, transform.row_y, transform.row_z, transform.translation}) {
     for (int axis = 0; axis < 3; ++axis) {
       if (std::isfinite(v[axis])) continue;
-      throw Error(ErrorCode::invalid_argument, "a transform must consist of finite numbers", "transform");
+      throw Error(ErrorCode::invalid_argument, "a transform must consist of finite numbers",
+                  "transform");
     }
   }
 }
@@ -68,7 +71,8 @@ void require_usable(const core::PreciseTransform& transform) {
     for (int axis = 0; axis < 3; ++axis) largest = std::max(largest, std::abs(v[axis]));
   }
   double farthest = 0;
-  for (int axis = 0; axis < 3; ++axis) farthest = std::max(farthest, std::abs(map.translation[axis]));
+  for (int axis = 0; axis < 3; ++axis)
+    farthest = std::max(farthest, std::abs(map.translation[axis]));
   if (!(largest >= smallest_scale && largest <= largest_scale && farthest <= largest_scale)) {
     throw Error(ErrorCode::invalid_argument,
                 "a transform must keep sizes and places between 1e-100 and 1e100", "transform");
@@ -85,8 +89,8 @@ void require_usable(const core::PreciseTransform& transform) {
     }
   }
   if (flat) {
-    throw Error(ErrorCode::invalid_argument, "a transform must not flatten space (it has no inverse)",
-                "transform");
+    throw Error(ErrorCode::invalid_argument,
+                "a transform must not flatten space (it has no inverse)", "transform");
   }
 }
 
@@ -131,7 +135,8 @@ EntityNode::~EntityNode() {
   const auto release = [&doomed](EntityPointer& child) {
     if (child && child.use_count() == 1) {
       // Nobody else can see the node any more, so it may be changed.
-      auto& node = const_cast<EntityNode&>(*child);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
+      auto& node =
+          const_cast<EntityNode&>(*child);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
       node.next_to_free_ = std::move(doomed);
       doomed = std::move(child);
     }
@@ -194,7 +199,8 @@ std::uint64_t Entity::primitive_count() const {
 }
 
 Entity csg_union(std::span<const Entity> parts) {
-  if (parts.empty()) throw Error(ErrorCode::invalid_argument, "a union needs at least one part", "parts");
+  if (parts.empty())
+    throw Error(ErrorCode::invalid_argument, "a union needs at least one part", "parts");
   return parts.size() == 1 ? parts[0] : combine(CsgOperator::set_union, parts);
 }
 

@@ -16,15 +16,16 @@ using EntityPointer = std::shared_ptr<const EntityNode>;
 
 enum class CsgOperator { set_union, intersection, difference };
 
-/// A combination of at least two parts, none of them empty; a difference takes all others from the first.
-/// The empty entity is a union without parts, and no part of anything.
+/// A combination of at least two parts, none of them empty; a difference takes all others from the
+/// first. The empty entity is a union without parts, and no part of anything.
 struct CsgOperation {
   CsgOperator op = CsgOperator::set_union;
   std::vector<EntityPointer> parts;
 };
 
 /// What an entity wears: where it is, its material and number. Wrappers never nest: wrapping one
-/// again makes a new one around the same child, so chains of a million transforms cost nothing later.
+/// again makes a new one around the same child, so chains of a million transforms cost nothing
+/// later.
 struct EntityWrapper {
   /// Behind a pointer, as most nodes are primitives and all nodes have one size; none: as it is.
   std::shared_ptr<const core::TransformChain> to_parent;

@@ -8,11 +8,12 @@
 
 namespace crt::core {
 
-RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const FaceSurface> face_surfaces,
-                       const StartPoint& start) {
+RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
+                       std::span<const FaceSurface> face_surfaces, const StartPoint& start) {
   if (start.surface == nothing) return {};
   const auto on_face = [&](std::uint32_t face) {
-    const bool outside = (start.side == Side::outside) != face_surfaces[leaf.first_face + face].flipped;
+    const bool outside =
+        (start.side == Side::outside) != face_surfaces[leaf.first_face + face].flipped;
     return RayStart{.face = face,
                     .side = outside ? Side::outside : Side::inside,
                     .on_face = start.leaf == index && start.face == face};
@@ -24,8 +25,8 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const Fa
   return {};
 }
 
-bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
-                    std::uint64_t& escalations) {
+bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                    CrossingList& out, std::uint64_t& escalations) {
   if (!leaf.exact) return leaf.shape->crossings(object_ray, out);
   return leaf.exact->crossings(exact_ray(leaf, ray, object_ray, escalations), out);
 }
@@ -42,8 +43,8 @@ bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& ob
                       const Crossing& crossing) {
   const SurfacePoint point = leaf.shape->surface_point(object_ray, crossing, false);
   const Vec3 normal = leaf.placement->normal_to_world(point.normal);
-  const double way = crossing.t - ray.t_min - crossing.error;
-  return way * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
+  const double distance = crossing.t - ray.t_min - crossing.error;
+  return distance * std::abs(glm::dot(normal, ray.direction)) <= ray.start.t_error;
 }
 
 namespace {
@@ -58,8 +59,8 @@ constexpr auto is_opened_later = [](const auto& a, const auto& b) {
 
 bool coincides(const CsgCrossing& first, const CsgCrossing& other) {
   if (first.place != 0) return other.place == first.place;
-  const double way = (other.t - first.t) + (other.t_low - first.t_low);
-  return way <= first.error + other.error && other.enter <= first.t + first.error;
+  const double distance = (other.t - first.t) + (other.t_low - first.t_low);
+  return distance <= first.error + other.error && other.enter <= first.t + first.error;
 }
 
 }  // namespace
@@ -95,10 +96,11 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     tick();
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
     if (!span.empty() && span.leave >= part_.enter && span.enter <= part_.leave) {
-      put_off(LeafTree::Child::leaf(leaf), span.enter);
+      put_off(LeafBvh::Child::leaf(leaf), span.enter);
     }
   }
-  if (program.tree.has_root()) put_off(LeafTree::Child::node(0), -std::numeric_limits<double>::infinity());
+  if (program.tree.has_root())
+    put_off(LeafBvh::Child::node(0), -std::numeric_limits<double>::infinity());
   open_up_to(farthest_start(ray_));
   const auto is_before_start = [&] {
     return !work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min;
@@ -112,7 +114,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   starts_inside_ = root_value();
 }
 
-void CsgEvaluation::put_off(LeafTree::Child child, double enter) {
+void CsgEvaluation::put_off(LeafBvh::Child child, double enter) {
   work_.openings_.push_back({enter, child});
   std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_opened_later);
 }
@@ -137,7 +139,7 @@ void CsgEvaluation::open_node(std::uint32_t node, double t) {
   do {
     const std::uint32_t next = nodes.back();
     nodes.pop_back();
-    program_.tree.visit(next, slabs_, part_, [&](LeafTree::Child child, double enter) {
+    program_.tree.visit(next, slabs_, part_, [&](LeafBvh::Child child, double enter) {
       if (enter > t) {
         put_off(child, enter);
       } else if (child.is_leaf()) {
@@ -153,7 +155,8 @@ bool CsgEvaluation::is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::
   if (a.t != b.t) return a.t > b.t;
   const CsgCrossing& one = work_.met_[a.index];
   const CsgCrossing& other = work_.met_[b.index];
-  return std::tie(one.t_low, one.leaf, one.entering) > std::tie(other.t_low, other.leaf, other.entering);
+  return std::tie(one.t_low, one.leaf, one.entering) >
+         std::tie(other.t_low, other.leaf, other.entering);
 }
 
 bool CsgEvaluation::find_crossing() {
@@ -166,7 +169,7 @@ bool CsgEvaluation::find_crossing() {
 }
 
 void CsgEvaluation::open_what_may_coincide() {
-  if (exact_) tell_apart_what_is_near();
+  if (exact_) order_near_crossings();
   // What is opened may bring a crossing that is nearer still.
   while (!work_.openings_.empty()) {
     const CsgCrossing& first = next_crossing();
@@ -191,8 +194,8 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   for (const Crossing& crossing : work_.leaf_crossings_) {
     const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
     const bool before_box = crossing.t < enter;
-    // Before the box nothing of it matters, but the crossing may be in the box for all that is known. (In the
-    // exact tier that is less than what boxes are larger by.)
+    // Before the box nothing of it matters, but the crossing may be in the box for all that is
+    // known. (In the exact tier that is less than what boxes are larger by.)
     if (before_box && (exact_ || crossing.t + crossing.error < enter)) {
       inside = crossing.entering;
       continue;
@@ -234,9 +237,10 @@ void CsgEvaluation::gather_cluster() {
     std::pop_heap(to_come.begin(), to_come.end(), later());
     to_come.pop_back();
   } while (!to_come.empty() && coincides(*cluster.front(), next_crossing()));
-  const bool some_to_come = std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing* crossing) {
-    return crossing->shared != FaceSurface::not_shared && shared_state(*crossing).to_come > 0;
-  });
+  const bool some_to_come =
+      std::any_of(cluster.begin(), cluster.end(), [&](const CsgCrossing* crossing) {
+        return crossing->shared != FaceSurface::not_shared && shared_state(*crossing).to_come > 0;
+      });
   if (some_to_come) gather_shared();
 }
 
@@ -253,9 +257,11 @@ void CsgEvaluation::gather_shared() {
   work_.steps.poll();
   const auto others = std::partition(to_come.begin(), to_come.end(), [&](const auto& waiting) {
     const CsgCrossing& crossing = work_.met_[waiting.index];
-    return crossing.shared == FaceSurface::not_shared || shared_state(crossing).cluster != work_.stamp_;
+    return crossing.shared == FaceSurface::not_shared ||
+           shared_state(crossing).cluster != work_.stamp_;
   });
-  for (auto other = others; other != to_come.end(); ++other) add_to_cluster(work_.met_[other->index]);
+  for (auto other = others; other != to_come.end(); ++other)
+    add_to_cluster(work_.met_[other->index]);
   to_come.erase(others, to_come.end());
   std::make_heap(to_come.begin(), to_come.end(), later());
 }
@@ -319,7 +325,8 @@ bool CsgEvaluation::is_changed_up_to_root(std::uint32_t leaf, bool now) {
   std::uint32_t node = program_.leaf_parents[leaf];
   while (true) {
     const NodeState& touched = state(node);
-    if (touched.stamp != work_.stamp_ || touched.value_before == now || value(node) != now) return false;
+    if (touched.stamp != work_.stamp_ || touched.value_before == now || value(node) != now)
+      return false;
     if (node == 0) return true;
     node = program_.nodes[node].parent;
   }
@@ -332,12 +339,13 @@ void CsgEvaluation::find_causes() {
   std::uint64_t looked_at = 0;
   for (const CsgCrossing* crossing : work_.cluster_) {
     if (++looked_at % steps_per_look == 0) work_.steps.poll();
-    // The crossing must be the one that gave the leaf its value, not one undone in the same cluster.
+    // The crossing must be the one that gave the leaf its value, not one undone in the same
+    // cluster.
     const std::uint32_t leaf = crossing->leaf;
     const bool inside = leaf_inside(leaf);
     if (crossing->entering != inside || (inside != leaves_[leaf].complemented) != now) continue;
-    const bool has_changed =
-        paths_ ? paths_->is_all(program_.leaf_parents[leaf], now) : is_changed_up_to_root(leaf, now);
+    const bool has_changed = paths_ ? paths_->is_all(program_.leaf_parents[leaf], now)
+                                    : is_changed_up_to_root(leaf, now);
     if (has_changed) causes.push_back(crossing);
   }
   if (!paths_) return;
@@ -351,13 +359,14 @@ void CsgEvaluation::find_causes() {
 CsgHit CsgEvaluation::blame() {
   const CsgCrossing* first = work_.cluster_.front();
   const CsgCrossing* cause = nullptr;
-  // What changed the root and is known best tells the place: others may be known far worse, where the ray
-  // grazes them.
+  // What changed the root and is known best tells the place: others may be known far worse, where
+  // the ray grazes them.
   const CsgCrossing* place = nullptr;
   find_causes();
   for (const CsgCrossing* crossing : work_.causes_) {
     if (cause == nullptr || crossing->leaf < cause->leaf) cause = crossing;
-    if (place == nullptr || std::tie(crossing->error, crossing->leaf) < std::tie(place->error, place->leaf)) {
+    if (place == nullptr ||
+        std::tie(crossing->error, crossing->leaf) < std::tie(place->error, place->leaf)) {
       place = crossing;
     }
   }

@@ -24,8 +24,9 @@ struct CsgCrossing {
   std::uint32_t face = 0;
   std::uint32_t surface = 0;
   std::uint8_t root = 0;
-  bool entering = false;                           ///< the primitive, whether or not it is complemented
-  std::uint32_t shared = FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
+  bool entering = false;  ///< the primitive, whether or not it is complemented
+  std::uint32_t shared =
+      FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
   std::uint32_t place = 0;  ///< if not 0: at one place are those that have the same, and no others
   bool moved = false;       ///< t is that of the start, and not where the surface is
 };
@@ -65,7 +66,8 @@ class CsgWorkspace {
     std::uint64_t stamp = 0;
     bool inside = false;
   };
-  /// Of a shared surface and a root: how many crossings are to come, and the last cluster that has one.
+  /// Of a shared surface and a root: how many crossings are to come, and the last cluster that has
+  /// one.
   struct SharedState {
     std::uint64_t stamp = 0;
     std::uint32_t to_come = 0;
@@ -74,7 +76,7 @@ class CsgWorkspace {
   /// A box that the line enters at `enter`.
   struct Opening {
     double enter = 0;
-    LeafTree::Child child;
+    LeafBvh::Child child;
   };
   /// One of met_.
   struct ToCome {
@@ -99,17 +101,18 @@ class CsgWorkspace {
   std::vector<SharedState> shared_;
 };
 
-/// A face of `leaf` (which has the number `index` in the scene) that lies on the surface a ray starts
-/// on, as the leaf's own ray needs to know it; none if there is no such face.
-RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index, std::span<const FaceSurface> face_surfaces,
-                       const StartPoint& start);
+/// A face of `leaf` (which has the number `index` in the scene) that lies on the surface a ray
+/// starts on, as the leaf's own ray needs to know it; none if there is no such face.
+RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
+                       std::span<const FaceSurface> face_surfaces, const StartPoint& start);
 
-/// The crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's space, by the leaf's
-/// tier.
-bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray, CrossingList& out,
-                    std::uint64_t& escalations);
+/// The crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's space, by
+/// the leaf's tier.
+bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
+                    CrossingList& out, std::uint64_t& escalations);
 
-/// The ray in the space of a leaf of the exact tier, where it is `object_ray`, which must outlive it.
+/// The ray in the space of a leaf of the exact tier, where it is `object_ray`, which must outlive
+/// it.
 ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                    std::uint64_t& escalations);
 
@@ -117,36 +120,40 @@ ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& objec
 bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing);
 
-/// Whether a crossing of another surface than the one that the ray starts on is at the start, or before it:
-/// whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
+/// Whether a crossing of another surface than the one that the ray starts on is at the start, or
+/// before it: whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
 inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                         const Crossing& crossing) {
-  const double way = crossing.t - ray.t_min - crossing.error;
-  if (way > flattest_start * ray.start.t_error) return false;
-  return way <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
+  const double distance = crossing.t - ray.t_min - crossing.error;
+  if (distance > flattest_start * ray.start.t_error) return false;
+  return distance <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
 }
 
 /// Walks along a ray through one CSG object, from one crossing of its boundary to the next.
 ///
-///  1. The boxes of the tree are opened in the order in which the line enters them, and no further than the
+///  1. The boxes of the tree are opened in the order in which the line enters them, and no further
+///  than the
 ///     next crossing asks for. A leaf whose box is opened puts its crossings among those to come.
-///  2. The first of these and all that coincide with it form a *cluster*: crossings that the bounds of
-///     their errors cannot tell apart, and those of one surface. In the exact tier the former are told apart
-///     nevertheless (exact_order.hpp).
-///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do. In deep
-///     programs paths take their place (node_paths.hpp).
+///  2. The first of these and all that coincide with it form a *cluster*: crossings that the bounds
+///  of
+///     their errors cannot tell apart, and those of one surface. In the exact tier the former are
+///     told apart nevertheless (exact_order.hpp).
+///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do.
+///  In deep
+///     programs paths take their place (heavy_paths.hpp).
 ///     Only the root's value before and after counts, so pieces without length vanish.
 ///  4. What is up to t_min (and what coincides with the surface the ray starts on) only sets the
 ///     state; after that each change of the root is a hit. Its face is that of the lowest leaf
 ///     through whose changes, node by node, the root changed.
 ///
-/// A leaf is outside of its primitive before the line enters its box, as far as it matters. So the costs
-/// follow what the ray meets: O(log leaves) for each box that it comes near, O(depth) for each crossing, and
-/// O(log^2 nodes) if the program is deep.
+/// A leaf is outside of its primitive before the line enters its box, as far as it matters. So the
+/// costs follow what the ray meets: O(log leaves) for each box that it comes near, O(depth) for
+/// each crossing, and O(log^2 nodes) if the program is deep.
 class CsgEvaluation {
  public:
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
-                std::span<const FaceSurface> face_surfaces, const WorldRay& ray, CsgWorkspace& workspace);
+                std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
+                CsgWorkspace& workspace);
 
   /// Whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
@@ -159,7 +166,7 @@ class CsgEvaluation {
   using SharedState = CsgWorkspace::SharedState;
 
   /// What is entered there is opened when it is asked for.
-  void put_off(LeafTree::Child child, double enter);
+  void put_off(LeafBvh::Child child, double enter);
   /// Opens all boxes that are entered up to t.
   void open_up_to(double t);
   /// The same of those below a node.
@@ -167,8 +174,9 @@ class CsgEvaluation {
   /// Opens boxes until there is a crossing, and all that can coincide with it.
   bool find_crossing();
   void open_what_may_coincide();
-  /// Of the exact tier: what is near the next crossing, so that which of it coincides is known for good.
-  void tell_apart_what_is_near();
+  /// Of the exact tier: what is near the next crossing, so that which of it coincides is known for
+  /// good.
+  void order_near_crossings();
   bool is_near_next(double t) const;
   void gather_near();
   void open_leaf(std::uint32_t index, double enter);

@@ -1,20 +1,21 @@
-// The part of CsgEvaluation about crossings of the exact tier that are so near to each other that t does not
-// tell which of them are at one place.
+// The part of CsgEvaluation about crossings of the exact tier that are so near to each other that t
+// does not tell which of them are at one place.
 #include <algorithm>
 
 #include "core/csg/evaluate.hpp"
 
 namespace crt::core {
 
-void CsgEvaluation::tell_apart_what_is_near() {
+void CsgEvaluation::order_near_crossings() {
   auto& openings = work_.openings_;
   const auto& to_come = work_.to_come_;
-  while (!openings.empty() && is_near_next(openings.front().enter)) open_up_to(openings.front().enter);
+  while (!openings.empty() && is_near_next(openings.front().enter))
+    open_up_to(openings.front().enter);
   if (next_crossing().place != 0) return;
   // The second is one of the two below the first.
-  const bool has_company = (to_come.size() > 1 && is_near_next(to_come[1].t)) ||
-                           (to_come.size() > 2 && is_near_next(to_come[2].t));
-  if (has_company) gather_near();
+  const bool has_coincident = (to_come.size() > 1 && is_near_next(to_come[1].t)) ||
+                              (to_come.size() > 2 && is_near_next(to_come[2].t));
+  if (has_coincident) gather_near();
 }
 
 bool CsgEvaluation::is_near_next(double t) const {
@@ -46,7 +47,8 @@ void CsgEvaluation::gather_near() {
     is_known = is_known && !met.moved;
     crossings.push_back(near_crossing(met, program_.first_leaf + met.leaf, next.index));
     const NearCrossing& crossing = crossings.back();
-    is_one = is_one && crossing.surface == crossings[0].surface && crossing.root == crossings[0].root;
+    is_one =
+        is_one && crossing.surface == crossings[0].surface && crossing.root == crossings[0].root;
   }
   if (!is_one && is_known &&
       sort_exactly(crossings, leaves_of_scene_, face_surfaces_, ray_, work_.escalations)) {

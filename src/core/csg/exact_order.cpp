@@ -21,9 +21,10 @@ constexpr auto is_before = [](const NearCrossing& a, const NearCrossing& b) {
 /// Below 0, 0 or above it, if their bounds or surfaces tell; nothing if only the roots do.
 std::optional<int> order_by_bounds(const NearCrossing& a, const NearCrossing& b) {
   if (a.surface == b.surface && a.root == b.root) return 0;
-  const double way = (a.t - b.t) + (a.t_low - b.t_low);
-  // The rounding of the way is far less than what the errors have in them beside what they must.
-  if (std::abs(way) > a.error + b.error) return way > 0 ? 1 : -1;
+  const double distance = (a.t - b.t) + (a.t_low - b.t_low);
+  // The rounding of the distance is far less than what the errors have in them beside what they
+  // must.
+  if (std::abs(distance) > a.error + b.error) return distance > 0 ? 1 : -1;
   return std::nullopt;
 }
 
@@ -41,7 +42,8 @@ bool rank_by_bounds(std::span<NearCrossing> crossings) {
 class ExactOrder {
  public:
   ExactOrder(std::span<const NearCrossing> crossings, std::span<const Leaf> leaves,
-             std::span<const FaceSurface> face_surfaces, const WorldRay& ray, std::uint64_t& escalations)
+             std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
+             std::uint64_t& escalations)
       : crossings_(crossings),
         leaves_(leaves),
         face_surfaces_(face_surfaces),
@@ -59,7 +61,8 @@ class ExactOrder {
   }
 
   int compare(std::size_t a, std::size_t b) {
-    if (const std::optional<int> order = order_by_bounds(crossings_[a], crossings_[b])) return *order;
+    if (const std::optional<int> order = order_by_bounds(crossings_[a], crossings_[b]))
+      return *order;
     std::optional<RealRoot>& first = place(a);
     std::optional<RealRoot>& second = place(b);
     return first && second ? order(*first, *second) : 0;
@@ -81,12 +84,12 @@ class ExactOrder {
     const Leaf& leaf = leaves_[crossing.leaf];
     ObjectRay object_ray = leaf.placement->to_object(ray_.origin, ray_.direction);
     object_ray.start = start_on_leaf(leaf, crossing.leaf, face_surfaces_, ray_.start);
-    place = {true,
-             leaf.exact->place(exact_ray(leaf, ray_, object_ray, escalations_), {.t = crossing.t,
-                                                                                 .error = crossing.error,
-                                                                                 .t_low = crossing.t_low,
-                                                                                 .face = crossing.face,
-                                                                                 .root = crossing.root})};
+    place = {true, leaf.exact->place(exact_ray(leaf, ray_, object_ray, escalations_),
+                                     {.t = crossing.t,
+                                      .error = crossing.error,
+                                      .t_low = crossing.t_low,
+                                      .face = crossing.face,
+                                      .root = crossing.root})};
     all_known_ = all_known_ && place.root;
     return place.root;
   }
@@ -100,7 +103,8 @@ class ExactOrder {
   bool all_known_ = true;
 };
 
-/// Moves a crossing beyond those of lower ranks, of which `last` is told to be the farthest, if it is not.
+/// Moves a crossing beyond those of lower ranks, of which `last` is told to be the farthest, if it
+/// is not.
 void move_beyond(const NearCrossing& last, NearCrossing& crossing) {
   if (is_before(last, crossing)) return;
   const double t_low = std::nextafter(last.t_low, std::numeric_limits<double>::infinity());

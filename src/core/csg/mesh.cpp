@@ -16,10 +16,10 @@ Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIn
   for (std::size_t i = 0; i < triangles.size(); ++i) {
     for (const std::uint32_t index : triangles[i]) {
       if (index < positions.size()) continue;
-      throw Error(
-          ErrorCode::invalid_argument,
-          fmt::format("triangle {} has the index {}, but there are {} positions", i, index, positions.size()),
-          "indices");
+      throw Error(ErrorCode::invalid_argument,
+                  fmt::format("triangle {} has the index {}, but there are {} positions", i, index,
+                              positions.size()),
+                  "indices");
     }
     const auto [a, b, c] = triangles[i];
     const Triangle triangle{.a = positions[a], .b = positions[b], .c = positions[c]};

@@ -56,13 +56,14 @@ Placement::Placement(const TransformChain& to_world) {
   kind_ = Kind::affine;
   to_world_ = precise.rounded();
   take_inverse(back);
-  // Each number of the inverse is off by its last bit, and there are the roundings of a product with a
-  // vector.
+  // Each number of the inverse is off by its last bit, and there are the roundings of a product
+  // with a vector.
   vector_error_ = 4 * precise_roundoff * inverse_size();
   const auto low = [](const PreciseVec3& v) { return Vec3(v[0].lo, v[1].lo, v[2].lo); };
-  more_ = std::make_shared<const More>(More{
-      .chain = &to_world,
-      .low = {low(precise.rows[0]), low(precise.rows[1]), low(precise.rows[2]), low(precise.translation)}});
+  more_ =
+      std::make_shared<const More>(More{.chain = &to_world,
+                                        .low = {low(precise.rows[0]), low(precise.rows[1]),
+                                                low(precise.rows[2]), low(precise.translation)}});
 }
 
 DyadicTransform Placement::exactly() const {
@@ -71,7 +72,8 @@ DyadicTransform Placement::exactly() const {
 
 bool Placement::has_map_of(const Placement& other) const {
   if (this == &other) return true;
-  if (to_world_ != other.to_world_ || is_more_than_doubles() != other.is_more_than_doubles()) return false;
+  if (to_world_ != other.to_world_ || is_more_than_doubles() != other.is_more_than_doubles())
+    return false;
   if (!more_) return true;
   const DyadicTransform one = exactly();
   const DyadicTransform another = other.exactly();
@@ -91,7 +93,8 @@ void Placement::take_inverse(const PreciseTransform& inverse) {
       column.lo[row] = entry.lo;
     };
     const auto i = static_cast<std::size_t>(row);
-    for (std::size_t column = 0; column < 3; ++column) set(columns_[column], to_object_.rows[i][column]);
+    for (std::size_t column = 0; column < 3; ++column)
+      set(columns_[column], to_object_.rows[i][column]);
     set(columns_[3], to_object_.translation[i]);
   }
 }
@@ -105,8 +108,9 @@ double Placement::inverse_size() const {
   return result;
 }
 
-/// With B the computed inverse of A, A^-1 - B = A^-1 (I - A B), which is at most |B| e / (1 - e) where e
-/// bounds |I - A B| and the rounding of computing that. All norms are the largest sum of sizes in a row.
+/// With B the computed inverse of A, A^-1 - B = A^-1 (I - A B), which is at most |B| e / (1 - e)
+/// where e bounds |I - A B| and the rounding of computing that. All norms are the largest sum of
+/// sizes in a row.
 double Placement::inverse_error() const {
   const PreciseTransform forth(to_world_);
   double residual = 0;
@@ -124,7 +128,8 @@ double Placement::inverse_error() const {
     }
     residual = std::max(residual, row_residual);
   }
-  constexpr double largest_residual = 0.5;  // beyond it nothing is known, and every answer is found exactly
+  constexpr double largest_residual =
+      0.5;  // beyond it nothing is known, and every answer is found exactly
   if (!(residual < largest_residual)) return std::numeric_limits<double>::infinity();
   // And the roundings of the product with the vector itself.
   return inverse_size() * (2 * residual + precise_roundoff);
@@ -187,14 +192,16 @@ ObjectRayLanes Placement::to_object(const RayLanes& rays) const {
   if (kind_ == Kind::translation) {
     const Vec3& moved = to_world_.translation;
     result.direction = rays.direction;
-    set(result.origin, result.origin_low, [&](int axis) { return two_sum(o[axis], lanes_of(-moved[axis])); });
+    set(result.origin, result.origin_low,
+        [&](int axis) { return two_sum(o[axis], lanes_of(-moved[axis])); });
     return result;
   }
   const auto turned = [&](const VectorLanes& v, int axis) {
     const PreciseVec3& row = to_object_.rows[static_cast<std::size_t>(axis)];
     return lanes_of(row[0]) * v.x + lanes_of(row[1]) * v.y + lanes_of(row[2]) * v.z;
   };
-  set(result.direction, result.direction_low, [&](int axis) { return turned(rays.direction, axis); });
+  set(result.direction, result.direction_low,
+      [&](int axis) { return turned(rays.direction, axis); });
   if (is_one_point(o)) {
     const DoubleDoubleLanes one = turned_by_rows(o.lane(0)) + columns_[3];
     set(result.origin, result.origin_low, [&](int axis) {
@@ -208,7 +215,8 @@ ObjectRayLanes Placement::to_object(const RayLanes& rays) const {
   return result;
 }
 
-ExactRay Placement::to_object_exactly(const Vec3& origin, const Vec3& direction, const ObjectRay& ray) const {
+ExactRay Placement::to_object_exactly(const Vec3& origin, const Vec3& direction,
+                                      const ObjectRay& ray) const {
   ExactRay exact{.near = ray, .world_origin = origin, .world_direction = direction};
   if (kind_ == Kind::identity) return exact;
   exact.to_world = &to_world_;
@@ -231,16 +239,18 @@ Vector Placement::point_to_world(const Vector& object) const {
   using Real = RealOf<Vector>;
   const Vec3& moved = to_world_.translation;
   if (kind_ == Kind::identity) return object;
-  if (kind_ == Kind::translation) return object + spread<Real>(moved);
+  if (kind_ == Kind::translation) return object + broadcast<Real>(moved);
   if (more_) {
     const Transform& low = more_->low;
-    const auto precise = [&](const Vec3& m, double translation, const Vec3& m_low, double translation_low) {
+    const auto precise = [&](const Vec3& m, double translation, const Vec3& m_low,
+                             double translation_low) {
       using Precise = decltype(two_product(object.x, object.x));
-      const Precise sum = two_product(spread<Real>(m.x), object.x) +
-                          two_product(spread<Real>(m.y), object.y) +
-                          two_product(spread<Real>(m.z), object.z) + Precise{spread<Real>(translation)};
-      const Real more =
-          m_low.x * object.x + m_low.y * object.y + m_low.z * object.z + spread<Real>(translation_low);
+      const Precise sum = two_product(broadcast<Real>(m.x), object.x) +
+                          two_product(broadcast<Real>(m.y), object.y) +
+                          two_product(broadcast<Real>(m.z), object.z) +
+                          Precise{broadcast<Real>(translation)};
+      const Real more = m_low.x * object.x + m_low.y * object.y + m_low.z * object.z +
+                        broadcast<Real>(translation_low);
       return sum.hi + (sum.lo + more);
     };
     return {precise(to_world_.row_x, moved.x, low.row_x, low.translation.x),
@@ -249,8 +259,9 @@ Vector Placement::point_to_world(const Vector& object) const {
   }
   const auto component = [&](const Vec3& m, double translation) {
     using Precise = decltype(two_product(object.x, object.x));
-    return (two_product(spread<Real>(m.x), object.x) + two_product(spread<Real>(m.y), object.y) +
-            two_product(spread<Real>(m.z), object.z) + Precise{spread<Real>(translation)})
+    return (two_product(broadcast<Real>(m.x), object.x) +
+            two_product(broadcast<Real>(m.y), object.y) +
+            two_product(broadcast<Real>(m.z), object.z) + Precise{broadcast<Real>(translation)})
         .value();
   };
   return {component(to_world_.row_x, moved.x), component(to_world_.row_y, moved.y),
@@ -294,8 +305,8 @@ Bounds Placement::bounds_to_world(const Bounds& object) const {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Bounds result;
   for (int axis = 0; axis < 3; ++axis) {
-    // Interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics Gems 1990);
-    // `size` bounds the rounding of the sums.
+    // Interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics Gems
+    // 1990); `size` bounds the rounding of the sums.
     double lower = to_world_.translation[axis];
     double upper = lower;
     double size = std::abs(lower);
@@ -306,8 +317,8 @@ Bounds Placement::bounds_to_world(const Bounds& object) const {
       const double second = factor * object.upper[index];
       lower += std::min(first, second);
       upper += std::max(first, second);
-      size +=
-          std::max(std::isfinite(first) ? std::abs(first) : 0, std::isfinite(second) ? std::abs(second) : 0);
+      size += std::max(std::isfinite(first) ? std::abs(first) : 0,
+                       std::isfinite(second) ? std::abs(second) : 0);
     }
     const double slack = size * (8 * std::numeric_limits<double>::epsilon());
     result.lower[axis] = std::nextafter(lower - slack, -inf);
@@ -326,7 +337,8 @@ void Placement::plane_to_world(const PreciseVec3& normal, const DoubleDouble& of
   }
   world_offset = offset;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    world_normal[axis] = normal[0] * to_object_.rows[0][axis] + normal[1] * to_object_.rows[1][axis] +
+    world_normal[axis] = normal[0] * to_object_.rows[0][axis] +
+                         normal[1] * to_object_.rows[1][axis] +
                          normal[2] * to_object_.rows[2][axis];
     world_offset = world_offset - normal[axis] * to_object_.translation[axis];
   }

@@ -13,9 +13,9 @@
 
 namespace crt::core {
 
-/// All the transforms of an entity in one. In the standard tier the placement *is* by definition the map to
-/// the world rounded to 12 doubles; in the exact tier it is the map. Its inverse is kept in double-double, so
-/// that a ray enters object space with far less error than a double has.
+/// All the transforms of an entity in one. In the standard tier the placement *is* by definition
+/// the map to the world rounded to 12 doubles; in the exact tier it is the map. Its inverse is kept
+/// in double-double, so that a ray enters object space with far less error than a double has.
 class Placement {
  public:
   Placement() = default;
@@ -67,8 +67,8 @@ class Placement {
   Bounds bounds_to_world(const Bounds& object) const;
 
   /// The plane {p : normal . p = offset} of object space as the world sees it.
-  void plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset, PreciseVec3& world_normal,
-                      DoubleDouble& world_offset) const;
+  void plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset,
+                      PreciseVec3& world_normal, DoubleDouble& world_offset) const;
 
  private:
   void take_inverse(const PreciseTransform& inverse);
@@ -92,8 +92,8 @@ class Placement {
   PreciseTransform to_object_;
   /// The same by columns, the translation last, a lane a row.
   std::array<DoubleDoubleLanes, 4> columns_;
-  /// Of a vector taken to object space: each component is off by at most this times the largest of the
-  /// vector.
+  /// Of a vector taken to object space: each component is off by at most this times the largest of
+  /// the vector.
   double vector_error_ = 0;
 };
 

@@ -9,10 +9,10 @@
 #include <cstdint>
 #include <vector>
 
-#include "core/csg/leaf_tree.hpp"
-#include "core/csg/node_paths.hpp"
+#include "core/csg/heavy_paths.hpp"
+#include "core/csg/interval_filter.hpp"
+#include "core/csg/leaf_bvh.hpp"
 #include "core/csg/placement.hpp"
-#include "core/csg/sketch.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
 
@@ -23,7 +23,8 @@ namespace crt::core {
 struct FaceSurface {
   std::uint32_t surface = 0;
   bool flipped = false;
-  /// Where other faces of the same object lie on it, too: a number among such surfaces of the object.
+  /// Where other faces of the same object lie on it, too: a number among such surfaces of the
+  /// object.
   std::uint32_t shared = not_shared;
 
   static constexpr std::uint32_t not_shared = 0xffffffffu;
@@ -32,10 +33,13 @@ struct FaceSurface {
 /// A primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
-  std::unique_ptr<const ExactShape> exact;    ///< the same in the exact tier; none in the standard one
-  const Placement* placement = nullptr;       ///< shared by leaves that are placed alike; the scene owns it
-  const SphereShape* plain_sphere = nullptr;  ///< its shape, of a sphere neither complemented nor moved
-  Bounds bounds;                              ///< in the world, of what can matter of it
+  std::unique_ptr<const ExactShape>
+      exact;  ///< the same in the exact tier; none in the standard one
+  const Placement* placement =
+      nullptr;  ///< shared by leaves that are placed alike; the scene owns it
+  const SphereShape* plain_sphere =
+      nullptr;    ///< its shape, of a sphere neither complemented nor moved
+  Bounds bounds;  ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
@@ -57,15 +61,15 @@ struct CsgProgram {
   std::vector<std::uint32_t> leaf_parents;
   /// Leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
-  NodePaths paths;  ///< of deep programs: what takes the place of walking up from node to node
-  LeafTree tree;    ///< over what of each leaf's box matters
-  CsgSketch sketch;
+  HeavyPaths paths;  ///< of deep programs: what takes the place of walking up from node to node
+  LeafBvh tree;      ///< over what of each leaf's box matters
+  IntervalFilter filter;
   Bounds bounds;  ///< of the object, in the world
   std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }
-  /// Whether all of the object is within one of its leaves: a part of an intersection, or what a difference
-  /// takes from.
+  /// Whether all of the object is within one of its leaves: a part of an intersection, or what a
+  /// difference takes from.
   bool is_within(std::uint32_t index, const Leaf& leaf) const {
     return leaf_parents[index] == 0 && nodes[0].needed > 1 && !leaf.complemented;
   }

@@ -12,7 +12,7 @@
 #include "core/geometry/bounds.hpp"
 #include "core/math/lanes.hpp"
 #include "core/math/vector.hpp"
-#include "core/ray/outline_line.hpp"
+#include "core/ray/filter_line.hpp"
 
 namespace crt::core {
 
@@ -38,8 +38,8 @@ class RaySlabs {
   /// Above that the line is parallel to the slab, or all but, and the quotient must be taken.
   static constexpr double largest_inverse = 0x1p1000;
 
-  /// `origin_error` is how far rounding may have put the origin from where it is meant to be: the spans hold
-  /// those of all lines that may be meant.
+  /// `origin_error` is how far rounding may have put the origin from where it is meant to be: the
+  /// spans hold those of all lines that may be meant.
   RaySlabs(const Vec3& origin, const Vec3& direction, double origin_error = 0)
       : origin_(origin),
         direction_(direction),
@@ -63,7 +63,8 @@ class RaySlabs {
   }
 
   /// The spans of lines that have their bit in `some`; origins are what is meant.
-  static LineSpanLanes spans(const OutlineLine<Lanes>& lines, const Bounds& box, std::uint32_t some) {
+  static LineSpanLanes spans(const FilterLine<Lanes>& lines, const Bounds& box,
+                             std::uint32_t some) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
     LaneMask steep{};
@@ -74,12 +75,14 @@ class RaySlabs {
       const Lanes second = (box.upper[axis] - lines.origin[i]) * inverse;
       const Lanes low = min(first, second);
       const Lanes high = max(first, second);
-      span.enter = max(span.enter, low - slack * size_of(low));
-      span.leave = min(span.leave, high + slack * size_of(high));
-      LaneMask is_steep = size_of(inverse) > largest_inverse;
+      span.enter = max(span.enter, low - slack * abs(low));
+      span.leave = min(span.leave, high + slack * abs(high));
+      LaneMask is_steep = abs(inverse) > largest_inverse;
       if (any(is_steep)) {
-        // Between planes that it goes along a line is from minus infinity to infinity, as told above.
-        const LaneMask between = (lines.origin[i] > box.lower[axis]) & (lines.origin[i] < box.upper[axis]);
+        // Between planes that it goes along a line is from minus infinity to infinity, as told
+        // above.
+        const LaneMask between =
+            (lines.origin[i] > box.lower[axis]) & (lines.origin[i] < box.upper[axis]);
         is_steep &= ~(between & (lines.direction[i] == 0.0));
       }
       steep |= is_steep;
@@ -99,13 +102,13 @@ class RaySlabs {
   static LineSpan span(const Vec3& origin, const Vec3& direction, const Bounds& box) {
     const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, v.z}; };
     const Lanes inverse = 1.0 / by_axis(direction);
-    if (!all(size_of(inverse) <= largest_inverse)) return RaySlabs(origin, direction).span(box);
+    if (!all(abs(inverse) <= largest_inverse)) return RaySlabs(origin, direction).span(box);
     const Lanes first = (by_axis(box.lower) - by_axis(origin)) * inverse;
     const Lanes second = (by_axis(box.upper) - by_axis(origin)) * inverse;
     const Lanes low = min(first, second);
     const Lanes high = max(first, second);
-    const Lanes enter = low - slack * size_of(low);
-    const Lanes leave = high + slack * size_of(high);
+    const Lanes enter = low - slack * abs(low);
+    const Lanes leave = high + slack * abs(high);
     return {.enter = std::max(std::max(enter[0], enter[1]), enter[2]),
             .leave = std::min(std::min(leave[0], leave[1]), leave[2])};
   }
@@ -123,8 +126,8 @@ class RaySlabs {
   template <class Real, class Corners>
   void span_of(const Corners& lowers, const Corners& uppers, Real& enter, Real& leave) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
-    enter = spread<Real>(-infinity);
-    leave = spread<Real>(infinity);
+    enter = broadcast<Real>(-infinity);
+    leave = broadcast<Real>(infinity);
     for (int axis = 0; axis < 3; ++axis) {
       const auto i = static_cast<std::size_t>(axis);
       const Real lower = loaded(lowers[i]);
@@ -135,7 +138,8 @@ class RaySlabs {
         continue;
       }
       const double error = origin_error_ * std::abs(inverse);
-      clip((lower - origin_[axis]) * inverse, (upper - origin_[axis]) * inverse, error, enter, leave);
+      clip((lower - origin_[axis]) * inverse, (upper - origin_[axis]) * inverse, error, enter,
+           leave);
     }
   }
 
@@ -144,8 +148,8 @@ class RaySlabs {
   static void clip(const Real& first, const Real& second, double error, Real& enter, Real& leave) {
     const Real low = min(first, second);
     const Real high = max(first, second);
-    const Real safe_low = low - slack * size_of(low) - error;
-    const Real safe_high = high + slack * size_of(high) + error;
+    const Real safe_low = low - slack * abs(low) - error;
+    const Real safe_high = high + slack * abs(high) + error;
     // What is no number, as infinity less infinity, says nothing.
     enter = safe_low > enter ? safe_low : enter;
     leave = safe_high < leave ? safe_high : leave;
@@ -157,7 +161,7 @@ class RaySlabs {
     const double d = direction_[axis];
     if (d == 0) {
       const auto beside = either(o<lower - origin_slack_, o> upper + origin_slack_);
-      leave = beside ? spread<Real>(-std::numeric_limits<double>::infinity()) : leave;
+      leave = beside ? broadcast<Real>(-std::numeric_limits<double>::infinity()) : leave;
       return;
     }
     clip((lower - o) / d, (upper - o) / d, origin_error_ / std::abs(d), enter, leave);

@@ -18,8 +18,8 @@ struct StepRules {
   std::function<void()> poll;  ///< is called often, and throws to end everything; or empty
 };
 
-/// The steps of the ray that a thread follows. A step is an object that the ray is tested against, or a leaf
-/// of a CSG object. Only rays with many steps are ever looked at.
+/// The steps of the ray that a thread follows. A step is an object that the ray is tested against,
+/// or a leaf of a CSG object. Only rays with many steps are ever looked at.
 class RaySteps {
  public:
   const StepRules* rules = nullptr;  ///< none: the usual ones

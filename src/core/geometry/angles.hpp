@@ -10,10 +10,11 @@
 
 namespace crt::core {
 
-/// The angle of (x, y) from x towards y as a share of a whole turn, of x, y >= 0: in [0, 1/4], and 0 for
-/// (0, 0). Within 2^-53 of a turn and 2^-51 of itself, where neither is below 1e-290.
-/// Beyond 1/16 it is told from 1/8: atan a = pi/4 + atan((a - 1) / (a + 1)). The polynomial is the best one
-/// of its degree in q^2 for atan(q) / (2 pi q) up to q = tan(pi / 8), to 2^-59 (Remez' algorithm).
+/// The angle of (x, y) from x towards y as a share of a whole turn, of x, y >= 0: in [0, 1/4], and
+/// 0 for (0, 0). Within 2^-53 of a turn and 2^-51 of itself, where neither is below 1e-290. Beyond
+/// 1/16 it is told from 1/8: atan a = pi/4 + atan((a - 1) / (a + 1)). The polynomial is the best
+/// one of its degree in q^2 for atan(q) / (2 pi q) up to q = tan(pi / 8), to 2^-59 (Remez'
+/// algorithm).
 template <class Real>
 Real quarter_turn(const Real& x, const Real& y) {
   constexpr double tangent_of_sixteenth = std::numbers::sqrt2 - 1;
@@ -22,31 +23,32 @@ Real quarter_turn(const Real& x, const Real& y) {
   const auto beyond = shorter > tangent_of_sixteenth * longer;
   const Real across = beyond ? shorter - longer : shorter;
   const Real along = beyond ? shorter + longer : longer;
-  const Real q = across / (along > Real{} ? along : spread<Real>(1));
+  const Real q = across / (along > Real{} ? along : broadcast<Real>(1));
 
   constexpr std::array<double, 12> coefficients = {
       0x1.45f306dc9c883p-3, -0x1.b2995e7b7b5d5p-5, 0x1.04c26be3ad380p-5, -0x1.7483758ba87cep-6,
       0x1.21bb93b5826efp-6, -0x1.da1b83a1805dap-7, 0x1.9127a793e9965p-7, -0x1.5b7cd067a60f4p-7,
       0x1.30f097ca5ef75p-7, -0x1.06a6a9f79c2a9p-7, 0x1.8c4a5c9966effp-8, -0x1.7410d2c7ce990p-9};
   constexpr double eighth = 0.125;
-  const Real turned = q * polynomial(coefficients, Real(q * q)) + (beyond ? spread<Real>(eighth) : Real{});
+  const Real turned =
+      q * polynomial(coefficients, Real(q * q)) + (beyond ? broadcast<Real>(eighth) : Real{});
   return y > x ? 2 * eighth - turned : turned;
 }
 
 /// The same of any (x, y), in [0, 1).
 template <class Real>
 Real turn(const Real& x, const Real& y) {
-  const Real quarter = quarter_turn(size_of(x), size_of(y));
+  const Real quarter = quarter_turn(abs(x), abs(y));
   const Real half = x < Real{} ? 0.5 - quarter : quarter;
   const Real whole = y < Real{} ? 1.0 - half : half;
-  return whole < spread<Real>(1) ? whole : Real{};
+  return whole < broadcast<Real>(1) ? whole : Real{};
 }
 
-/// How steeply (level, height) rises or falls, level >= 0, as a share of what there is from straight down,
-/// 0, to straight up, 1.
+/// How steeply (level, height) rises or falls, level >= 0, as a share of what there is from
+/// straight down, 0, to straight up, 1.
 template <class Real>
-Real rise(const Real& level, const Real& height) {
-  const Real half = 2.0 * quarter_turn(level, size_of(height));
+Real latitude(const Real& level, const Real& height) {
+  const Real half = 2.0 * quarter_turn(level, abs(height));
   return height < Real{} ? 0.5 - half : 0.5 + half;
 }
 
@@ -66,13 +68,13 @@ SineAndCosine<Real> of_eighth_turns(const Real& q) {
       -0x1.3bd3cc9be45dep-2,  0x1.03c1f081b5ac4p-6,  -0x1.55d3c7e3cbffap-12, 0x1.e1f506891babbp-19,
       -0x1.a6d1f2a204a8cp-26, 0x1.f9d38a3763cc3p-34, -0x1.b6e24f44b128fp-42, 0x1.20c62c2f2d7f5p-50};
   const Real square = q * q;
-  Real sine = spread<Real>(odd.back());
-  Real cosine = spread<Real>(even.back());
+  Real sine = broadcast<Real>(odd.back());
+  Real cosine = broadcast<Real>(even.back());
   for (std::size_t i = odd.size() - 1; i > 0; --i) {
-    sine = fma(sine, square, spread<Real>(odd[i - 1]));
-    cosine = fma(cosine, square, spread<Real>(even[i - 1]));
+    sine = fma(sine, square, broadcast<Real>(odd[i - 1]));
+    cosine = fma(cosine, square, broadcast<Real>(even[i - 1]));
   }
-  return {.sine = q * sine, .cosine = fma(cosine, square, spread<Real>(1))};
+  return {.sine = q * sine, .cosine = fma(cosine, square, broadcast<Real>(1))};
 }
 
 /// Unit vectors that make a frame with `along`, a unit vector. `zero`, where angles about the axis

@@ -15,7 +15,8 @@ struct Bounds {
   Vec3 upper{-std::numeric_limits<double>::infinity()};
 
   static Bounds everything() {
-    return {Vec3(-std::numeric_limits<double>::infinity()), Vec3(std::numeric_limits<double>::infinity())};
+    return {Vec3(-std::numeric_limits<double>::infinity()),
+            Vec3(std::numeric_limits<double>::infinity())};
   }
 
   bool empty() const { return lower.x > upper.x || lower.y > upper.y || lower.z > upper.z; }

@@ -9,14 +9,15 @@
 
 namespace crt::core {
 
-/// The fields of a primitive but for its material. All are doubles, so that there are no gaps among them, and
-/// equal bytes are equal shapes. (0 and -0 are told apart.)
+/// The fields of a primitive but for its material. All are doubles, so that there are no gaps among
+/// them, and equal bytes are equal shapes. (0 and -0 are told apart.)
 inline std::span<const std::byte> description_of(const Primitive& primitive) {
   return std::visit(
       [](const auto& shape) {
         const auto* begin = reinterpret_cast<const std::byte*>(&shape);
         const auto* end = reinterpret_cast<const std::byte*>(&shape.material);
-        static_assert(sizeof(shape) % sizeof(double) == 0 && alignof(decltype(shape)) == alignof(double));
+        static_assert(sizeof(shape) % sizeof(double) == 0 &&
+                      alignof(decltype(shape)) == alignof(double));
         return std::span(begin, end);
       },
       primitive);

@@ -1,5 +1,5 @@
-// What discs, half planes and triangles of the exact tier have in common: a plane, and on which side of its
-// edges the line meets it. Edges belong to the surface.
+// What discs, half planes and triangles of the exact tier have in common: a plane, and on which
+// side of its edges the line meets it. Edges belong to the surface.
 #pragma once
 
 #include "core/geometry/exact_plane.hpp"
@@ -9,7 +9,8 @@
 
 namespace crt::core {
 
-/// Far more roundings than any of the filters below has. Rays that pass an edge more closely are few.
+/// Far more roundings than any of the filters below has. Rays that pass an edge more closely are
+/// few.
 inline constexpr double filter_roundings = 0x1p8;
 inline constexpr double filter_rounding = filter_roundings * unit_roundoff;
 
@@ -28,7 +29,8 @@ class ExactFlatShape : public ExactShape {
   bool crossings(const ExactRay& ray, CrossingList& out) const final {
     const ExactPlane::Meeting meeting = plane_.meet_surface(ray);
     if (!meeting.found()) return false;
-    if (PlaneFace::starts_here(ray.near) || contains(ray, meeting)) out.push_back(meeting.crossing());
+    if (PlaneFace::starts_here(ray.near) || contains(ray, meeting))
+      out.push_back(meeting.crossing());
     return false;
   }
 
@@ -60,13 +62,14 @@ class ExactFlatShape : public ExactShape {
                         meeting.error * largest_component(ray.near.direction)};
   }
 
-  /// The meeting without rounding. A ray that starts on the plane meets it at its start, whatever its
-  /// rounded origin says.
+  /// The meeting without rounding. A ray that starts on the plane meets it at its start, whatever
+  /// its rounded origin says.
   ExactPoint exact_meeting(const ExactRay& ray, const Meeting& meeting) const {
     const ExactLine line = ray.exact();
     const bool at_start = meeting.t.hi == 0 && meeting.error == 0;
-    const ExactPlane::Fraction t =
-        at_start ? ExactPlane::Fraction{.numerator = {}, .denominator = 1} : plane_.meet_exactly(line);
+    const ExactPlane::Fraction t = at_start
+                                       ? ExactPlane::Fraction{.numerator = {}, .denominator = 1}
+                                       : plane_.meet_exactly(line);
     return exact_point(line, t, plane_.position());
   }
 

@@ -14,7 +14,7 @@ ExactPlane::ExactPlane(const Vec3& normal, const Vec3& position) : position_(pos
   take_normal(exactly(normal));
 }
 
-ExactPlane ExactPlane::across_way(const Vec3& from, const Vec3& to, const Vec3& position) {
+ExactPlane ExactPlane::across_axis(const Vec3& from, const Vec3& to, const Vec3& position) {
   ExactPlane plane;
   plane.position_ = position;
   plane.take_normal(exactly(to) - exactly(from));
@@ -57,19 +57,21 @@ ExactPlane::Meeting ExactPlane::estimate_across_axis(const ExactRay& ray) const 
   Meeting result;
   if (!(std::abs(speed) > ray.direction_error)) return result;
   result.side = (speed > 0) == (normal_[static_cast<std::size_t>(axis_)].hi > 0) ? 1 : -1;
-  const DoubleDouble way = two_sum(position_[axis_], -near.origin[axis_]);
-  const double quotient = way.hi / speed;
-  const double low = way.lo - near.origin_low[axis_];
+  const DoubleDouble offset = two_sum(position_[axis_], -near.origin[axis_]);
+  const double quotient = offset.hi / speed;
+  const double low = offset.lo - near.origin_low[axis_];
   const double drift = quotient * near.direction_low[axis_];
-  const double remainder = std::fma(-quotient, speed, way.hi) + (low - drift);
+  const double remainder = std::fma(-quotient, speed, offset.hi) + (low - drift);
   result.t = two_sum(quotient, remainder / speed);
-  // Besides the ray's own errors: the roundings of what is added, each far below that of the quotient.
+  // Besides the ray's own errors: the roundings of what is added, each far below that of the
+  // quotient.
   constexpr double roundings = 4;
-  const double rounding =
-      roundings * unit_roundoff *
-      (std::abs(way.lo) + std::abs(near.origin_low[axis_]) + std::abs(drift) + std::abs(remainder));
-  result.error = (rounding + ray.origin_error + std::abs(quotient) * ray.direction_error) / std::abs(speed) +
-                 precise_roundoff * std::abs(quotient);
+  const double rounding = roundings * unit_roundoff *
+                          (std::abs(offset.lo) + std::abs(near.origin_low[axis_]) +
+                           std::abs(drift) + std::abs(remainder));
+  result.error =
+      (rounding + ray.origin_error + std::abs(quotient) * ray.direction_error) / std::abs(speed) +
+      precise_roundoff * std::abs(quotient);
   return result;
 }
 
@@ -77,12 +79,14 @@ ExactPlane::Rate ExactPlane::rate(const ExactRay& ray) const {
   const PreciseVec3 direction = precise_direction(ray.near);
   double size = 0;
   for (std::size_t i = 0; i < 3; ++i) size += std::abs(normal_[i].hi * direction[i].hi);
-  return {precise_dot(normal_, direction), precise_roundoff * size + normal_size * ray.direction_error};
+  return {precise_dot(normal_, direction),
+          precise_roundoff * size + normal_size * ray.direction_error};
 }
 
 int ExactPlane::side(const ExactRay& ray) const {
   const Rate estimate = rate(ray);
-  if (estimate.error == 0 && estimate.value.hi == 0) return 0;  // every product is 0, so nothing was rounded
+  if (estimate.error == 0 && estimate.value.hi == 0)
+    return 0;  // every product is 0, so nothing was rounded
   return estimate.certain() ? estimate.sign() : meet_exactly(ray.exact()).side;
 }
 
@@ -114,10 +118,11 @@ ExactPlane::Meeting ExactPlane::settled(const ExactRay& ray, const Meeting& esti
   const double t = estimate.t.hi;
   if (estimate.side != 0 && ray.is_settled(t, estimate.error) && std::isfinite(t)) return estimate;
   Meeting result;
-  if (axis_ >= 0 && ray.near.direction[axis_] == 0 && ray.origin_error == 0 && ray.direction_error == 0) {
+  if (axis_ >= 0 && ray.near.direction[axis_] == 0 && ray.origin_error == 0 &&
+      ray.direction_error == 0) {
     // The sum of these three doubles has the right sign.
-    const DoubleDouble height =
-        two_sum(ray.near.origin[axis_], -position_[axis_]) + DoubleDouble(ray.near.origin_low[axis_]);
+    const DoubleDouble height = two_sum(ray.near.origin[axis_], -position_[axis_]) +
+                                DoubleDouble(ray.near.origin_low[axis_]);
     const bool upwards = normal_[static_cast<std::size_t>(axis_)].hi > 0;
     result.behind = upwards ? height.hi < 0 : height.hi > 0;
     return result;
@@ -161,7 +166,8 @@ int order(const ExactRay& ray, const ExactPlane& first_plane, const ExactPlane::
 ExactPoint exact_point(const ExactLine& line, const ExactPlane::Fraction& t, const Vec3& center) {
   ExactPoint point;
   point.weight = line.weight * t.denominator;
-  point.offset = t.denominator * line.origin + t.numerator * line.direction - point.weight * exactly(center);
+  point.offset =
+      t.denominator * line.origin + t.numerator * line.direction - point.weight * exactly(center);
   return point;
 }
 

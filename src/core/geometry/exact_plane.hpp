@@ -13,7 +13,7 @@ class ExactPlane {
   /// Through `position`, across `normal`.
   ExactPlane(const Vec3& normal, const Vec3& position);
   /// Through `position`, across to - from as it is without rounding.
-  static ExactPlane across_way(const Vec3& from, const Vec3& to, const Vec3& position);
+  static ExactPlane across_axis(const Vec3& from, const Vec3& to, const Vec3& position);
   /// Through three points.
   static ExactPlane through(const Vec3& a, const Vec3& b, const Vec3& c);
 
@@ -38,8 +38,8 @@ class ExactPlane {
   /// As meet(); if the ray starts on this plane, exactly 0 and to the side it is said to leave.
   Meeting meet_surface(const ExactRay& ray) const;
 
-  /// t without rounding: numerator / denominator, with denominator >= 0 (0 for parallel lines, of which the
-  /// numerator has the sign of the way to the plane along the normal).
+  /// t without rounding: numerator / denominator, with denominator >= 0 (0 for parallel lines, of
+  /// which the numerator has the sign of the way to the plane along the normal).
   struct Fraction {
     Dyadic numerator;
     Dyadic denominator;

@@ -20,7 +20,8 @@ struct ExactQuadratic {
   /// If c is taken as 0, what is left when the root at 0 is divided out.
   DyadicPolynomial beside_zero() const { return DyadicPolynomial({b + b, a}); }
 
-  /// Both roots in ascending order, each to about 100 bits. a must not be 0, the discriminant not negative.
+  /// Both roots in ascending order, each to about 100 bits. a must not be 0, the discriminant not
+  /// negative.
   std::array<DoubleDouble, 2> roots() const;
 
   /// If c is taken as 0, the root beside 0, to about 100 bits. a must not be 0.

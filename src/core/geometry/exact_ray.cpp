@@ -20,8 +20,8 @@ ExactLine ExactRay::exact() const {
 }
 
 double ExactRay::point_error(const Vec3& center, double t) const {
-  const double way = std::abs(t) * largest_component(near.direction);
-  return precise_roundoff * (largest_component(near.origin) + largest_component(center) + way) +
+  const double along = std::abs(t) * largest_component(near.direction);
+  return precise_roundoff * (largest_component(near.origin) + largest_component(center) + along) +
          origin_error + std::abs(t) * direction_error;
 }
 
@@ -29,11 +29,11 @@ PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, Double
   PreciseVec3 result;
   for (int axis = 0; axis < 3; ++axis) {
     const DoubleDouble offset = two_sum(ray.origin[axis], -center[axis]);
-    const DoubleDouble way = two_product(t.hi, ray.direction[axis]);
-    const DoubleDouble sum = two_sum(offset.hi, way.hi);
+    const DoubleDouble along = two_product(t.hi, ray.direction[axis]);
+    const DoubleDouble sum = two_sum(offset.hi, along.hi);
     const double low =
         ray.origin_low[axis] + std::fma(t.hi, ray.direction_low[axis], t.lo * ray.direction[axis]);
-    result[static_cast<std::size_t>(axis)] = two_sum(sum.hi, sum.lo + (offset.lo + way.lo + low));
+    result[static_cast<std::size_t>(axis)] = two_sum(sum.hi, sum.lo + (offset.lo + along.lo + low));
   }
   return result;
 }

@@ -11,8 +11,8 @@
 
 namespace crt::core {
 
-/// A line in object space without any rounding: (origin + t direction) / weight, with weight > 0. The
-/// division that the inverse of a transform needs is never carried out.
+/// A line in object space without any rounding: (origin + t direction) / weight, with weight > 0.
+/// The division that the inverse of a transform needs is never carried out.
 struct ExactLine {
   DyadicVector origin;
   DyadicVector direction;
@@ -33,23 +33,25 @@ struct ExactRay {
   Vec3 world_direction{0, 0, 1};
   const Transform* to_world = nullptr;
   const TransformChain* chain = nullptr;  ///< that map, if it is more than twelve doubles
-  /// A ray that starts on a surface has a rounded origin: what it meets at |t| below this is at the start for
-  /// all that is known.
+  /// A ray that starts on a surface has a rounded origin: what it meets at |t| below this is at the
+  /// start for all that is known.
   double start_error = 0;
   /// Counts how often exact() is asked.
   std::uint64_t* escalations = nullptr;
 
   ExactLine exact() const;
 
-  /// Whether a t that may be off by `error` is known well enough: its last bit, or of what is at the start
-  /// for all that is known the side.
+  /// Whether a t that may be off by `error` is known well enough: its last bit, or of what is at
+  /// the start for all that is known the side.
   bool is_settled(double t, double error) const {
     constexpr double at_start_tolerance = 0x1p-20;
     const double size = std::abs(t);
-    return error <= last_bit_tolerance * size || (size < start_error && error <= at_start_tolerance * size);
+    return error <= last_bit_tolerance * size ||
+           (size < start_error && error <= at_start_tolerance * size);
   }
 
-  /// What each component of a point p(t) - center is off by at most, where it is computed in double-double.
+  /// What each component of a point p(t) - center is off by at most, where it is computed in
+  /// double-double.
   double point_error(const Vec3& center, double t) const;
 };
 
@@ -63,7 +65,8 @@ inline PreciseVec3 precise_direction(const ObjectRay& ray) {
 PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t);
 
 /// a . b to about 100 bits of the largest product.
-/// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2), for factors of two doubles each.
+/// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2), for factors of two
+/// doubles each.
 inline DoubleDouble precise_dot(const PreciseVec3& a, const PreciseVec3& b) {
   const DoubleDouble x = two_product(a[0].hi, b[0].hi);
   const DoubleDouble y = two_product(a[1].hi, b[1].hi);
@@ -80,8 +83,8 @@ inline PreciseVec3 precise_cross(const PreciseVec3& a, const PreciseVec3& b) {
   const auto component = [&](std::size_t i, std::size_t j) {
     const DoubleDouble x = two_product(a[i].hi, b[j].hi);
     const DoubleDouble y = two_product(a[j].hi, b[i].hi);
-    const double low =
-        std::fma(a[i].hi, b[j].lo, a[i].lo * b[j].hi) - std::fma(a[j].hi, b[i].lo, a[j].lo * b[i].hi);
+    const double low = std::fma(a[i].hi, b[j].lo, a[i].lo * b[j].hi) -
+                       std::fma(a[j].hi, b[i].lo, a[j].lo * b[i].hi);
     const DoubleDouble difference = two_sum(x.hi, -y.hi);
     return two_sum(difference.hi, difference.lo + (x.lo - y.lo) + low);
   };
@@ -92,7 +95,8 @@ inline double sum_of_sizes(const PreciseVec3& v) {
   return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
 }
 
-/// What double-double arithmetic leaves as an error of its result: a few of its roundings of 2^-105.
+/// What double-double arithmetic leaves as an error of its result: a few of its roundings of
+/// 2^-105.
 inline constexpr double precise_roundoff = 0x1p-100;
 
 }  // namespace crt::core

@@ -1,9 +1,10 @@
 // The primitives of the exact tier (docs/numerics.md): hit or miss is right, and t is within
 // 0.51 ulp.
 //
-// Each first computes as the standard tier does, in doubles or double-doubles with a bound on the error. Only
-// where the bound leaves a sign open it asks for the ray without rounding (ExactRay::exact) and finds the
-// sign of the polynomial in the inputs. Tests: tests/geometry/exact_*_test.cpp
+// Each first computes as the standard tier does, in doubles or double-doubles with a bound on the
+// error. Only where the bound leaves a sign open it asks for the ray without rounding
+// (ExactRay::exact) and finds the sign of the polynomial in the inputs. Tests:
+// tests/geometry/exact_*_test.cpp
 #pragma once
 
 #include <limits>
@@ -15,8 +16,9 @@
 
 namespace crt::core {
 
-/// A whole surface in object space by numbers that are not rounded: of planes a normal and its product with
-/// any point of the plane, of others points and what does not change where these are moved.
+/// A whole surface in object space by numbers that are not rounded: of planes a normal and its
+/// product with any point of the plane, of others points and what does not change where these are
+/// moved.
 struct ExactSurface {
   bool is_plane = false;
   std::vector<DyadicVector> points;
@@ -33,8 +35,9 @@ class ExactShape {
   /// As Shape::crossings, of the same primitive: the same faces, roots and promises.
   virtual bool crossings(const ExactRay& ray, CrossingList& out) const = 0;
 
-  /// Where one of crossings() of this ray is, without rounding: what tells crossings apart however near they
-  /// are. Nothing where the rounding of a start on the surface is all that there is to go by.
+  /// Where one of crossings() of this ray is, without rounding: what tells crossings apart however
+  /// near they are. Nothing where the rounding of a start on the surface is all that there is to go
+  /// by.
   virtual std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const = 0;
 
   /// The surface that a face is a piece of.
@@ -61,14 +64,16 @@ struct NewtonStep {
   double rate_error;      ///< of g'
   double half_curvature;  ///< at least |g''| / 2 between t and the root, and as far beyond
 
-  /// What t may be off by after the step, before it is rounded. It is infinite where another root may be
-  /// so near that the iteration cannot tell the two apart. (Taylor's series about t bounds the step's error
-  /// by the square of the root's offset, which is the change and a little, where g' keeps its sign.)
+  /// What t may be off by after the step, before it is rounded. It is infinite where another root
+  /// may be so near that the iteration cannot tell the two apart. (Taylor's series about t bounds
+  /// the step's error by the square of the root's offset, which is the change and a little, where
+  /// g' keeps its sign.)
   double error() const {
     const double least_rate = std::abs(rate) - rate_error;
     const double inaccuracy = rate_error + 2 * half_curvature * std::abs(change);
     const double off = (value_error + std::abs(change) * inaccuracy) / least_rate;
-    const bool is_isolated = least_rate > 0 && 8 * half_curvature * (std::abs(change) + off) < least_rate;
+    const bool is_isolated =
+        least_rate > 0 && 8 * half_curvature * (std::abs(change) + off) < least_rate;
     return is_isolated ? off : std::numeric_limits<double>::infinity();
   }
 };

@@ -1,8 +1,9 @@
 // A ray as a round primitive solves for it: shifted to the primitive, in the primitive's own units.
 //
-// The line is (point + x direction) * unit, relative to the primitive's centre, where unit is a power
-// of two near the primitive's size and direction is the ray's times a power of two: both scalings
-// are exact, and neither the scene's size nor the length of the ray's direction matters after them.
+// The line is (point + x direction) * unit, relative to the primitive's centre, where unit is a
+// power of two near the primitive's size and direction is the ray's times a power of two: both
+// scalings are exact, and neither the scene's size nor the length of the ray's direction matters
+// after them.
 #pragma once
 
 #include <cmath>
@@ -13,12 +14,13 @@
 
 namespace crt::core {
 
-/// One line, or as many side by side as a Real has lanes. (A Ray has what ObjectRay has, of such a Real.)
+/// One line, or as many side by side as a Real has lanes. (A Ray has what ObjectRay has, of such a
+/// Real.)
 template <class Real>
 struct NearLineOf {
   Vec3Of<Real> point;
   Vec3Of<Real> direction;  ///< its largest component is in [1, 2)
-  Real squared_speed;      ///< direction . direction
+  Real squared_length;     ///< direction . direction
 
   /// The line with `point` where the ray is at t = 0. Center and unit may be by lane.
   template <class Ray, class Center, class Unit>
@@ -43,7 +45,7 @@ struct NearLineOf {
     // far: a second step, which t alone could not hold, brings it near.
     constexpr double near = 4;
     rest = line.closest();
-    const auto is_far = size_of(rest) > near;
+    const auto is_far = abs(rest) > near;
     if (any(is_far)) {
       const Real step = rest * line.unit_ * line.direction_scale_;
       line.move_to(ray, center, line.shift_, is_far ? step : Real{});
@@ -75,15 +77,15 @@ struct NearLineOf {
   Vec3Of<Real> at(const Real& x) const { return point + x * direction; }
 
   /// x of the point closest to the centre.
-  Real closest() const { return -dot(point, direction) / squared_speed; }
+  Real closest() const { return -dot(point, direction) / squared_length; }
 
  private:
   template <class Ray, class Unit>
   NearLineOf(const Ray& ray, const Unit& unit)
-      : unit_(spread<Real>(unit)), inverse_unit_(spread<Real>(inverse_of_power(unit))) {
+      : unit_(broadcast<Real>(unit)), inverse_unit_(broadcast<Real>(inverse_of_power(unit))) {
     direction_scale_ = inverse_of_power(power_of_two_below(largest_component(ray.direction)));
     direction = direction_scale_ * ray.direction;
-    squared_speed = dot(direction, direction);
+    squared_length = dot(direction, direction);
   }
 
   Real unit_;
@@ -94,8 +96,8 @@ struct NearLineOf {
 };
 using NearLine = NearLineOf<double>;
 
-/// How far a crossing may be off the surface in the standard tier, in the units of the line: `reach` is that
-/// of standard_error().
+/// How far a crossing may be off the surface in the standard tier, in the units of the line:
+/// `reach` is that of standard_error().
 template <class Reach>
 Reach standard_error_across(const Reach& reach) {
   constexpr double roundings = 8;
@@ -103,11 +105,12 @@ Reach standard_error_across(const Reach& reach) {
 }
 
 /// The standard tier's bound on the error of t at a crossing (docs/numerics.md), in units of t:
-/// half an ulp of t and 8u (R + |x|) / |n . d|. All but t in the units of the line: `reach` is R + |x|,
-/// `approach` is |n . d|, and `longest` what the error of x can be at most where the ray grazes.
+/// half an ulp of t and 8u (R + |x|) / |n . d|. All but t in the units of the line: `reach` is R +
+/// |x|, `approach` is |n . d|, and `longest` what the error of x can be at most where the ray
+/// grazes.
 template <class Real, class Reach>
-Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& reach, const Real& approach,
-                    const Real& longest) {
+Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& reach,
+                    const Real& approach, const Real& longest) {
   const Reach across = standard_error_across(reach);
   const Real along = across < longest * approach ? across / approach : longest;
   return rounding_of(t) + line.to_t_length(along);
@@ -118,16 +121,16 @@ Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& re
 template <class Real, class Reach, class Radius>
 Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, const Radius& radius) {
   constexpr double roundings = 8;
-  return square_root(2 * roundings * unit_roundoff * reach * radius / line.squared_speed);
+  return square_root(2 * roundings * unit_roundoff * reach * radius / line.squared_length);
 }
 
-/// What the other root of a x^2 + 2 b x + c is moved by when c, which is only the rounding of a start
-/// on the surface, is taken as 0.
+/// What the other root of a x^2 + 2 b x + c is moved by when c, which is only the rounding of a
+/// start on the surface, is taken as 0.
 template <class Real>
 Real start_error(const Real& c, const Real& a, const Real& b) {
-  const Real size = size_of(c);
-  const Real grazing = square_root(size / size_of(a));
-  const Real slope = 2.0 * size_of(b);
+  const Real size = abs(c);
+  const Real grazing = square_root(size / abs(a));
+  const Real slope = 2.0 * abs(b);
   return size < slope * grazing ? size / slope : grazing;
 }
 

@@ -13,16 +13,17 @@ PlaneFace::PlaneFace(const Vec3& normal, const Vec3& position)
 PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
   if (axis_ >= 0) return meet_axis_plane(ray);
   Meeting result;
-  const DoubleDouble rate = accurate_dot(normal_, ray.direction) + glm::dot(normal_, ray.direction_low);
+  const DoubleDouble rate =
+      accurate_dot(normal_, ray.direction) + glm::dot(normal_, ray.direction_low);
   result.rate = rate.value();
   if (result.rate == 0) return result;
 
-  // In double-double, as from afar or nearly along the plane the rounding of any point on the way would be
-  // larger than what decides.
+  // In double-double, as from afar or nearly along the plane the rounding of any point on the way
+  // would be larger than what decides.
   DoubleDouble t = -(height_at_origin(ray) / rate);
   if (!std::isfinite(t.hi)) return result;
-  // For a position next to the line's point even that leaves something, which is measured there; unless
-  // it is no more than the rounding of the measurement.
+  // For a position next to the line's point even that leaves something, which is measured there;
+  // unless it is no more than the rounding of the measurement.
   Vec3 near = ray.from_center(position_, t.hi, t.lo);
   const double rest = accurate_dot(normal_, near).value();
   constexpr double measurable = 12 * unit_roundoff;
@@ -71,29 +72,29 @@ DoubleDouble PlaneFace::height_at_origin(const ObjectRay& ray) const {
   return height;
 }
 
-void PlaneFace::clip(const ObjectRay& ray, std::uint32_t face, Stretch& stretch) const {
+void PlaneFace::clip(const ObjectRay& ray, std::uint32_t face, ClippedSpan& span) const {
   if (ray.start.face == face) {
     const double rate = meet(ray).rate;
     const Crossing start{.face = face};
     if (rate > 0) {
-      stretch.leave(start);
+      span.leave(start);
     } else if (ray.start.side == Side::outside) {
-      stretch.clear();
+      span.clear();
     } else if (rate < 0) {
-      stretch.enter(start);
+      span.enter(start);
     }
     return;
   }
   const Meeting meeting = meet(ray);
   if (!meeting.found) {
-    if (!behind(ray)) stretch.clear();
+    if (!behind(ray)) span.clear();
     return;
   }
   const Crossing crossing{.t = meeting.t, .error = meeting.error, .face = face};
   if (meeting.rate > 0) {
-    stretch.leave(crossing);
+    span.leave(crossing);
   } else {
-    stretch.enter(crossing);
+    span.enter(crossing);
   }
 }
 
@@ -105,7 +106,8 @@ PlaneFace::Meeting PlaneFace::meet_surface(const ObjectRay& ray) const {
 }
 
 void PlaneFace::emit(const Meeting& meeting, CrossingList& out) {
-  out.push_back({.t = meeting.t, .error = meeting.error, .face = 0, .root = 0, .entering = meeting.rate < 0});
+  out.push_back(
+      {.t = meeting.t, .error = meeting.error, .face = 0, .root = 0, .entering = meeting.rate < 0});
 }
 
 Surface PlaneFace::surface() const {

@@ -6,16 +6,16 @@
 #include <type_traits>
 
 #include "core/geometry/angles.hpp"
+#include "core/geometry/clipped_span.hpp"
 #include "core/geometry/shape.hpp"
-#include "core/geometry/stretch.hpp"
 #include "core/math/vector.hpp"
 #include "core/math/vector_lanes.hpp"
 #include "core/ray/object_ray.hpp"
 
 namespace crt::core {
 
-/// Where a line, or as many as a Real has lanes, meets a plane across a coordinate axis. Of the line only
-/// what it has along that axis counts.
+/// Where a line, or as many as a Real has lanes, meets a plane across a coordinate axis. Of the
+/// line only what it has along that axis counts.
 template <class Real>
 struct AxisMeeting {
   decltype(Real{} < Real{}) found{};  ///< else the rest means nothing
@@ -31,13 +31,14 @@ template <class Real>
 AxisMeeting<Real> AxisMeeting<Real>::of(const Real& position, const Real& origin, const Real& speed,
                                         const Real& origin_low, const Real& speed_low) {
   constexpr double largest = std::numeric_limits<double>::max();
-  const auto way = two_sum(position, -origin);
-  const Real quotient = way.hi / speed;  // no number if the line is parallel
-  const Real remainder = fma(-quotient, speed, way.hi) + (way.lo - origin_low - quotient * speed_low);
+  const auto offset = two_sum(position, -origin);
+  const Real quotient = offset.hi / speed;  // no number if the line is parallel
+  const Real remainder =
+      fma(-quotient, speed, offset.hi) + (offset.lo - origin_low - quotient * speed_low);
   const auto sum = two_sum(quotient, remainder / speed);
   // The computed value is within a few u^2 of the true one before its last rounding.
   constexpr double last_rounding = 1 + 0x1p-40;
-  return {.found = both(size_of(quotient) <= largest, size_of(sum.hi) <= largest),
+  return {.found = both(abs(quotient) <= largest, abs(sum.hi) <= largest),
           .t = sum.hi,
           .t_low = sum.lo,
           .error = rounding_of(sum.hi) * last_rounding};
@@ -69,7 +70,7 @@ class PlaneFace {
   bool behind(const ObjectRay& ray) const { return height_at_origin(ray).hi < 0; }
 
   /// Cuts away what of the line is before the plane; obeys ray.start if it is this face's number.
-  void clip(const ObjectRay& ray, std::uint32_t face, Stretch& stretch) const;
+  void clip(const ObjectRay& ray, std::uint32_t face, ClippedSpan& span) const;
 
   /// For mere surfaces: appends the one crossing with face number 0.
   static void emit(const Meeting& meeting, CrossingList& out);
@@ -78,16 +79,17 @@ class PlaneFace {
   /// starts on that plane.
   Meeting meet_surface(const ObjectRay& ray) const;
 
-  /// For mere surfaces: whether the ray starts on face 0 itself, whatever rounding says near its rim.
+  /// For mere surfaces: whether the ray starts on face 0 itself, whatever rounding says near its
+  /// rim.
   static bool starts_here(const ObjectRay& ray) { return ray.start.face == 0 && ray.start.on_face; }
 
-  /// The point at t, relative to the position and moved onto the plane: a Vec3, or as many as there are
-  /// lanes.
+  /// The point at t, relative to the position and moved onto the plane: a Vec3, or as many as there
+  /// are lanes.
   template <class Vector>
   Vector onto_plane(const Vector& relative) const {
     using Real = RealOf<Vector>;
     if (axis_ < 0) {
-      const Vector normal = spread<Real>(unit_normal_);
+      const Vector normal = broadcast<Real>(unit_normal_);
       const auto height = accurate_dot(normal, relative);
       return relative - (height.hi + height.lo) * normal;
     }
@@ -95,13 +97,13 @@ class PlaneFace {
             axis_ == 2 ? Real{} : relative.z};
   }
 
-  /// What is at such a point, without u and v. Where the plane is across a coordinate axis it is exactly on
-  /// it.
+  /// What is at such a point, without u and v. Where the plane is across a coordinate axis it is
+  /// exactly on it.
   template <class Vector>
   void write_point(const Vector& relative, SurfacePointOf<RealOf<Vector>>& point) const {
     using Real = RealOf<Vector>;
-    point.position = spread<Real>(position_) + relative;
-    point.normal = spread<Real>(unit_normal_);
+    point.position = broadcast<Real>(position_) + relative;
+    point.normal = broadcast<Real>(unit_normal_);
   }
 
   const Vec3& position() const { return position_; }
@@ -111,8 +113,8 @@ class PlaneFace {
   /// The coordinate axis of the normal, or -1.
   int axis() const { return axis_; }
 
-  /// The plane with the face's own normal; the position of a plane across a coordinate axis has only
-  /// that coordinate.
+  /// The plane with the face's own normal; the position of a plane across a coordinate axis has
+  /// only that coordinate.
   Surface surface() const;
 
  private:
@@ -126,13 +128,15 @@ class PlaneFace {
   int axis_;
 };
 
-/// Sets u and v of points on a disc, `relative` to its middle: the angle from where the frame has it 0, and
-/// the distance as a share of the radius.
+/// Sets u and v of points on a disc, `relative` to its middle: the angle from where the frame has
+/// it 0, and the distance as a share of the radius.
 template <class Vector, class Real = RealOf<Vector>>
-void set_polar(const Vector& relative, const AxisFrame& frame, double radius, SurfacePointOf<Real>& point) {
-  const Vector scaled = relative / spread<Real>(radius);
-  point.u = turn(dot(relative, spread<Real>(frame.zero)), dot(relative, spread<Real>(frame.quarter)));
-  point.v = min(spread<Real>(1), square_root(dot(scaled, scaled)));
+void set_polar(const Vector& relative, const AxisFrame& frame, double radius,
+               SurfacePointOf<Real>& point) {
+  const Vector scaled = relative / broadcast<Real>(radius);
+  point.u = turn(dot(relative, broadcast<Real>(frame.zero)),
+                 dot(relative, broadcast<Real>(frame.quarter)));
+  point.v = min(broadcast<Real>(1), square_root(dot(scaled, scaled)));
 }
 
 /// Two unit vectors in the plane across `normal`, along growing u and v: u is x projected (z where

@@ -1,5 +1,6 @@
-// From the public description of a primitive to its shape. The variant Primitive is the one list of all
-// primitives; each has overloads of validate(), is_solid(), make_shape() and make_exact_shape() of its own.
+// From the public description of a primitive to its shape. The variant Primitive is the one list of
+// all primitives; each has overloads of validate(), is_solid(), make_shape() and make_exact_shape()
+// of its own.
 #include "core/geometry/shape.hpp"
 
 #include "core/geometry/box/box.hpp"
@@ -24,8 +25,8 @@ namespace core {
 
 namespace {
 
-/// Holds if all functions of a primitive are declared for its own struct. (An overload that is missing would
-/// else be found in those for a Primitive below, which would call themselves.)
+/// Holds if all functions of a primitive are declared for its own struct. (An overload that is
+/// missing would else be found in those for a Primitive below, which would call themselves.)
 template <class Description>
 constexpr bool has_all_functions = requires {
   static_cast<void (*)(const Description&)>(&validate);
@@ -57,7 +58,8 @@ std::unique_ptr<const Shape> make_shape(const Primitive& primitive) {
 }
 
 std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive) {
-  return std::visit([](const auto& description) { return make_exact_shape(description); }, primitive);
+  return std::visit([](const auto& description) { return make_exact_shape(description); },
+                    primitive);
 }
 
 }  // namespace core

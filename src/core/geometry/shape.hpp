@@ -1,9 +1,10 @@
 // What every primitive can be asked once a scene is prepared: the one interface between geometry
 // and everything that follows rays.
 //
-// Notation: a ray is the *whole line* o + t d, with t in (-inf, inf) and d of any length but 0; t is
-// never rescaled. "Object space" is the space of the primitive's own public parameters, before any
-// transform of the entity. Faces of a primitive are numbered from 0 in the order its header tells.
+// Notation: a ray is the *whole line* o + t d, with t in (-inf, inf) and d of any length but 0; t
+// is never rescaled. "Object space" is the space of the primitive's own public parameters, before
+// any transform of the entity. Faces of a primitive are numbered from 0 in the order its header
+// tells.
 #pragma once
 
 #include <algorithm>
@@ -15,8 +16,8 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
-#include "core/geometry/proxy.hpp"
 #include "core/geometry/surface.hpp"
+#include "core/geometry/typed_shape.hpp"
 #include "core/ray/object_ray.hpp"
 #include "crt/primitives.hpp"
 
@@ -57,9 +58,9 @@ inline SurfacePoint lane_of(const SurfacePointLanes& points, std::size_t lane) {
   return {points.position.lane(lane), points.normal.lane(lane), points.u[i], points.v[i]};
 }
 
-/// A line through something long, and how far from the line that reaches at its ends; in between it reaches
-/// as far as a straight line from one to the other.
-struct Spine {
+/// A line through something long, and how far from the line that reaches at its ends; in between it
+/// reaches as far as a straight line from one to the other.
+struct CoreSegment {
   Vec3 from;
   Vec3 to;
   double from_reach = 0;
@@ -78,22 +79,23 @@ class Shape {
   /// False for mere surfaces, which have no inside.
   virtual bool is_solid() const = 0;
 
-  /// Whether no line that has left it outwards meets it again; a flat surface is left to either side.
+  /// Whether no line that has left it outwards meets it again; a flat surface is left to either
+  /// side.
   virtual bool is_convex() const { return true; }
 
   /// A box in object space that holds the shape, rounded outwards; infinite where the shape is.
   virtual Bounds bounds() const = 0;
 
-  /// Itself, if there are fast tests for its type. A shape without is asked for its crossings wherever a ray
-  /// comes near.
-  virtual Proxy proxy() const { return {}; }
+  /// Itself, if there are fast tests for its type. A shape without is asked for its crossings
+  /// wherever a ray comes near.
+  virtual TypedShape typed() const { return {}; }
 
   /// In object space; none of shapes that are about as long as wide.
-  virtual std::optional<Spine> spine() const { return std::nullopt; }
+  virtual std::optional<CoreSegment> core_segment() const { return std::nullopt; }
 
   /// Appends every crossing of the whole line in ascending t. For a solid they alternate between
   /// entering and leaving, and what is returned is whether the line is inside at t = -inf; a
-  /// tangent (double) root is left out, so is a stretch of length zero. For a surface: false.
+  /// tangent (double) root is left out, so is a span of length zero. For a surface: false.
   ///
   /// If ray.start.face is not no_face the ray starts on the surface of that face: the root there is
   /// *exactly* t = 0, by removing it from the equation and not by comparing; ray.start.side says to
@@ -103,21 +105,22 @@ class Shape {
   /// outwards it has no crossing at t > 0, inwards exactly one.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
 
-  /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray. Without
-  /// `with_uv`, u and v need not be set: they may cost more than the rest.
-  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing, bool with_uv = true) const {
-    return point_on(ray.from_center(anchor(crossing.face), crossing.t), ray.direction, crossing.face,
-                    with_uv);
+  /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray.
+  /// Without `with_uv`, u and v need not be set: they may cost more than the rest.
+  SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
+                             bool with_uv = true) const {
+    return point_on(ray.from_center(anchor(crossing.face), crossing.t), ray.direction,
+                    crossing.face, with_uv);
   }
 
   /// The same by where rays of that direction cross a face, relative to the face's anchor:
-  /// from_center(anchor, t) of an ObjectRay or of ObjectRayLanes. Of each lane it is that of one, to the last
-  /// bit.
+  /// from_center(anchor, t) of an ObjectRay or of ObjectRayLanes. Of each lane it is that of one,
+  /// to the last bit.
   virtual Vec3 anchor(std::uint32_t face) const = 0;
   virtual SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                                 bool with_uv) const = 0;
-  virtual void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
-                         bool with_uv, SurfacePointLanes& points) const = 0;
+  virtual void points_on(const VectorLanes& offsets, const VectorLanes& directions,
+                         std::uint32_t face, bool with_uv, SurfacePointLanes& points) const = 0;
 
   /// How many faces there are, and the surface that a face is a piece of (for finding faces that
   /// coincide).
@@ -129,8 +132,8 @@ class Shape {
 };
 
 /// A shape with one formula for one point and for lanes:
-/// void Derived::write_point<Real>(offset, direction, face, with_uv, point), to where it stays: a copy of
-/// what has just been written waits until that has reached the cache.
+/// void Derived::write_point<Real>(offset, direction, face, with_uv, point), to where it stays: a
+/// copy of what has just been written waits until that has reached the cache.
 template <class Derived>
 class ShapeOfPoints : public Shape {
  public:
@@ -140,8 +143,8 @@ class ShapeOfPoints : public Shape {
     derived().template write_point<double>(offset, direction, face, with_uv, point);
     return point;
   }
-  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face, bool with_uv,
-                 SurfacePointLanes& points) const final {
+  void points_on(const VectorLanes& offsets, const VectorLanes& directions, std::uint32_t face,
+                 bool with_uv, SurfacePointLanes& points) const final {
     derived().template write_point<Lanes>(offsets, directions, face, with_uv, points);
   }
 
@@ -151,7 +154,8 @@ class ShapeOfPoints : public Shape {
 
 class ExactShape;
 
-// Each primitive's header has these four for its own public struct; shape.cpp checks that none is missing.
+// Each primitive's header has these four for its own public struct; shape.cpp checks that none is
+// missing.
 
 /// Checks a primitive's parameters; throws Error (invalid_argument) naming the field.
 void validate(const Primitive& primitive);

@@ -1,8 +1,8 @@
 // What of an image file its pixels need. The libraries behind OpenImageIO are good at pixels and
-// less so at the rest: OpenImageIO 2.4 reads beyond its memory for some IPTC records (which JPEG and
-// TIFF files carry) and run-length encoded BMP files, and the PNG library prints its complaints to
-// the standard error output, and the EXR library makes room for whatever a header claims. So they
-// get no metadata, and no file that is cut short or whose structure is broken.
+// less so at the rest: OpenImageIO 2.4 reads beyond its memory for some IPTC records (which JPEG
+// and TIFF files carry) and run-length encoded BMP files, and the PNG library prints its complaints
+// to the standard error output, and the EXR library makes room for whatever a header claims. So
+// they get no metadata, and no file that is cut short or whose structure is broken.
 #pragma once
 
 #include <cstddef>

@@ -1,6 +1,6 @@
-// Source: The OpenEXR File Layout (openexr.com). A header is a list of attributes (name, type, size,
-// value) and ends with an empty name; a file of several parts has a list of headers that ends with
-// an empty one.
+// Source: The OpenEXR File Layout (openexr.com). A header is a list of attributes (name, type,
+// size, value) and ends with an empty name; a file of several parts has a list of headers that ends
+// with an empty one.
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -61,7 +61,8 @@ std::int64_t signed_number(FileView value, std::size_t index) {
 /// Whether a picture of this size may be in a file of so many bytes.
 bool is_plausible(std::int64_t width, std::int64_t height, std::size_t file_size) {
   if (width < 1 || height < 1) return false;
-  if (static_cast<std::uint64_t>(width) > max_image_pixels / static_cast<std::uint64_t>(height)) return false;
+  if (static_cast<std::uint64_t>(width) > max_image_pixels / static_cast<std::uint64_t>(height))
+    return false;
   // Each block of rows has an offset of 8 bytes and at least as much of a header.
   constexpr std::uint64_t most_rows_a_block = 256;
   constexpr std::uint64_t least_bytes_a_block = 16;
@@ -72,9 +73,12 @@ void check_attribute(const Attribute& attribute, std::size_t file_size) {
   constexpr std::size_t window_size = 16;  // the corners: least x and y, greatest x and y
   constexpr std::size_t tiles_size = 9;    // width, height, mode
   if (attribute.name == "dataWindow" && attribute.value.size() == window_size) {
-    const std::int64_t width = signed_number(attribute.value, 2) - signed_number(attribute.value, 0) + 1;
-    const std::int64_t height = signed_number(attribute.value, 3) - signed_number(attribute.value, 1) + 1;
-    if (!is_plausible(width, height, file_size)) throw RefusedFile("its header gives it an impossible size");
+    const std::int64_t width =
+        signed_number(attribute.value, 2) - signed_number(attribute.value, 0) + 1;
+    const std::int64_t height =
+        signed_number(attribute.value, 3) - signed_number(attribute.value, 1) + 1;
+    if (!is_plausible(width, height, file_size))
+      throw RefusedFile("its header gives it an impossible size");
   }
   if (attribute.name == "tiles" && attribute.value.size() == tiles_size) {
     const std::int64_t width = signed_number(attribute.value, 0);

@@ -31,8 +31,8 @@ bool is_metadata(unsigned marker) {
   return marker == comment || (application && marker != jfif && marker != adobe);
 }
 
-/// How long the coded data is that follows the header of a scan: up to a marker that does not belong
-/// to it (0xff 0x00 stands for the number 0xff, restart markers are part of the data).
+/// How long the coded data is that follows the header of a scan: up to a marker that does not
+/// belong to it (0xff 0x00 stands for the number 0xff, restart markers are part of the data).
 std::size_t scan_length(FileView data) {
   for (std::size_t i = 0; i + 1 < data.size(); ++i) {
     const auto next = std::to_integer<unsigned>(data[i + 1]);
@@ -48,7 +48,9 @@ FileBytes essential_jpeg(FileView content) {
   constexpr int most_scans = 100;
   int scans = 0;
   FileBytes result;
-  const auto keep = [&](FileView bytes) { result.insert(result.end(), bytes.begin(), bytes.end()); };
+  const auto keep = [&](FileView bytes) {
+    result.insert(result.end(), bytes.begin(), bytes.end());
+  };
   FileView rest = content;
   while (rest.size() >= 2) {
     if (rest[0] != marker_start) throw RefusedFile("it is damaged: a marker is missing");

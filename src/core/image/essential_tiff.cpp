@@ -1,5 +1,5 @@
-// Sources: Adobe, TIFF revision 6.0, section 2 (structure) and appendix A (tags); the BigTIFF design
-// of the TIFF library, which widens counts and offsets to 8 bytes.
+// Sources: Adobe, TIFF revision 6.0, section 2 (structure) and appendix A (tags); the BigTIFF
+// design of the TIFF library, which widens counts and offsets to 8 bytes.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -68,7 +68,8 @@ struct Layout {
   std::size_t offset_size;
 };
 
-constexpr Layout classic = {.first_offset_at = 4, .count_size = 2, .entry_size = 12, .offset_size = 4};
+constexpr Layout classic = {
+    .first_offset_at = 4, .count_size = 2, .entry_size = 12, .offset_size = 4};
 constexpr Layout big = {.first_offset_at = 8, .count_size = 8, .entry_size = 20, .offset_size = 8};
 
 }  // namespace

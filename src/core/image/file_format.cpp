@@ -15,7 +15,12 @@ constexpr std::array<WritableFormat, 9> writable_formats = {{
     {.ending = "jpeg", .name = "jpeg", .floats = false, .alpha = false, .free_texts = false},
     {.ending = "bmp", .name = "bmp", .floats = false, .alpha = false, .free_texts = false},
     {.ending = "ppm", .name = "pnm", .floats = false, .alpha = false, .free_texts = false},
-    {.ending = "exr", .name = "openexr", .floats = true, .alpha = true, .free_texts = true, .channels = true},
+    {.ending = "exr",
+     .name = "openexr",
+     .floats = true,
+     .alpha = true,
+     .free_texts = true,
+     .channels = true},
     {.ending = "hdr", .name = "hdr", .floats = true, .alpha = false, .free_texts = false},
 }};
 
@@ -50,8 +55,9 @@ constexpr std::array<Signature, 18> signatures = {{
 
 std::string lower_case(std::string_view text) {
   std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(),
-                 [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+  std::transform(result.begin(), result.end(), result.begin(), [](char c) {
+    return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+  });
   return result;
 }
 
@@ -72,8 +78,9 @@ const WritableFormat* writable_format(std::string_view file_name) {
   const std::size_t dot = file_name.rfind('.');
   if (dot == std::string_view::npos) return nullptr;
   const std::string ending = lower_case(file_name.substr(dot + 1));
-  const auto found = std::find_if(writable_formats.begin(), writable_formats.end(),
-                                  [&](const WritableFormat& format) { return format.ending == ending; });
+  const auto found =
+      std::find_if(writable_formats.begin(), writable_formats.end(),
+                   [&](const WritableFormat& format) { return format.ending == ending; });
   return found == writable_formats.end() ? nullptr : &*found;
 }
 
@@ -91,7 +98,8 @@ const char* format_of_content(std::span<const std::byte> content) {
     if (text.substr(0, signature.start.size()) == signature.start) return signature.name;
   }
   // A RIFF container with its length between the two marks.
-  if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP") return "webp";
+  if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP")
+    return "webp";
   return nullptr;
 }
 

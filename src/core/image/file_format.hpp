@@ -27,8 +27,8 @@ std::string writable_endings();
 /// Those of formats that hold channels beside the colours.
 std::string endings_with_channels();
 
-/// OpenImageIO's name of the format that a file's first bytes tell, or null. What the file is called
-/// does not matter, and formats whose readers are little tested are left out.
+/// OpenImageIO's name of the format that a file's first bytes tell, or null. What the file is
+/// called does not matter, and formats whose readers are little tested are left out.
 const char* format_of_content(std::span<const std::byte> content);
 
 }  // namespace crt::core

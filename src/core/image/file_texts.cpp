@@ -27,8 +27,10 @@ void add(FileTexts& texts, std::string_view name, std::string value) {
 
 /// How pixels were sampled, of what differs from the defaults.
 void add_sampling(FileTexts& texts, const Settings& settings) {
-  if (settings.target_error > 0) add(texts, "crt:targeterror", fmt::format("{}", settings.target_error));
-  if (settings.time_budget > 0) add(texts, "crt:timebudget", fmt::format("{}", settings.time_budget));
+  if (settings.target_error > 0)
+    add(texts, "crt:targeterror", fmt::format("{}", settings.target_error));
+  if (settings.time_budget > 0)
+    add(texts, "crt:timebudget", fmt::format("{}", settings.time_budget));
   if (settings.target_error > 0 || settings.time_budget > 0) {
     add(texts, "crt:minsamples", fmt::format("{}", settings.min_samples));
     add(texts, "crt:maxsamples", fmt::format("{}", settings.max_samples));

@@ -17,8 +17,8 @@ using FileTexts = std::vector<std::pair<std::string, std::string>>;
 /// long it took. What is empty is left out.
 FileTexts file_texts(const Image& image, bool reproducible);
 
-/// The same for formats that know only a few names and short texts: all that has no place of its own
-/// becomes lines of the description, and each text ends after its first 4000 bytes.
+/// The same for formats that know only a few names and short texts: all that has no place of its
+/// own becomes lines of the description, and each text ends after its first 4000 bytes.
 FileTexts gathered_texts(const FileTexts& texts);
 
 }  // namespace crt::core

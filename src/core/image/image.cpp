@@ -14,7 +14,8 @@ namespace crt {
 namespace {
 
 std::size_t first_value(int x, int y, int width) {
-  return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) + static_cast<std::size_t>(x));
+  return 4 * (static_cast<std::size_t>(y) * static_cast<std::size_t>(width) +
+              static_cast<std::size_t>(x));
 }
 
 /// An allocation that fails is an Error like any other.
@@ -34,13 +35,15 @@ std::string NotFiniteValues::message() const {
 }
 
 Image::Image(int width, int height) : width_(width), height_(height) {
-  if (width < 1) throw Error(ErrorCode::invalid_argument, "a picture's width must be at least 1", "width");
-  if (height < 1) throw Error(ErrorCode::invalid_argument, "a picture's height must be at least 1", "height");
+  if (width < 1)
+    throw Error(ErrorCode::invalid_argument, "a picture's width must be at least 1", "width");
+  if (height < 1)
+    throw Error(ErrorCode::invalid_argument, "a picture's height must be at least 1", "height");
   const std::size_t count = static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   if (count > core::max_image_pixels) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("a picture of {} x {} pixels is larger than the {} that are possible", width,
-                            height, core::max_image_pixels),
+                fmt::format("a picture of {} x {} pixels is larger than the {} that are possible",
+                            width, height, core::max_image_pixels),
                 "width");
   }
   try {
@@ -51,16 +54,18 @@ Image::Image(int width, int height) : width_(width), height_(height) {
   for (std::size_t i = 3; i < pixels_.size(); i += 4) pixels_[i] = 1;
 }
 
-Image Image::from_rgba8(int width, int height, std::span<const std::uint8_t> rgba, std::size_t row_stride) {
+Image Image::from_rgba8(int width, int height, std::span<const std::uint8_t> rgba,
+                        std::size_t row_stride) {
   Image image(width, height);
   const std::size_t row_bytes = 4 * static_cast<std::size_t>(width);
   const std::size_t stride = row_stride == 0 ? row_bytes : row_stride;
   const auto more_rows = static_cast<std::size_t>(height) - 1;
-  if (stride < row_bytes || rgba.size() < row_bytes || (rgba.size() - row_bytes) / stride < more_rows ||
+  if (stride < row_bytes || rgba.size() < row_bytes ||
+      (rgba.size() - row_bytes) / stride < more_rows ||
       rgba.size() != more_rows * stride + row_bytes) {
     throw Error(ErrorCode::invalid_argument,
-                fmt::format("{} bytes in rows of {} are not a picture of {} x {} pixels", rgba.size(), stride,
-                            width, height),
+                fmt::format("{} bytes in rows of {} are not a picture of {} x {} pixels",
+                            rgba.size(), stride, width, height),
                 "rgba");
   }
   constexpr float full = 255;

@@ -23,15 +23,18 @@ bool is_printable(char c) {
 }
 
 [[noreturn]] void reject(std::string_view name, const std::string& reason) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("the channel '{}' {}", name, reason), "channels");
+  throw Error(ErrorCode::invalid_argument, fmt::format("the channel '{}' {}", name, reason),
+              "channels");
 }
 
 /// The numbers of a channel, constant if the channels are; none if there are none of this type.
 template <class Value, class Channels>
 auto values_of(Channels& channels, std::string_view name) {
-  const auto found = std::find_if(channels.begin(), channels.end(),
-                                  [&](const ImageChannel& channel) { return channel.name == name; });
-  auto* const values = found == channels.end() ? nullptr : std::get_if<std::vector<Value>>(&found->values);
+  const auto found =
+      std::find_if(channels.begin(), channels.end(),
+                   [&](const ImageChannel& channel) { return channel.name == name; });
+  auto* const values =
+      found == channels.end() ? nullptr : std::get_if<std::vector<Value>>(&found->values);
   return values == nullptr ? decltype(std::span(*values))() : std::span(*values);
 }
 
@@ -58,13 +61,16 @@ void Image::set_channels(std::vector<ImageChannel> channels) {
   std::set<std::string_view> taken(names_of_colors.begin(), names_of_colors.end());
   for (const ImageChannel& channel : channels) {
     const std::string& name = channel.name;
-    const bool fine =
-        !name.empty() && name.size() <= longest_name && std::all_of(name.begin(), name.end(), is_printable);
-    if (!fine) reject(name, fmt::format("needs a name of 1 to {} printable ASCII characters", longest_name));
+    const bool fine = !name.empty() && name.size() <= longest_name &&
+                      std::all_of(name.begin(), name.end(), is_printable);
+    if (!fine)
+      reject(name, fmt::format("needs a name of 1 to {} printable ASCII characters", longest_name));
     if (!taken.insert(name).second) reject(name, "is there already");
-    const std::size_t count = std::visit([](const auto& values) { return values.size(); }, channel.values);
+    const std::size_t count =
+        std::visit([](const auto& values) { return values.size(); }, channel.values);
     if (count != pixel_count) {
-      reject(name, fmt::format("has {} numbers, but the picture has {} pixels", count, pixel_count));
+      reject(name,
+             fmt::format("has {} numbers, but the picture has {} pixels", count, pixel_count));
     }
   }
   channels_ = std::move(channels);

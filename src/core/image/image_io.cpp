@@ -72,7 +72,8 @@ Image decode_content(FileBytes content, const std::string& name) {
   const char* const format = format_of_content(content);
   if (format == nullptr) {
     fail(ErrorCode::io, "read", name,
-         content.empty() ? "it is empty" : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
+         content.empty() ? "it is empty"
+                         : "it is not a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM or WebP file");
   }
   const FileBytes essential = checked(format, std::move(content), name);
   std::optional<Image> image;
@@ -114,8 +115,9 @@ std::vector<ImageFileChannel> file_channels(const std::vector<ImageChannel>& cha
 }
 
 /// The bytes of a file that holds the picture.
-std::vector<std::byte> encode(const Image& image, const WritableFormat& format, const FileTexts& texts,
-                              std::span<const ImageFileChannel> channels, const std::string& name) {
+std::vector<std::byte> encode(const Image& image, const WritableFormat& format,
+                              const FileTexts& texts, std::span<const ImageFileChannel> channels,
+                              const std::string& name) {
   std::vector<std::uint8_t> bytes;
   std::vector<float> floats;
   bool with_alpha = false;
@@ -129,7 +131,8 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
     if (!with_alpha) bytes = without_alpha(bytes);
   }
   std::vector<ImageFileText> file_texts;
-  for (const auto& [text_name, value] : texts) file_texts.push_back({text_name.c_str(), value.c_str()});
+  for (const auto& [text_name, value] : texts)
+    file_texts.push_back({text_name.c_str(), value.c_str()});
 
   const ImageFilesRequest request = {.format = format.name,
                                      .width = image.width(),
@@ -142,16 +145,17 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
                                      .others = channels.data(),
                                      .other_count = channels.size()};
   std::vector<std::byte> content;
-  const ImageFilesBytes sink = {&content, [](void* context, const unsigned char* added, std::size_t count) {
-                                  try {
-                                    auto& all = *static_cast<std::vector<std::byte>*>(context);
-                                    const auto* const first = reinterpret_cast<const std::byte*>(added);
-                                    all.insert(all.end(), first, first + count);
-                                    return true;
-                                  } catch (const std::exception&) {
-                                    return false;
-                                  }
-                                }};
+  const ImageFilesBytes sink = {
+      &content, [](void* context, const unsigned char* added, std::size_t count) {
+        try {
+          auto& all = *static_cast<std::vector<std::byte>*>(context);
+          const auto* const first = reinterpret_cast<const std::byte*>(added);
+          all.insert(all.end(), first, first + count);
+          return true;
+        } catch (const std::exception&) {
+          return false;
+        }
+      }};
   Failure failure;
   const ImageFilesError error = failure.sink();
   failure.throw_if(image_files().encode(&request, &sink, &error), "write", name);
@@ -161,10 +165,11 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format, 
 void check_channels(const Image& image, const WritableFormat& format, const std::string& name) {
   if (image.channels().empty() || format.channels) return;
   fail(ErrorCode::unsupported, "write", name,
-       fmt::format("a file of this format holds colours alone, but the picture has the channel '{}'{}; "
-                   "the name must end in {}",
-                   image.channels().front().name, image.channels().size() == 1 ? "" : " and others",
-                   endings_with_channels()));
+       fmt::format(
+           "a file of this format holds colours alone, but the picture has the channel '{}'{}; "
+           "the name must end in {}",
+           image.channels().front().name, image.channels().size() == 1 ? "" : " and others",
+           endings_with_channels()));
 }
 
 /// The bytes of a file of a format; `name` is for messages.
@@ -172,13 +177,15 @@ std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* form
                                   const WriteOptions& options, const std::string& name) {
   if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
   if (format == nullptr) {
-    fail(ErrorCode::unsupported, "write", name, "the name must end in one of " + writable_endings());
+    fail(ErrorCode::unsupported, "write", name,
+         "the name must end in one of " + writable_endings());
   }
   if (!options.colors_only) check_channels(image, *format, name);
   const FileTexts texts = file_texts(image, options.reproducible);
-  return encode(image, *format, format->free_texts ? texts : gathered_texts(texts),
-                options.colors_only ? std::vector<ImageFileChannel>() : file_channels(image.channels()),
-                name);
+  return encode(
+      image, *format, format->free_texts ? texts : gathered_texts(texts),
+      options.colors_only ? std::vector<ImageFileChannel>() : file_channels(image.channels()),
+      name);
 }
 
 }  // namespace
@@ -202,7 +209,8 @@ Image Image::read(const std::filesystem::path& path) {
 void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
   const std::string name = path.string();
   try {
-    write_whole_file(path, file_bytes(*this, writable_format(path.filename().string()), options, name));
+    write_whole_file(path,
+                     file_bytes(*this, writable_format(path.filename().string()), options, name));
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "write", name, "out of memory");
   }

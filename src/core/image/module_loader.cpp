@@ -21,7 +21,8 @@ fs::path containing_binary() {
   static const char place = 0;
   Dl_info info{};
   link_map* map = nullptr;
-  if (dladdr1(&place, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) == 0 || map == nullptr)
+  if (dladdr1(&place, &info, reinterpret_cast<void**>(&map), RTLD_DL_LINKMAP) == 0 ||
+      map == nullptr)
     return {};
   std::error_code error;
   // The loader knows the program itself by no name (or by however it was called).
@@ -79,13 +80,16 @@ const ImageFiles& load_image_files(std::span<const fs::path> directories) {
     if (const ImageFiles* functions = try_load(directory / image_files_module_name, reasons))
       return *functions;
   }
-  throw Error(ErrorCode::unsupported,
-              fmt::format("image files cannot be read or written: the module {} was not found; looked for:{}",
-                          image_files_module_name, reasons));
+  throw Error(
+      ErrorCode::unsupported,
+      fmt::format(
+          "image files cannot be read or written: the module {} was not found; looked for:{}",
+          image_files_module_name, reasons));
 }
 
 const ImageFiles& image_files() {
-  // Only a function that loads code and keeps it: a failure is thrown and tried again by the next call.
+  // Only a function that loads code and keeps it: a failure is thrown and tried again by the next
+  // call.
   static const ImageFiles& functions = load_image_files(image_files_directories());
   return functions;
 }

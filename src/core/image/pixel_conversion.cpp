@@ -16,10 +16,11 @@ namespace {
 /// In [0, 1]; 0 for what is not a number.
 template <class Real>
 Real clamped(const Real& value) {
-  return value > 0.0 ? min(value, spread<Real>(1)) : Real{};
+  return value > 0.0 ? min(value, broadcast<Real>(1)) : Real{};
 }
 
-/// A few roundings of floats, which colours carry that were divided by their alpha or raised to a power.
+/// A few roundings of floats, which colours carry that were divided by their alpha or raised to a
+/// power.
 constexpr double float_rounding = 0x1p-20;
 
 /// Which of 256 levels values in [0, 1] get.
@@ -29,8 +30,8 @@ class Levels {
       : factor_(compat == compat_2015 ? 255 * (1 + float_rounding) : 255),
         shift_(compat == compat_2015 ? 0 : 0.5) {}
 
-  /// The nearest, of halves the upper one; in 2015 the last one below, but for what rounding has taken from
-  /// values that are one.
+  /// The nearest, of halves the upper one; in 2015 the last one below, but for what rounding has
+  /// taken from values that are one.
   Lanes operator()(const Lanes& values) const { return floor(values * factor_ + shift_); }
 
  private:

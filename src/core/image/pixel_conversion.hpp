@@ -26,7 +26,8 @@ template <class Value>
 std::vector<Value> without_alpha(const std::vector<Value>& rgba) {
   std::vector<Value> rgb;
   rgb.reserve(rgba.size() / 4 * 3);
-  for (std::size_t i = 0; i < rgba.size(); i += 4) rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
+  for (std::size_t i = 0; i < rgba.size(); i += 4)
+    rgb.insert(rgb.end(), {rgba[i], rgba[i + 1], rgba[i + 2]});
   return rgb;
 }
 

@@ -10,7 +10,7 @@
 #include "core/accel/space_order.hpp"
 #include "core/compile/memory.hpp"
 #include "core/intersect/all_crossings.hpp"
-#include "core/intersect/apart.hpp"
+#include "core/intersect/isolated.hpp"
 #include "core/math/vector.hpp"
 #include "core/tasks/parallel.hpp"
 
@@ -53,24 +53,25 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Wo
       for (std::uint32_t k = 0; k < leaves.size(); ++k) {
         const Leaf& leaf = leaves[k];
         const bool holds = !object.is_csg() || scene.programs[object.program].is_within(k, leaf);
-        if (holds && leaf.shape->is_convex()) enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
+        if (holds && leaf.shape->is_convex())
+          enclosed[object.first_leaf + k] = static_cast<std::uint32_t>(i);
       }
     }
   });
   return enclosed;
 }
 
-/// The balls that some objects are; none if one is something else.
-std::vector<Ball> balls_of(const Outlines& outlines) {
-  std::vector<Ball> balls;
-  if (outlines.list.size() <= BoxRow::most_boxes) return balls;
-  const auto is_ball = [](const Outline& outline) {
-    return outline.kind == Outline::Kind::sphere && outline.detail != nothing;
+/// The spheres that some objects are; none if one is something else.
+std::vector<BoundedSphere> spheres_of(const BoundingProxies& proxies) {
+  std::vector<BoundedSphere> spheres;
+  if (proxies.list.size() <= FlatBoxList::most_boxes) return spheres;
+  const auto is_sphere = [](const BoundingProxy& proxy) {
+    return proxy.kind == BoundingProxy::Kind::sphere && proxy.detail != nothing;
   };
-  if (!std::all_of(outlines.list.begin(), outlines.list.end(), is_ball)) return balls;
-  balls.reserve(outlines.list.size());
-  for (const Outline& outline : outlines.list) balls.push_back({outline.place, outline.radius});
-  return balls;
+  if (!std::all_of(proxies.list.begin(), proxies.list.end(), is_sphere)) return spheres;
+  spheres.reserve(proxies.list.size());
+  for (const BoundingProxy& proxy : proxies.list) spheres.push_back({proxy.place, proxy.radius});
+  return spheres;
 }
 
 }  // namespace
@@ -92,29 +93,30 @@ Accelerator::Accelerator(CompiledScene compiled, std::span<const SharedMaterial>
     }
   }
   sort_along_curve(compiled_, total, bounded, workers);
-  bounded_ = Outlines(compiled_, bounded, workers);
-  unbounded_ = Outlines(compiled_, unbounded, workers);
+  bounded_ = BoundingProxies(compiled_, bounded, workers);
+  unbounded_ = BoundingProxies(compiled_, unbounded, workers);
   enclosed_ = enclosed_objects(compiled_, workers);
   if (bounded.empty()) return;
   margin_ = margin_of(total);
-  apart_ = objects_apart(compiled_, materials, bounded, unbounded_, margin_, workers);
+  isolated_ = isolated_objects(compiled_, materials, bounded, unbounded_, margin_, workers);
   std::vector<Bounds> boxes;
   boxes.reserve(bounded.size());
   for (const std::uint32_t object : bounded) boxes.push_back(compiled_.objects[object].bounds);
-  tree_ = std::make_unique<EmbreeTree>(boxes, total, balls_of(bounded_), workers.stop);
-  if (boxes.size() > BoxRow::most_boxes) return;
+  tree_ = std::make_unique<EmbreeTree>(boxes, total, spheres_of(bounded_), workers.stop);
+  if (boxes.size() > FlatBoxList::most_boxes) return;
   for (Bounds& box : boxes) box = box.grown(margin_);
-  box_row_ = BoxRow(boxes);
+  flat_box_list_ = FlatBoxList(boxes);
 }
 
 Accelerator::~Accelerator() = default;
 
 MemoryUse Accelerator::memory() const {
   MemoryUse use{.primitives = primitive_bytes(compiled_), .csg = csg_bytes(compiled_)};
-  for (const Outlines* outlines : {&bounded_, &unbounded_}) {
-    use.tree += bytes_of(outlines->list) + bytes_of(outlines->axes) + bytes_of(outlines->boxes);
+  for (const BoundingProxies* proxies : {&bounded_, &unbounded_}) {
+    use.tree += bytes_of(proxies->list) + bytes_of(proxies->axes) + bytes_of(proxies->boxes);
   }
-  use.tree += bytes_of(enclosed_) + bytes_of(apart_) + box_row_.bytes() + (tree_ ? tree_->bytes() : 0);
+  use.tree += bytes_of(enclosed_) + bytes_of(isolated_) + flat_box_list_.bytes() +
+              (tree_ ? tree_->bytes() : 0);
   return use;
 }
 
@@ -125,17 +127,20 @@ ObjectRay Accelerator::object_ray(std::uint32_t index, const WorldRay& ray) cons
   return result;
 }
 
-SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+SurfacePoint Accelerator::surface_point(const WorldRay& ray, const RayHit& hit,
+                                        bool with_uv) const {
   const Leaf& leaf = compiled_.leaves[hit.leaf];
   const Crossing crossing{.t = hit.t,
                           .error = hit.error,
                           .face = hit.face,
                           .root = 0,
                           .entering = hit.entering != leaf.complemented};
-  return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing, with_uv);
+  return leaf.shape->surface_point(leaf.placement->to_object(ray.origin, ray.direction), crossing,
+                                   with_uv);
 }
 
-void Accelerator::expect_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
+void Accelerator::prefetch_surface_points(std::span<const RayHit, packet_size> hits,
+                                          RayMask some) const {
   constexpr std::size_t in_cache = 64;
   if (compiled_.leaves.size() <= in_cache) return;
   for_each_ray(some, [&](std::size_t i) {
@@ -149,15 +154,17 @@ void Accelerator::expect_surface_points(std::span<const RayHit, packet_size> hit
 std::uint32_t Accelerator::left_for_good(const StartPoint& start) const {
   if (start.leaf == nothing || enclosed_[start.leaf] == nothing) return nothing;
   const Leaf& start_leaf = leaf(start.leaf);
-  const bool outwards = (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
+  const bool outwards =
+      (start.side == Side::outside) != face_surface(start_leaf, start.face).flipped;
   return outwards || !start_leaf.shape->is_solid() ? enclosed_[start.leaf] : nothing;
 }
 
-std::uint32_t Accelerator::entered_apart(const StartPoint& start) const {
-  if (apart_.empty() || start.leaf == nothing) return nothing;
+std::uint32_t Accelerator::entered_isolated(const StartPoint& start) const {
+  if (isolated_.empty() || start.leaf == nothing) return nothing;
   const std::uint32_t object = enclosed_[start.leaf];
-  const bool enters = object != nothing && apart_[object] != nothing && left_for_good(start) == nothing;
-  return enters ? apart_[object] : nothing;
+  const bool enters =
+      object != nothing && isolated_[object] != nothing && left_for_good(start) == nothing;
+  return enters ? isolated_[object] : nothing;
 }
 
 bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
@@ -170,10 +177,10 @@ bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
 
 template <class Kind>
 void Accelerator::traverse(Kind& query) const {
-  for (const Outline& outline : unbounded_.list) {
+  for (const BoundingProxy& proxy : unbounded_.list) {
     if (query.limit() <= query.ray().t_min) return;
     query.step();
-    query.test(outline.object);
+    query.test(proxy.object);
   }
   if (query.limit() <= query.ray().t_min) return;
   constexpr bool from_near = false;
@@ -216,7 +223,8 @@ class Surrounding final : public ObjectQuery<Surrounding> {
     return false;
   }
   void end(std::uint32_t object, std::uint32_t leaf, bool inside) {
-    if (inside) out_.push_back({.t = infinity, .error = 0, .object = object, .leaf = leaf, .face = no_face});
+    if (inside)
+      out_.push_back({.t = infinity, .error = 0, .object = object, .leaf = leaf, .face = no_face});
   }
 
  private:
@@ -238,7 +246,8 @@ Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& 
   return query.result;
 }
 
-void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
+                              RayWorkspace& work) const {
   Surrounding query(*this, ray, work, out);
   traverse(query);
 }

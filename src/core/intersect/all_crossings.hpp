@@ -26,7 +26,7 @@ class All final : public ObjectQuery<All> {
   }
 
   bool take(const RayHit& hit) {
-    if (!is_on_way(hit)) return false;
+    if (!is_before_end(hit)) return false;
     if (opacity_ != nullptr && opacity_->of_materials[accelerator_.leaf(hit.leaf).material]) {
       stopped = true;
       set_limit(-std::numeric_limits<double>::infinity());

@@ -10,7 +10,8 @@
 
 namespace crt::core {
 
-/// A solid that a ray is inside of when it starts, and where the ray leaves it (at infinity: never).
+/// A solid that a ray is inside of when it starts, and where the ray leaves it (at infinity:
+/// never).
 struct Stay {
   bool inside = false;
   RayHit exit;
@@ -29,8 +30,8 @@ struct Opacity {
   std::vector<bool> of_objects;  ///< of objects of opaque materials alone
 };
 
-/// What is on the ways of a batch's rays to a light.
-struct LightWays {
+/// What is on the paths of a batch's rays to a light.
+struct LightPaths {
   RayMask blocked = 0;   ///< those that something opaque is on
   RayMask filtered = 0;  ///< of the others those that anything else is on
 };

@@ -38,13 +38,16 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
   // An object's own are still in order, whatever another knows of one of them.
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     const bool of_one = crossings[i].object == crossings[i - 1].object;
-    if (of_one && is_before(crossings[i], crossings[i - 1])) take_place(crossings[i], crossings[i - 1]);
+    if (of_one && is_before(crossings[i], crossings[i - 1]))
+      take_place(crossings[i], crossings[i - 1]);
   }
 }
 
-/// Of crossings at one place, those of one object side by side: what is left comes before what is entered. An
-/// object that has several takes its turns: it leaves or enters, then enters or leaves, and so on.
-void sort_one_place(std::span<RayHit> crossings, std::vector<std::pair<std::uint32_t, RayHit>>& turns) {
+/// Of crossings at one place, those of one object side by side: what is left comes before what is
+/// entered. An object that has several takes its turns: it leaves or enters, then enters or leaves,
+/// and so on.
+void sort_one_place(std::span<RayHit> crossings,
+                    std::vector<std::pair<std::uint32_t, RayHit>>& turns) {
   turns.clear();
   for (const RayHit& crossing : crossings) {
     const bool goes_on = !turns.empty() && turns.back().second.object == crossing.object;
@@ -57,8 +60,8 @@ void sort_one_place(std::span<RayHit> crossings, std::vector<std::pair<std::uint
   for (std::size_t i = 0; i < crossings.size(); ++i) crossings[i] = turns[i].second;
 }
 
-/// Calls take(piece) for pieces of two and more that follow one another: each with the one before it as
-/// `belong` says.
+/// Calls take(piece) for pieces of two and more that follow one another: each with the one before
+/// it as `belong` says.
 template <class Belong, class Take>
 void each_run(std::span<RayHit> crossings, const Belong& belong, const Take& take) {
   std::size_t begin = 0;
@@ -71,10 +74,12 @@ void each_run(std::span<RayHit> crossings, const Belong& belong, const Take& tak
 
 void sort_places(std::span<RayHit> crossings, RayWorkspace& work) {
   const auto are_at_one = [](const RayHit& a, const RayHit& b) { return !is_before(a, b); };
-  each_run(crossings, are_at_one, [&](std::span<RayHit> some) { sort_one_place(some, work.turns); });
+  each_run(crossings, are_at_one,
+           [&](std::span<RayHit> some) { sort_one_place(some, work.turns); });
 }
 
-/// Sorts what is too near to each other for t to tell, of the exact tier, and unifies what is at one place.
+/// Sorts what is too near to each other for t to tell, of the exact tier, and unifies what is at
+/// one place.
 void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit> crossings,
                RayWorkspace& work) {
   std::vector<NearCrossing>& near = work.near_crossings;
@@ -108,8 +113,11 @@ void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_
   if (share_surfaces) unify_coincident(crossings, work.numbers);
   sort_stably(crossings, is_before);
   if (scene.leaves[crossings[0].leaf].exact) {
-    const auto are_near = [](const RayHit& a, const RayHit& b) { return b.t <= a.t + looking_distance(a.t); };
-    each_run(crossings, are_near, [&](std::span<RayHit> some) { sort_near(scene, ray, some, work); });
+    const auto are_near = [](const RayHit& a, const RayHit& b) {
+      return b.t <= a.t + looking_distance(a.t);
+    };
+    each_run(crossings, are_near,
+             [&](std::span<RayHit> some) { sort_near(scene, ray, some, work); });
   }
   sort_places(crossings, work);
 }

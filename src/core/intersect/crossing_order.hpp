@@ -9,11 +9,11 @@
 
 namespace crt::core {
 
-/// Puts the crossings of a ray into order. They come object after object, each object's in its own order,
-/// which they keep. Those of one surface get one t if objects `share_surfaces`. Where solids touch, those
-/// that are left come before those that are entered. In the exact tier all are in the order in which they
-/// are, and have one (t, t_low) if they are at one place and no others do, but for what only the rounding of
-/// the ray's start could tell.
+/// Puts the crossings of a ray into order. They come object after object, each object's in its own
+/// order, which they keep. Those of one surface get one t if objects `share_surfaces`. Where solids
+/// touch, those that are left come before those that are entered. In the exact tier all are in the
+/// order in which they are, and have one (t, t_low) if they are at one place and no others do, but
+/// for what only the rounding of the ray's start could tell.
 void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_surfaces,
                     std::vector<RayHit>& crossings, RayWorkspace& work);
 

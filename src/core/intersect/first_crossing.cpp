@@ -16,48 +16,52 @@ ObjectRayLanes object_ray(const Placement& placement, const RayLanes& rays) {
 
 /// The shape of an object of that kind.
 template <class Kind>
-const Kind& shape_of(const OutlineAxis& object) {
-  return *proxy_as<Kind>(object.proxy);
+const Kind& shape_of(const ProxyAxis& object) {
+  return *shape_as<Kind>(object.typed);
 }
 
 template <class Real>
-auto object_ray(const OutlineAxis& object, const OutlineLine<Real>& line) {
+auto object_ray(const ProxyAxis& object, const FilterLine<Real>& line) {
   return object_ray(*object.moved->placement, plain_ray(line));
 }
 
 }  // namespace
 
 template <class Real>
-SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const OutlineLine<Real>& line) {
+SphereChord<Real> chord_of_moved_sphere(const ProxyAxis& sphere, const FilterLine<Real>& line) {
   const auto& shape = shape_of<SphereShape>(sphere);
   return shape.chord<Real>(object_ray(sphere, line));
 }
-template SphereChord<double> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<double>&);
-template SphereChord<Lanes> chord_of_moved_sphere(const OutlineAxis&, const OutlineLine<Lanes>&);
+template SphereChord<double> chord_of_moved_sphere(const ProxyAxis&, const FilterLine<double>&);
+template SphereChord<Lanes> chord_of_moved_sphere(const ProxyAxis&, const FilterLine<Lanes>&);
 
 template <class Real>
-FirstCrossing<Real> first_crossing_of_rod(const OutlineAxis& rod, const OutlineLine<Real>& line) {
-  const auto& shape = shape_of<FrustumShape>(rod);
-  const auto entry = rod.moved->placement->is_identity() ? shape.first_entry<Real>(plain_ray(line))
-                                                         : shape.first_entry<Real>(object_ray(rod, line));
+FirstCrossing<Real> first_crossing_of_frustum(const ProxyAxis& cylinder,
+                                              const FilterLine<Real>& line) {
+  const auto& shape = shape_of<FrustumShape>(cylinder);
+  const auto entry = cylinder.moved->placement->is_identity()
+                         ? shape.first_entry<Real>(plain_ray(line))
+                         : shape.first_entry<Real>(object_ray(cylinder, line));
   // What is not plainly after the start may be where the line has entered before.
   const auto known = both(entry.known, after_start(line, entry.t, entry.error).surely);
   return {.found = known,
-          .unknown = neither(entry.missed, known),
+          .unknown = neither(entry.rejected, known),
           .entering = known,
           .t = entry.t,
           .error = entry.error};
 }
-template FirstCrossing<double> first_crossing_of_rod(const OutlineAxis&, const OutlineLine<double>&);
-template FirstCrossing<Lanes> first_crossing_of_rod(const OutlineAxis&, const OutlineLine<Lanes>&);
+template FirstCrossing<double> first_crossing_of_frustum(const ProxyAxis&,
+                                                         const FilterLine<double>&);
+template FirstCrossing<Lanes> first_crossing_of_frustum(const ProxyAxis&, const FilterLine<Lanes>&);
 
 template <class Real>
-FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+FirstCrossing<Real> first_crossing_of_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked) {
-  const auto entry = shape_of<TorusShape>(torus).template first_entry<Real>(object_ray(torus, line), asked);
+  const auto entry =
+      shape_of<TorusShape>(torus).template first_entry<Real>(object_ray(torus, line), asked);
   // What is not plainly after the start may be one of several crossings, of which others count.
-  const auto ahead =
-      both(after_start(line, entry.t, entry.error).surely, entry.t > asked_above(line.certain_from));
+  const auto ahead = both(after_start(line, entry.t, entry.error).surely,
+                          entry.t > asked_above(line.certain_from));
   const auto known = both(entry.known, ahead);
   return {.found = known,
           .unknown = without(entry.found, known),
@@ -65,22 +69,22 @@ FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const Outl
           .t = entry.t,
           .error = entry.error};
 }
-template FirstCrossing<double> first_crossing_of_torus(const OutlineAxis&, const OutlineLine<double>&,
+template FirstCrossing<double> first_crossing_of_torus(const ProxyAxis&, const FilterLine<double>&,
                                                        const bool&);
-template FirstCrossing<Lanes> first_crossing_of_torus(const OutlineAxis&, const OutlineLine<Lanes>&,
+template FirstCrossing<Lanes> first_crossing_of_torus(const ProxyAxis&, const FilterLine<Lanes>&,
                                                       const LaneMask&);
 
 template <class Real>
-FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+FirstCrossing<Real> first_crossing_from_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked) {
-  const auto told = both(asked, line.begin >= 0.0);
+  const auto resolved = both(asked, line.begin >= 0.0);
   const auto comes_back =
-      shape_of<TorusShape>(torus).template comes_back<Real>(object_ray(torus, line), told);
-  return {.unknown = either(comes_back, without(asked, told))};
+      shape_of<TorusShape>(torus).template comes_back<Real>(object_ray(torus, line), resolved);
+  return {.unknown = either(comes_back, without(asked, resolved))};
 }
-template FirstCrossing<double> first_crossing_from_torus(const OutlineAxis&, const OutlineLine<double>&,
-                                                         const bool&);
-template FirstCrossing<Lanes> first_crossing_from_torus(const OutlineAxis&, const OutlineLine<Lanes>&,
+template FirstCrossing<double> first_crossing_from_torus(const ProxyAxis&,
+                                                         const FilterLine<double>&, const bool&);
+template FirstCrossing<Lanes> first_crossing_from_torus(const ProxyAxis&, const FilterLine<Lanes>&,
                                                         const LaneMask&);
 
 }  // namespace crt::core

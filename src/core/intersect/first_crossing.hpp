@@ -1,14 +1,14 @@
-// Where rays first cross the objects whose outline alone tells it: boxes, and planes across a coordinate
-// axis, in the standard tier and without a transform; spheres, tori, cylinders and cones, transformed or not.
-// The same as their shapes say, to the last bit.
+// Where rays first cross the objects whose proxy alone tells it: boxes, and planes across a
+// coordinate axis, in the standard tier and without a transform; spheres, tori, cylinders and
+// cones, transformed or not. The same as their shapes say, to the last bit.
 #pragma once
 
 #include <array>
 
 #include "core/geometry/plane_face.hpp"
 #include "core/geometry/sphere/sphere.hpp"
-#include "core/intersect/outline.hpp"
-#include "core/ray/company_width.hpp"
+#include "core/intersect/bounding_proxy.hpp"
+#include "core/ray/coincidence_tolerance.hpp"
 #include "core/ray/plain_ray.hpp"
 #include "core/ray/ray_hit.hpp"
 
@@ -45,32 +45,33 @@ struct AfterStart {
 };
 
 template <class Real>
-auto after_start(const OutlineLine<Real>& line, const Real& t, const Real& error) {
+auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error) {
   using Mask = decltype(t > line.begin);
-  const Real way = t - line.begin - error;
+  const Real distance = t - line.begin - error;
   const Mask after = t > line.begin;
-  const Mask clear = way > flattest_start * line.start_error;
+  const Mask clear = distance > flattest_start * line.start_error;
   return AfterStart<Mask>{.surely = both(after, clear),
-                          .unknown = both(after, neither(clear, way <= line.start_error))};
+                          .unknown = both(after, neither(clear, distance <= line.start_error))};
 }
 
 /// Of a sphere that is not moved.
 template <class Real>
-SphereChord<Real> chord_of_sphere(const Outline& sphere, const OutlineLine<Real>& line) {
+SphereChord<Real> chord_of_sphere(const BoundingProxy& sphere, const FilterLine<Real>& line) {
   const double unit = power_of_two_below(sphere.radius);
   return SphereChord<Real>::of(plain_ray(line), sphere.place, sphere.radius, unit);
 }
 
 template <class Real>
-SphereChord<Real> chord_of_moved_sphere(const OutlineAxis& sphere, const OutlineLine<Real>& line);
+SphereChord<Real> chord_of_moved_sphere(const ProxyAxis& sphere, const FilterLine<Real>& line);
 
 /// Where lines that do not start on a sphere enter and leave it, moved or not.
 template <class Real>
-std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, const Outlines& outlines,
-                                                       const OutlineLine<Real>& line) {
-  const auto chord = sphere.kind == Outline::Kind::sphere
+std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const BoundingProxy& sphere,
+                                                       const BoundingProxies& proxies,
+                                                       const FilterLine<Real>& line) {
+  const auto chord = sphere.kind == BoundingProxy::Kind::sphere
                          ? chord_of_sphere(sphere, line)
-                         : chord_of_moved_sphere(outlines.axis(sphere), line);
+                         : chord_of_moved_sphere(proxies.axis(sphere), line);
   if (!any(chord.found)) return {};
   const auto of_end = [&](const Real& t, const MaskOf<Real>& entering) {
     const Real error = chord.error_of(t);
@@ -81,13 +82,15 @@ std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const Outline& sphere, co
                                .t = t,
                                .error = error};
   };
-  return {of_end(chord.enter, lanes_of_mask<Real>(~std::uint32_t{0})), of_end(chord.leave, MaskOf<Real>{})};
+  return {of_end(chord.enter, lanes_of_mask<Real>(~std::uint32_t{0})),
+          of_end(chord.leave, MaskOf<Real>{})};
 }
 
 template <class Real>
-FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const Outlines& outlines,
-                                             const OutlineLine<Real>& line) {
-  const auto [enter, leave] = crossings_of_sphere(sphere, outlines, line);
+FirstCrossing<Real> first_crossing_of_sphere(const BoundingProxy& sphere,
+                                             const BoundingProxies& proxies,
+                                             const FilterLine<Real>& line) {
+  const auto [enter, leave] = crossings_of_sphere(sphere, proxies, line);
   return {.found = either(enter.found, leave.found),
           .unknown = either(enter.unknown, leave.unknown),
           .entering = enter.found,
@@ -96,13 +99,14 @@ FirstCrossing<Real> first_crossing_of_sphere(const Outline& sphere, const Outlin
 }
 
 template <class Real>
-FirstCrossing<Real> first_crossing_of_plane(const Outline& plane, const OutlineAxis& of_plane,
-                                            const OutlineLine<Real>& line) {
+FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const ProxyAxis& of_plane,
+                                            const FilterLine<Real>& line) {
   // Of the normal one component alone is not 0.
   const int axis = of_plane.normal.x != 0 ? 0 : of_plane.normal.y != 0 ? 1 : 2;
   const auto i = static_cast<std::size_t>(axis);
   const Real& speed = line.direction[i];
-  const auto meeting = AxisMeeting<Real>::of(spread<Real>(plane.place[axis]), line.origin[i], speed);
+  const auto meeting =
+      AxisMeeting<Real>::of(broadcast<Real>(plane.place[axis]), line.origin[i], speed);
   const auto start = after_start(line, meeting.t, meeting.error);
   return {.found = both(meeting.found, start.surely),
           .unknown = both(meeting.found, start.unknown),
@@ -111,11 +115,12 @@ FirstCrossing<Real> first_crossing_of_plane(const Outline& plane, const OutlineA
           .error = meeting.error};
 }
 
-/// Where lines that pass through a box enter it, or else leave it, if that is plainly on one face; next to an
-/// edge it is the exact test that says which face is met. The box has what OutlineBox calls lower and upper.
+/// Where lines that pass through a box enter it, or else leave it, if that is plainly on one face;
+/// next to an edge it is the exact test that says which face is met. The box has what ProxyBox
+/// calls lower and upper.
 template <class Real, class Box>
 FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings,
-                               const OutlineLine<Real>& line, const MaskOf<Real>& enters) {
+                               const FilterLine<Real>& line, const MaskOf<Real>& enters) {
   // The greatest of three, of which the second must plainly be less.
   const std::array<Real, 3> t = {enters ? meetings.enter[0] : -meetings.leave[0],
                                  enters ? meetings.enter[1] : -meetings.leave[1],
@@ -131,32 +136,32 @@ FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings
     return across_x ? x : across_y ? y : z;
   };
   const auto of_axis = [&](const Vec3& v) {
-    return chosen(spread<Real>(v.x), spread<Real>(v.y), spread<Real>(v.z));
+    return chosen(broadcast<Real>(v.x), broadcast<Real>(v.y), broadcast<Real>(v.z));
   };
   const Real speed = chosen(line.direction[0], line.direction[1], line.direction[2]);
   const auto downwards = speed < 0.0;
   const auto is_upper = either(both(enters, downwards), neither(enters, downwards));
   const Real position = is_upper ? of_axis(box.upper) : of_axis(box.lower);
-  const auto meeting =
-      AxisMeeting<Real>::of(position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
+  const auto meeting = AxisMeeting<Real>::of(
+      position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
   return {.found = without(both(meetings.known, meeting.found), beside),
           .entering = enters,
           .t = meeting.t,
           .error = meeting.error,
-          .face = of_axis({0, 2, 4}) + (is_upper ? spread<Real>(1) : Real{})};
+          .face = of_axis({0, 2, 4}) + (is_upper ? broadcast<Real>(1) : Real{})};
 }
 
 template <class Real>
-FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetings<Real>& meetings,
-                                          const OutlineLine<Real>& line) {
+FirstCrossing<Real> first_crossing_of_box(const ProxyBox& box, const BoxMeetings<Real>& meetings,
+                                          const FilterLine<Real>& line) {
   using Mask = decltype(Real{} < Real{});
   const Real enter = meetings.last_enter();
   const Real leave = meetings.first_leave();
   const Real enter_error = meetings.error_of(enter);
   const Real leave_error = meetings.error_of(leave);
   const Mask passes = both(meetings.known, enter + enter_error < leave - leave_error);
-  const Mask misses = both(
-      meetings.known, either(enter - enter_error > leave + leave_error, leave + leave_error < line.begin));
+  const Mask misses = both(meetings.known, either(enter - enter_error > leave + leave_error,
+                                                  leave + leave_error < line.begin));
   const Mask enters = both(passes, enter - enter_error > line.certain_from);
   const Mask is_inside = both(passes, enter + enter_error <= line.begin);
   const Mask leaves = both(is_inside, leave - leave_error > line.certain_from);
@@ -173,42 +178,45 @@ FirstCrossing<Real> first_crossing_of_box(const OutlineBox& box, const BoxMeetin
 
 /// Of lines that start on none of a cylinder's or cone's faces.
 template <class Real>
-FirstCrossing<Real> first_crossing_of_rod(const OutlineAxis& rod, const OutlineLine<Real>& line);
+FirstCrossing<Real> first_crossing_of_frustum(const ProxyAxis& cylinder,
+                                              const FilterLine<Real>& line);
 
 /// Of asked lines that do not start on the torus.
 template <class Real>
-FirstCrossing<Real> first_crossing_of_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+FirstCrossing<Real> first_crossing_of_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked);
 
 /// Of asked lines that start on the torus and outwards: those that do not meet it again are told.
 template <class Real>
-FirstCrossing<Real> first_crossing_from_torus(const OutlineAxis& torus, const OutlineLine<Real>& line,
+FirstCrossing<Real> first_crossing_from_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked);
 
-/// Of a sphere, plane or rod that Outlines::leaf_told() knows of, and rays that do not start on its surfaces.
+/// Of a sphere, plane or cylinder that BoundingProxies::resolved_leaf() knows of, and rays that do
+/// not start on its surfaces.
 template <class Real>
-FirstCrossing<Real> first_crossing(const Outline& outline, const Outlines& outlines,
-                                   const OutlineLine<Real>& line) {
-  if (outline.is_sphere()) return first_crossing_of_sphere(outline, outlines, line);
-  if (outline.kind == Outline::Kind::rod) return first_crossing_of_rod(outlines.axis(outline), line);
-  return first_crossing_of_plane(outline, outlines.axis(outline), line);
+FirstCrossing<Real> first_crossing(const BoundingProxy& proxy, const BoundingProxies& proxies,
+                                   const FilterLine<Real>& line) {
+  if (proxy.is_sphere()) return first_crossing_of_sphere(proxy, proxies, line);
+  if (proxy.kind == BoundingProxy::Kind::cylinder)
+    return first_crossing_of_frustum(proxies.axis(proxy), line);
+  return first_crossing_of_plane(proxy, proxies.axis(proxy), line);
 }
 
-/// Whether the outline alone tells where lines cross a sphere or a box, a leaf of a CSG object.
-inline bool outline_tells(const Leaf& leaf) {
+/// Whether the proxy alone tells where lines cross a sphere or a box, a leaf of a CSG object.
+inline bool has_resolved_crossings(const Leaf& leaf) {
   return !leaf.exact && leaf.placement->is_identity();
 }
 
-/// Of such a leaf, by its number, where lines that do not start on it come into it, or else out of it; as its
-/// sketch has found that they do.
+/// Of such a leaf, by its number, where lines that do not start on it come into it, or else out of
+/// it; as its filter has found that they do.
 template <class Real>
-FirstCrossing<Real> crossing_of_change(const CsgSketch& sketch, std::uint32_t leaf, bool into_leaf,
-                                       const OutlineLine<Real>& line) {
-  if (const CsgSketch::Box* box = sketch.box(leaf)) {
+FirstCrossing<Real> crossing_of_change(const IntervalFilter& filter, std::uint32_t leaf,
+                                       bool into_leaf, const FilterLine<Real>& line) {
+  if (const IntervalFilter::Box* box = filter.box(leaf)) {
     const auto enters = lanes_of_mask<Real>(into_leaf ? ~std::uint32_t{0} : 0);
     return end_in_box(*box, BoxMeetings<Real>::of(*box, line), line, enters);
   }
-  const CsgSketch::Sphere& sphere = *sketch.sphere(leaf);
+  const IntervalFilter::Sphere& sphere = *filter.sphere(leaf);
   const double unit = power_of_two_below(sphere.radius);
   const auto chord = SphereChord<Real>::of(plain_ray(line), sphere.center, sphere.radius, unit);
   const Real& t = into_leaf ? chord.enter : chord.leave;
@@ -222,41 +230,41 @@ auto is_within(const Bounds& box, const PlainRay<Real>& line, const Real& t) {
   const auto is_between = [](double lower, const Real& x, double upper) {
     return both(x >= lower, x <= upper);
   };
-  return both(
-      both(is_between(box.lower.x, place.x, box.upper.x), is_between(box.lower.y, place.y, box.upper.y)),
-      is_between(box.lower.z, place.z, box.upper.z));
+  return both(both(is_between(box.lower.x, place.x, box.upper.x),
+                   is_between(box.lower.y, place.y, box.upper.y)),
+              is_between(box.lower.z, place.z, box.upper.z));
 }
 
-/// Whether the outline alone tells where rays leave that start into the object.
-inline bool tells_exit(const Outline& outline) {
-  return outline.kind == Outline::Kind::sphere && outline.detail != nothing;
+/// Whether the proxy alone tells where rays leave that start into the object.
+inline bool resolves_exit(const BoundingProxy& proxy) {
+  return proxy.kind == BoundingProxy::Kind::sphere && proxy.detail != nothing;
 }
 
-/// Where rays that start into a sphere leave it which keeps apart from all else; nothing else is in `room`.
-/// Where that is not found it takes a closer look.
+/// Where rays that start into a sphere leave it which keeps apart from all else; nothing else is in
+/// `margin`. Where that is not found it takes a closer look.
 template <class Real>
-FirstCrossing<Real> exit_apart(const Outline& sphere, const Bounds& room, const PlainRay<Real>& line,
-                               const Real& begin, const Real& end) {
+FirstCrossing<Real> isolated_exit(const BoundingProxy& sphere, const Bounds& margin,
+                                  const PlainRay<Real>& line, const Real& begin, const Real& end) {
   const double unit = power_of_two_below(sphere.radius);
   const auto other = SphereOtherEnd<Real>::of(line, sphere.place, sphere.radius, unit);
-  const Real reach = other.t + company_width(line, other.t, other.error);
+  const Real reach = other.t + coincidence_tolerance(line, other.t, other.error);
   const auto ahead = both(both(other.t > 0.0, other.t > begin), other.t < end);
-  const auto stays = both(is_within(room, line, begin), is_within(room, line, min(reach, end)));
+  const auto stays = both(is_within(margin, line, begin), is_within(margin, line, min(reach, end)));
   return {.found = both(ahead, stays), .t = other.t, .error = other.error};
 }
 
 /// As the general test has it.
-inline void write_first(const Outline& outline, const Outlines& outlines, const FirstCrossing<double>& first,
-                        RayHit& hit) {
-  const bool is_second = outline.is_sphere() && !first.entering;
+inline void write_first(const BoundingProxy& proxy, const BoundingProxies& proxies,
+                        const FirstCrossing<double>& first, RayHit& hit) {
+  const bool is_second = proxy.is_sphere() && !first.entering;
   const auto face = static_cast<std::uint32_t>(first.face);
-  const bool is_box = outline.kind == Outline::Kind::box;
+  const bool is_box = proxy.kind == BoundingProxy::Kind::box;
   hit = {.t = first.t,
          .error = first.error,
-         .object = outline.object,
-         .leaf = outlines.leaf_told(outline),
+         .object = proxy.object,
+         .leaf = proxies.resolved_leaf(proxy),
          .face = face,
-         .surface = is_box ? outlines.box(outline).surfaces[face] : outline.surface,
+         .surface = is_box ? proxies.box(proxy).surfaces[face] : proxy.surface,
          .root = static_cast<std::uint8_t>(is_second),
          .entering = first.entering};
 }

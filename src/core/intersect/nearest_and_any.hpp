@@ -7,7 +7,7 @@
 #include <tuple>
 
 #include "core/intersect/object_query.hpp"
-#include "core/ray/company_width.hpp"
+#include "core/ray/coincidence_tolerance.hpp"
 
 namespace crt::core {
 
@@ -20,7 +20,7 @@ class Nearest final : public ObjectQuery<Nearest> {
       : ObjectQuery(accelerator, ray, work), best_(best) {}
 
   bool take(const RayHit& hit) {
-    take(hit.t, hit.t_low, hit.object, hit.t + company_width(ray(), hit.t, hit.error),
+    take(hit.t, hit.t_low, hit.object, hit.t + coincidence_tolerance(ray(), hit.t, hit.error),
          [&](RayHit& best) { best = hit; });
     return false;
   }
@@ -32,18 +32,18 @@ class Nearest final : public ObjectQuery<Nearest> {
     if (take(best_, t, t_low, object, reach, write)) set_limit(std::min(limit(), reach));
   }
 
-  /// Of a crossing before the ray's end: whether it becomes the best. write(hit) writes it where it stays: a
-  /// copy of what has just been written waits until that has reached the cache.
+  /// Of a crossing before the ray's end: whether it becomes the best. write(hit) writes it where it
+  /// stays: a copy of what has just been written waits until that has reached the cache.
   template <class Write>
   static bool take(RayHit& best, double t, double t_low, std::uint32_t object, double reach,
                    const Write& write) {
     if (!(std::tie(t, t_low, object) < std::tie(best.t, best.t_low, best.object))) {
-      best.has_company = true;
+      best.has_coincident = true;
       return false;
     }
-    const bool has_company = best.t <= reach;
+    const bool has_coincident = best.t <= reach;
     write(best);
-    best.has_company = has_company;
+    best.has_coincident = has_coincident;
     return true;
   }
 
@@ -59,11 +59,12 @@ class Any final : public ObjectQuery<Any> {
   bool found = false;
 
   bool take(const RayHit& hit) {
-    if (is_on_way(hit)) settle();
+    if (is_before_end(hit)) settle();
     return false;
   }
   template <class Write>
-  void take(double /*t*/, double /*t_low*/, std::uint32_t /*object*/, double /*reach*/, const Write& write) {
+  void take(double /*t*/, double /*t_low*/, std::uint32_t /*object*/, double /*reach*/,
+            const Write& write) {
     RayHit hit;
     write(hit);
     take(hit);

@@ -1,5 +1,5 @@
-// The two queries that most rays ask, for a packet of rays: the nearest crossing, and whether there is any.
-// Each ray finds what it would find alone.
+// The two queries that most rays ask, for a packet of rays: the nearest crossing, and whether there
+// is any. Each ray finds what it would find alone.
 #include <array>
 #include <bit>
 
@@ -12,18 +12,19 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, Answers
   PacketTests tests(packet, going, answers);
   // Where exactly a plane is met is only asked if nothing is before it.
   constexpr bool planes_last = !Answers::any_will_do;
-  for (const Outline& outline : unbounded_.list) {
+  for (const BoundingProxy& proxy : unbounded_.list) {
     if (tests.going() == 0) break;
-    if (planes_last && outline.kind == Outline::Kind::plane) {
-      tests.limit_by(outline, unbounded_);
+    if (planes_last && proxy.kind == BoundingProxy::Kind::plane) {
+      tests.limit_by(proxy, unbounded_);
     } else {
-      tests.test(outline, unbounded_, tests.going());
+      tests.test(proxy, unbounded_, tests.going());
     }
   }
   RayMask open = tests.going();
   if constexpr (!Answers::any_will_do) {
-    if (open != 0 && knows_balls() && packet.starts.on_surface == 0) {
-      open &= ~tests.take_balls(tree_->first_balls(answers.rays, packet.limits, open), bounded_);
+    if (open != 0 && filters_spheres() && packet.starts.on_surface == 0) {
+      open &= ~tests.take_nearest_spheres(tree_->nearest_spheres(answers.rays, packet.limits, open),
+                                          bounded_);
     }
   }
   if (open != 0) {
@@ -32,8 +33,8 @@ RayMask Accelerator::traverse_filtered(RayPacket& packet, RayMask going, Answers
     });
   }
   if constexpr (planes_last) {
-    for (const Outline& outline : unbounded_.list) {
-      if (outline.kind == Outline::Kind::plane) tests.test(outline, unbounded_, tests.going());
+    for (const BoundingProxy& proxy : unbounded_.list) {
+      if (proxy.kind == BoundingProxy::Kind::plane) tests.test(proxy, unbounded_, tests.going());
     }
   }
   return tests.going();
@@ -68,54 +69,57 @@ PacketStarts Accelerator::noted_starts(const RayBatch& rays, RayMask some) const
   return starts;
 }
 
-bool Accelerator::leaves_apart(const Outline& solid, const WorldRay& ray, RayWorkspace& work,
-                               RayHit& hit) const {
+bool Accelerator::leaves_isolated(const BoundingProxy& solid, const WorldRay& ray,
+                                  RayWorkspace& work, RayHit& hit) const {
   Nearest query(*this, ray, work, hit);
   query.test(solid.object);
-  const Bounds room = room_of(solid.object);
+  const Bounds margin = box_around(solid.object);
   const PlainRay<double> line{ray.origin, ray.direction};
-  if (hit.found() && is_within(room, line, ray.t_min) && is_within(room, line, query.limit())) return true;
+  if (hit.found() && is_within(margin, line, ray.t_min) && is_within(margin, line, query.limit()))
+    return true;
   hit = {};
   return false;
 }
 
-bool Accelerator::leaves_apart(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
-  const std::uint32_t place = entered_apart(ray.start);
+bool Accelerator::leaves_isolated(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const {
+  const std::uint32_t place = entered_isolated(ray.start);
   if (place == nothing) return false;
-  const Outline& solid = bounded_.list[place];
-  if (tells_exit(solid)) {
+  const BoundingProxy& solid = bounded_.list[place];
+  if (resolves_exit(solid)) {
     const PlainRay<double> line{ray.origin, ray.direction};
-    const auto exit = exit_apart(solid, room_of(solid.object), line, ray.t_min, ray.t_max);
+    const auto exit = isolated_exit(solid, box_around(solid.object), line, ray.t_min, ray.t_max);
     if (exit.found) {
       write_first(solid, bounded_, exit, hit);
       ++work.intersection_tests;
       return true;
     }
   }
-  return leaves_apart(solid, ray, work, hit);
+  return leaves_isolated(solid, ray, work, hit);
 }
 
-RayMask Accelerator::leave_apart(const Outline& solid, const RayBatch& rays, std::size_t group, RayMask some,
-                                 std::span<RayHit, lane_count> hits, RayWorkspace& work) const {
+RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const RayBatch& rays,
+                                    std::size_t group, RayMask some,
+                                    std::span<RayHit, lane_count> hits, RayWorkspace& work) const {
   RayMask done = 0;
-  if (tells_exit(solid)) {
-    const auto exit =
-        exit_apart(solid, room_of(solid.object), rays.lines[group], rays.t_min[group], rays.t_max[group]);
+  if (resolves_exit(solid)) {
+    const auto exit = isolated_exit(solid, box_around(solid.object), rays.lines[group],
+                                    rays.t_min[group], rays.t_max[group]);
     done = some & mask_of(exit.found);
-    for_each_ray(done,
-                 [&](std::size_t lane) { write_first(solid, bounded_, lane_of(exit, lane), hits[lane]); });
+    for_each_ray(done, [&](std::size_t lane) {
+      write_first(solid, bounded_, lane_of(exit, lane), hits[lane]);
+    });
     work.intersection_tests += static_cast<unsigned>(std::popcount(done));
   }
   for_each_ray(some & ~done, [&](std::size_t lane) {
     const WorldRay ray = rays.ray(group * lane_count + lane);
-    done |= static_cast<RayMask>(leaves_apart(solid, ray, work, hits[lane])) << lane;
+    done |= static_cast<RayMask>(leaves_isolated(solid, ray, work, hits[lane])) << lane;
   });
   return done;
 }
 
-RayMask Accelerator::leave_apart(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                                 RayWorkspace& work) const {
-  if (apart_.empty()) return 0;
+RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
+                                    std::span<RayHit, packet_size> hits, RayWorkspace& work) const {
+  if (isolated_.empty()) return 0;
   RayMask done = 0;
   RayPacket::for_each_group(some & rays.with_starts, [&](std::size_t group, RayMask to_come) {
     const std::size_t first = group * lane_count;
@@ -124,7 +128,7 @@ RayMask Accelerator::leave_apart(const RayBatch& rays, RayMask some, std::span<R
     std::uint32_t place = nothing;
     for_each_ray(to_come, [&](std::size_t lane) {
       const StartPoint& start = rays.starts[first + lane];
-      if (before == nullptr || !start.is_to_same_side(*before)) place = entered_apart(start);
+      if (before == nullptr || !start.is_to_same_side(*before)) place = entered_isolated(start);
       before = &start;
       places[lane] = place;
       if (place == nothing) to_come &= ~(RayMask{1} << lane);
@@ -132,21 +136,23 @@ RayMask Accelerator::leave_apart(const RayBatch& rays, RayMask some, std::span<R
     while (to_come != 0) {
       place = places[first_ray(to_come)];
       RayMask alike = 0;
-      for_each_ray(to_come, [&](std::size_t i) { alike |= static_cast<RayMask>(places[i] == place) << i; });
+      for_each_ray(to_come,
+                   [&](std::size_t i) { alike |= static_cast<RayMask>(places[i] == place) << i; });
       to_come &= ~alike;
-      done |=
-          leave_apart(bounded_.list[place], rays, group, alike, hits.subspan(first).first<lane_count>(), work)
-          << first;
+      done |= leave_isolated(bounded_.list[place], rays, group, alike,
+                             hits.subspan(first).first<lane_count>(), work)
+              << first;
     }
   });
   return done;
 }
 
 bool Accelerator::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
-  if (!has_only_balls() || (some & rays.with_starts) != 0 || !go_together(rays, some)) return false;
-  const FirstBalls balls = tree_->first_balls(rays, rays.t_max, some);
-  const BallCrossings crossings(balls, bounded_, rays);
-  if ((some & ~balls.missing & ~crossings.known()) != 0) return false;
+  if (!has_only_spheres() || (some & rays.with_starts) != 0 || !go_together(rays, some))
+    return false;
+  const NearestSpheres spheres = tree_->nearest_spheres(rays, rays.t_max, some);
+  const NearestSphereHits crossings(spheres, bounded_, rays);
+  if ((some & ~spheres.missing & ~crossings.known()) != 0) return false;
   RayPacket::for_each_group(crossings.known(), [&](std::size_t group, RayMask lanes) {
     const Lanes& t = crossings.t(group);
     first.found |= (lanes & mask_of(t < rays.t_max[group])) << (group * lane_count);
@@ -158,11 +164,12 @@ bool Accelerator::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& 
   return true;
 }
 
-RayMask Accelerator::nearest_balls(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                                   RayWorkspace& work) const {
-  const FirstBalls balls = tree_->first_balls(rays, rays.t_max, some);
-  const BallCrossings crossings(balls, bounded_, rays);
-  const RayMask known = balls.missing | crossings.known();
+RayMask Accelerator::find_all_nearest_spheres(const RayBatch& rays, RayMask some,
+                                              std::span<RayHit, packet_size> hits,
+                                              RayWorkspace& work) const {
+  const NearestSpheres spheres = tree_->nearest_spheres(rays, rays.t_max, some);
+  const NearestSphereHits crossings(spheres, bounded_, rays);
+  const RayMask known = spheres.missing | crossings.known();
   for (std::size_t group = 0; group < RayBatch::group_count; ++group) {
     const std::size_t first = group * lane_count;
     const RayMask lanes = RayPacket::lanes(known, group);
@@ -180,30 +187,31 @@ RayMask Accelerator::nearest_balls(const RayBatch& rays, RayMask some, std::span
   return known;
 }
 
-void Accelerator::nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                                   RayWorkspace& work) const {
+void Accelerator::nearest_together(const RayBatch& rays, RayMask some,
+                                   std::span<RayHit, packet_size> hits, RayWorkspace& work) const {
   const PacketStarts starts = noted_starts(rays, some);
   RayPacket packet(rays, starts, some);
   NearestOfEach answers{*this, rays, hits, work};
   traverse_filtered(packet, some, answers);
   for_each_ray(some, [&](std::size_t i) {
-    if (hits[i].has_company) hits[i] = gather_company(rays.ray(i), hits[i], work);
+    if (hits[i].has_coincident) hits[i] = gather_coincident(rays.ray(i), hits[i], work);
   });
 }
 
 bool Accelerator::pay_together(const RayBatch& rays, RayMask some, Packets packets) const {
   if (packets == Packets::always) return some != 0;
   // A row of boxes is looked at for any rays as for those that go the same way.
-  return has_box_row() ? std::popcount(some) >= fewest_together : go_together(rays, some);
+  return has_flat_box_list() ? std::popcount(some) >= fewest_together : go_together(rays, some);
 }
 
-void Accelerator::nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                               Packets packets, RayWorkspace& work) const {
-  if (has_only_balls() && (some & rays.with_starts) == 0 && pay_together(rays, some, packets)) {
-    some &= ~nearest_balls(rays, some, hits, work);
+void Accelerator::nearest_each(const RayBatch& rays, RayMask some,
+                               std::span<RayHit, packet_size> hits, Packets packets,
+                               RayWorkspace& work) const {
+  if (has_only_spheres() && (some & rays.with_starts) == 0 && pay_together(rays, some, packets)) {
+    some &= ~find_all_nearest_spheres(rays, some, hits, work);
   }
   for_each_ray(some, [&](std::size_t i) { hits[i] = {}; });
-  const RayMask open = some & ~leave_apart(rays, some, hits, work);
+  const RayMask open = some & ~leave_isolated(rays, some, hits, work);
   if (pay_together(rays, open, packets)) {
     nearest_together(rays, open, hits, work);
   } else {
@@ -211,11 +219,12 @@ void Accelerator::nearest_each(const RayBatch& rays, RayMask some, std::span<Ray
   }
 }
 
-RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
-                              RayWorkspace& work) const {
+RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                              Packets packets, RayWorkspace& work) const {
   if (!pay_together(rays, some, packets)) {
     RayMask found = 0;
-    for_each_ray(some, [&](std::size_t i) { found |= static_cast<RayMask>(any(rays.ray(i), work)) << i; });
+    for_each_ray(
+        some, [&](std::size_t i) { found |= static_cast<RayMask>(any(rays.ray(i), work)) << i; });
     return found;
   }
   RayPacket packet(rays, starts, some);
@@ -223,24 +232,26 @@ RayMask Accelerator::any_each(const RayBatch& rays, const PacketStarts& starts, 
   return some & ~traverse_filtered(packet, some, answers);
 }
 
-LightWays Accelerator::ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                                     const Opacity& opacity, Packets packets, RayWorkspace& work) const {
-  for_each_ray(some, [&](std::size_t i) { work.on_ways[i].clear(); });
-  LightWays ways;
+LightPaths Accelerator::paths_to_light(const RayBatch& rays, const PacketStarts& starts,
+                                       RayMask some, const Opacity& opacity, Packets packets,
+                                       RayWorkspace& work) const {
+  for_each_ray(some, [&](std::size_t i) { work.on_paths[i].clear(); });
+  LightPaths paths;
   if (pay_together(rays, some, packets)) {
     RayPacket packet(rays, starts, some);
-    LightOfEach answers{{*this, rays, work}, opacity, work.on_ways};
-    ways.blocked = some & ~traverse_filtered(packet, some, answers);
+    LightOfEach answers{{*this, rays, work}, opacity, work.on_paths};
+    paths.blocked = some & ~traverse_filtered(packet, some, answers);
   } else {
     for_each_ray(some, [&](std::size_t i) {
       const WorldRay ray = rays.ray(i);
-      const bool is_blocked = any(ray, work) && !all(ray, &opacity, work.on_ways[i], work);
-      ways.blocked |= static_cast<RayMask>(is_blocked) << i;
+      const bool is_blocked = any(ray, work) && !all(ray, &opacity, work.on_paths[i], work);
+      paths.blocked |= static_cast<RayMask>(is_blocked) << i;
     });
   }
-  for_each_ray(some & ~ways.blocked,
-               [&](std::size_t i) { ways.filtered |= static_cast<RayMask>(!work.on_ways[i].empty()) << i; });
-  return ways;
+  for_each_ray(some & ~paths.blocked, [&](std::size_t i) {
+    paths.filtered |= static_cast<RayMask>(!work.on_paths[i].empty()) << i;
+  });
+  return paths;
 }
 
 }  // namespace crt::core

@@ -9,13 +9,14 @@
 
 namespace crt::core {
 
-/// Follows the crossings of one object after the other. What a kind of query keeps of them the class derived
-/// from it says (a template, as it is called for every object that a ray comes near):
+/// Follows the crossings of one object after the other. What a kind of query keeps of them the
+/// class derived from it says (a template, as it is called for every object that a ray comes near):
 ///
-///     bool begin(std::uint32_t object, bool starts_inside);  // is told first; false skips the object
-///     bool take(const RayHit& hit);  // crossings with t_min < t <= limit in order until it returns false
-///     void end(std::uint32_t object, std::uint32_t leaf, bool inside);  // there are no more
-///     static constexpr bool takes_one;  // whether take() never asks for more than the first crossing
+///     bool begin(std::uint32_t object, bool starts_inside);  // is told first; false skips the
+///     object bool take(const RayHit& hit);  // crossings with t_min < t <= limit in order until it
+///     returns false void end(std::uint32_t object, std::uint32_t leaf, bool inside);  // there are
+///     no more static constexpr bool takes_one;  // whether take() never asks for more than the
+///     first crossing
 template <class Kind>
 class ObjectQuery {
  public:
@@ -35,14 +36,14 @@ class ObjectQuery {
   void test(std::uint32_t object_index) {
     const SceneObject& object = accelerator_->object(object_index);
     if constexpr (Kind::takes_one) {
-      if (test_sketch(object_index, object)) {
+      if (test_filter(object_index, object)) {
         ++work_->intersection_tests;
         return;
       }
     }
     test_in_full(object_index);
   }
-  /// Without a sketch.
+  /// Without a filter.
   void test_in_full(std::uint32_t object_index) {
     ++work_->intersection_tests;
     const SceneObject& object = accelerator_->object(object_index);
@@ -52,15 +53,17 @@ class ObjectQuery {
       test_leaf(object_index, object);
     }
   }
-  /// Of a CSG object the change that its sketch has found, if there is a crossing where it should be.
-  bool test_change(std::uint32_t object_index, const SketchedChanges<double>& change);
+  /// Of a CSG object the change that its filter has found, if there is a crossing where it should
+  /// be.
+  bool test_change(std::uint32_t object_index, const BoundaryChanges<double>& change);
 
  protected:
   ~ObjectQuery() = default;
 
   /// Whether a crossing is before the ray's end and not at it.
-  bool is_on_way(const RayHit& hit) const {
-    return hit.t < certain_end(*ray_) || (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
+  bool is_before_end(const RayHit& hit) const {
+    return hit.t < certain_end(*ray_) ||
+           (hit.t < ray_->t_max && !accelerator_->is_at_end(*ray_, hit));
   }
 
   bool begin(std::uint32_t /*object*/, bool /*starts_inside*/) { return true; }
@@ -70,8 +73,8 @@ class ObjectQuery {
   Kind& kind() { return static_cast<Kind&>(*this); }
   void test_leaf(std::uint32_t object_index, const SceneObject& object);
   void test_csg(std::uint32_t object_index, const SceneObject& object);
-  /// By a sketch of the object; false if that leaves anything open.
-  bool test_sketch(std::uint32_t object_index, const SceneObject& object);
+  /// By a filter of the object; false if that leaves anything open.
+  bool test_filter(std::uint32_t object_index, const SceneObject& object);
 
   /// A leaf that is an object of its own, whose crossings are in the workspace.
   struct LoneLeaf {
@@ -162,15 +165,18 @@ void ObjectQuery<Kind>::test_csg(std::uint32_t object_index, const SceneObject& 
 }
 
 template <class Kind>
-bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const SceneObject& object) {
+bool ObjectQuery<Kind>::test_filter(std::uint32_t object_index, const SceneObject& object) {
   const CompiledScene& scene = accelerator_->compiled();
-  const CsgSketch* sketch = accelerator_->sketch(object_index);
-  if (sketch == nullptr) return false;
-  const OutlineLine<double> line = line_of(*ray_);
+  const IntervalFilter* filter = accelerator_->filter(object_index);
+  if (filter == nullptr) return false;
+  const FilterLine<double> line = line_of(*ray_);
   const bool on_surface = ray_->start.surface != nothing;
-  const auto change = sketch->first_changes<double>(
-      {.lines = line, .limits = limit_, .asked = 1, .on_surface = on_surface, .starts = {&ray_->start, 1}},
-      scene.leaves_of(object), scene.face_surfaces);
+  const auto change = filter->first_changes<double>({.lines = line,
+                                                     .limits = limit_,
+                                                     .asked = 1,
+                                                     .on_surface = on_surface,
+                                                     .starts = {&ray_->start, 1}},
+                                                    scene.leaves_of(object), scene.face_surfaces);
   if (!change.one) return change.none;
   if constexpr (Kind::any_will_do) {
     if (change.to < line.certain_to) {
@@ -182,14 +188,16 @@ bool ObjectQuery<Kind>::test_sketch(std::uint32_t object_index, const SceneObjec
 }
 
 template <class Kind>
-bool ObjectQuery<Kind>::test_change(std::uint32_t object_index, const SketchedChanges<double>& change) {
+bool ObjectQuery<Kind>::test_change(std::uint32_t object_index,
+                                    const BoundaryChanges<double>& change) {
   const CompiledScene& scene = accelerator_->compiled();
   const std::uint32_t index =
       accelerator_->object(object_index).first_leaf + static_cast<std::uint32_t>(change.leaf);
   const Leaf& leaf = scene.leaves[index];
   CrossingList& crossings = work_->crossings;
   crossings.clear();
-  leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings, work_->csg.escalations);
+  leaf_crossings(leaf, *ray_, accelerator_->object_ray(index, *ray_), crossings,
+                 work_->csg.escalations);
   for (const Crossing& crossing : crossings) {
     if (crossing.entering != change.into_leaf) continue;
     // What rounding puts next to the leaf's box is told by the box.

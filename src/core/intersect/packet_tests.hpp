@@ -1,5 +1,5 @@
-// A packet's rays against one object after the other: cheap tests for four of them at a time, then what else
-// tells crossings side by side, then exact tests for each ray that these leave open.
+// A packet's rays against one object after the other: cheap tests for four of them at a time, then
+// what else tells crossings side by side, then exact tests for each ray that these leave open.
 #pragma once
 
 #include <array>
@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "core/intersect/all_crossings.hpp"
-#include "core/intersect/ball_crossings.hpp"
+#include "core/intersect/filter_rays.hpp"
 #include "core/intersect/first_crossing.hpp"
 #include "core/intersect/nearest_and_any.hpp"
-#include "core/intersect/outlined_rays.hpp"
+#include "core/intersect/nearest_sphere_hits.hpp"
 
 namespace crt::core {
 
@@ -29,7 +29,8 @@ struct NearestOfEach {
   RayWorkspace& work;
   WorldRay asked{};
 
-  /// In the state that what has been found so far puts it in; but for the limit. The only one at a time.
+  /// In the state that what has been found so far puts it in; but for the limit. The only one at a
+  /// time.
   Nearest query(std::size_t ray) {
     asked = rays.ray(ray);
     return {accelerator, asked, work, hits[ray]};
@@ -73,55 +74,58 @@ class PacketTests {
   static constexpr bool any_will_do = Answers::any_will_do;
 
   PacketTests(RayPacket& packet, RayMask going, Answers& answers)
-      : packet_(packet), outlined_(packet), going_(going), answers_(answers) {}
+      : packet_(packet), filter_(packet), going_(going), answers_(answers) {}
 
   /// The rays that still go.
   RayMask going() const { return going_; }
 
   /// Returns the rays whose limits it changed.
-  RayMask test(const Outline& outline, const Outlines& outlines, RayMask rays) {
+  RayMask test(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays) {
     changed_ = 0;
     if (++visits_ >= steps_per_look) [[unlikely]]
       count_steps(rays);
-    rays &= ~outlined_.left(outline);
+    rays &= ~filter_.left(proxy);
     if (rays == 0) return 0;
-    const BoxStarts starts = outlined_.box_starts(outline, outlines, rays);
+    const BoxStarts starts = filter_.box_starts(proxy, proxies, rays);
     if constexpr (Answers::gathers) {
-      if (answers_.is_gathered(outline.object)) return gather(outline, outlines, rays, starts);
+      if (answers_.is_gathered(proxy.object)) return gather(proxy, proxies, rays, starts);
     }
-    const Verdict<RayMask> verdict = outlined_.judge(outline, outlines, rays, starts, any_will_do);
-    RayMask open = rays & ~verdict.missed;
+    const Decision<RayMask> decision = filter_.decide(proxy, proxies, rays, starts, any_will_do);
+    RayMask open = rays & ~decision.rejected;
     if constexpr (any_will_do) {
-      open &= ~verdict.met;
-      settle(verdict.met);
+      open &= ~decision.accepted;
+      settle(decision.accepted);
     }
-    if (open != 0 && outlines.leaf_told(outline) != nothing) {
-      const RayMask told = open & outlined_.told(outline, outlines, starts);
-      open &= ~told;
+    if (open != 0 && proxies.resolved_leaf(proxy) != nothing) {
+      const RayMask resolved = open & filter_.resolved(proxy, proxies, starts);
+      open &= ~resolved;
       // All are found before any is taken, so that none waits for what is made of another.
       std::array<GroupCrossing, RayPacket::group_count> crossings;
-      RayPacket::for_each_group(told, [&](std::size_t group, RayMask asked) {
+      RayPacket::for_each_group(resolved, [&](std::size_t group, RayMask asked) {
         new (&crossings[group].first)
-            FirstCrossing<Lanes>(outlined_.first_crossing(outline, outlines, group, asked, starts));
+            FirstCrossing<Lanes>(filter_.first_crossing(proxy, proxies, group, asked, starts));
       });
-      RayPacket::for_each_group(told, [&](std::size_t group, RayMask asked) {
-        open |= take_told(outline, outlines, group, asked, crossings[group].first) << (group * lane_count);
+      RayPacket::for_each_group(resolved, [&](std::size_t group, RayMask asked) {
+        open |= take_resolved(proxy, proxies, group, asked, crossings[group].first)
+                << (group * lane_count);
       });
     }
     if (open == 0) return changed_;  // what follows looks farther away in memory
-    if (const CsgSketch* sketch = answers_.accelerator.sketch(outline.object)) {
+    if (const IntervalFilter* filter = answers_.accelerator.filter(proxy.object)) {
       RayPacket::for_each_group(std::exchange(open, 0), [&](std::size_t group, RayMask asked) {
-        open |= test_sketch(outline.object, *sketch, group, asked) << (group * lane_count);
+        open |= test_filter(proxy.object, *filter, group, asked) << (group * lane_count);
       });
     }
-    for_each_ray(
-        open, [&](std::size_t ray) { ask(ray, [&](auto& query) { query.test_in_full(outline.object); }); });
+    for_each_ray(open, [&](std::size_t ray) {
+      ask(ray, [&](auto& query) { query.test_in_full(proxy.object); });
+    });
     return changed_;
   }
 
-  /// Takes the balls that rays cross first, as far as floats tell which. Returns of which rays that is known.
-  RayMask take_balls(const FirstBalls& balls, const Outlines& outlines) {
-    const BallCrossings crossings(balls, outlines, answers_.rays);
+  /// Takes the spheres that rays cross first, as far as floats tell which. Returns of which rays
+  /// that is known.
+  RayMask take_nearest_spheres(const NearestSpheres& spheres, const BoundingProxies& proxies) {
+    const NearestSphereHits crossings(spheres, proxies, answers_.rays);
     RayPacket::for_each_group(crossings.known(), [&](std::size_t group, RayMask known) {
       const std::size_t first = group * lane_count;
       const Lanes& t = crossings.t(group);
@@ -131,20 +135,21 @@ class PacketTests {
           [&](std::size_t lane, RayHit& hit) { crossings.write(first + lane, true, hit); });
     });
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
-    return balls.missing | crossings.known();
+    return spheres.missing | crossings.known();
   }
 
   /// A plane that is met bounds what else matters.
-  void limit_by(const Outline& plane, const Outlines& outlines) {
+  void limit_by(const BoundingProxy& plane, const BoundingProxies& proxies) {
     std::array<Lanes, RayPacket::group_count> last;
     if (++visits_ >= steps_per_look) [[unlikely]]
       count_steps(going_);
-    const RayMask met =
-        outlined_.judge(plane, outlines, going_ & ~outlined_.left(plane), any_will_do, last).met;
-    RayPacket::for_each_group(met, [&](std::size_t group, RayMask lanes) {
+    const RayMask accepted =
+        filter_.decide(plane, proxies, going_ & ~filter_.left(plane), any_will_do, last).accepted;
+    RayPacket::for_each_group(accepted, [&](std::size_t group, RayMask lanes) {
       // As a hit there would have it.
-      const OutlineLine<Lanes>& lines = packet_.groups[group];
-      const Lanes reach = last[group] + company_width(plain_ray(lines), last[group], Lanes{});
+      const FilterLine<Lanes>& lines = packet_.groups[group];
+      const Lanes reach =
+          last[group] + coincidence_tolerance(plain_ray(lines), last[group], Lanes{});
       Lanes& limits = packet_.limits[group];
       limits = both(lanes_with(lanes), reach < limits) ? reach : limits;
       going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * lane_count));
@@ -185,25 +190,27 @@ class PacketTests {
     if (query.limit() <= query.ray().t_min) going_ &= ~bit;
   }
 
-  /// Takes the crossings of a group's lanes with an object whose outline alone tells them. Returns which
-  /// lanes it leaves open nevertheless.
-  RayMask take_told(const Outline& outline, const Outlines& outlines, std::size_t group, RayMask asked,
-                    const FirstCrossing<Lanes>& first) {
+  /// Takes the crossings of a group's lanes with an object whose proxy alone tells them. Returns
+  /// which lanes it leaves open nevertheless.
+  RayMask take_resolved(const BoundingProxy& proxy, const BoundingProxies& proxies,
+                        std::size_t group, RayMask asked, const FirstCrossing<Lanes>& first) {
     const RayMask open = asked & mask_of(first.unknown);
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
-    const RayMask found = asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
+    const RayMask found =
+        asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
     if (found != 0) {
-      take(outline.object, group, first, found,
-           [&](std::size_t lane, RayHit& hit) { write_first(outline, outlines, lane_of(first, lane), hit); });
+      take(proxy.object, group, first, found, [&](std::size_t lane, RayHit& hit) {
+        write_first(proxy, proxies, lane_of(first, lane), hit);
+      });
     }
     return open;
   }
 
   /// Takes crossings with an object before the limits; write(lane, hit) writes one where it stays.
   template <class Write>
-  void take(std::uint32_t object, std::size_t group, const FirstCrossing<Lanes>& first, RayMask found,
-            const Write& write) {
-    const OutlineLine<Lanes>& lines = packet_.groups[group];
+  void take(std::uint32_t object, std::size_t group, const FirstCrossing<Lanes>& first,
+            RayMask found, const Write& write) {
+    const FilterLine<Lanes>& lines = packet_.groups[group];
     const std::size_t first_ray = group * lane_count;
     if constexpr (any_will_do) {
       const RayMask surely = found & mask_of(first.t < lines.certain_to);
@@ -214,13 +221,14 @@ class PacketTests {
         ask(first_ray + lane, [&](Any& query) { query.take(hit); });
       });
     } else {
-      const Lanes reach = first.t + company_width(plain_ray(lines), first.t, first.error);
+      const Lanes reach = first.t + coincidence_tolerance(plain_ray(lines), first.t, first.error);
       take_best(
           group, first.t, reach, found, [object](std::size_t) { return object; }, write);
     }
   }
 
-  /// The same of nearest crossings, each of object_of(lane) and with company up to `reach`, if there is any.
+  /// The same of nearest crossings, each of object_of(lane) and with company up to `reach`, if
+  /// there is any.
   template <class ObjectOf, class Write>
   void take_best(std::size_t group, const Lanes& t, const Lanes& reach, RayMask found,
                  const ObjectOf& object_of, const Write& write) {
@@ -229,8 +237,8 @@ class PacketTests {
     RayMask best = 0;
     for_each_ray(found & mask_of(t < answers_.rays.t_max[group]), [&](std::size_t lane) {
       const auto i = static_cast<int>(lane);
-      const bool is_best = Nearest::take(answers_.hits[first_ray + lane], t[i], 0, object_of(lane), reach[i],
-                                         [&](RayHit& hit) { write(lane, hit); });
+      const bool is_best = Nearest::take(answers_.hits[first_ray + lane], t[i], 0, object_of(lane),
+                                         reach[i], [&](RayHit& hit) { write(lane, hit); });
       best |= static_cast<RayMask>(is_best) << lane;
     });
     // After the rays' starts, so that they go on.
@@ -240,17 +248,18 @@ class PacketTests {
   }
 
   /// Gathers all crossings with an object, of which not all is opaque.
-  RayMask gather(const Outline& outline, const Outlines& outlines, RayMask rays, const BoxStarts& starts) {
-    RayMask open = rays & ~outlined_.judge(outline, outlines, rays, starts, false).missed;
-    if (outline.is_sphere() && outlines.leaf_told(outline) != nothing) {
+  RayMask gather(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
+                 const BoxStarts& starts) {
+    RayMask open = rays & ~filter_.decide(proxy, proxies, rays, starts, false).rejected;
+    if (proxy.is_sphere() && proxies.resolved_leaf(proxy) != nothing) {
       RayPacket::for_each_group(
-          open & outlined_.told(outline, outlines, starts), [&](std::size_t group, RayMask asked) {
-            open &= ~(gather_chords(outline, outlines, group, asked) << (group * lane_count));
+          open & filter_.resolved(proxy, proxies, starts), [&](std::size_t group, RayMask asked) {
+            open &= ~(gather_chords(proxy, proxies, group, asked) << (group * lane_count));
           });
     }
     for_each_ray(open, [&](std::size_t ray) {
       All query = answers_.all(ray);
-      query.test(outline.object);
+      query.test(proxy.object);
       add_steps(ray);
       if (query.stopped) settle(RayMask{1} << ray);
     });
@@ -258,29 +267,32 @@ class PacketTests {
   }
 
   /// Those of lanes with a sphere that they do not start on. Returns which lanes are done.
-  RayMask gather_chords(const Outline& sphere, const Outlines& outlines, std::size_t group, RayMask asked) {
-    const OutlineLine<Lanes>& lines = packet_.groups[group];
-    const auto ends = crossings_of_sphere(sphere, outlines, lines);
+  RayMask gather_chords(const BoundingProxy& sphere, const BoundingProxies& proxies,
+                        std::size_t group, RayMask asked) {
+    const FilterLine<Lanes>& lines = packet_.groups[group];
+    const auto ends = crossings_of_sphere(sphere, proxies, lines);
     const auto clear = [&](const FirstCrossing<Lanes>& end) {
-      return ~end.unknown & (~end.found | (end.t < lines.certain_to) | (end.t > packet_.limits[group]));
+      return ~end.unknown &
+             (~end.found | (end.t < lines.certain_to) | (end.t > packet_.limits[group]));
     };
     const RayMask done = asked & mask_of(clear(ends[0]) & clear(ends[1]));
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(done));
     for (const FirstCrossing<Lanes>& end : ends) {
       const RayMask found = done & mask_of(end.found & (end.t <= packet_.limits[group]));
       for_each_ray(found, [&](std::size_t lane) {
-        write_first(sphere, outlines, lane_of(end, lane),
+        write_first(sphere, proxies, lane_of(end, lane),
                     answers_.found[group * lane_count + lane].emplace_back());
       });
     }
     return done;
   }
 
-  /// The same by the sketch of a CSG object, which it asks itself.
-  RayMask test_sketch(std::uint32_t object, const CsgSketch& sketch, std::size_t group, RayMask asked) {
+  /// The same by the filter of a CSG object, which it asks itself.
+  RayMask test_filter(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
+                      RayMask asked) {
     const CompiledScene& scene = answers_.accelerator.compiled();
-    const OutlineLine<Lanes>& lines = packet_.groups[group];
-    const auto changes = sketch.first_changes<Lanes>(
+    const FilterLine<Lanes>& lines = packet_.groups[group];
+    const auto changes = filter.first_changes<Lanes>(
         {.lines = lines,
          .limits = packet_.limits[group],
          .asked = asked,
@@ -302,30 +314,30 @@ class PacketTests {
       const RayMask alike =
           to_come & same_way & mask_of(changes.leaf == changes.leaf[static_cast<int>(first)]);
       to_come &= ~alike;
-      open |= take_changes(object, sketch, group, alike, changes);
+      open |= take_changes(object, filter, group, alike, changes);
     }
     return open;
   }
 
   /// Takes changes of one leaf, all into it or all out of it. Returns where none has been found.
-  RayMask take_changes(std::uint32_t object, const CsgSketch& sketch, std::size_t group, RayMask alike,
-                       const SketchedChanges<Lanes>& changes) {
+  RayMask take_changes(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
+                       RayMask alike, const BoundaryChanges<Lanes>& changes) {
     const CompiledScene& scene = answers_.accelerator.compiled();
-    const OutlineLine<Lanes>& lines = packet_.groups[group];
+    const FilterLine<Lanes>& lines = packet_.groups[group];
     const std::size_t first = first_ray(alike);
     const auto number = static_cast<std::uint32_t>(changes.leaf[static_cast<int>(first)]);
     const std::uint32_t index = scene.objects[object].first_leaf + number;
     const Leaf& leaf = scene.leaves[index];
-    RayMask told = 0;
-    if (outline_tells(leaf)) {
+    RayMask resolved = 0;
+    if (has_resolved_crossings(leaf)) {
       const bool into_leaf = changes.into_leaf[static_cast<int>(first)] != 0;
-      const FirstCrossing<Lanes> crossing = crossing_of_change(sketch, number, into_leaf, lines);
+      const FirstCrossing<Lanes> crossing = crossing_of_change(filter, number, into_leaf, lines);
       const RayMask starting = RayPacket::lanes(rays_with(packet_.starts.leaves, index), group);
       const LineSpanLanes span = RaySlabs::spans(lines, leaf.bounds, alike);
       const LaneMask in_span = (crossing.t >= span.enter) & (crossing.t <= span.leave);
-      told = alike & ~starting & mask_of(crossing.found & in_span);
-      answers_.work.csg.events += static_cast<unsigned>(std::popcount(told));
-      take(object, group, crossing, told, [&](std::size_t lane, RayHit& hit) {
+      resolved = alike & ~starting & mask_of(crossing.found & in_span);
+      answers_.work.csg.events += static_cast<unsigned>(std::popcount(resolved));
+      take(object, group, crossing, resolved, [&](std::size_t lane, RayHit& hit) {
         const FirstCrossing<double> of_ray = lane_of(crossing, lane);
         const auto face = static_cast<std::uint32_t>(of_ray.face);
         hit = {.t = of_ray.t,
@@ -334,12 +346,12 @@ class PacketTests {
                .leaf = index,
                .face = face,
                .surface = scene.face_surfaces[leaf.first_face + face].surface,
-               .root = static_cast<std::uint8_t>(sketch.sphere(number) != nullptr && !into_leaf),
+               .root = static_cast<std::uint8_t>(filter.sphere(number) != nullptr && !into_leaf),
                .entering = changes.into_object[static_cast<int>(lane)] != 0};
       });
     }
     RayMask open = 0;
-    for_each_ray(alike & ~told, [&](std::size_t lane) {
+    for_each_ray(alike & ~resolved, [&](std::size_t lane) {
       ask(group * lane_count + lane, [&](auto& query) {
         if (!query.test_change(object, lane_of(changes, lane))) open |= RayMask{1} << lane;
       });
@@ -362,7 +374,7 @@ class PacketTests {
   }
 
   RayPacket& packet_;
-  OutlinedPacket outlined_;
+  FilterPacket filter_;
   RayMask going_;
   RayMask changed_ = 0;
   Answers& answers_;

@@ -18,16 +18,17 @@ struct RayWorkspace {
   std::uint64_t leaf_escalations = 0;    ///< of lone primitives: see escalations()
   CsgWorkspace csg;                      ///< counts its events itself
   CrossingList crossings;
-  /// Of the last hit that has company: the crossings at its place in the order in which their objects were
-  /// written, and those so near that rounding may put a ray which starts there on either side of them.
+  /// Of the last hit that has company: the crossings at its place in the order in which their
+  /// objects were written, and those so near that rounding may put a ray which starts there on
+  /// either side of them.
   std::vector<RayHit> here;
   std::vector<RayHit> near;
   std::vector<std::uint32_t> numbers;                   ///< of what is sorted
   std::vector<std::pair<std::uint32_t, RayHit>> turns;  ///< of what is at one place
   std::vector<NearCrossing> near_crossings;             ///< of what t does not tell apart
-  std::vector<RayHit> unsorted;                         ///< the same as it was before that is sorted
-  /// By ray of a packet: what ways_to_light() finds.
-  std::array<std::vector<RayHit>, packet_size> on_ways;
+  std::vector<RayHit> unsorted;  ///< the same as it was before that is sorted
+  /// By ray of a packet: what paths_to_light() finds.
+  std::array<std::vector<RayHit>, packet_size> on_paths;
 
   std::uint64_t interval_events() const { return csg.events; }
   /// Questions of the exact tier that only exact arithmetic answered.

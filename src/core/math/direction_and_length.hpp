@@ -19,8 +19,8 @@ struct DirectionAndLength {
 inline constexpr double safe_square_min = 0x1p-900;
 inline constexpr double safe_square_max = 0x1p+900;
 
-/// Splits a vector. Where the square of its length is not safe it is first scaled by a power of two, which
-/// changes nothing else.
+/// Splits a vector. Where the square of its length is not safe it is first scaled by a power of
+/// two, which changes nothing else.
 inline DirectionAndLength direction_and_length(const Vec3& v) {
   const double square = glm::dot(v, v);
   if (square > safe_square_min && square < safe_square_max) {
@@ -30,7 +30,8 @@ inline DirectionAndLength direction_and_length(const Vec3& v) {
   const double largest = std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
   if (!(largest > 0) || !std::isfinite(largest)) return {Vec3(0), largest};
   const int exponent = std::ilogb(largest);
-  const Vec3 scaled(std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent), std::scalbn(v.z, -exponent));
+  const Vec3 scaled(std::scalbn(v.x, -exponent), std::scalbn(v.y, -exponent),
+                    std::scalbn(v.z, -exponent));
   const double length = std::sqrt(glm::dot(scaled, scaled));
   return {scaled / length, std::scalbn(length, exponent)};
 }

@@ -77,7 +77,8 @@ Dyadic::Limb Dyadic::limb_at(int place) const {
 }
 
 int Dyadic::compare_sizes(const Dyadic& a, const Dyadic& b) {
-  if (a.limbs_.empty() || b.limbs_.empty()) return (b.limbs_.empty() ? 1 : 0) - (a.limbs_.empty() ? 1 : 0);
+  if (a.limbs_.empty() || b.limbs_.empty())
+    return (b.limbs_.empty() ? 1 : 0) - (a.limbs_.empty() ? 1 : 0);
   if (a.top() != b.top()) return a.top() > b.top() ? 1 : -1;
   for (int place = a.top(); place-- > std::min(a.base_, b.base_);) {
     if (a.limb_at(place) != b.limb_at(place)) return a.limb_at(place) > b.limb_at(place) ? 1 : -1;

@@ -1,10 +1,11 @@
-// Exact arithmetic: sums, differences and products of doubles without any rounding, for the signs of
-// polynomials that rounded arithmetic leaves open.
+// Exact arithmetic: sums, differences and products of doubles without any rounding, for the signs
+// of polynomials that rounded arithmetic leaves open.
 //
-// Why not expansions of doubles (Shewchuk, Adaptive precision floating-point arithmetic and fast robust
-// geometric predicates, 1997)? Because their terms are doubles too: the discriminant of a sphere in a rotated
-// space has degree 16 in the inputs and would over- or underflow at sizes that are legal here. Here the
-// exponent has a word of its own. As there, this is the last resort behind filters, so clear before fast.
+// Why not expansions of doubles (Shewchuk, Adaptive precision floating-point arithmetic and fast
+// robust geometric predicates, 1997)? Because their terms are doubles too: the discriminant of a
+// sphere in a rotated space has degree 16 in the inputs and would over- or underflow at sizes that
+// are legal here. Here the exponent has a word of its own. As there, this is the last resort behind
+// filters, so clear before fast.
 #pragma once
 
 #include <cstdint>

@@ -90,7 +90,8 @@ DyadicPolynomial operator*(const Dyadic& s, const DyadicPolynomial& p) {
 }
 
 DyadicPolynomial negative_remainder(const DyadicPolynomial& a, const DyadicPolynomial& b) {
-  // Long division where, instead of dividing by b's leading coefficient, the rest is multiplied by its size.
+  // Long division where, instead of dividing by b's leading coefficient, the rest is multiplied by
+  // its size.
   const bool negative = b.leading().sign() < 0;
   const Dyadic size = negative ? -b.leading() : b.leading();
   DyadicPolynomial rest = a;
@@ -159,8 +160,8 @@ std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial) {
   return separators;
 }
 
-Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high, const Dyadic& offset,
-                    const std::function<bool(const Dyadic& x)>& is_beyond) {
+Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high,
+                    const Dyadic& offset, const std::function<bool(const Dyadic& x)>& is_beyond) {
   const DyadicPolynomial derivative = polynomial.derivative();
   // Newton's iteration; now and then a halving, which closes in whatever the function does.
   constexpr int most_steps = 2000;
@@ -173,19 +174,19 @@ Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high,
     (is_beyond(x) ? high : low) = x;
     const Dyadic slope = derivative.value(x);
     Dyadic next = middle(low, high);
-    Dyadic way = high - low;
+    Dyadic change = high - low;
     if (slope.sign() != 0 && step % steps_to_a_halving != 0) {
-      const DoubleDouble change = (-height.rounded() / slope.rounded()).unscaled();
-      const Dyadic newton = x + Dyadic(change.hi) + Dyadic(change.lo);
+      const DoubleDouble newton_step = (-height.rounded() / slope.rounded()).unscaled();
+      const Dyadic newton = x + Dyadic(newton_step.hi) + Dyadic(newton_step.lo);
       if (is_less(low, newton) && is_less(newton, high)) {
         next = newton;
-        way = newton - x;
+        change = newton - x;
       }
     }
     x = next;
     const Dyadic sum = x + offset;
-    if (way.sign() == 0 ||
-        (sum.sign() != 0 && way.rounded().exponent < sum.rounded().exponent - enough_bits)) {
+    if (change.sign() == 0 ||
+        (sum.sign() != 0 && change.rounded().exponent < sum.rounded().exponent - enough_bits)) {
       break;
     }
   }

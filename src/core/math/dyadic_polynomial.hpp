@@ -41,7 +41,8 @@ class DyadicPolynomial {
 DyadicPolynomial common_divisor(DyadicPolynomial a, DyadicPolynomial b);
 
 /// Counts real roots, each once whatever its multiplicity.
-/// Source: Sturm's theorem, as in Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry, 2006, 2.2.2.
+/// Source: Sturm's theorem, as in Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry,
+/// 2006, 2.2.2.
 class SturmChain {
  public:
   /// The polynomial must not be 0.
@@ -50,20 +51,23 @@ class SturmChain {
   /// All real roots.
   int count() const;
   /// Roots between two points that are no roots.
-  int count(const Dyadic& low, const Dyadic& high) const { return changes_at(low) - changes_at(high); }
+  int count(const Dyadic& low, const Dyadic& high) const {
+    return changes_at(low) - changes_at(high);
+  }
 
  private:
   int changes_at(const Dyadic& x) const;
   std::vector<DyadicPolynomial> chain_;
 };
 
-/// Points between each two of which one real root lies, in ascending order; none if there is no root. The
-/// polynomial must not be 0. Roots that are closer than 2^-400 of the largest stay together.
+/// Points between each two of which one real root lies, in ascending order; none if there is no
+/// root. The polynomial must not be 0. Roots that are closer than 2^-400 of the largest stay
+/// together.
 std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial);
 
-/// The root between low and high, where `is_beyond` changes from false to true, until root + offset is known
-/// to more than 100 bits.
-Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high, const Dyadic& offset,
-                    const std::function<bool(const Dyadic& x)>& is_beyond);
+/// The root between low and high, where `is_beyond` changes from false to true, until root + offset
+/// is known to more than 100 bits.
+Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high,
+                    const Dyadic& offset, const std::function<bool(const Dyadic& x)>& is_beyond);
 
 }  // namespace crt::core

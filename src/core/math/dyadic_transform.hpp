@@ -9,7 +9,8 @@
 namespace crt::core {
 
 struct DyadicTransform {
-  std::array<DyadicVector, 3> rows{DyadicVector{1, 0, 0}, DyadicVector{0, 1, 0}, DyadicVector{0, 0, 1}};
+  std::array<DyadicVector, 3> rows{DyadicVector{1, 0, 0}, DyadicVector{0, 1, 0},
+                                   DyadicVector{0, 0, 1}};
   DyadicVector translation;
 };
 
@@ -19,8 +20,8 @@ DyadicTransform exactly(const PreciseTransform& transform);
 /// The map that applies `first` and then `second`.
 DyadicTransform compose(const DyadicTransform& second, const DyadicTransform& first);
 
-/// The inverse of a map's linear part by Cramer's rule, with the division left out: it is rows / weight. The
-/// map must have an inverse.
+/// The inverse of a map's linear part by Cramer's rule, with the division left out: it is rows /
+/// weight. The map must have an inverse.
 struct DyadicInverse {
   std::array<DyadicVector, 3> rows;
   Dyadic weight;  ///< > 0

@@ -40,9 +40,9 @@ inline void set_ieee_float_mode() {
 }
 #endif
 
-/// While it lives, this thread rounds to nearest, keeps subnormal numbers and masks all exceptions, as
-/// IEEE 754 has it by default; then the host's mode (and its exception flags) are back. Hosts such as
-/// audio and game engines set other modes.
+/// While it lives, this thread rounds to nearest, keeps subnormal numbers and masks all exceptions,
+/// as IEEE 754 has it by default; then the host's mode (and its exception flags) are back. Hosts
+/// such as audio and game engines set other modes.
 class FloatEnvironment {
  public:
   FloatEnvironment() : saved_(float_mode()) {
@@ -63,8 +63,8 @@ class FloatEnvironment {
   inline static thread_local const FloatEnvironment* outermost_ = nullptr;
 };
 
-/// While it lives, this thread is in the mode that it was in before any FloatEnvironment: what the host's
-/// callbacks are to find.
+/// While it lives, this thread is in the mode that it was in before any FloatEnvironment: what the
+/// host's callbacks are to find.
 class HostFloatEnvironment {
  public:
   HostFloatEnvironment() : saved_(float_mode()), outermost_(FloatEnvironment::outermost_) {

@@ -1,5 +1,5 @@
-// Arithmetic with error bounds on lanes: what core/math/vector.hpp and double_double.hpp have for one number,
-// with the same bits in each lane.
+// Arithmetic with error bounds on lanes: what core/math/vector.hpp and double_double.hpp have for
+// one number, with the same bits in each lane.
 #pragma once
 
 #include "core/math/vector.hpp"
@@ -8,7 +8,7 @@
 namespace crt::core {
 
 inline Lanes rounding_of(const Lanes& x) {
-  return unit_roundoff * size_of(x);
+  return unit_roundoff * abs(x);
 }
 inline Lanes power_of_two_below(const Lanes& x) {
   constexpr std::int64_t exponent_bits = 0x7ff0000000000000;
@@ -20,7 +20,8 @@ inline Lanes inverse_of_power(const Lanes& x) {
   constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;
   return reinterpret_cast<Lanes>(inverse_of_one - reinterpret_cast<WordLanes>(x));
 }
-inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes& c, const Lanes& d) {
+inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes& c,
+                                    const Lanes& d) {
   const Lanes product = c * d;
   const Lanes rest = fma(-c, d, product);
   return fma(a, b, -product) + rest;

@@ -8,20 +8,20 @@
 
 namespace crt::core {
 
-/// At x, the coefficient of x^0 first, of more than two: as two sums that do not wait for each other, of even
-/// powers and of odd ones.
+/// At x, the coefficient of x^0 first, of more than two: as two sums that do not wait for each
+/// other, of even powers and of odd ones.
 template <class Real, std::size_t count>
 Real polynomial(const std::array<double, count>& coefficients, const Real& x) {
   static_assert(count > 2);
   const Real square = x * x;
-  Real last = spread<Real>(coefficients[count - 1]);
-  Real other = spread<Real>(coefficients[count - 2]);
+  Real last = broadcast<Real>(coefficients[count - 1]);
+  Real other = broadcast<Real>(coefficients[count - 2]);
   for (std::size_t i = count - 2; i >= 2; i -= 2) {
-    last = fma(last, square, spread<Real>(coefficients[i - 1]));
-    other = fma(other, square, spread<Real>(coefficients[i - 2]));
+    last = fma(last, square, broadcast<Real>(coefficients[i - 1]));
+    other = fma(other, square, broadcast<Real>(coefficients[i - 2]));
   }
   if constexpr (count % 2 == 0) return fma(last, x, other);
-  last = fma(last, square, spread<Real>(coefficients[0]));
+  last = fma(last, square, broadcast<Real>(coefficients[0]));
   return fma(other, x, last);
 }
 

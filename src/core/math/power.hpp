@@ -64,7 +64,8 @@ Real logarithm2_by(const Real& x) {
   const Real m = std::bit_cast<Real>(bits - (exponent - bits_of_one));
   // As the lowest bits of a number that has no others below 2^52.
   constexpr std::uint64_t bits_of_2_52 = 0x4330000000000000;
-  const Real k = std::bit_cast<Real>(Bits((exponent >> fraction_bits) | bits_of_2_52)) - (0x1p52 + 1023);
+  const Real k =
+      std::bit_cast<Real>(Bits((exponent >> fraction_bits) | bits_of_2_52)) - (0x1p52 + 1023);
 
   constexpr std::array<double, terms> coefficients = first<terms>(logarithm_series);
   const Real s = (m - 1.0) / (m + 1.0);
@@ -73,39 +74,42 @@ Real logarithm2_by(const Real& x) {
 
 }  // namespace power_detail
 
-/// The logarithm to base 2 of x, a normal number above 0, or infinity, which counts as 2^1024. Within 2^-51
-/// of itself.
+/// The logarithm to base 2 of x, a normal number above 0, or infinity, which counts as 2^1024.
+/// Within 2^-51 of itself.
 template <class Real>
 Real logarithm2(const Real& x) {
   return power_detail::logarithm2_by<power_detail::logarithm_series.size()>(x);
 }
 
-/// 2^e. Within 2^-52 of itself where that is a normal number; infinite from 2^1024 on, and 0 below 2^-1075.
+/// 2^e. Within 2^-52 of itself where that is a normal number; infinite from 2^1024 on, and 0 below
+/// 2^-1075.
 template <class Real>
 Real exponential2(const Real& e) {
   using namespace power_detail;
   constexpr double largest = 1100;
-  const Real within = clamp(e, spread<Real>(-largest), spread<Real>(largest));
+  const Real within = clamp(e, broadcast<Real>(-largest), broadcast<Real>(largest));
   const Real nearest = floor(within + 0.5);
   const Real rest = within - nearest;
   // In two steps, as 2^nearest alone may be no normal number.
   const Real half = floor(0.5 * nearest);
-  const Real sum = fma(rest, polynomial(exponential_series, rest), spread<Real>(1));
+  const Real sum = fma(rest, polynomial(exponential_series, rest), broadcast<Real>(1));
   return sum * power_of_two(half) * power_of_two(nearest - half);
 }
 
-/// base to the power of exponent; both >= 0, base a normal number, 0, or infinity. Within (2 + 4 |log2 of the
-/// result|) 2^-52 of itself where that is a normal number. 0 to the power of 0 is 1, and NaN stays what it
-/// is.
+/// base to the power of exponent; both >= 0, base a normal number, 0, or infinity. Within (2 + 4
+/// |log2 of the result|) 2^-52 of itself where that is a normal number. 0 to the power of 0 is 1,
+/// and NaN stays what it is.
 template <class Real>
 Real power(const Real& base, const Real& exponent) {
   constexpr double smallest = 0x1p-1022;
-  const Real result = exponential2<Real>(exponent * logarithm2<Real>(max(base, spread<Real>(smallest))));
-  const Real of_nothing = exponent > 0.0 ? base : spread<Real>(1);
+  const Real result =
+      exponential2<Real>(exponent * logarithm2<Real>(max(base, broadcast<Real>(smallest))));
+  const Real of_nothing = exponent > 0.0 ? base : broadcast<Real>(1);
   return base > 0.0 ? result : of_nothing;
 }
 
-/// base to the power of exponent, roughly: base from 0 to 1, exponent from 0.1 to 10. Within 10^-9 of it.
+/// base to the power of exponent, roughly: base from 0 to 1, exponent from 0.1 to 10. Within 10^-9
+/// of it.
 template <class Real>
 Real rough_power(const Real& base, const Real& exponent) {
   using namespace power_detail;
@@ -113,11 +117,11 @@ Real rough_power(const Real& base, const Real& exponent) {
   constexpr std::size_t logarithm_terms = 6;
   constexpr std::array<double, 8> coefficients = first<8>(exponential_series);
   constexpr double smallest = 0x1p-1000;
-  const Real logarithm = logarithm2_by<logarithm_terms, Real>(max(base, spread<Real>(smallest)));
-  const Real e = max(Real(exponent * logarithm), spread<Real>(-1000));
+  const Real logarithm = logarithm2_by<logarithm_terms, Real>(max(base, broadcast<Real>(smallest)));
+  const Real e = max(Real(exponent * logarithm), broadcast<Real>(-1000));
   const Real nearest = floor(e + 0.5);
   const Real rest = e - nearest;
-  return fma(rest, polynomial(coefficients, rest), spread<Real>(1)) * power_of_two(nearest);
+  return fma(rest, polynomial(coefficients, rest), broadcast<Real>(1)) * power_of_two(nearest);
 }
 
 /// The cube root of x >= 0, a normal number, 0, or infinity. Within 2^-52 of itself; of NaN, NaN.

@@ -19,7 +19,8 @@ PreciseTransform::PreciseTransform(const Transform& transform)
       translation(precise(transform.translation)) {}
 
 Transform PreciseTransform::rounded() const {
-  return {core::rounded(rows[0]), core::rounded(rows[1]), core::rounded(rows[2]), core::rounded(translation)};
+  return {core::rounded(rows[0]), core::rounded(rows[1]), core::rounded(rows[2]),
+          core::rounded(translation)};
 }
 
 PreciseTransform compose(const PreciseTransform& second, const PreciseTransform& first) {
@@ -44,7 +45,8 @@ PreciseTransform inverse(const PreciseTransform& transform) {
   const std::array<PreciseVec3, 3> columns{cross(y, z), cross(z, x), cross(x, y)};
   PreciseTransform result;
   for (std::size_t row = 0; row < 3; ++row) {
-    for (std::size_t index = 0; index < 3; ++index) result.rows[row][index] = columns[index][row] / det;
+    for (std::size_t index = 0; index < 3; ++index)
+      result.rows[row][index] = columns[index][row] / det;
   }
   for (std::size_t row = 0; row < 3; ++row)
     result.translation[row] = -dot(result.rows[row], transform.translation);

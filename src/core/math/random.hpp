@@ -34,7 +34,8 @@ inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
 #endif
 }
 
-/// Philox on one place of the sequence, or on four side by side. Of each Word the lower 32 bits count.
+/// Philox on one place of the sequence, or on four side by side. Of each Word the lower 32 bits
+/// count.
 template <class Word>
 constexpr std::array<Word, 4> philox_rounds(std::array<Word, 4> counter, PhiloxKey key) {
   constexpr std::uint32_t multiplier_0 = 0xd2511f53u;
@@ -45,8 +46,8 @@ constexpr std::array<Word, 4> philox_rounds(std::array<Word, 4> counter, PhiloxK
   for (int round = 0; round < rounds; ++round) {
     const Word product_0 = low_product(counter[0], multiplier_0);
     const Word product_1 = low_product(counter[2], multiplier_1);
-    counter = {(product_1 >> 32) ^ counter[1] ^ key[0], product_1, (product_0 >> 32) ^ counter[3] ^ key[1],
-               product_0};
+    counter = {(product_1 >> 32) ^ counter[1] ^ key[0], product_1,
+               (product_0 >> 32) ^ counter[3] ^ key[1], product_0};
     key = {key[0] + key_step_0, key[1] + key_step_1};
   }
   return counter;
@@ -54,7 +55,8 @@ constexpr std::array<Word, 4> philox_rounds(std::array<Word, 4> counter, PhiloxK
 
 /// The 128 random bits at a place of the sequence that the key names.
 constexpr PhiloxCounter philox4x32_10(const PhiloxCounter& counter, PhiloxKey key) {
-  const auto words = philox_rounds<std::uint64_t>({counter[0], counter[1], counter[2], counter[3]}, key);
+  const auto words =
+      philox_rounds<std::uint64_t>({counter[0], counter[1], counter[2], counter[3]}, key);
   const auto low = [](std::uint64_t word) { return static_cast<std::uint32_t>(word); };
   return {low(words[0]), low(words[1]), low(words[2]), low(words[3])};
 }
@@ -89,15 +91,16 @@ inline Lanes to_unit_interval(const WordLanes& bits) {
   constexpr std::uint64_t exponent_of_2_to_52 = 0x4330000000000000u;
   const WordLanes high = bits >> 43 | exponent_of_2_to_84;
   const WordLanes low = (bits >> 11 & 0xffffffffu) | exponent_of_2_to_52;
-  return (reinterpret_cast<Lanes>(high) - (0x1p84 + 0x1p52) + reinterpret_cast<Lanes>(low)) * 0x1p-53;
+  return (reinterpret_cast<Lanes>(high) - (0x1p84 + 0x1p52) + reinterpret_cast<Lanes>(low)) *
+         0x1p-53;
 }
 
 /// The pairs of a sample and of the three that follow it: all first numbers, and all second ones.
 inline std::array<Lanes, 2> random_pairs(std::uint64_t seed, const RandomUse& first) {
   const auto all = [](std::uint64_t word) { return WordLanes{word, word, word, word}; };
   const WordLanes samples = all(first.sample) + WordLanes{0, 1, 2, 3};
-  const auto bits =
-      philox_rounds<WordLanes>({all(first.x), all(first.y), samples, all(first.dimension)}, key_of(seed));
+  const auto bits = philox_rounds<WordLanes>(
+      {all(first.x), all(first.y), samples, all(first.dimension)}, key_of(seed));
   return {to_unit_interval(bits[1] << 32 | (bits[0] & 0xffffffffu)),
           to_unit_interval(bits[3] << 32 | (bits[2] & 0xffffffffu))};
 }

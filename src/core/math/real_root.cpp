@@ -11,8 +11,8 @@ int compared(const Dyadic& a, const Dyadic& b) {
   return (a - b).sign();
 }
 
-/// Of a polynomial that has no more than one root between low and high, where its signs differ: one that has
-/// that root with different signs about it.
+/// Of a polynomial that has no more than one root between low and high, where its signs differ: one
+/// that has that root with different signs about it.
 DyadicPolynomial changing_sign(DyadicPolynomial polynomial, const Dyadic& low, const Dyadic& high) {
   while (polynomial.value(low).sign() == polynomial.value(high).sign()) {
     // The root has an even multiplicity, which the common divisor with the derivative makes odd.
@@ -44,9 +44,9 @@ std::optional<RealRoot> RealRoot::near(const DyadicPolynomial& polynomial, const
     return at(middle);
   }
   // Wider, so that a root just within is not at an end.
-  const Dyadic room(2 * error);
-  const Dyadic low = middle - room;
-  const Dyadic high = middle + room;
+  const Dyadic margin(2 * error);
+  const Dyadic low = middle - margin;
+  const Dyadic high = middle + margin;
   if (polynomial.value(low).sign() == 0 || polynomial.value(high).sign() == 0) return std::nullopt;
   if (SturmChain(polynomial).count(low, high) != 1) return std::nullopt;
   return RealRoot(polynomial, low, high);
@@ -71,8 +71,9 @@ void RealRoot::cut_at(const Dyadic& x) {
   if (sign == 0) sign_low_ = 0;
 }
 
-// Source: Abbott, Quadratic interval refinement for real roots, 2006: a straight line between the ends tells
-// in which of many pieces the root should be, and twice as many bits are tried the next time if it is.
+// Source: Abbott, Quadratic interval refinement for real roots, 2006: a straight line between the
+// ends tells in which of many pieces the root should be, and twice as many bits are tried the next
+// time if it is.
 void RealRoot::narrow() {
   if (is_point()) return;
   constexpr int most_bits = 32;
@@ -99,12 +100,14 @@ void RealRoot::narrow() {
 int RealRoot::order_of_fractions(const RealRoot& a, const RealRoot& b) {
   const auto& p = a.polynomial_;
   const auto& q = b.polynomial_;
-  const int sign = (q.coefficient(0) * p.coefficient(1) - p.coefficient(0) * q.coefficient(1)).sign();
+  const int sign =
+      (q.coefficient(0) * p.coefficient(1) - p.coefficient(0) * q.coefficient(1)).sign();
   return sign * p.leading().sign() * q.leading().sign();
 }
 
 int order(RealRoot& a, RealRoot& b) {
-  if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1) return RealRoot::order_of_fractions(a, b);
+  if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1)
+    return RealRoot::order_of_fractions(a, b);
   // What is no nearer is told apart by then; only of the rest it is asked whether it is one.
   constexpr int steps_before_asking = 8;
   bool differ = false;

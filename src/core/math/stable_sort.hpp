@@ -8,8 +8,8 @@
 
 namespace crt::core {
 
-/// Sorts; what is equal stays in order. Takes no memory for some dozens, which insertion sorts; for more it
-/// is the sort that is made for them.
+/// Sorts; what is equal stays in order. Takes no memory for some dozens, which insertion sorts; for
+/// more it is the sort that is made for them.
 template <class Item, class Before>
 void sort_stably(std::vector<Item>& items, const Before& is_before) {
   constexpr std::size_t few = 32;

@@ -15,11 +15,13 @@ constexpr double smallest_factor = 1e-100;
 
 [[noreturn]] void fail(const char* argument, const char* rule, const Vec3& value) {
   throw Error(ErrorCode::invalid_argument,
-              fmt::format("{} {} (it is ({}, {}, {}))", argument, rule, value.x, value.y, value.z), argument);
+              fmt::format("{} {} (it is ({}, {}, {}))", argument, rule, value.x, value.y, value.z),
+              argument);
 }
 
 [[noreturn]] void fail(const char* argument, const char* rule, double value) {
-  throw Error(ErrorCode::invalid_argument, fmt::format("{} {} (it is {})", argument, rule, value), argument);
+  throw Error(ErrorCode::invalid_argument, fmt::format("{} {} (it is {})", argument, rule, value),
+              argument);
 }
 
 /// What is wrong with a factor of scale(), or nothing.

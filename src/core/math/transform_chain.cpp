@@ -38,8 +38,8 @@ class ExactSum {
   int terms_ = 0;
 };
 
-/// Whether the product is exact, as far as that is seen at a glance: of moves, turns and scalings once each
-/// it is.
+/// Whether the product is exact, as far as that is seen at a glance: of moves, turns and scalings
+/// once each it is.
 bool is_exact(const PreciseTransform& second, const PreciseTransform& first) {
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
@@ -54,8 +54,8 @@ bool is_exact(const PreciseTransform& second, const PreciseTransform& first) {
   return true;
 }
 
-/// How many binary digits there are from the highest of a map's numbers to the lowest; its fourth row, which
-/// is (0, 0, 0, 1), is among them.
+/// How many binary digits there are from the highest of a map's numbers to the lowest; its fourth
+/// row, which is (0, 0, 0, 1), is among them.
 class Digits {
  public:
   void add(std::span<const DoubleDouble> numbers) {
@@ -81,7 +81,8 @@ class Digits {
   int lowest_ = 0;
 };
 
-/// Of the numbers of a map, at most. None counts as so simple that thousands of them would have no end.
+/// Of the numbers of a map, at most. None counts as so simple that thousands of them would have no
+/// end.
 int bits_of(const TransformChain& chain) {
   if (!chain.is_product()) return chain.bits;
   Digits digits;
@@ -105,7 +106,8 @@ bool TransformChain::is_plain() const {
 TransformChain compose(const TransformChain& second, const TransformChain& first) {
   TransformChain result;
   result.product = compose(second.product, first.product);
-  if (second.is_product() && first.is_product() && is_exact(second.product, first.product)) return result;
+  if (second.is_product() && first.is_product() && is_exact(second.product, first.product))
+    return result;
   const int bits = bits_of(second) + bits_of(first);
   if (bits > most_chain_bits) return result;
   result.second = &second;

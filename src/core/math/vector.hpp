@@ -78,8 +78,8 @@ inline int coordinate_axis(const Vec3& v) {
   return -1;
 }
 
-/// v times the power of two that brings its largest component into [1, 2). Exact, but for components
-/// that are 2^-1000 of the largest.
+/// v times the power of two that brings its largest component into [1, 2). Exact, but for
+/// components that are 2^-1000 of the largest.
 inline Vec3 scaled_to_one(const Vec3& v) {
   return v * (1 / power_of_two_below(largest_component(v)));
 }

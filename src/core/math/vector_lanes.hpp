@@ -1,5 +1,5 @@
-// Four vectors side by side, by component: each operation does to every one of them what it does to a Vec3,
-// to the last bit.
+// Four vectors side by side, by component: each operation does to every one of them what it does to
+// a Vec3, to the last bit.
 #pragma once
 
 #include <array>
@@ -53,8 +53,8 @@ inline std::array<Lanes, lane_count> by_lane(const VectorLanes& v) {
 
 /// The same vector in a Vec3, or in each lane.
 template <class Real>
-Vec3Of<Real> spread(const Vec3& v) {
-  return {spread<Real>(v.x), spread<Real>(v.y), spread<Real>(v.z)};
+Vec3Of<Real> broadcast(const Vec3& v) {
+  return {broadcast<Real>(v.x), broadcast<Real>(v.y), broadcast<Real>(v.z)};
 }
 
 inline VectorLanes operator-(const VectorLanes& v) {
@@ -85,7 +85,7 @@ inline Lanes dot(const VectorLanes& a, const VectorLanes& b) {
 }
 
 inline Lanes largest_component(const VectorLanes& v) {
-  return max(max(size_of(v.x), size_of(v.y)), size_of(v.z));
+  return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
 // By component.
@@ -134,8 +134,9 @@ inline VectorLanes unit_vector(const VectorLanes& v) {
   return scaled / sqrt(square.hi + square.lo);
 }
 
-/// Of four vectors what direction_and_length() says of each, to where it stays: GCC copies structs by halves
-/// of these vectors, and who reads a whole one next waits until both have reached the cache.
+/// Of four vectors what direction_and_length() says of each, to where it stays: GCC copies structs
+/// by halves of these vectors, and who reads a whole one next waits until both have reached the
+/// cache.
 inline void directions_and_lengths(const VectorLanes& v, VectorLanes& directions, Lanes& lengths) {
   const Lanes squares = dot(v, v);
   if (all((squares > safe_square_min) & (squares < safe_square_max))) {

@@ -6,12 +6,14 @@
 
 namespace crt::core {
 
-Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& materials, bool csg) {
+Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& materials,
+                       bool csg) {
   Features features;
   features.csg = csg;
   features.lights = !scene.lights.empty();
   for (const Light& light : scene.lights) {
-    std::visit([&](const auto& kind) { features.ambient = features.ambient || kind.ambient > 0; }, light);
+    std::visit([&](const auto& kind) { features.ambient = features.ambient || kind.ambient > 0; },
+               light);
   }
   for (const PreparedMaterial& material : materials) {
     // Only diffuse and specular light can be kept off by something.

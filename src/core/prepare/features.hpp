@@ -27,6 +27,7 @@ struct Features {
 };
 
 /// Reads them off a scene and its materials.
-Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& materials, bool csg);
+Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& materials,
+                       bool csg);
 
 }  // namespace crt::core

@@ -28,11 +28,13 @@ void check_scene(const Scene& scene) {
 
 Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
   Opacity opacity;
-  for (const PreparedMaterial& material : materials) opacity.of_materials.push_back(material.opaque);
+  for (const PreparedMaterial& material : materials)
+    opacity.of_materials.push_back(material.opaque);
   for (const SceneObject& object : scene.objects) {
     const std::span<const Leaf> leaves = scene.leaves_of(object);
-    opacity.of_objects.push_back(std::all_of(
-        leaves.begin(), leaves.end(), [&](const Leaf& leaf) { return opacity.of_materials[leaf.material]; }));
+    opacity.of_objects.push_back(std::all_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+      return opacity.of_materials[leaf.material];
+    }));
   }
   return opacity;
 }
@@ -41,7 +43,8 @@ Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial>
 
 /// What depends on the entities and on nothing else in the scene but the precision.
 struct PreparedData::Geometry {
-  std::vector<std::shared_ptr<const EntityNode>> entities;  ///< held, so that their addresses stay theirs
+  std::vector<std::shared_ptr<const EntityNode>>
+      entities;  ///< held, so that their addresses stay theirs
   Precision precision;
   std::vector<SharedMaterial> materials;
   bool has_csg;
@@ -61,8 +64,9 @@ struct PreparedData::Geometry {
 
   bool is_of(const Scene& scene) const {
     return precision == scene.settings.precision &&
-           std::equal(entities.begin(), entities.end(), scene.entities.begin(), scene.entities.end(),
-                      [](const auto& node, const Entity& entity) { return node == entity.shared_node(); });
+           std::equal(
+               entities.begin(), entities.end(), scene.entities.begin(), scene.entities.end(),
+               [](const auto& node, const Entity& entity) { return node == entity.shared_node(); });
   }
 };
 
@@ -93,7 +97,8 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
     materials_.emplace_back(material, textures_);
   }
   opacity_ = opacity_of(accelerator_->compiled(), materials_);
-  background_ = std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
+  background_ =
+      std::make_unique<PreparedBackground>(scene.background, textures_, scene.settings.compat);
   textures_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
 
@@ -123,13 +128,14 @@ bool PreparedData::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves&
   return accelerator_->first_leaves(rays, some, first);
 }
 
-void PreparedData::intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                                  RayWorkspace& work, Packets packets) const {
+void PreparedData::intersect_each(const RayBatch& rays, RayMask some,
+                                  std::span<RayHit, packet_size> hits, RayWorkspace& work,
+                                  Packets packets) const {
   accelerator_->nearest_each(rays, some, hits, packets, work);
 }
 
-void PreparedData::expect_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
-  accelerator_->expect_surface_points(hits, some);
+void PreparedData::prefetch_points(std::span<const RayHit, packet_size> hits, RayMask some) const {
+  accelerator_->prefetch_surface_points(hits, some);
 }
 
 RayMask PreparedData::occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
@@ -146,20 +152,24 @@ PacketStarts PreparedData::noted_starts(const RayBatch& rays, RayMask some) cons
   return accelerator_->noted_starts(rays, some);
 }
 
-LightWays PreparedData::ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
-                                      RayWorkspace& work, Packets packets) const {
-  const LightWays ways = accelerator_->ways_to_light(rays, starts, some, opacity_, packets, work);
-  for_each_ray(ways.filtered, [&](std::size_t i) { accelerator_->sort(rays.ray(i), work.on_ways[i], work); });
-  return ways;
+LightPaths PreparedData::paths_to_light(const RayBatch& rays, const PacketStarts& starts,
+                                        RayMask some, RayWorkspace& work, Packets packets) const {
+  const LightPaths paths =
+      accelerator_->paths_to_light(rays, starts, some, opacity_, packets, work);
+  for_each_ray(paths.filtered,
+               [&](std::size_t i) { accelerator_->sort(rays.ray(i), work.on_paths[i], work); });
+  return paths;
 }
 
-void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out,
+                             RayWorkspace& work) const {
   out.clear();
   accelerator_->all(ray, nullptr, out, work);
   accelerator_->sort(ray, out, work);
 }
 
-void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const {
+void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
+                               RayWorkspace& work) const {
   out.clear();
   accelerator_->surrounding(ray, out, work);
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
@@ -171,7 +181,8 @@ Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace&
   return accelerator_->stay(ray, object, work);
 }
 
-void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const {
+void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv,
+                             HitPoint& point) const {
   const Leaf& leaf = leaves_[hit.leaf];
   const SurfacePoint surface = object_point(ray, hit, with_uv);
   point.t = hit.t;
@@ -190,7 +201,8 @@ void PreparedData::hit_point(const WorldRay& ray, const RayHit& hit, bool with_u
   point.solid = is_solid(hit);
 }
 
-SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const {
+SurfacePoint PreparedData::object_point(const WorldRay& ray, const RayHit& hit,
+                                        bool with_uv) const {
   SurfacePoint point = accelerator_->surface_point(ray, hit, with_uv);
   // A cutter's surface bounds what is left of the solid from the other side.
   if (leaves_[hit.leaf].complemented) point.normal = -point.normal;
@@ -249,7 +261,8 @@ PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {
   const core::FloatEnvironment ieee;
   core::StopCheck stop(options.go_on, "preparing the scene");
   const core::Workers workers(0, options.go_on ? &stop : nullptr);
-  const core::PreparedData* earlier = options.earlier == nullptr ? nullptr : &options.earlier->data();
+  const core::PreparedData* earlier =
+      options.earlier == nullptr ? nullptr : &options.earlier->data();
   return PreparedScene(
       std::make_shared<const core::PreparedData>(scene, earlier, workers, options.max_primitives));
 }

@@ -50,8 +50,8 @@ struct HitPoint {
 /// Immutable after prepare(); every member function is safe from any number of threads.
 class PreparedData {
  public:
-  /// Takes over of `earlier`, if there is one, what does not depend on what has changed since. Of the number
-  /// of primitives see PrepareOptions.
+  /// Takes over of `earlier`, if there is one, what does not depend on what has changed since. Of
+  /// the number of primitives see PrepareOptions.
   explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr,
                         const Workers& workers = {}, std::uint64_t max_primitives = 0);
   ~PreparedData();
@@ -64,15 +64,15 @@ class PreparedData {
   /// Whether there is any crossing at all before the ray's end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near are of no
-  /// use after it. Hits of other rays stay as they are.
+  /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near
+  /// are of no use after it. Hits of other rays stay as they are.
   void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                       RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
-  /// How far the nearest crossings of some of a batch are, and of which leaves; if that can be told in less
-  /// time. Else false.
+  /// How far the nearest crossings of some of a batch are, and of which leaves; if that can be told
+  /// in less time. Else false.
   bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
   /// Lets memory fetch beforehand what it takes to tell of such hits; of some of them.
-  void expect_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
+  void prefetch_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
                         Packets packets = Packets::where_they_pay) const;
 
@@ -81,13 +81,13 @@ class PreparedData {
                         RayWorkspace& work) const;
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
-  /// What light meets on its way along such rays. For each that is filtered the crossings, as crossings() has
-  /// them, are in RayWorkspace::on_ways.
-  LightWays ways_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some, RayWorkspace& work,
-                          Packets packets = Packets::where_they_pay) const;
+  /// What light meets on its way along such rays. For each that is filtered the crossings, as
+  /// crossings() has them, are in RayWorkspace::on_paths.
+  LightPaths paths_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
+                            RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
 
-  /// Every crossing in ascending t; those of one surface have one t, and there solids are left before
-  /// others are entered.
+  /// Every crossing in ascending t; those of one surface have one t, and there solids are left
+  /// before others are entered.
   void crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
   /// Of each solid that holds the start of the ray (just after it, for a ray that starts on a
@@ -95,11 +95,12 @@ class PreparedData {
   /// for nested solids. A solid that the ray never leaves has t = infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
-  /// Whether the ray starts inside a solid object (just after its start, as above), and where it leaves it.
+  /// Whether the ray starts inside a solid object (just after its start, as above), and where it
+  /// leaves it.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
-  /// What shading needs of a hit that `ray` found; u and v only if asked for. Filled in where it stays, as a
-  /// copy of what has just been written waits until that has reached the cache.
+  /// What shading needs of a hit that `ray` found; u and v only if asked for. Filled in where it
+  /// stays, as a copy of what has just been written waits until that has reached the cache.
   void hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const;
   HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const {
     HitPoint point;
@@ -110,24 +111,27 @@ class PreparedData {
   /// Of these the place, in the primitive's own space; the normal points out of the object.
   SurfacePoint object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
 
-  /// The same of a group of rays, each at its t, of which some hit the same face as `first`. Of the others
-  /// the point is of no use.
+  /// The same of a group of rays, each at its t, of which some hit the same face as `first`. Of the
+  /// others the point is of no use.
   void object_points(const RayHit& first, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
     const Leaf& leaf = leaves_[first.leaf];
     const Vec3 anchor = leaf.shape->anchor(first.face);
     if (leaf.placement->is_identity()) {
-      leaf.shape->points_on(lines.from_center(anchor, t), lines.direction, first.face, with_uv, points);
+      leaf.shape->points_on(lines.from_center(anchor, t), lines.direction, first.face, with_uv,
+                            points);
     } else {
       const ObjectRayLanes moved = leaf.placement->to_object(lines);
-      leaf.shape->points_on(moved.from_center(anchor, t), moved.direction, first.face, with_uv, points);
+      leaf.shape->points_on(moved.from_center(anchor, t), moved.direction, first.face, with_uv,
+                            points);
     }
     if (leaf.complemented) points.normal = -points.normal;
   }
 
-  /// Of some rays of a group those that hit spheres of one material from the same side, as `first` does; none
-  /// if that hits anything else, or a sphere that is moved or a cutter.
-  RayMask on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits, RayMask some) const;
+  /// Of some rays of a group those that hit spheres of one material from the same side, as `first`
+  /// does; none if that hits anything else, or a sphere that is moved or a cutter.
+  RayMask on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
+                          RayMask some) const;
   /// As object_points() of such rays, whose spheres may be different ones.
   void sphere_points(std::span<const RayHit, lane_count> hits, RayMask some, const RayLanes& lines,
                      const Lanes& t, bool with_uv, SurfacePointLanes& points) const;
@@ -154,8 +158,8 @@ class PreparedData {
   /// Whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const { return leaves_[hit.leaf].of_solid; }
 
-  /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction must
-  /// have unit length.
+  /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction
+  /// must have unit length.
   StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
   /// The same but for its error.
   StartPoint start_face(const RayHit& hit, Side side) const {
@@ -182,7 +186,9 @@ class PreparedData {
   /// What the user should know of the scene, a line each.
   std::vector<std::string> warnings() const { return textures_.warnings(); }
   /// Whether what rays meet was made once for both.
-  bool shares_geometry_with(const PreparedData& other) const { return geometry_ == other.geometry_; }
+  bool shares_geometry_with(const PreparedData& other) const {
+    return geometry_ == other.geometry_;
+  }
 
  private:
   struct Geometry;

@@ -5,18 +5,18 @@
 #include <glm/geometric.hpp>
 
 #include "core/ray/certain_end.hpp"
-#include "core/ray/outline_line.hpp"
+#include "core/ray/filter_line.hpp"
 
 namespace crt::core {
 
-inline OutlineLine<double> line_of(const WorldRay& ray) {
+inline FilterLine<double> line_of(const WorldRay& ray) {
   const Vec3& d = ray.direction;
-  OutlineLine<double> line;
+  FilterLine<double> line;
   line.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
   line.direction = {d.x, d.y, d.z};
-  line.squared_speed = glm::dot(d, d);
-  line.inverse_squared_speed = 1 / line.squared_speed;
-  line.inverse_speed = std::sqrt(line.inverse_squared_speed);
+  line.squared_length = glm::dot(d, d);
+  line.inverse_squared_length = 1 / line.squared_length;
+  line.inverse_length = std::sqrt(line.inverse_squared_length);
   line.inverse = {1 / d.x, 1 / d.y, 1 / d.z};
   line.begin = ray.t_min;
   line.start_error = ray.start.t_error;

@@ -19,8 +19,9 @@ inline Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
 
-/// Where a ray starts, if it starts on a surface and not in free space: on the face itself, or merely
-/// on the surface that the face is a piece of (on another primitive's face that lies on it too).
+/// Where a ray starts, if it starts on a surface and not in free space: on the face itself, or
+/// merely on the surface that the face is a piece of (on another primitive's face that lies on it
+/// too).
 struct RayStart {
   std::uint32_t face = no_face;
   Side side = Side::outside;  ///< of the face's surface
@@ -29,17 +30,19 @@ struct RayStart {
 
 /// See ObjectRay::from_center().
 template <class Real, class Ray>
-Vec3Of<Real> point_from_center(const Ray& ray, const Vec3& center, const Real& t, const Real& t_low) {
-  const auto component = [&](const Real& from, const Real& from_low, const Real& along, const Real& along_low,
-                             double place) {
-    const auto offset = two_sum(from, spread<Real>(-place));
+Vec3Of<Real> point_from_center(const Ray& ray, const Vec3& center, const Real& t,
+                               const Real& t_low) {
+  const auto component = [&](const Real& from, const Real& from_low, const Real& along,
+                             const Real& along_low, double place) {
+    const auto offset = two_sum(from, broadcast<Real>(-place));
     return fma(t, along, offset.hi) + (offset.lo + from_low + t * along_low + t_low * along);
   };
   const auto& o = ray.origin;
   const auto& o_low = ray.origin_low;
   const auto& d = ray.direction;
   const auto& d_low = ray.direction_low;
-  return {component(o.x, o_low.x, d.x, d_low.x, center.x), component(o.y, o_low.y, d.y, d_low.y, center.y),
+  return {component(o.x, o_low.x, d.x, d_low.x, center.x),
+          component(o.y, o_low.y, d.y, d_low.y, center.y),
           component(o.z, o_low.z, d.z, d_low.z, center.z)};
 }
 
@@ -52,10 +55,12 @@ struct ObjectRay {
   Vec3 direction{0, 0, 1};
   Vec3 direction_low{0, 0, 0};
   RayStart start = {};
-  /// Crossings with t below this only count: where they are may be told roughly, with an error that says so.
+  /// Crossings with t below this only count: where they are may be told roughly, with an error that
+  /// says so.
   double begin = -std::numeric_limits<double>::infinity();
-  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it may be
-  /// left out. What is nearer than that to where the ray begins may be at its start and not count.
+  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it
+  /// may be left out. What is nearer than that to where the ray begins may be at its start and not
+  /// count.
   double first_above = std::numeric_limits<double>::infinity();
 
   /// Whether a crossing is surely ahead of `first_above`, whatever its error.
@@ -64,8 +69,9 @@ struct ObjectRay {
     return crossing.t - crossing.error > first_above;
   }
 
-  /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its error
-  /// is about one rounding of the result, not of the way there, if the point is near the center.
+  /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its
+  /// error is about one rounding of the result, not of the way there, if the point is near the
+  /// center.
   Vec3 from_center(const Vec3& center, double t, double t_low = 0) const {
     return point_from_center<double>(*this, center, t, t_low);
   }

@@ -20,13 +20,13 @@ struct RayHit {
   std::uint32_t surface = nothing;  ///< the whole surface that the face is a piece of
   std::uint8_t root = 0;            ///< as in Crossing
   bool entering = false;
-  bool has_company = false;  ///< other objects have crossings there: RayWorkspace::here and near
+  bool has_coincident = false;  ///< other objects have crossings there: RayWorkspace::here and near
 
   bool found() const { return object != nothing; }
 };
 
-/// Whether two crossings of one ray count as being at one place: of one surface by identity, of others where
-/// their error bounds cannot tell them apart.
+/// Whether two crossings of one ray count as being at one place: of one surface by identity, of
+/// others where their error bounds cannot tell them apart.
 inline bool same_place(const RayHit& a, const RayHit& b) {
   if (a.surface == b.surface && a.surface != nothing) return a.root == b.root;
   return std::abs((a.t - b.t) + (a.t_low - b.t_low)) <= a.error + b.error;

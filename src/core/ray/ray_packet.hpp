@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "core/ray/outline_line.hpp"
+#include "core/ray/filter_line.hpp"
 #include "core/ray/plain_ray.hpp"
 #include "core/ray/world_ray.hpp"
 
@@ -46,8 +46,8 @@ struct PacketStarts {
   }
 };
 
-/// Up to packet_size rays by component. A mask that comes with them says which of them there are; the others
-/// may hold anything.
+/// Up to packet_size rays by component. A mask that comes with them says which of them there are;
+/// the others may hold anything.
 struct RayBatch {
   static constexpr std::size_t group_count = packet_size / lane_count;
   /// One for each ray.
@@ -93,13 +93,15 @@ struct RayPacket {
   RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some);
 
   /// Groups without a ray hold nothing.
-  std::array<OutlineLine<Lanes>, group_count> groups;
+  std::array<FilterLine<Lanes>, group_count> groups;
   /// Beyond it nothing matters any more to a ray.
   std::array<Lanes, group_count> limits;
   const PacketStarts& starts;
 
   /// A group's rays, by lane.
-  static RayMask lanes(RayMask rays, std::size_t group) { return rays >> (group * lane_count) & group_mask; }
+  static RayMask lanes(RayMask rays, std::size_t group) {
+    return rays >> (group * lane_count) & group_mask;
+  }
 
   /// Calls use(group, lanes) for each group that has some of the rays.
   template <class Use>
@@ -109,15 +111,20 @@ struct RayPacket {
     }
   }
 
-  static RayMask all(std::size_t count) { return static_cast<RayMask>((std::uint64_t{1} << count) - 1); }
-  double limit(std::size_t ray) const { return limits[ray / lane_count][static_cast<int>(ray % lane_count)]; }
+  static RayMask all(std::size_t count) {
+    return static_cast<RayMask>((std::uint64_t{1} << count) - 1);
+  }
+  double limit(std::size_t ray) const {
+    return limits[ray / lane_count][static_cast<int>(ray % lane_count)];
+  }
   void set_limit(std::size_t ray, double limit) {
     limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
   }
 };
 
 /// Those whose value is that one.
-inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values, std::uint32_t value) {
+inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values,
+                         std::uint32_t value) {
   RayMask mask = 0;
   for (std::size_t first = 0; first < packet_size; first += 8) {
     mask |= which_of_eight(&values[first], value) << first;

@@ -7,9 +7,9 @@ namespace crt::core {
 
 namespace {
 
-/// The share of a pixel that N samples may all miss is, in 95 of 100 cases, below this divided by N: the
-/// "rule of three". Source: Hanley and Lippman-Hand, If nothing goes wrong, is everything all right?, JAMA
-/// 249(13), 1983. Samples that are spread evenly miss less.
+/// The share of a pixel that N samples may all miss is, in 95 of 100 cases, below this divided by
+/// N: the "rule of three". Source: Hanley and Lippman-Hand, If nothing goes wrong, is everything
+/// all right?, JAMA 249(13), 1983. Samples that are broadcast evenly miss less.
 constexpr double rule_of_three = 3;
 
 void report_unseen(RenderStats& stats) {
@@ -45,7 +45,8 @@ void report_measures(const PixelMeasures& measures, RenderStats& stats) {
   report_unseen(stats);
 
   double squares = 0;
-  for (const float half_width : measures.half_widths) squares += double{half_width} * double{half_width};
+  for (const float half_width : measures.half_widths)
+    squares += double{half_width} * double{half_width};
   stats.half_width_rms = std::sqrt(squares / pixels);
   std::vector<float> sorted = measures.half_widths;
   constexpr double share = 0.95;

@@ -33,8 +33,8 @@ struct IntegerChannel {
   std::uint32_t (*value)(const AovPixel& pixel);
 };
 
-// The names that readers of EXR files look for: Z for a distance, X, Y and Z in a layer for a direction, R, G
-// and B for a colour.
+// The names that readers of EXR files look for: Z for a distance, X, Y and Z in a layer for a
+// direction, R, G and B for a colour.
 constexpr FloatChannel float_channels[] = {
     {"Z", &Aovs::depth, [](const AovPixel& pixel) { return pixel.place.distance; }},
     {"N.X", &Aovs::normal, [](const AovPixel& pixel) { return pixel.hit.normal.x; }},
@@ -77,16 +77,19 @@ void add_channels(const Aovs& aovs, Image& image) {
     std::vector<ImageChannel> channels;
     for (const FloatChannel& channel : float_channels) {
       if (!(aovs.*channel.asked)) continue;
-      channels.push_back({channel.name, std::vector<float>(pixel_count, to_float(channel.value(none)))});
+      channels.push_back(
+          {channel.name, std::vector<float>(pixel_count, to_float(channel.value(none)))});
     }
     for (const IntegerChannel& channel : integer_channels) {
       if (!(aovs.*channel.asked)) continue;
-      channels.push_back({channel.name, std::vector<std::uint32_t>(pixel_count, channel.value(none))});
+      channels.push_back(
+          {channel.name, std::vector<std::uint32_t>(pixel_count, channel.value(none))});
     }
     image.set_channels(std::move(channels));
   } catch (const std::bad_alloc&) {
-    throw Error(ErrorCode::out_of_memory, fmt::format("no memory for further channels of {} x {} pixels",
-                                                      image.width(), image.height()));
+    throw Error(ErrorCode::out_of_memory,
+                fmt::format("no memory for further channels of {} x {} pixels", image.width(),
+                            image.height()));
   }
 }
 
@@ -125,8 +128,8 @@ void AovTile::put(const Region& region, Image& image) const {
   const auto copy = [&](const auto& channel, auto values, const auto& converted) {
     for_each_row(tile_, region, [&](std::size_t from, std::size_t to, std::size_t count) {
       for (std::size_t i = 0; i < count; ++i) {
-        values[to + i] =
-            converted(channel.value({first_hits_[from + i], first_places_[from + i], measures_[from + i]}));
+        values[to + i] = converted(
+            channel.value({first_hits_[from + i], first_places_[from + i], measures_[from + i]}));
       }
     });
   };
@@ -134,7 +137,8 @@ void AovTile::put(const Region& region, Image& image) const {
     if (aovs_.*channel.asked) copy(channel, image.channel(channel.name), to_float);
   }
   for (const IntegerChannel& channel : integer_channels) {
-    if (aovs_.*channel.asked) copy(channel, image.integer_channel(channel.name), [](auto id) { return id; });
+    if (aovs_.*channel.asked)
+      copy(channel, image.integer_channel(channel.name), [](auto id) { return id; });
   }
 }
 

@@ -1,5 +1,5 @@
-// What the pixels of a tile get beside their colours (RenderOptions::aovs), and the channels that it goes
-// into.
+// What the pixels of a tile get beside their colours (RenderOptions::aovs), and the channels that
+// it goes into.
 #pragma once
 
 #include <array>
@@ -36,7 +36,8 @@ class AovTile {
  public:
   AovTile(const Aovs& aovs, const Region& tile) : aovs_(aovs), tile_(tile) {}
 
-  /// Where the means of the pixels' first hits are to be put (see trace_pixels); nowhere if nobody asks.
+  /// Where the means of the pixels' first hits are to be put (see trace_pixels); nowhere if nobody
+  /// asks.
   std::span<FirstHit> first_hits();
 
   /// How many samples each pixel has, where all have as many and nobody knows their error.

@@ -16,8 +16,9 @@ void Canvas::put(const Region& tile, std::span<const float> pixels) {
   const std::lock_guard lock(mutex_);
   for (int y = 0; y < tile.height; ++y) {
     const std::size_t row = index_in(region_, tile.x, tile.y + y);
-    std::copy_n(pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row_values),
-                row_values, image_.pixels().begin() + static_cast<std::ptrdiff_t>(row * 4));
+    std::copy_n(
+        pixels.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(y) * row_values),
+        row_values, image_.pixels().begin() + static_cast<std::ptrdiff_t>(row * 4));
   }
 }
 
@@ -25,7 +26,8 @@ void Canvas::put(std::span<const PlacedPixel> pixels) {
   const std::lock_guard lock(mutex_);
   for (const PlacedPixel& pixel : pixels) {
     const std::size_t place = index_in(region_, pixel.x, pixel.y);
-    std::copy_n(pixel.values.begin(), 4, image_.pixels().begin() + static_cast<std::ptrdiff_t>(place * 4));
+    std::copy_n(pixel.values.begin(), 4,
+                image_.pixels().begin() + static_cast<std::ptrdiff_t>(place * 4));
   }
 }
 

@@ -42,7 +42,8 @@ class Canvas {
 
   /// Puts in single pixels of the region.
   void put(std::span<const PlacedPixel> pixels);
-  /// Makes room for what there is beside colours; before the first tile. Throws Error (out_of_memory).
+  /// Makes margin for what there is beside colours; before the first tile. Throws Error
+  /// (out_of_memory).
   void add_channels(const Aovs& aovs) { core::add_channels(aovs, image_); }
   /// Puts in what a tile has of it.
   void put_aovs(const AovTile& tile);

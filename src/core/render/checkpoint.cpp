@@ -22,8 +22,8 @@ namespace {
 
 constexpr std::string_view magic = "CRT checkpoint 4 of " CRT_VERSION "\n";
 
-// In seconds. The first is to be there after 10, with the time that writing a large one takes; later on
-// writing is to take a small part of the time, whatever the size.
+// In seconds. The first is to be there after 10, with the time that writing a large one takes;
+// later on writing is to take a small part of the time, whatever the size.
 constexpr double first_break = 5;
 constexpr double shortest_break = 10;
 constexpr double break_per_writing = 20;
@@ -38,12 +38,12 @@ void add(ByteHash& hash, const T&... numbers) {
 }
 
 void add_settings(ByteHash& hash, const Settings& s) {
-  add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision, s.target_error,
-      s.min_samples, s.max_samples, s.filter, s.filter_width);
+  add(hash, s.width, s.height, s.recursion_depth, s.min_weight, s.gamma, s.seed, s.precision,
+      s.target_error, s.min_samples, s.max_samples, s.filter, s.filter_width);
   if (s.compat != 0) add(hash, s.compat);
 }
 
-/// The light along rays through the middles of pixels that are spread over the region.
+/// The light along rays through the middles of pixels that are broadcast over the region.
 void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress,
                const StepRules& rules) {
   WorkspacePool pool(rules);
@@ -87,11 +87,12 @@ bool is_missing(const std::filesystem::path& path) {
 
 }  // namespace
 
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress,
-                          const StepRules& rules) {
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+                          Progress& progress, const StepRules& rules) {
   ByteHash hash;
   add_settings(hash, frame.settings());
-  add(hash, region.x, region.y, region.width, region.height, with_first_hits, frame.features().lens);
+  add(hash, region.x, region.y, region.width, region.height, with_first_hits,
+      frame.features().lens);
   add_light(hash, frame, region, progress, rules);
   return hash.value();
 }
@@ -101,8 +102,9 @@ void leave_empty_checkpoint(const std::filesystem::path& path) {
   write_state_file(path, [](StateWriter& out) { out.put_all(std::span<const char>(magic)); });
 }
 
-Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Passes& passes, Canvas& canvas,
-                       WorkspacePool& pool, const PassClock::Seconds& seconds, double begin)
+Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Passes& passes,
+                       Canvas& canvas, WorkspacePool& pool, const PassClock::Seconds& seconds,
+                       double begin)
     : path_(std::move(path)),
       fingerprint_(fingerprint),
       passes_(passes),
@@ -112,8 +114,8 @@ Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Pa
       next_(begin + first_break) {}
 
 void Checkpoint::write() const {
-  // As long as nothing changes the picture, its counts and what is known of its pixels are of the same
-  // moment.
+  // As long as nothing changes the picture, its counts and what is known of its pixels are of the
+  // same moment.
   const auto hold = passes_.hold();
   const Image picture = canvas_.copy();
   const WorkspacePool::Counts counts = pool_.settled();
@@ -169,9 +171,10 @@ void Checkpoint::read() {
   if (!is_ours || in.get<std::uint64_t>() != fingerprint_) {
     throw Error(
         ErrorCode::invalid_argument,
-        fmt::format("the checkpoint '{}' is of another picture: of another scene, size, part, accuracy, "
-                    "or by another version of CRT",
-                    path_.string()),
+        fmt::format(
+            "the checkpoint '{}' is of another picture: of another scene, size, part, accuracy, "
+            "or by another version of CRT",
+            path_.string()),
         "checkpoint");
   }
   WorkspacePool::Counts counts;

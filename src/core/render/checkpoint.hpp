@@ -11,14 +11,14 @@
 
 namespace crt::core {
 
-/// Tells pictures apart: a number from the settings that it takes to go on, and from the light of some
-/// samples that belong to no pixel's own, whose rays go by `rules`.
-/// Throws Error (cancelled) if the progress says so.
-std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits, Progress& progress,
-                          const StepRules& rules);
+/// Tells pictures apart: a number from the settings that it takes to go on, and from the light of
+/// some samples that belong to no pixel's own, whose rays go by `rules`. Throws Error (cancelled)
+/// if the progress says so.
+std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
+                          Progress& progress, const StepRules& rules);
 
-/// Of a picture that nothing is known of yet: leaves a checkpoint from which any picture goes on, at its
-/// beginning, unless there is a file. Throws Error (io).
+/// Of a picture that nothing is known of yet: leaves a checkpoint from which any picture goes on,
+/// at its beginning, unless there is a file. Throws Error (io).
 void leave_empty_checkpoint(const std::filesystem::path& path);
 
 class Checkpoint {
@@ -27,18 +27,19 @@ class Checkpoint {
   Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Passes& passes, Canvas& canvas,
              WorkspacePool& pool, const PassClock::Seconds& seconds, double begin);
 
-  /// Takes up what is in the file, if there is one; before the first pass. From then on the rest can be
-  /// called. Throws Error: io (the file cannot be read or is damaged), invalid_argument (it is of another
-  /// picture).
+  /// Takes up what is in the file, if there is one; before the first pass. From then on the rest
+  /// can be called. Throws Error: io (the file cannot be read or is damaged), invalid_argument (it
+  /// is of another picture).
   void take_up();
 
-  /// Writes what is known. What hinders it can be asked for afterwards. From any thread, at any time
-  /// before Passes::finish().
+  /// Writes what is known. What hinders it can be asked for afterwards. From any thread, at any
+  /// time before Passes::finish().
   void keep() noexcept;
   /// The same if it is time.
   void keep_if_due() noexcept;
 
-  /// Why nothing was written, if so, since this was last asked; "" if there is nothing to complain of.
+  /// Why nothing was written, if so, since this was last asked; "" if there is nothing to complain
+  /// of.
   std::string take_complaint();
 
  private:

@@ -17,7 +17,7 @@ void Tracer::tell_first_hits(std::span<FirstHit> first_hits) {
 
 void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> places) {
   RayBatch& rays = round_->rays;
-  Frame::set_eye_rays(camera_rays, rays);
+  Frame::set_camera_rays(camera_rays, rays);
   tick(static_cast<unsigned>(places.size()));
   data_.intersect_each(rays, RayPacket::all(places.size()), hits_, work_.rays);
   for (std::size_t i = 0; i < places.size(); ++i) {
@@ -25,7 +25,7 @@ void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> p
     places[i] = {};
     if (!hit.found()) continue;
     const WorldRay ray = rays.ray(i);
-    if (hit.has_company && frame_.features().transparency) hit = seen_of(ray);
+    if (hit.has_coincident && frame_.features().transparency) hit = seen_of(ray);
     HitPoint point;
     data_.hit_point(ray, hit, false, point);
     places[i] = {.distance = point.t, .entity_id = point.entity_id};

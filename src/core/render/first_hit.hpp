@@ -26,7 +26,8 @@ struct FirstHit {
 
 /// Where a surface is, and whose. A pixel has those of the ray through its middle.
 struct FirstPlace {
-  double distance = std::numeric_limits<double>::infinity();  ///< from the ray's origin, in the world
+  double distance =
+      std::numeric_limits<double>::infinity();  ///< from the ray's origin, in the world
   std::uint32_t entity_id = no_entity_id;
 };
 

@@ -12,8 +12,8 @@ namespace crt::core {
 
 namespace {
 
-/// Brings the solids around a ray's start, given by their exits, into the order in which the ray's line
-/// enters them; those that it enters at one place from the last one left to the first.
+/// Brings the solids around a ray's start, given by their exits, into the order in which the ray's
+/// line enters them; those that it enters at one place from the last one left to the first.
 void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<RayHit>& exits,
                    Workspace& work) {
   WorldRay back = ray;
@@ -37,8 +37,8 @@ void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<Ra
   for (std::size_t i = 0; i < solids.size(); ++i) exits[i] = solids[i].exit;
 }
 
-/// Whether there is a surface at a point, or so near that rounding may decide. It is looked for along three
-/// axes across each other, as a line along a surface does not meet it.
+/// Whether there is a surface at a point, or so near that rounding may decide. It is looked for
+/// along three axes across each other, as a line along a surface does not meet it.
 bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work) {
   constexpr double relative_width = 0x1p-26;
   const double width = relative_width * largest_component(point);
@@ -87,11 +87,12 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   }
   if (!features().transparency || features().lens) return;
   if (data.scene().camera.projection == Projection::orthographic) return;
-  const PicturePlaceLanes in_middle = {lanes_of(0.5 * settings.width), lanes_of(0.5 * settings.height)};
+  const PicturePlaceLanes in_middle = {lanes_of(0.5 * settings.width),
+                                       lanes_of(0.5 * settings.height)};
   RayLanes line;
   camera_.rays(1, {&in_middle, 1}, {}, {&line, 1});
   RayBatch eye;
-  set_eye_rays({&line, 1}, eye);
+  set_camera_rays({&line, 1}, eye);
   const WorldRay middle = eye.ray(0);
   one_viewpoint_ = !is_on_surface(data, middle.origin, work);
   if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
@@ -103,7 +104,8 @@ void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::
   out.clear();
   std::vector<RayHit>& exits = work.crossings;
   data.surrounding(ray, exits, work.rays);
-  std::erase_if(exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
+  std::erase_if(
+      exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
   if (exits.size() > most_media_at_once) exits.resize(most_media_at_once);
   if (exits.size() > 1) sort_by_entry(data, ray, exits, work);
   // Each goes where it would be if the ray had come from outside of all.

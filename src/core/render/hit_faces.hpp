@@ -11,8 +11,9 @@ namespace crt::core {
 
 /// Rays whose hits are alike: all from the same side and of one material.
 struct AlikeRays {
-  RayMask on_face = 0;     ///< on the face that the first of them hits
-  RayMask on_spheres = 0;  ///< on other spheres, if that is on one; see PreparedData::on_spheres_like()
+  RayMask on_face = 0;  ///< on the face that the first of them hits
+  RayMask on_spheres =
+      0;  ///< on other spheres, if that is on one; see PreparedData::on_spheres_like()
 
   RayMask all() const { return on_face | on_spheres; }
 };

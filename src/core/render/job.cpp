@@ -40,7 +40,8 @@ class RenderJob::State {
 
   Image wait() {
     if (inside() == this) {
-      throw Error(ErrorCode::invalid_argument, "a job cannot wait for itself: not in its own callbacks");
+      throw Error(ErrorCode::invalid_argument,
+                  "a job cannot wait for itself: not in its own callbacks");
     }
     std::unique_lock lock(mutex_);
     ended_.wait(lock, [this] { return finished_; });
@@ -73,9 +74,9 @@ class RenderJob::State {
     const State* before_;
   };
 
-  /// The options with callbacks that know whose they are, and as many threads as the arena of the calling
-  /// thread has if they do not say how many. (In that arena itself the place of the calling thread would stay
-  /// empty.)
+  /// The options with callbacks that know whose they are, and as many threads as the arena of the
+  /// calling thread has if they do not say how many. (In that arena itself the place of the calling
+  /// thread would stay empty.)
   RenderOptions adapted(RenderOptions options) {
     options.threads = core::allowed_threads(options.threads);
     if (options.progress) {

@@ -12,9 +12,9 @@ struct Medium {
   std::uint32_t material = 0;  ///< of the surface through which it was entered
 };
 
-/// Lists of nested media, innermost first, that share their tails: a ray's list is one number, and a
-/// ray that goes on has a list of its own without a copy. Leaving a solid takes it out wherever it is in the
-/// list; media_order.hpp says where it goes when it is entered.
+/// Lists of nested media, innermost first, that share their tails: a ray's list is one number, and
+/// a ray that goes on has a list of its own without a copy. Leaving a solid takes it out wherever
+/// it is in the list; media_order.hpp says where it goes when it is entered.
 class MediaLists {
  public:
   using List = std::uint32_t;
@@ -27,7 +27,8 @@ class MediaLists {
     if (list == empty) return with(list, medium);
     List outer = left(list, medium.object);
     inner_.clear();
-    for (; outer != empty && !is_inside_of(nodes_[outer].medium.object); outer = nodes_[outer].around) {
+    for (; outer != empty && !is_inside_of(nodes_[outer].medium.object);
+         outer = nodes_[outer].around) {
       inner_.push_back(nodes_[outer].medium);
     }
     return with_inner(with(outer, medium));

@@ -1,8 +1,8 @@
 // Which of the solids around a ray decides.
 //
-// Of two solids the inner one is that whose stretch of the ray's line lies within the other's stretch; if the
-// stretches are equal or merely overlap, the one written later is. That does not depend on the sense in which
-// the ray runs. The innermost decides.
+// Of two solids the inner one is that whose stretch of the ray's line lies within the other's
+// stretch; if the spans are equal or merely overlap, the one written later is. That does not depend
+// on the sense in which the ray runs. The innermost decides.
 #pragma once
 
 #include <cstddef>
@@ -14,8 +14,8 @@
 
 namespace crt::core {
 
-/// Of more solids than this around one point, or entered at one place, the rest is left out: what many of
-/// them cost grows with the square of their number.
+/// Of more solids than this around one point, or entered at one place, the rest is left out: what
+/// many of them cost grows with the square of their number.
 inline constexpr std::size_t most_media_at_once = 256;
 
 /// Whether crossings are at one place, be it at infinity.
@@ -23,8 +23,8 @@ inline bool same_end(const RayHit& a, const RayHit& b) {
   return a.t == b.t || same_place(a, b);
 }
 
-/// `list` once the ray has entered `medium`. `exit_of(object)` says where the ray's line leaves a solid; it
-/// is asked only if need be.
+/// `list` once the ray has entered `medium`. `exit_of(object)` says where the ray's line leaves a
+/// solid; it is asked only if need be.
 template <class ExitOf>
 MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, const Medium& medium,
                                   const ExitOf& exit_of) {
@@ -36,8 +36,8 @@ MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, cons
   });
 }
 
-/// Sorts by insertion, which needs no strict order: two ends that both are at one place with a third need not
-/// be so themselves.
+/// Sorts by insertion, which needs no strict order: two ends that both are at one place with a
+/// third need not be so themselves.
 template <class Item, class ComesFirst>
 void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) {
   for (std::size_t i = 1; i < items.size(); ++i) {
@@ -51,17 +51,17 @@ void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) 
 template <class ExitOf>
 void sort_outermost_first(std::vector<RayHit>& entered, const ExitOf& exit_of) {
   if (entered.size() < 2) return;
-  struct Stretch {
+  struct Span {
     RayHit enter;
     RayHit exit;
   };
-  std::vector<Stretch> stretches;
-  stretches.reserve(entered.size());
-  for (const RayHit& enter : entered) stretches.push_back({enter, exit_of(enter.object)});
-  sort_by_insertion(stretches, [](const Stretch& a, const Stretch& b) {
+  std::vector<Span> spans;
+  spans.reserve(entered.size());
+  for (const RayHit& enter : entered) spans.push_back({enter, exit_of(enter.object)});
+  sort_by_insertion(spans, [](const Span& a, const Span& b) {
     return same_end(a.exit, b.exit) ? a.enter.object < b.enter.object : a.exit.t > b.exit.t;
   });
-  for (std::size_t i = 0; i < entered.size(); ++i) entered[i] = stretches[i].enter;
+  for (std::size_t i = 0; i < entered.size(); ++i) entered[i] = spans[i].enter;
 }
 
 }  // namespace crt::core

@@ -32,7 +32,8 @@ class PacketTracer {
     const std::size_t with_lens = with_lens_ ? places.lens.size() : 0;
     camera_.rays(count, places.picture, std::span(places.lens).first(with_lens), rays_);
     const std::span<Tracer::Sample> samples = std::span(samples_).first(count);
-    const std::span<FirstHit> first_hits = std::span(first_hits_).first(with_first_hits_ ? count : 0);
+    const std::span<FirstHit> first_hits =
+        std::span(first_hits_).first(with_first_hits_ ? count : 0);
     tracer_.trace(rays_, samples, first_hits);
     return {samples, first_hits};
   }

@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "core/render/pixels_aside.hpp"
-#include "core/render/small_things.hpp"
+#include "core/render/subpixel_objects.hpp"
 
 namespace crt::core {
 
@@ -18,14 +18,16 @@ namespace {
 /// Without a target error pixels go on until nobody could see the difference, be it in 10 bits.
 constexpr double finest_error = 0.25 / 255;
 
-/// Of what is left to be done at most, how much a doubling is taken for that may not be the last, and a pass.
+/// Of what is left to be done at most, how much a doubling is taken for that may not be the last,
+/// and a pass.
 constexpr double share_of_doubling = 0.5;
 constexpr double share_of_pass = share_of_doubling / passes_per_step;
 
-/// How far notes of what is seen are passed on, in pixels. Out of focus things fade over many pixels, of
-/// which each has few samples that hit them: more pixels together see what one overlooks.
-constexpr int reach_of_notes = 1;
-constexpr int reach_of_notes_with_lens = 2;
+/// How far statistics of what is seen are passed on, in pixels. Out of focus things fade over many
+/// pixels, of which each has few samples that hit them: more pixels together see what one
+/// overlooks.
+constexpr int reach_of_statistics = 1;
+constexpr int reach_of_statistics_with_lens = 2;
 
 /// The region and the pixels around it, but no others than those within `limits`.
 Region widened(const Region& region, int margin, const Region& limits) {
@@ -36,7 +38,8 @@ Region widened(const Region& region, int margin, const Region& limits) {
   return {left, top, right - left, bottom - top};
 }
 
-/// Calls use(y, begin, end) for what each row of an area has outside of a tile that is partly in it.
+/// Calls use(y, begin, end) for what each row of an area has outside of a tile that is partly in
+/// it.
 template <class Use>
 void for_each_beyond(const Region& area, const Region& tile, const Use& use) {
   const int right = area.x + area.width;
@@ -60,7 +63,7 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
                PassClock& clock, Canvas& canvas)
     : frame_(frame),
       region_(region),
-      reach_(frame.features().lens ? reach_of_notes_with_lens : reach_of_notes),
+      reach_(frame.features().lens ? reach_of_statistics_with_lens : reach_of_statistics),
       worked_on_(widened(region, reach_, {0, 0, frame.settings().width, frame.settings().height})),
       grid_(worked_on_),
       most_samples_(frame.settings().max_samples),
@@ -70,7 +73,7 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
       scale_(frame.settings().gamma),
       target_(frame.settings().target_error > 0 ? frame.settings().target_error : finest_error),
       store_(pixel_count(worked_on_)),
-      small_things_(small_things(frame, worked_on_)) {
+      subpixel_objects_(subpixel_objects(frame, worked_on_)) {
   if (most_passes > 0 && most_passes < passes_until(most_samples_)) {
     const SamplesDone done = samples_after(most_passes);
     most_samples_ = done.samples;
@@ -95,11 +98,12 @@ Passes::Passes(const Frame& frame, const Region& region, int most_passes, bool w
   }
 }
 
-void Passes::expect_small_things(Tile& tile) const {
-  if (small_things_.empty()) return;
+void Passes::expect_subpixel_objects(Tile& tile) const {
+  if (subpixel_objects_.empty()) return;
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
-    if (small_things_[index_in(worked_on_, place.x, place.y)]) tile.samples[i].expect_small_things();
+    if (subpixel_objects_[index_in(worked_on_, place.x, place.y)])
+      tile.samples[i].expect_subpixel_objects();
   }
 }
 
@@ -124,7 +128,8 @@ void Passes::run(const TaskRunner& run_tasks) {
     const bool may_end = count_ > 0 && !is_within_step();
     if (by_clock_ && may_end && !clock_.has_time_for(samples)) break;
     const double share = goes_by_pass() ? share_of_pass : share_of_doubling;
-    share_ = by_clock_ ? std::max(share_, clock_.share_after(samples)) : share_ + share * (1 - share_);
+    share_ =
+        by_clock_ ? std::max(share_, clock_.share_after(samples)) : share_ + share * (1 - share_);
     trace(run_tasks, step);
     clock_.pass_done(samples);
     if (eighths_ == 0) decide(run_tasks);
@@ -146,16 +151,19 @@ Passes::Step Passes::next_step() const {
   if (eighths_ > 0 || last_rank < passes_per_step) return {count_ + 1, {eighths_, last_rank}};
   if (goes_by_pass()) return {std::min(count_ + samples_of_next_step(count_), most_samples_), {}};
   const std::int64_t least = frame_.settings().min_samples;
-  const auto doubled = 2 * static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(count_)));
+  const auto doubled =
+      2 * static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(count_)));
   return {std::min(count_ < least ? least : doubled, most_samples_), {}};
 }
 
 bool Passes::is_doubled() const {
-  return count_ >= frame_.settings().min_samples && std::has_single_bit(static_cast<std::uint64_t>(count_));
+  return count_ >= frame_.settings().min_samples &&
+         std::has_single_bit(static_cast<std::uint64_t>(count_));
 }
 
 void Passes::decide(const TaskRunner& run_tasks) {
-  if (count_ == frame_.settings().min_samples && !has_exchanged_notes_) exchange_notes(run_tasks);
+  if (count_ == frame_.settings().min_samples && !has_exchanged_statistics_)
+    exchange_statistics(run_tasks);
   if (!is_complete() && is_doubled()) settle(run_tasks, false);
 }
 
@@ -200,16 +208,16 @@ void Passes::trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace&
   const Change change(*this, work);
   if (aside) aside->put_back();
   tile.is_ahead = true;
-  if (count_ == 0) expect_small_things(tile);
+  if (count_ == 0) expect_subpixel_objects(tile);
   show(tile.region, chosen, SampleCount(step.until));
   const bool ends_step = step.ranks.last == passes_per_step;
   if (!ends_step || step.until != frame_.settings().min_samples) return;
-  keep_notes_within(tile.region, reach_, tile.samples);
+  keep_statistics_within(tile.region, reach_, tile.samples);
   if (decides_at_once(step)) decide_inside(tile, step.until, work);
 }
 
 void Passes::decide_inside(Tile& tile, std::int64_t count, Workspace& work) {
-  tile.rim = TileRim(tile.region, reach_).notes(tile.samples);
+  tile.halo = TileHalo(tile.region, reach_).statistics(tile.samples);
   settle_tile(tile, {.count = count, .at_end = is_end(count, 0), .part = TilePart::inside}, work);
   const std::span<PixelSamples> kept = store_.take(tile.samples.size());
   std::uninitialized_copy(tile.samples.begin(), tile.samples.end(), kept.begin());
@@ -229,7 +237,8 @@ std::size_t Passes::index_of(const Place& place) const {
   return index_in(region_, place.x, place.y);
 }
 
-void Passes::show(const Region& tile, std::span<const PixelPlace> pixels, const SampleCount& count) {
+void Passes::show(const Region& tile, std::span<const PixelPlace> pixels,
+                  const SampleCount& count) {
   const bool is_whole = pixels.size() == pixel_count(tile) && is_in(region_, tile.x, tile.y) &&
                         is_in(region_, tile.x + tile.width - 1, tile.y + tile.height - 1);
   if (!is_whole) {
@@ -260,65 +269,71 @@ void Passes::show_some(std::span<const PixelPlace> pixels, const SampleCount& co
   canvas_.put(std::span(shown).first(shown_count));
 }
 
-void Passes::exchange_notes(const TaskRunner& run_tasks) {
-  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
-    const Change change(*this, work);
-    keep_notes_from_beyond(tiles_[active_[index]]);
-  });
+void Passes::exchange_statistics(const TaskRunner& run_tasks) {
+  run_tasks(active_.size(), share_,
+            [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
+              const Change change(*this, work);
+              keep_statistics_from_beyond(tiles_[active_[index]]);
+            });
   const auto hold = this->hold();
-  has_exchanged_notes_ = true;
+  has_exchanged_statistics_ = true;
 }
 
-void Passes::keep_notes_from_beyond(Tile& tile) const {
-  using Notes = PixelSamples::Notes;
-  constexpr std::size_t widest = Tiles::side + 2 * reach_of_notes_with_lens;
-  std::array<Notes, widest * widest> seen;  // in the window, around the tile
+void Passes::keep_statistics_from_beyond(Tile& tile) const {
+  using Statistics = PixelSamples::Statistics;
+  constexpr std::size_t widest = Tiles::side + 2 * reach_of_statistics_with_lens;
+  std::array<Statistics, widest * widest> seen;  // in the window, around the tile
   const Region window = widened(tile.region, reach_, worked_on_);
   const auto seen_at = [&](int x, int y) { return &seen[index_in(window, x, y)]; };
   for_each_beyond(window, tile.region,
                   [&](int y, int begin, int end) { look_at(y, begin, end, seen_at(begin, y)); });
-  const TileRim rim(tile.region, reach_);
+  const TileHalo halo(tile.region, reach_);
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
-    if (!rim.has(place.x, place.y) || !is_in_region(place)) continue;
+    if (!halo.has(place.x, place.y) || !is_in_region(place)) continue;
     PixelSamples& samples = tile.samples[i];
     const Region around = widened({place.x, place.y, 1, 1}, reach_, worked_on_);
     for_each_beyond(around, tile.region, [&](int y, int begin, int end) {
-      for (const Notes* notes = seen_at(begin, y); begin < end; ++begin) samples.keep(*notes++);
+      for (const Statistics* statistics = seen_at(begin, y); begin < end; ++begin)
+        samples.keep(*statistics++);
     });
   }
 }
 
-void Passes::look_at(int y, int begin, int end, PixelSamples::Notes* notes) const {
+void Passes::look_at(int y, int begin, int end, PixelSamples::Statistics* statistics) const {
   for (int x = begin; x < end;) {
     const Tile& tile = tiles_[grid_.index(x, y)];
     const int end_in_tile = std::min(end, tile.region.x + tile.region.width);
-    if (!tile.rim.empty()) {
-      const auto first = static_cast<std::ptrdiff_t>(TileRim(tile.region, reach_).index(x, y));
-      notes = std::copy_n(tile.rim.begin() + first, end_in_tile - x, notes);
+    if (!tile.halo.empty()) {
+      const auto first = static_cast<std::ptrdiff_t>(TileHalo(tile.region, reach_).index(x, y));
+      statistics = std::copy_n(tile.halo.begin() + first, end_in_tile - x, statistics);
       x = end_in_tile;
     }
-    while (x < end_in_tile) *notes++ = tile.samples[index_in(tile.region, x++, y)].notes();
+    while (x < end_in_tile)
+      *statistics++ = tile.samples[index_in(tile.region, x++, y)].statistics();
   }
 }
 
 void Passes::settle(const TaskRunner& run_tasks, bool at_end) {
-  run_tasks(active_.size(), share_, [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
-    const Change change(*this, work);
-    Tile& tile = tiles_[active_[index]];
-    const TilePart part = tile.rim.empty() ? TilePart::whole : TilePart::rim;
-    settle_tile(tile, {count_, eighths_, at_end, part}, work);
-    tile.rim = {};
-  });
+  run_tasks(active_.size(), share_,
+            [&](std::size_t index, Workspace& work, Progress& /*progress*/) {
+              const Change change(*this, work);
+              Tile& tile = tiles_[active_[index]];
+              const TilePart part = tile.halo.empty() ? TilePart::whole : TilePart::halo;
+              settle_tile(tile, {count_, eighths_, at_end, part}, work);
+              tile.halo = {};
+            });
   std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
 }
 
 void Passes::choose(const Tile& tile, TilePart part, TilePixels& chosen) const {
-  const TileRim rim(tile.region, reach_);
+  const TileHalo halo(tile.region, reach_);
   for (std::size_t i = 0; i < tile.places.size(); ++i) {
     const Place place = place_of(tile, i);
-    const bool is_in_part = part == TilePart::whole || rim.has(place.x, place.y) == (part == TilePart::rim);
-    if (is_in_part && is_in_region(place)) chosen.indices[chosen.count++] = static_cast<std::uint8_t>(i);
+    const bool is_in_part =
+        part == TilePart::whole || halo.has(place.x, place.y) == (part == TilePart::halo);
+    if (is_in_part && is_in_region(place))
+      chosen.indices[chosen.count++] = static_cast<std::uint8_t>(i);
   }
 }
 

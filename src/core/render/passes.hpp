@@ -1,14 +1,16 @@
 // Rendering pass by pass: each gives the pixels that are not yet good enough some more samples.
 //
-// After min_samples, and at each doubling from then on, all threads wait for each other, and it is decided
-// which pixels go on: those whose half-width is above the target error. What a pixel's neighbours saw counts
-// as well, but only in their first min_samples samples, which all pixels get. So a decision depends on the
-// samples of the pixel and on the first ones of its neighbours alone, and a part of the picture is rendered
-// like the whole if its margin, a pixel or two wide, gets the first samples too.
+// After min_samples, and at each doubling from then on, all threads wait for each other, and it is
+// decided which pixels go on: those whose half-width is above the target error. What a pixel's
+// neighbours saw counts as well, but only in their first min_samples samples, which all pixels get.
+// So a decision depends on the samples of the pixel and on the first ones of its neighbours alone,
+// and a part of the picture is rendered like the whole if its margin, a pixel or two wide, gets the
+// first samples too.
 //
-// Where the first step brings all of min_samples, and nobody wants the picture before that, a tile's pixels
-// are decided on as soon as they are traced, while they are in the processor's caches: all but those on its
-// rim, which have neighbours in other tiles. Only these and those that go on are kept.
+// Where the first step brings all of min_samples, and nobody wants the picture before that, a
+// tile's pixels are decided on as soon as they are traced, while they are in the processor's
+// caches: all but those on its halo, which have neighbours in other tiles. Only these and those
+// that go on are kept.
 #pragma once
 
 #include <array>
@@ -19,20 +21,21 @@
 
 #include "core/base/state_file.hpp"
 #include "core/render/canvas.hpp"
+#include "core/render/neighbour_statistics.hpp"
 #include "core/render/pass_clock.hpp"
 #include "core/render/pixel.hpp"
 #include "core/render/pixel_measures.hpp"
 #include "core/render/pixel_store.hpp"
-#include "core/render/tile_notes.hpp"
 #include "core/render/tiles.hpp"
 #include "core/sampling/schedule.hpp"
 
 namespace crt::core {
 
-/// Calls task(0) to task(count - 1), on several threads, with a workspace each; `share` is how much of the
-/// picture will be done after them.
-using TaskRunner = std::function<void(std::size_t count, double share,
-                                      const std::function<void(std::size_t, Workspace&, Progress&)>& task)>;
+/// Calls task(0) to task(count - 1), on several threads, with a workspace each; `share` is how much
+/// of the picture will be done after them.
+using TaskRunner =
+    std::function<void(std::size_t count, double share,
+                       const std::function<void(std::size_t, Workspace&, Progress&)>& task)>;
 
 /// Whether settings and options ask for it, and not for the plain grid.
 bool asks_for_passes(const Settings& settings, int passes);
@@ -40,24 +43,24 @@ bool asks_for_passes(const Settings& settings, int passes);
 class Passes {
  public:
   /// `most_passes`: 0 for as many as it takes. All but the region must outlive it.
-  Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits, PassClock& clock,
-         Canvas& canvas);
+  Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits,
+         PassClock& clock, Canvas& canvas);
 
   /// Renders. Once; then finish() is to be called.
   void run(const TaskRunner& run_tasks);
   /// Takes leave of all pixels that are left.
   void finish(const TaskRunner& run_tasks);
 
-  /// Before run(): from now on goes from pass to pass, also where nothing is decided between them, so that
-  /// everything can be stored at any time, even if run() ends by an exception. What has been counted for work
-  /// that is kept is handed to `settle`, from any thread.
+  /// Before run(): from now on goes from pass to pass, also where nothing is decided between them,
+  /// so that everything can be stored at any time, even if run() ends by an exception. What has
+  /// been counted for work that is kept is handed to `settle`, from any thread.
   void make_storable(std::function<void(Workspace&)> settle) { settle_counts_ = std::move(settle); }
   /// Keeps all that can be stored, and what goes with it into the canvas and to `settle`, as it is.
   std::unique_lock<std::shared_mutex> hold() const { return std::unique_lock(changing_); }
   /// Everything that is known of the picture so far, while it is held; before finish().
   void store(StateWriter& out) const;
-  /// Takes it up before run(), in one that was made alike but for its clock and number of passes. Throws
-  /// Error: io for what cannot be, invalid_argument if there are more passes than wanted.
+  /// Takes it up before run(), in one that was made alike but for its clock and number of passes.
+  /// Throws Error: io for what cannot be, invalid_argument if there are more passes than wanted.
   void restore(StateReader& in);
 
   int passes() const;
@@ -69,8 +72,9 @@ class Passes {
     Region region;
     std::span<PixelSamples> samples;   ///< from the first ones on
     std::vector<std::uint8_t> places;  ///< in a whole tile, row by row
-    /// Of what was seen on the rim, if the tile was decided on before the others told what they saw.
-    std::vector<PixelSamples::Notes> rim;
+    /// Of what was seen on the halo, if the tile was decided on before the others told what they
+    /// saw.
+    std::vector<PixelSamples::Statistics> halo;
     bool is_ahead = false;  ///< has had the step that others are still to have
   };
   /// As long as one lives, what can be stored is changed by a thread; others may do so, too.
@@ -106,7 +110,7 @@ class Passes {
   std::size_t index_of(const Place& place) const;
 
   /// Where there may be some; after the first samples.
-  void expect_small_things(Tile& tile) const;
+  void expect_subpixel_objects(Tile& tile) const;
   /// Gives pixels of the ranks from `first` to before `last` the samples up to `until`.
   struct Ranks {
     int first = 0;
@@ -138,13 +142,14 @@ class Passes {
   /// Whether it is the time to ask which pixels are good enough.
   bool is_doubled() const;
   /// Tells the pixels what neighbours in other tiles have seen.
-  void exchange_notes(const TaskRunner& run_tasks);
-  void keep_notes_from_beyond(Tile& tile) const;
-  /// What was seen, after the first samples of all, in pixels of a row of a tile, from one on to another.
-  void look_at(int y, int begin, int end, PixelSamples::Notes* notes) const;
+  void exchange_statistics(const TaskRunner& run_tasks);
+  void keep_statistics_from_beyond(Tile& tile) const;
+  /// What was seen, after the first samples of all, in pixels of a row of a tile, from one on to
+  /// another.
+  void look_at(int y, int begin, int end, PixelSamples::Statistics* statistics) const;
   /// Takes leave of the pixels that are good enough, at the end of all.
   void settle(const TaskRunner& run_tasks, bool at_end);
-  enum class TilePart : std::uint8_t { whole, inside, rim };
+  enum class TilePart : std::uint8_t { whole, inside, halo };
   struct Settling {
     std::int64_t count = 0;
     int eighths = 0;
@@ -169,7 +174,7 @@ class Passes {
 
   const Frame& frame_;
   Region region_;
-  int reach_;         ///< of notes, in pixels
+  int reach_;         ///< of statistics, in pixels
   Region worked_on_;  ///< the region and its margin
   Tiles grid_;
   std::int64_t most_samples_;
@@ -180,14 +185,14 @@ class Passes {
   DisplayScale scale_;
   double target_;
   PixelStore store_;
-  std::vector<bool> small_things_;  ///< the pixels where some may be; empty if there are none
+  std::vector<bool> subpixel_objects_;  ///< the pixels where some may be; empty if there are none
   std::vector<Tile> tiles_;
   std::vector<std::size_t> active_;  ///< of the tiles
   std::int64_t count_ = 0;           ///< samples of every pixel that is left
   int eighths_ = 0;                  ///< of them, by rank, that have one more
   double share_ = 0;
   PixelMeasures measures_;
-  bool has_exchanged_notes_ = false;
+  bool has_exchanged_statistics_ = false;
   std::function<void(Workspace&)> settle_counts_;
   mutable std::shared_mutex changing_;
 };

@@ -15,20 +15,22 @@ void Passes::store_tile(const Tile& tile, StateWriter& out) const {
   out.put(static_cast<std::uint16_t>(tile.places.size()));
   out.put_all(std::span<const std::uint8_t>(tile.places));
   if (!has_samples(tile)) return;
-  for (const PixelSamples& samples : tile.samples) out.put_all(std::span<const std::byte>(samples.stored()));
+  for (const PixelSamples& samples : tile.samples)
+    out.put_all(std::span<const std::byte>(samples.stored()));
 }
 
 void Passes::restore_tile(Tile& tile, StateReader& in) {
   tile.is_ahead = in.get<std::uint8_t>() != 0;
   const std::size_t count = in.get<std::uint16_t>();
   // No pixel is left out before all have told what they see.
-  if (count > pixel_count(tile.region) || (!has_exchanged_notes_ && count < pixel_count(tile.region)))
+  if (count > pixel_count(tile.region) ||
+      (!has_exchanged_statistics_ && count < pixel_count(tile.region)))
     in.fail();
   tile.places.resize(count);
   in.get_all(std::span<std::uint8_t>(tile.places));
   // Each pixel once, in its order, and in the tile.
-  const bool in_order =
-      std::adjacent_find(tile.places.begin(), tile.places.end(), std::greater_equal<>()) == tile.places.end();
+  const bool in_order = std::adjacent_find(tile.places.begin(), tile.places.end(),
+                                           std::greater_equal<>()) == tile.places.end();
   if (!in_order) in.fail();
   for (std::size_t i = 0; i < count; ++i) {
     const Place place = place_of(tile, i);
@@ -46,7 +48,7 @@ void Passes::restore_tile(Tile& tile, StateReader& in) {
 void Passes::store(StateWriter& out) const {
   out.put(count_);
   out.put(eighths_);
-  out.put(static_cast<std::uint8_t>(has_exchanged_notes_));
+  out.put(static_cast<std::uint8_t>(has_exchanged_statistics_));
   out.put_all(std::span<const std::uint32_t>(measures_.samples));
   out.put_all(std::span<const float>(measures_.half_widths));
   for (const FirstHit& hit : measures_.first_hits) {
@@ -61,14 +63,15 @@ void Passes::restore(StateReader& in) {
   const auto count = in.get<std::int64_t>();
   const int eighths = in.get<int>();
   const bool is_begun = count >= 1 && count <= frame_.settings().max_samples && eighths >= 0 &&
-                        eighths < passes_per_step && (eighths == 0 || count < samples_before_doubling) &&
+                        eighths < passes_per_step &&
+                        (eighths == 0 || count < samples_before_doubling) &&
                         samples_after(passes_until(count)).samples == count;
   if (!is_begun && !(count == 0 && eighths == 0)) in.fail();
   count_ = count;
   eighths_ = eighths;
-  has_exchanged_notes_ = in.get<std::uint8_t>() != 0;
+  has_exchanged_statistics_ = in.get<std::uint8_t>() != 0;
   const int at = frame_.settings().min_samples;
-  if (has_exchanged_notes_ ? count < at : count > at) in.fail();
+  if (has_exchanged_statistics_ ? count < at : count > at) in.fail();
   in.get_all(std::span<std::uint32_t>(measures_.samples));
   in.get_all(std::span<float>(measures_.half_widths));
   for (FirstHit& hit : measures_.first_hits) {
@@ -80,10 +83,12 @@ void Passes::restore(StateReader& in) {
   std::erase_if(active_, [&](std::size_t index) { return tiles_[index].places.empty(); });
   const int most = passes_until(most_samples_) + more_eighths_;
   if (passes() > most || (passes() == most && is_within_step())) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("the checkpoint is of {} passes{}, which is more than the {} that are asked for",
-                            passes(), is_within_step() ? " and a part of the next" : "", most),
-                "checkpoint");
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format(
+            "the checkpoint is of {} passes{}, which is more than the {} that are asked for",
+            passes(), is_within_step() ? " and a part of the next" : "", most),
+        "checkpoint");
   }
 }
 

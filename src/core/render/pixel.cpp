@@ -14,8 +14,8 @@ namespace {
 /// What random numbers are drawn for.
 constexpr std::uint32_t lens_dimension = 0;
 
-/// The places of a tile along Morton's curve, which goes through a square quarter by quarter: packets of
-/// rays through pixels that follow each other keep together.
+/// The places of a tile along Morton's curve, which goes through a square quarter by quarter:
+/// packets of rays through pixels that follow each other keep together.
 struct TilePlace {
   int x = 0;
   int y = 0;
@@ -31,8 +31,8 @@ constexpr auto tile_places = [] {
   return places;
 }();
 
-/// The rays of a grid through a tile: of one pixel after the other, for each of its subpixels those through
-/// points of the lens.
+/// The rays of a grid through a tile: of one pixel after the other, for each of its subpixels those
+/// through points of the lens.
 class GridRays {
  public:
   /// By ray of a packet, its pixel's place in the tile.
@@ -75,23 +75,27 @@ class GridRays {
   std::uint32_t place_some(int x, int y, RayPlaces& places, std::size_t count) {
     const std::size_t group = count / lane_count;
     const std::size_t lane = count % lane_count;
-    const bool makes_group = lane == 0 && ray_ % lane_count == 0 && rays_per_pixel_ - ray_ >= lane_count;
+    const bool makes_group =
+        lane == 0 && ray_ % lane_count == 0 && rays_per_pixel_ - ray_ >= lane_count;
     if (!with_lens && makes_group) {
       const PicturePlaceLanes& subpixels = frame_.subpixels()[ray_ / lane_count];
-      places.picture[group] = {static_cast<double>(x) + subpixels.x, static_cast<double>(y) + subpixels.y};
+      places.picture[group] = {static_cast<double>(x) + subpixels.x,
+                               static_cast<double>(y) + subpixels.y};
       return lane_count;
     }
     const std::size_t index = with_lens ? ray_ / lens_points_ : ray_;
-    const PicturePlace subpixel = lane_of(frame_.subpixels()[index / lane_count], index % lane_count);
+    const PicturePlace subpixel =
+        lane_of(frame_.subpixels()[index / lane_count], index % lane_count);
     set_lane(places.picture[group], lane, {x + subpixel.x, y + subpixel.y});
     if constexpr (with_lens) set_lane(places.lens[group], lane, lens_point(x, y));
     return 1;
   }
 
-  /// The rays of the next four pixels if each has one: they are a square. False if they are not all in the
-  /// region.
+  /// The rays of the next four pixels if each has one: they are a square. False if they are not all
+  /// in the region.
   bool place_square(RayPlaces& places, Pixels& pixels, std::size_t count) {
-    if (rays_per_pixel_ > 1 || place_ == tile_places.size() || place_ % lane_count != 0) return false;
+    if (rays_per_pixel_ > 1 || place_ == tile_places.size() || place_ % lane_count != 0)
+      return false;
     const TilePlace& place = tile_places[place_];
     if (place.x + 1 >= region_.width || place.y + 1 >= region_.height) return false;
     const PicturePlaceLanes& middle = frame_.subpixels().front();
@@ -164,8 +168,8 @@ class GridSums {
 
 }  // namespace
 
-void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std::span<PixelMean> pixels,
-                  std::span<FirstHit> first_hits, RenderStats& stats) {
+void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer,
+                  std::span<PixelMean> pixels, std::span<FirstHit> first_hits, RenderStats& stats) {
   const bool lens = frame.features().lens;
   const int lens_points = lens ? frame.settings().dof_samples : 1;
   std::fill(pixels.begin(), pixels.end(), PixelMean{});
@@ -179,7 +183,8 @@ void trace_pixels(const Frame& frame, const Region& region, Tracer& tracer, std:
   };
   while (const std::size_t count = next()) sums.add(packets.trace(places, count), of_pixels);
 
-  const std::uint64_t samples_per_pixel = frame.subpixel_count() * static_cast<std::uint64_t>(lens_points);
+  const std::uint64_t samples_per_pixel =
+      frame.subpixel_count() * static_cast<std::uint64_t>(lens_points);
   if (samples_per_pixel > 1) {
     const auto divisor = static_cast<double>(samples_per_pixel);
     for (PixelMean& pixel : pixels) pixel = {pixel.channels / divisor, pixel.dropped / divisor};

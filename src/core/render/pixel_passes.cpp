@@ -34,7 +34,8 @@ class PassRays {
         if (pixel_ == pixels_.size()) break;
         begin_pixel();
       }
-      const std::size_t groups = std::min<std::size_t>(end_ - next_, packet_size - count) / lane_count;
+      const std::size_t groups =
+          std::min<std::size_t>(end_ - next_, packet_size - count) / lane_count;
       if (groups > 0 && next_ % lane_count == 0 && count % lane_count == 0) {
         const std::uint32_t placed = place_groups(places, count / lane_count, groups);
         next_ += placed;
@@ -49,8 +50,11 @@ class PassRays {
   }
 
  private:
-  /// So few points of a pixel that those of several are found faster together; of single ones none are kept.
-  static bool are_few(std::uint32_t samples) { return samples >= lane_count && samples <= packet_size; }
+  /// So few points of a pixel that those of several are found faster together; of single ones none
+  /// are kept.
+  static bool are_few(std::uint32_t samples) {
+    return samples >= lane_count && samples <= packet_size;
+  }
 
   void begin_pixel() {
     const PixelPlace& pixel = pixels_[pixel_];
@@ -91,7 +95,8 @@ class PassRays {
     const std::size_t from = begin / lane_count;
     const auto& [pixel_u, pixel_v, lens_u, lens_v] = window_->coordinates;
     for (std::size_t i = 0; i < count; ++i) {
-      places.picture[first + i] = {x_ + filter_(pixel_u[from + i]), y_ + filter_(pixel_v[from + i])};
+      places.picture[first + i] = {x_ + filter_(pixel_u[from + i]),
+                                   y_ + filter_(pixel_v[from + i])};
     }
     for (std::size_t i = 0; with_lens_ && i < count; ++i) {
       places.lens[first + i] = camera_.lens_points(lens_u[from + i], lens_v[from + i]);
@@ -104,8 +109,10 @@ class PassRays {
     const SequencePoint point = with_lens_ ? sequence.point(next_) : sequence.pixel_point(next_);
     const std::size_t group = ray / lane_count;
     const std::size_t lane = ray % lane_count;
-    set_lane(places.picture[group], lane, {x_ + filter_(point.pixel_u), y_ + filter_(point.pixel_v)});
-    if (with_lens_) set_lane(places.lens[group], lane, camera_.lens_point(point.lens_u, point.lens_v));
+    set_lane(places.picture[group], lane,
+             {x_ + filter_(point.pixel_u), y_ + filter_(point.pixel_v)});
+    if (with_lens_)
+      set_lane(places.lens[group], lane, camera_.lens_point(point.lens_u, point.lens_v));
   }
 
   const CameraRays& camera_;
@@ -118,9 +125,10 @@ class PassRays {
   std::size_t pixel_ = 0;  ///< that comes after this one
   double x_ = 0;
   double y_ = 0;
-  std::array<PixelSequence, lane_count> sequences_;  ///< of this pixel and its neighbours in the span
-  std::size_t of_four_ = 0;                          ///< which of them is this one's
-  std::uint32_t next_;                               ///< sample of the pixel
+  std::array<PixelSequence, lane_count>
+      sequences_;            ///< of this pixel and its neighbours in the span
+  std::size_t of_four_ = 0;  ///< which of them is this one's
+  std::uint32_t next_;       ///< sample of the pixel
   // Points that have been found, if they are few the first ones of all these pixels:
   static constexpr std::uint32_t none = ~0u;
   static constexpr std::uint32_t window_size = PixelSequence::Window::size;
@@ -226,8 +234,9 @@ class PassSums {
 
 void trace_passes(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range,
                   Tracer& tracer, RenderStats& stats) {
-  const bool with_first_hits = std::any_of(
-      pixels.begin(), pixels.end(), [](const PixelPlace& pixel) { return pixel.first_hits != nullptr; });
+  const bool with_first_hits =
+      std::any_of(pixels.begin(), pixels.end(),
+                  [](const PixelPlace& pixel) { return pixel.first_hits != nullptr; });
   PacketTracer packets(frame, tracer, with_first_hits);
   PassRays rays(frame, pixels, range);
   PassSums sums(pixels, range);

@@ -9,7 +9,8 @@
 
 namespace crt::core {
 
-static_assert(std::is_trivially_copyable_v<PixelSamples> && std::is_trivially_destructible_v<PixelSamples>);
+static_assert(std::is_trivially_copyable_v<PixelSamples> &&
+              std::is_trivially_destructible_v<PixelSamples>);
 
 PixelStore::PixelStore(std::size_t count) {
   constexpr std::size_t large_page = std::size_t{1} << 21;
@@ -19,7 +20,8 @@ PixelStore::PixelStore(std::size_t count) {
   void* const memory = std::aligned_alloc(page, whole_pages);
   if (memory == nullptr) throw std::bad_alloc();
 #ifdef __linux__
-  if (page == large_page) madvise(memory, whole_pages, MADV_HUGEPAGE);  // where it fails, nothing is lost
+  if (page == large_page)
+    madvise(memory, whole_pages, MADV_HUGEPAGE);  // where it fails, nothing is lost
 #endif
   samples_.reset(static_cast<PixelSamples*>(memory));
 }

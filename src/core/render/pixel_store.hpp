@@ -11,14 +11,15 @@
 
 namespace crt::core {
 
-/// In large pages where the system has them: to be given small ones takes as long as a few rays through each
-/// pixel. Nothing is written there, so that what is never taken costs nothing.
+/// In large pages where the system has them: to be given small ones takes as long as a few rays
+/// through each pixel. Nothing is written there, so that what is never taken costs nothing.
 class PixelStore {
  public:
   /// For so many pixels together. Throws std::bad_alloc.
   explicit PixelStore(std::size_t count);
 
-  /// The samples of `count` pixels that nobody else has, which are to be constructed. From any thread.
+  /// The samples of `count` pixels that nobody else has, which are to be constructed. From any
+  /// thread.
   std::span<PixelSamples> take(std::size_t count) {
     return {samples_.get() + taken_.fetch_add(count, std::memory_order_relaxed), count};
   }

@@ -1,5 +1,5 @@
-// Pixels to which samples are added aside, so that what is known of them stays whole until all are there: a
-// checkpoint may be made in between, and a render may end.
+// Pixels to which samples are added aside, so that what is known of them stays whole until all are
+// there: a checkpoint may be made in between, and a render may end.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace crt::core {
 
 class PixelsAside {
  public:
-  /// Has copies stand for what is kept of some pixels of a tile, in the places themselves and in memory of
-  /// the workspace, neither of which may be used for anything else until put_back(). `have_samples`: that
-  /// they have some already.
+  /// Has copies stand for what is kept of some pixels of a tile, in the places themselves and in
+  /// memory of the workspace, neither of which may be used for anything else until put_back().
+  /// `have_samples`: that they have some already.
   PixelsAside(std::span<PixelPlace> places, bool have_samples, Workspace& work) : places_(places) {
     work.pixel_samples.resize(Tiles::most_pixels);
     work.first_hits.resize(Tiles::most_pixels);
@@ -36,7 +36,8 @@ class PixelsAside {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       PixelPlace& place = places_[i];
       *samples_[i] = *std::exchange(place.samples, samples_[i]);
-      if (first_hits_[i] != nullptr) *first_hits_[i] = *std::exchange(place.first_hits, first_hits_[i]);
+      if (first_hits_[i] != nullptr)
+        *first_hits_[i] = *std::exchange(place.first_hits, first_hits_[i]);
     }
   }
 

@@ -16,16 +16,17 @@ class Progress {
   /// An empty callback is one that never stops anything.
   explicit Progress(const std::function<bool(double)>& callback);
 
-  /// Before the first and after the last task; both throw Error (cancelled) if the callback says no.
+  /// Before the first and after the last task; both throw Error (cancelled) if the callback says
+  /// no.
   void begin();
   void finish();
 
-  /// Before the first of some tasks, with all before them done: how many come, and what share of everything
-  /// is done after them.
+  /// Before the first of some tasks, with all before them done: how many come, and what share of
+  /// everything is done after them.
   void begin_part(std::size_t task_count, double share_after);
 
-  /// Has each thread do this now and then, between rays, from now on; nothing if it is empty. While no task
-  /// runs.
+  /// Has each thread do this now and then, between rays, from now on; nothing if it is empty. While
+  /// no task runs.
   void do_between_rays(std::function<void()> chore) { chore_ = std::move(chore); }
 
   /// After each task. Throws Error (cancelled) if the callback says no, now or before.

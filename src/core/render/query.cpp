@@ -8,8 +8,8 @@
 
 #include "core/math/float_environment.hpp"
 #include "core/prepare/prepared_data.hpp"
+#include "core/render/input_rays.hpp"
 #include "core/render/query_packet.hpp"
-#include "core/render/users_rays.hpp"
 #include "core/tasks/tasks.hpp"
 #include "crt/error.hpp"
 
@@ -111,10 +111,13 @@ void validate(const Ray& ray) {
     throw Error(ErrorCode::invalid_argument, "origin of a ray must be finite", "origin");
   }
   if (!is_finite(ray.direction) || ray.direction == Vec3(0)) {
-    throw Error(ErrorCode::invalid_argument, "direction of a ray must be finite and not 0", "direction");
+    throw Error(ErrorCode::invalid_argument, "direction of a ray must be finite and not 0",
+                "direction");
   }
-  if (std::isnan(ray.t_min)) throw Error(ErrorCode::invalid_argument, "t_min is not a number", "t_min");
-  if (std::isnan(ray.t_max)) throw Error(ErrorCode::invalid_argument, "t_max is not a number", "t_max");
+  if (std::isnan(ray.t_min))
+    throw Error(ErrorCode::invalid_argument, "t_min is not a number", "t_min");
+  if (std::isnan(ray.t_max))
+    throw Error(ErrorCode::invalid_argument, "t_max is not a number", "t_max");
 }
 
 std::size_t first_invalid(std::span<const Ray> rays) {
@@ -224,7 +227,8 @@ std::vector<Hit> crossings(const PreparedScene& scene, const Ray& ray) {
   return hits;
 }
 
-void query_in_parallel(const PreparedScene& scene, std::size_t count, const RayBatchWork& work, int threads) {
+void query_in_parallel(const PreparedScene& scene, std::size_t count, const RayBatchWork& work,
+                       int threads) {
   const std::size_t size = core::batch_size(count, core::allowed_threads(threads));
   const std::size_t batches = count / size + (count % size != 0 ? 1 : 0);
   core::answered([&] {

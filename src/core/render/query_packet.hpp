@@ -12,7 +12,7 @@
 
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/hit_faces.hpp"
-#include "core/render/users_rays.hpp"
+#include "core/render/input_rays.hpp"
 #include "crt/query.hpp"
 
 namespace crt::core {
@@ -65,7 +65,7 @@ class QueryPacket {
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
-    data_.expect_points(hits_, all());
+    data_.prefetch_points(hits_, all());
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
       find_distances(first, count);
@@ -105,7 +105,8 @@ class QueryPacket {
   bool take_group(std::span<const Ray, lane_count> rays, std::size_t first) {
     const UserRays users(rays);
     Lanes factors;
-    if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors)) return false;
+    if (!core::all(users.plainly_valid()) || !follow(users, first / lane_count, rays_, factors))
+      return false;
     to_users_t_[first / lane_count] = factors;
     return true;
   }
@@ -126,7 +127,8 @@ class QueryPacket {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
     // What has found nothing is nowhere.
-    const RayMask found = mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
+    const RayMask found =
+        mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
     set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
   }
   /// The same of the crossings of a group with leaf_of(lane), at the followed rays' t.
@@ -190,18 +192,19 @@ class QueryPacket {
 
   /// By whole vectors.
   void tell(std::span<PlainHit> answers) const {
-    static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 && offsetof(PlainHit, u) == 32);
+    static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 &&
+                  offsetof(PlainHit, u) == 32);
     static_assert(offsetof(PlainHit, v) == 40 && offsetof(PlainHit, entity_id) == 48 &&
                   offsetof(PlainHit, side) == 52);
     const LaneMask found = lanes_with(found_);
     const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
-    const auto heads =
-        transposed({told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
+    const auto heads = transposed(
+        {told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
     // Each with its side behind it.
     using Pairs = std::int32_t __attribute__((vector_size(32)));
     const Pairs ids_and_sides = __builtin_shufflevector(ids_, sides_, 0, 4, 1, 5, 2, 6, 3, 7);
-    const auto tails =
-        transposed({told(points_.u), told(points_.v), told(reinterpret_cast<Lanes>(ids_and_sides)), Lanes{}});
+    const auto tails = transposed(
+        {told(points_.u), told(points_.v), told(reinterpret_cast<Lanes>(ids_and_sides)), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
@@ -226,7 +229,9 @@ class QueryPacket {
     }
   }
 
-  Lanes told_t() const { return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity()); }
+  Lanes told_t() const {
+    return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity());
+  }
 
   const PreparedData& data_;
   RayWorkspace& work_;

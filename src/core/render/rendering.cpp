@@ -30,10 +30,12 @@ Region chosen_region(const RenderOptions& options, const Settings& settings) {
                       region.width <= settings.width - region.x &&
                       region.height <= settings.height - region.y;
   if (!inside) {
-    throw Error(ErrorCode::invalid_argument,
-                fmt::format("region of {} x {} pixels at ({}, {}) is not inside the picture of {} x {}",
-                            region.width, region.height, region.x, region.y, settings.width, settings.height),
-                "region");
+    throw Error(
+        ErrorCode::invalid_argument,
+        fmt::format("region of {} x {} pixels at ({}, {}) is not inside the picture of {} x {}",
+                    region.width, region.height, region.x, region.y, settings.width,
+                    settings.height),
+        "region");
   }
   return region;
 }
@@ -46,22 +48,25 @@ Settings chosen_settings(const RenderOptions& options, const Settings& settings)
 
 void check_passes(const RenderOptions& options, const Settings& settings, const Region& region) {
   if (options.passes < 0) {
-    throw Error(ErrorCode::invalid_argument, "passes must not be negative; 0 means as many as it takes",
-                "passes");
+    throw Error(ErrorCode::invalid_argument,
+                "passes must not be negative; 0 means as many as it takes", "passes");
   }
   if (!options.checkpoint.empty() && !asks_for_passes(settings, options.passes)) {
-    throw Error(ErrorCode::invalid_argument,
-                "a checkpoint is of a picture with a target error, a time budget or a number of passes",
-                "checkpoint");
+    throw Error(
+        ErrorCode::invalid_argument,
+        "a checkpoint is of a picture with a target error, a time budget or a number of passes",
+        "checkpoint");
   }
   // Each pixel takes some 200 bytes while it is worked on.
   constexpr std::int64_t most_pixels = std::int64_t{1} << 25;
-  if (asks_for_passes(settings, options.passes) && std::int64_t{region.width} * region.height > most_pixels) {
+  if (asks_for_passes(settings, options.passes) &&
+      std::int64_t{region.width} * region.height > most_pixels) {
     throw Error(
         ErrorCode::limit,
-        fmt::format("{} x {} pixels are too many at once with a target error, a time budget or passes: "
-                    "render regions of up to 2^25 pixels",
-                    region.width, region.height));
+        fmt::format(
+            "{} x {} pixels are too many at once with a target error, a time budget or passes: "
+            "render regions of up to 2^25 pixels",
+            region.width, region.height));
   }
 }
 
@@ -206,8 +211,8 @@ RenderStats Rendering::render_picture() {
   int passes = 0;
   const bool by_passes = asks_for_passes(settings_, options_.passes);
   if (by_passes) {
-    Passes rendering(frame, canvas_.region(), options_.passes, ask_for_first_hits(options_.aovs), clock,
-                     canvas_);
+    Passes rendering(frame, canvas_.region(), options_.passes, ask_for_first_hits(options_.aovs),
+                     clock, canvas_);
     if (options_.checkpoint.empty()) {
       rendering.run(run_tasks);
     } else {
@@ -260,29 +265,31 @@ void Rendering::run() {
 void Rendering::tell(const RenderStats& stats) const {
   if (!options_.log) return;
   for (const std::string& warning : data_.warnings()) log(LogLevel::warning, warning);
-  log(LogLevel::info, fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
-                                  stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
+  log(LogLevel::info,
+      fmt::format("rendered {} pixels in {:.2f} s on {} thread{}", stats.pixels,
+                  stats.trace_seconds, stats.threads, stats.threads == 1 ? "" : "s"));
   if (stats.passes > 0) {
     constexpr double steps = 255;
     log(LogLevel::info,
-        fmt::format(
-            "{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are within {:.2f} "
-            "8-bit steps of the truth; {} not within the target",
-            stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
-            steps * stats.half_width_95, stats.pixels_unresolved));
+        fmt::format("{} passes: {} to {} samples a pixel, {:.1f} in the mean; 95 of 100 pixels are "
+                    "within {:.2f} "
+                    "8-bit steps of the truth; {} not within the target",
+                    stats.passes, stats.samples_min, stats.samples_max, stats.samples_mean,
+                    steps * stats.half_width_95, stats.pixels_unresolved));
   }
   if (settings_.precision == Precision::exact) {
-    log(LogLevel::info,
-        fmt::format("exact: {} questions were too close for rounded arithmetic", stats.escalations));
+    log(LogLevel::info, fmt::format("exact: {} questions were too close for rounded arithmetic",
+                                    stats.escalations));
   }
   if (options_.threads > stats.threads) {
     log(LogLevel::warning, fmt::format("asked for {} threads, but this process may use {} at most",
                                        options_.threads, stats.threads));
   }
   if (stats.samples_over_ray_bound > 0) {
-    log(LogLevel::warning, fmt::format("{} camera samples reached the bound on rays and dropped the rest: "
-                                       "a lower recursion depth costs less",
-                                       stats.samples_over_ray_bound));
+    log(LogLevel::warning,
+        fmt::format("{} camera samples reached the bound on rays and dropped the rest: "
+                    "a lower recursion depth costs less",
+                    stats.samples_over_ray_bound));
   }
 }
 

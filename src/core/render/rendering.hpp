@@ -15,11 +15,13 @@ namespace crt::core {
 
 class Rendering {
  public:
-  /// Checks the options; throws Error (invalid_argument, limit, out_of_memory). `data` must outlive it.
-  /// `seconds` is what a time budget goes by, and when a checkpoint is due.
-  Rendering(const PreparedData& data, RenderOptions options, PassClock::Seconds seconds = steady_seconds);
+  /// Checks the options; throws Error (invalid_argument, limit, out_of_memory). `data` must outlive
+  /// it. `seconds` is what a time budget goes by, and when a checkpoint is due.
+  Rendering(const PreparedData& data, RenderOptions options,
+            PassClock::Seconds seconds = steady_seconds);
 
-  /// Renders on this thread and those that the options allow. Once. Throws Error: cancelled, out_of_memory.
+  /// Renders on this thread and those that the options allow. Once. Throws Error: cancelled,
+  /// out_of_memory.
   void run();
 
   /// The picture, which is then no longer here. After run().
@@ -52,9 +54,9 @@ class Rendering {
   void run(std::size_t count, WorkspacePool& pool,
            const std::function<void(std::size_t, Workspace&, Progress&)>& task);
   void render_tile(const Frame& frame, const Region& tile, Workspace& work);
-  /// Its colours; what its pixels meet first goes into `first_hits`, if that has room for them.
-  void trace_tile(const Frame& frame, const Region& tile, Tracer& tracer, std::span<FirstHit> first_hits,
-                  Workspace& work);
+  /// Its colours; what its pixels meet first goes into `first_hits`, if that has margin for them.
+  void trace_tile(const Frame& frame, const Region& tile, Tracer& tracer,
+                  std::span<FirstHit> first_hits, Workspace& work);
   void tell(const RenderStats& stats) const;
   void log(LogLevel level, const std::string& line) const;
 

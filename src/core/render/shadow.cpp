@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/render/media_on_way.hpp"
+#include "core/render/media_along_ray.hpp"
 #include "core/render/surface_hit.hpp"
 
 namespace crt::core {
@@ -11,16 +11,17 @@ namespace crt::core {
 namespace {
 
 /// What the media along the ray absorb, between the crossings.
-class AbsorbedShare final : private MediaOnWay::Line {
+class AbsorbedShare final : private MediaAlongRay::Line {
  public:
   AbsorbedShare(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
                 Workspace& work)
-      : data_(data), ray_(ray), crossings_(crossings), work_(work), media_(work.media_on_way) {}
+      : data_(data), ray_(ray), crossings_(crossings), work_(work), media_(work.media_along_ray) {}
 
   /// Of a ray that starts within `media`.
   Rgb share(const MediaLists& lists, MediaLists::List media) {
     media_.begin(crossings_, *this);
-    for (; media != MediaLists::empty; media = lists.around(media)) media_.surround(lists.innermost(media));
+    for (; media != MediaLists::empty; media = lists.around(media))
+      media_.surround(lists.innermost(media));
     for (std::size_t begin = 0; begin < crossings_.size();) {
       std::size_t end = begin + 1;
       while (end < crossings_.size() && same_place(crossings_[begin], crossings_[end])) ++end;
@@ -54,7 +55,8 @@ class AbsorbedShare final : private MediaOnWay::Line {
         media_.leave(crossing.object);
       }
     }
-    sort_outermost_first(entered, [&](std::uint32_t object) { return media_.exit_of(object, end); });
+    sort_outermost_first(entered,
+                         [&](std::uint32_t object) { return media_.exit_of(object, end); });
     for (const RayHit& crossing : entered) {
       media_.enter({crossing.object, data_.hit_material(crossing)}, end);
     }
@@ -72,7 +74,7 @@ class AbsorbedShare final : private MediaOnWay::Line {
   const WorldRay& ray_;
   std::span<const RayHit> crossings_;
   Workspace& work_;
-  MediaOnWay& media_;
+  MediaAlongRay& media_;
   Rgb share_{1, 1, 1};
   double reached_ = 0;
 };
@@ -87,7 +89,8 @@ Rgb light_share(const PreparedData& data, const WorldRay& ray, std::span<const R
     share = bounded_share(share * (filter.transparency * filter.color));
     if (is_black(share)) return share;
   }
-  if (data.features().absorption) share *= AbsorbedShare(data, ray, crossings, work).share(lists, media);
+  if (data.features().absorption)
+    share *= AbsorbedShare(data, ray, crossings, work).share(lists, media);
   return share;
 }
 

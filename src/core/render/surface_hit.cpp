@@ -12,8 +12,8 @@ namespace crt::core {
 namespace {
 
 /// In the lanes that have their bit in `alike`; the points are in object space.
-ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointLanes& points, RayMask alike,
-                           RenderStats& stats) {
+ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointLanes& points,
+                           RayMask alike, RenderStats& stats) {
   if (!material.pattern) return lanes_of(material.color);
   stats.pattern_lookups += static_cast<unsigned>(std::popcount(alike));
   return material.pattern->colors(points, alike);
@@ -39,7 +39,9 @@ struct AlikeHits {
   LaneMask lanes = lanes_with(rays);
 
   void set(Lanes& values, const Lanes& value) const { values = lanes ? value : values; }
-  void set(VectorLanes& values, const VectorLanes& value) const { values = chosen(lanes, value, values); }
+  void set(VectorLanes& values, const VectorLanes& value) const {
+    values = chosen(lanes, value, values);
+  }
 };
 
 void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes& transparency,
@@ -55,21 +57,22 @@ void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes&
 }
 
 /// The rays have those directions, the points are in object space.
-void set_bumped_normals(const PreparedData& data, const AlikeHits& alike, const SurfacePointLanes& points,
-                        SurfaceGroup& group, Workspace& work) {
+void set_bumped_normals(const PreparedData& data, const AlikeHits& alike,
+                        const SurfacePointLanes& points, SurfaceGroup& group, Workspace& work) {
   const double to_viewer = alike.first.entering ? 1 : -1;
   for_each_ray(alike.rays, [&](std::size_t lane) {
     const RayHit& hit = alike.hits[lane];
-    const Vec3 normal =
-        to_viewer * bumped_normal(data.leaf(hit), hit.face, alike.material, lane_of(points, lane), work);
+    const Vec3 normal = to_viewer * bumped_normal(data.leaf(hit), hit.face, alike.material,
+                                                  lane_of(points, lane), work);
     group.phong.normal.set(lane, visible_normal(normal, group.phong.view.lane(lane)));
   });
 }
 
 }  // namespace
 
-void look_up(const PreparedData& data, const RayLanes& rays, std::span<const RayHit, lane_count> hits,
-             RayMask seen, SurfaceGroup& group, Workspace& work) {
+void look_up(const PreparedData& data, const RayLanes& rays,
+             std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group,
+             Workspace& work) {
   const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
   group.phong.view = rays.direction;
   group.sending_on = 0;
@@ -86,8 +89,9 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
     const Side side = first.entering ? Side::outside : Side::inside;
     const StartPoint start = data.start_face(first, side);
     for_each_ray(rays_alike.on_face, [&](std::size_t lane) { group.starts[lane].set_face(start); });
-    for_each_ray(rays_alike.on_spheres,
-                 [&](std::size_t lane) { group.starts[lane].set_face(data.start_face(hits[lane], side)); });
+    for_each_ray(rays_alike.on_spheres, [&](std::size_t lane) {
+      group.starts[lane].set_face(data.start_face(hits[lane], side));
+    });
     faces.object_points(rays_alike, rays, t, material.uses_uv, points);
     const ColorLanes colors = material_colors(material, points, alike.rays, work.stats);
     const Lanes transparency = material.opaque ? Lanes{} : material.transparency(colors.alpha);
@@ -101,8 +105,8 @@ void look_up(const PreparedData& data, const RayLanes& rays, std::span<const Ray
   group.start_errors = start_rounding * largest_component(rays.at(t));
 }
 
-CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
-                                RenderStats& stats) {
+CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray,
+                                const RayHit& crossing, RenderStats& stats) {
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
   ++stats.pattern_lookups;
   const bool with_uv = material.pattern->uses_uv();

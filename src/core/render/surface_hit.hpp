@@ -8,18 +8,20 @@ namespace crt::core {
 
 /// Looks up the places where those of a group of rays hit that have their bit in `seen`, with their
 /// materials' colours and bumps there.
-void look_up(const PreparedData& data, const RayLanes& rays, std::span<const RayHit, lane_count> hits,
-             RayMask seen, SurfaceGroup& group, Workspace& work);
+void look_up(const PreparedData& data, const RayLanes& rays,
+             std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group,
+             Workspace& work);
 
-/// What a crossing does to light that goes through it: it lets `transparency` of it pass, times `color`.
+/// What a crossing does to light that goes through it: it lets `transparency` of it pass, times
+/// `color`.
 struct CrossingFilter {
   double transparency = 0;
   Rgb color{0, 0, 0};
 };
-CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
-                                RenderStats& stats);
-inline CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray, const RayHit& crossing,
-                                      RenderStats& stats) {
+CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray,
+                                const RayHit& crossing, RenderStats& stats);
+inline CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& ray,
+                                      const RayHit& crossing, RenderStats& stats) {
   const PreparedMaterial& material = data.materials()[data.hit_material(crossing)];
   if (material.pattern) return patterned_filter(data, ray, crossing, stats);
   return {.transparency = material.transparency(material.color.a), .color = rgb(material.color)};

@@ -14,7 +14,8 @@ inline std::size_t pixel_count(const Region& region) {
 
 /// Whether the pixel at (x, y) of the picture is one of them.
 inline bool is_in(const Region& region, int x, int y) {
-  return x >= region.x && x < region.x + region.width && y >= region.y && y < region.y + region.height;
+  return x >= region.x && x < region.x + region.width && y >= region.y &&
+         y < region.y + region.height;
 }
 
 /// Which of a region's pixels, row by row from the top, is that at (x, y) of the picture.
@@ -35,7 +36,9 @@ class Tiles {
         columns_((region.width + side - 1) / side),
         rows_((region.height + side - 1) / side) {}
 
-  std::size_t count() const { return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_); }
+  std::size_t count() const {
+    return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
+  }
 
   /// Of the tile that a pixel of the region is in.
   std::size_t index(int x, int y) const {
@@ -49,7 +52,8 @@ class Tiles {
   Region tile(std::size_t index) const {
     const int column = static_cast<int>(index % static_cast<std::size_t>(columns_));
     const int row = static_cast<int>(index / static_cast<std::size_t>(columns_));
-    return {region_.x + column * side, region_.y + row * side, std::min(side, region_.width - column * side),
+    return {region_.x + column * side, region_.y + row * side,
+            std::min(side, region_.width - column * side),
             std::min(side, region_.height - row * side)};
   }
 

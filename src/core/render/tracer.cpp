@@ -22,11 +22,12 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   return list;
 }
 
-/// How far rounding may put a lamp from surfaces that it is meant to be on.
-Lanes lamp_errors(const VectorLanes& points, const LightSamples& light) {
+/// How far rounding may put a light from surfaces that it is meant to be on.
+Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
   constexpr double roundings = 16;
-  const Lanes error = roundings * unit_roundoff *
-                      fma(light.distances, largest_component(light.directions), largest_component(points));
+  const Lanes error =
+      roundings * unit_roundoff *
+      fma(light.distances, largest_component(light.directions), largest_component(points));
   return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
 }
 
@@ -39,9 +40,9 @@ std::uint64_t met(const PreparedData& data, const RayHit& hit, RayKind kind) {
          (hit.entering ? is_entered : 0) | static_cast<std::uint64_t>(kind) << place_of_kind;
 }
 
-/// A lamp's shadow.
-std::uint64_t shaded_from(std::size_t lamp) {
-  return std::uint64_t{1} << 40 | lamp;
+/// A light's shadow.
+std::uint64_t shaded_from(std::size_t light) {
+  return std::uint64_t{1} << 40 | light;
 }
 
 }  // namespace
@@ -63,7 +64,7 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
 void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
                    std::span<FirstHit> first_hits) {
   round_->count = samples.size();
-  Frame::set_eye_rays(camera_rays, round_->rays);
+  Frame::set_camera_rays(camera_rays, round_->rays);
   round_->weights.fill(lanes_of(Rgb(1)));
   for (std::size_t i = 0; i < round_->count; ++i) {
     samples[i] = {};
@@ -97,14 +98,14 @@ void Tracer::follow() {
   const std::size_t count = round_->count;
   tick(static_cast<unsigned>(count));
   data_.intersect_each(round_->rays, RayPacket::all(count), hits_, work_.rays);
-  data_.expect_points(hits_, RayPacket::all(count));
+  data_.prefetch_points(hits_, RayPacket::all(count));
 
   // Of most rays there is nothing more to see than that.
   const bool absorbs = frame_.features().absorption;
   RayMask bringing = 0;
   RayMask on_surface = 0;
   for (std::size_t i = 0; i < count; ++i) {
-    bringing |= static_cast<RayMask>((!absorbs && !hits_[i].has_company) || see(i)) << i;
+    bringing |= static_cast<RayMask>((!absorbs && !hits_[i].has_coincident) || see(i)) << i;
     on_surface |= static_cast<RayMask>(hits_[i].found()) << i;
   }
   const RayMask seeing_nothing = bringing & ~on_surface;
@@ -122,8 +123,9 @@ void Tracer::follow() {
 
 bool Tracer::see(std::size_t ray) {
   RayHit& hit = hits_[ray];
-  if (hit.has_company && has_transparency_) hit = seen_of(round_->rays.ray(ray));
-  const bool absorbs = frame_.features().absorption && round_->paths[ray].media != MediaLists::empty;
+  if (hit.has_coincident && has_transparency_) hit = seen_of(round_->rays.ray(ray));
+  const bool absorbs =
+      frame_.features().absorption && round_->paths[ray].media != MediaLists::empty;
   return !absorbs || pass_medium(ray);
 }
 
@@ -186,7 +188,7 @@ RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
     sent |= mask_of(lit) << (i * lane_count);
     shadow_rays_.lines[i] = {surfaces.position, sample.directions};
     shadow_rays_.t_max[i] = sample.distances;
-    shadow_rays_.end_errors[i] = lamp_errors(surfaces.position, sample);
+    shadow_rays_.end_errors[i] = light_errors(surfaces.position, sample);
   });
   return sent;
 }
@@ -194,42 +196,43 @@ RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
 void Tracer::add_light(RayMask on_surface) {
   const RayMask taking = taking_light(on_surface);
   if (taking == 0) return;
-  RayPacket::for_each_group(
-      taking, [&](std::size_t i, RayMask) { shadow_rays_.start_errors[i] = surfaces_[i].start_errors; });
+  RayPacket::for_each_group(taking, [&](std::size_t i, RayMask) {
+    shadow_rays_.start_errors[i] = surfaces_[i].start_errors;
+  });
   for_each_ray(taking, [&](std::size_t i) {
     shadow_rays_.starts[i] = surfaces_[i / lane_count].starts[i % lane_count];
   });
   shadow_rays_.with_starts = taking;
   const PacketStarts starts = data_.noted_starts(shadow_rays_, taking);
-  std::size_t lamp = 0;
+  std::size_t light_index = 0;
   for (const PreparedLight& source : frame_.lights()) {
     const RayMask sent = send_to(source, taking);
     const auto count = static_cast<unsigned>(std::popcount(sent));
     work_.stats.shadow_rays += count;
     tick(count);
-    const LightWays ways = ways_to_light(starts, sent);
+    const LightPaths paths = paths_to_light(starts, sent);
     if (identifies_) {
-      for_each_ray(ways.blocked | ways.filtered,
-                   [&](std::size_t i) { note(*round_->samples[i], shaded_from(lamp)); });
+      for_each_ray(paths.blocked | paths.filtered,
+                   [&](std::size_t i) { note(*round_->samples[i], shaded_from(light_index)); });
     }
-    const RayMask filtered = ways.filtered | absorbing(sent & ~ways.blocked);
-    const RayMask reached = sent & ~ways.blocked & ~filtered;
+    const RayMask filtered = paths.filtered | absorbing(sent & ~paths.blocked);
+    const RayMask reached = sent & ~paths.blocked & ~filtered;
     RayPacket::for_each_group(reached, [&](std::size_t i, RayMask lanes) {
       VectorLanes& light = surfaces_[i].light;
       light = chosen(lanes_with(lanes), light + lights_[i], light);
     });
     for_each_ray(filtered, [&](std::size_t i) {
-      const Rgb share = light_share(data_, shadow_rays_.ray(i), work_.rays.on_ways[i],
+      const Rgb share = light_share(data_, shadow_rays_.ray(i), work_.rays.on_paths[i],
                                     round_->works[i]->media, round_->paths[i].media, work_);
       const SurfaceLane lit = surface(i);
       lit.group.light.set(lit.lane, lit.light() + lights_[i / lane_count].lane(lit.lane) * share);
     });
-    ++lamp;
+    ++light_index;
   }
 }
 
-LightWays Tracer::ways_to_light(const PacketStarts& starts, RayMask sent) {
-  if (has_transparency_) return data_.ways_to_light(shadow_rays_, starts, sent, work_.rays);
+LightPaths Tracer::paths_to_light(const PacketStarts& starts, RayMask sent) {
+  if (has_transparency_) return data_.paths_to_light(shadow_rays_, starts, sent, work_.rays);
   return {.blocked = data_.occluded_each(shadow_rays_, starts, sent, work_.rays)};
 }
 
@@ -252,7 +255,7 @@ RayHit Tracer::seen_of(const WorldRay& ray) {
     least = transparency;
     seen = crossing;
   }
-  seen.has_company = true;
+  seen.has_coincident = true;
   return seen;
 }
 
@@ -260,8 +263,8 @@ void Tracer::note_surfaces(RayMask on_surface) {
   const auto note_one = [&](std::size_t ray) {
     note(*round_->samples[ray], met(data_, hits_[ray], round_->paths[ray].kind));
   };
-  // Either all rays of a round come from the camera or none does. If they do, nothing was noted of their
-  // samples before, these follow each other, and most groups meet what others do.
+  // Either all rays of a round come from the camera or none does. If they do, nothing was noted of
+  // their samples before, these follow each other, and most groups meet what others do.
   const bool are_first = round_->paths[0].kind == RayKind::camera;
   Sample* const first_samples = round_->samples[0];
   std::uint32_t leaf = nothing;

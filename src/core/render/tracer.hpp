@@ -1,5 +1,5 @@
-// The tracer: what light comes along a camera ray. Source: Whitted, An improved illumination model for
-// shaded display, Communications of the ACM 23(6), 1980.
+// The tracer: what light comes along a camera ray. Source: Whitted, An improved illumination model
+// for shaded display, Communications of the ACM 23(6), 1980.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace crt::core {
 
-/// Traces camera rays on one thread, up to packet_size side by side. Each ray has its weight: its share of
-/// the light that the camera ray brings. In every round each sample follows one ray. Of those that go on from
-/// where that ends the last one is followed in the next round, and the other waits on the sample's stack. The
-/// rounds' rays, and the shadow rays of each light, travel as packets where they go nearly the same way. A
-/// sample does not depend on what is traced beside it.
+/// Traces camera rays on one thread, up to packet_size side by side. Each ray has its weight: its
+/// share of the light that the camera ray brings. In every round each sample follows one ray. Of
+/// those that go on from where that ends the last one is followed in the next round, and the other
+/// waits on the sample's stack. The rounds' rays, and the shadow rays of each light, travel as
+/// packets where they go nearly the same way. A sample does not depend on what is traced beside it.
 class Tracer {
  public:
   /// All three must outlive the tracer, and nothing else may use the workspace meanwhile.
@@ -28,16 +28,18 @@ class Tracer {
     Lanes channels{0, 0, 0, 1};  ///< red, green and blue, premultiplied with the last: alpha
     /// The weight of rays that were not followed, of the channel that lost most.
     double dropped = 0;
-    /// If asked for: samples that meet the same things on the same ways have the same, others most likely
-    /// not: what was hit, from which side, after how many mirrors and refractions, in which lamps' shadows.
+    /// If asked for: samples that meet the same things on the same paths have the same, others most
+    /// likely not: what was hit, from which side, after how many mirrors and refractions, in which
+    /// lights' shadows.
     std::uint64_t identity = 0;
   };
 
   /// From now on samples get an identity.
   void identify() { identifies_ = true; }
 
-  /// Traces as many camera rays as there are samples, up to packet_size. Says of each what it meets first, if
-  /// there is room for that in `first_hits`. Throws Error (cancelled) soon after the progress says so.
+  /// Traces as many camera rays as there are samples, up to packet_size. Says of each what it meets
+  /// first, if there is margin for that in `first_hits`. Throws Error (cancelled) soon after the
+  /// progress says so.
   void trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
              std::span<FirstHit> first_hits = {});
 
@@ -45,7 +47,8 @@ class Tracer {
   void look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> places);
 
  private:
-  /// A ray for each sample that is not done yet. Below they are known by their numbers in the round.
+  /// A ray for each sample that is not done yet. Below they are known by their numbers in the
+  /// round.
   struct Round {
     std::size_t count = 0;
     RayBatch rays;
@@ -59,11 +62,13 @@ class Tracer {
   void start_media(std::size_t ray);
   /// Follows the rays of this round, and makes the next.
   void follow();
-  /// Takes a closer look at what a ray meets. False if no light from there gets through what is on the way.
+  /// Takes a closer look at what a ray meets. False if no light from there gets through what is on
+  /// the way.
   bool see(std::size_t ray);
   /// Adds what those rays see that hit nothing.
   void see_background(RayMask rays);
-  /// Takes from the weight what the medium around the way to a hit absorbs; whether anything is left.
+  /// Takes from the weight what the medium around the way to a hit absorbs; whether anything is
+  /// left.
   bool pass_medium(std::size_t ray);
 
   /// What the camera rays of the round that was just followed have met.
@@ -79,11 +84,11 @@ class Tracer {
   void add_light(RayMask on_surface);
   /// Those that any light makes brighter.
   RayMask taking_light(RayMask on_surface) const;
-  /// Makes the rays that find out which of some surfaces a light reaches, and returns which: to the others no
-  /// light comes.
+  /// Makes the rays that find out which of some surfaces a light reaches, and returns which: to the
+  /// others no light comes.
   RayMask send_to(const PreparedLight& source, RayMask surfaces_lit);
-  /// What is on the ways of the shadow rays that are sent.
-  LightWays ways_to_light(const PacketStarts& starts, RayMask sent);
+  /// What is on the paths of the shadow rays that are sent.
+  LightPaths paths_to_light(const PacketStarts& starts, RayMask sent);
   /// Those that start where something absorbs light.
   RayMask absorbing(RayMask sent) const;
 
@@ -97,10 +102,11 @@ class Tracer {
     VectorLanes refracted_weight;
     RayMask into_volumes = 0;  ///< rays that would go through solids' surfaces
     std::array<MediaLists::List, lane_count> media_behind;
-    std::array<std::uint32_t, lane_count> media_marks;  ///< before lists were made for what is behind
+    std::array<std::uint32_t, lane_count>
+        media_marks;  ///< before lists were made for what is behind
   };
-  /// Adds the light of surfaces to the samples, and takes those samples of a group of rays into the next
-  /// round that have a ray left.
+  /// Adds the light of surfaces to the samples, and takes those samples of a group of rays into the
+  /// next round that have a ray left.
   void finish(std::size_t group, RayMask on_surface);
   /// Sends mirrored and refracted rays on; returns which samples have such a one in the next round.
   RayMask send_on(std::size_t group, RayMask lanes);
@@ -114,23 +120,24 @@ class Tracer {
     Lanes index_behind = lanes_of(1);
   };
   void look_behind(std::size_t group, RayMask lanes, Behind& behind, Split& split);
-  /// Which rays of such weights are to go on from where a group of rays ends, of which some are too deep.
+  /// Which rays of such weights are to go on from where a group of rays ends, of which some are too
+  /// deep.
   RayMask worth_it(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& weights);
-  /// What they may weigh after all that brightens light on their further ways.
+  /// What they may weigh after all that brightens light on their further paths.
   VectorLanes most_weights(std::size_t group, const VectorLanes& weights) const;
   /// worth_it() by these.
   RayMask heavy_enough(std::size_t group, RayMask lanes, RayMask deep, const VectorLanes& most);
-  /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The caller
-  /// fills in its media.
-  PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction, const StartPoint& start,
-                    const Rgb& weight);
+  /// A ray that has done one bounce more, into the next round or, if it waits, onto the stack. The
+  /// caller fills in its media.
+  PathState& depart(std::size_t ray, RayKind kind, bool waits, const Vec3& direction,
+                    const StartPoint& start, const Rgb& weight);
   /// A place in the next round for the sample of a ray.
   std::size_t join_next_round(std::size_t ray, RayKind kind);
   /// Takes up what waits of a ray's sample.
-  void go_back(std::size_t ray);
+  void pop(std::size_t ray);
 
-  /// Of the surfaces at the place of a ray's first hit the one that is seen: that which lets the least light
-  /// through, of several the one whose object was written first.
+  /// Of the surfaces at the place of a ray's first hit the one that is seen: that which lets the
+  /// least light through, of several the one whose object was written first.
   RayHit seen_of(const WorldRay& ray);
 
   /// What a ray that goes on through a hit's place finds.
@@ -140,7 +147,7 @@ class Tracer {
     MediaLists::List media = MediaLists::empty;  ///< behind them
   };
   /// At a place of several objects.
-  void pass_company(std::size_t ray, Passage& passage);
+  void pass_coincident(std::size_t ray, Passage& passage);
   /// The media behind the surface of a solid that is alone at its place.
   MediaLists::List media_behind(std::size_t ray);
   WorldRay ray_behind(std::size_t ray);
@@ -150,7 +157,9 @@ class Tracer {
   void tick(unsigned rays = 1);
 
   /// The share of the pixel's light that comes along a ray of this round.
-  Rgb weight(std::size_t ray) const { return round_->weights[ray / lane_count].lane(ray % lane_count); }
+  Rgb weight(std::size_t ray) const {
+    return round_->weights[ray / lane_count].lane(ray % lane_count);
+  }
 
   /// Takes the surfaces that rays of this round have met into their samples' identities.
   void note_surfaces(RayMask on_surface);

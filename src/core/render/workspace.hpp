@@ -11,7 +11,7 @@
 
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/first_hit.hpp"
-#include "core/render/media_on_way.hpp"
+#include "core/render/media_along_ray.hpp"
 #include "core/sampling/pixel_samples.hpp"
 #include "core/shading/rgb.hpp"
 
@@ -110,7 +110,7 @@ struct Workspace {
   std::vector<RayHit> crossings;
   std::vector<RayHit> entered;
   std::vector<Medium> surrounding;
-  MediaOnWay media_on_way;
+  MediaAlongRay media_along_ray;
   CrossingList scratch;
   SurfacePointLanes points;  ///< that are being looked up
   // Of a tile's pixels, as long as they need not be kept, or are not whole.
@@ -150,8 +150,8 @@ class WorkspacePool {
   /// Takes these in place of all that has been counted; while nothing is on loan.
   void set_total(const Counts& counts);
 
-  /// Of work that is done for good: what a workspace has counted since then goes into that sum. From the
-  /// thread that has it.
+  /// Of work that is done for good: what a workspace has counted since then goes into that sum.
+  /// From the thread that has it.
   void settle(Workspace& workspace);
   /// The same for all; while nothing is on loan.
   void settle_all();

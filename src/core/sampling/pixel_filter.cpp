@@ -7,9 +7,9 @@ namespace crt::core {
 
 namespace {
 
-/// The share of the Blackman-Harris window up to x in [-1/2, 1/2], where the window ends. Source: Harris, On
-/// the use of windows for harmonic analysis with the discrete Fourier transform, Proceedings of the IEEE
-/// 66(1), 1978 (the minimum four-term window), integrated.
+/// The share of the Blackman-Harris window up to x in [-1/2, 1/2], where the window ends. Source:
+/// Harris, On the use of windows for harmonic analysis with the discrete Fourier transform,
+/// Proceedings of the IEEE 66(1), 1978 (the minimum four-term window), integrated.
 double blackman_harris_share(double x) {
   constexpr double constant = 0.35875;
   constexpr std::array<double, 3> waves = {0.48829, 0.14128, 0.01168};
@@ -35,7 +35,8 @@ double blackman_harris_quantile(double share) {
 
 }  // namespace
 
-FilterPlaces::FilterPlaces(const Settings& settings) : is_box_(settings.filter == PixelFilter::box) {
+FilterPlaces::FilterPlaces(const Settings& settings)
+    : is_box_(settings.filter == PixelFilter::box) {
   if (is_box_) return;
   constexpr double middle = 0.5;
   places_[0] = middle - 0.5 * settings.filter_width;
@@ -44,7 +45,8 @@ FilterPlaces::FilterPlaces(const Settings& settings) : is_box_(settings.filter =
     places_[i] = middle + settings.filter_width * blackman_harris_quantile(share);
   }
   places_[intervals / 2] = middle;
-  for (std::size_t i = intervals / 2 + 1; i <= intervals; ++i) places_[i] = 1 - places_[intervals - i];
+  for (std::size_t i = intervals / 2 + 1; i <= intervals; ++i)
+    places_[i] = 1 - places_[intervals - i];
 }
 
 }  // namespace crt::core

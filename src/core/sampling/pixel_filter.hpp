@@ -1,5 +1,5 @@
-// Pixel filters: where around a pixel's middle its samples lie. Places are drawn with the filter's weight as
-// their density, so that a pixel is the plain mean of its samples, whatever the filter.
+// Pixel filters: where around a pixel's middle its samples lie. Places are drawn with the filter's
+// weight as their density, so that a pixel is the plain mean of its samples, whatever the filter.
 #pragma once
 
 #include <array>
@@ -15,13 +15,14 @@ class FilterPlaces {
   /// Takes the settings' filter and its width, which must be valid.
   explicit FilterPlaces(const Settings& settings);
 
-  /// For a number in [0, 1) the distance from the pixel's left (or upper) side, in pixels: in [0, 1) for the
-  /// box, also beside the pixel for wider filters. Rising with the number.
+  /// For a number in [0, 1) the distance from the pixel's left (or upper) side, in pixels: in [0,
+  /// 1) for the box, also beside the pixel for wider filters. Rising with the number.
   double operator()(double u) const {
     if (is_box_) return u;
     const double place = u * double{intervals};
     const auto index = static_cast<std::size_t>(place);
-    return places_[index] + (place - static_cast<double>(index)) * (places_[index + 1] - places_[index]);
+    return places_[index] +
+           (place - static_cast<double>(index)) * (places_[index + 1] - places_[index]);
   }
   Lanes operator()(const Lanes& u) const {
     if (is_box_) return u;

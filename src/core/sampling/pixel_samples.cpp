@@ -15,13 +15,16 @@ bool all_equal(const Channels& a, const Channels& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
 
-/// By degrees of freedom, from 1 on: what a mean must be divided by to lie within the quotient in 95 of 100
-/// cases (Student, The probable error of a mean, Biometrika 6(1), 1908).
-constexpr std::array<double, 7> student_95 = {12.7062, 4.30265, 3.18245, 2.77645, 2.57058, 2.44691, 2.36462};
+/// By degrees of freedom, from 1 on: what a mean must be divided by to lie within the quotient in
+/// 95 of 100 cases (Student, The probable error of a mean, Biometrika 6(1), 1908).
+constexpr std::array<double, 7> student_95 = {12.7062, 4.30265, 3.18245, 2.77645,
+                                              2.57058, 2.44691, 2.36462};
 
-/// Of what is seen in and around a pixel, N samples may overlook this divided by N: see docs/trade.md.
+/// Of what is seen in and around a pixel, N samples may overlook this divided by N: see
+/// docs/trade.md.
 constexpr double overlooked_samples = 2;
-/// The same where the pixel itself shows one thing, in focus: of what its neighbours alone have seen.
+/// The same where the pixel itself shows one thing, in focus: of what its neighbours alone have
+/// seen.
 constexpr double overlooked_samples_of_neighbours = 1;
 /// What is taken for the contrast, on a display, of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
@@ -39,13 +42,15 @@ Lanes DisplayScale::shown(const Lanes& values, int channel) const {
 Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& intervals) const {
   const auto& [a, b, c, d] = intervals;
   Lanes widest = {a.least_shown, b.least_shown, c.least_shown, d.least_shown};
-  const auto has_width = [](const MeanInterval& interval) { return any(interval.half_width != 0.0); };
+  const auto has_width = [](const MeanInterval& interval) {
+    return any(interval.half_width != 0.0);
+  };
   if (std::none_of(intervals.begin(), intervals.end(), has_width)) return widest;
 
   const std::array<Lanes, pixel_channels> means = transposed({a.mean, b.mean, c.mean, d.mean});
   const std::array<Lanes, pixel_channels> half_widths =
       transposed({a.half_width, b.half_width, c.half_width, d.half_width});
-  // A scale that rises ever less: with as much room below nothing above is farther away.
+  // A scale that rises ever less: with as much margin below nothing above is farther away.
   LaneMask is_below = lanes_with(exponent_ <= 1 ? (1u << lane_count) - 1 : 0);
   for (std::size_t i = 0; i < means.size(); ++i) is_below &= means[i] - half_widths[i] >= 0.0;
   for (int channel = 0; channel < pixel_channels; ++channel) {
@@ -67,11 +72,13 @@ SampleCount::SampleCount(std::int64_t count, bool with_lens)
       samples_(count),
       full_blocks_(static_cast<std::int64_t>(blocks_)),
       overlooked_share_(overlooked_samples / static_cast<double>(count)),
-      overlooked_share_of_neighbours_(
-          with_lens ? overlooked_share_ : overlooked_samples_of_neighbours / static_cast<double>(count)) {
+      overlooked_share_of_neighbours_(with_lens ? overlooked_share_
+                                                : overlooked_samples_of_neighbours /
+                                                      static_cast<double>(count)) {
   if (blocks_ < 2) return;
   // The variance of a block's sum to that of the mean of as many blocks as there are.
-  const auto block_size = static_cast<double>(std::int64_t{1} << PixelSamples::block_exponent(count));
+  const auto block_size =
+      static_cast<double>(std::int64_t{1} << PixelSamples::block_exponent(count));
   variance_divisor_ = static_cast<double>(blocks_ - 1) * block_size * static_cast<double>(count);
   student_ = student_95[blocks_ - 2];
 }
@@ -123,8 +130,8 @@ template <std::size_t full_blocks>
 MeanInterval PixelSamples::interval(const SampleCount& count) const {
   const std::size_t blocks = full_blocks > 0 ? full_blocks : count.blocks_;
   if (blocks < 2) return {.least_shown = 1};
-  const Channels low = has_notes_ ? min(low_, low_around_) : low_;
-  const Channels high = has_notes_ ? max(high_, high_around_) : high_;
+  const Channels low = has_statistics_ ? min(low_, low_around_) : low_;
+  const Channels high = has_statistics_ ? max(high_, high_around_) : high_;
   Lanes sum{};
   for (std::size_t b = 0; b < blocks; ++b) sum += to_doubles(blocks_[b]);
   const Lanes middle = count.full_blocks_.divide(sum);
@@ -140,7 +147,8 @@ MeanInterval PixelSamples::interval(const SampleCount& count) const {
     squares += distance * distance;
   }
   const Lanes variance = squares / count.variance_divisor_;
-  const double overlooked_around = mixed_ ? count.overlooked_share_ : count.overlooked_share_of_neighbours_;
+  const double overlooked_around =
+      mixed_ ? count.overlooked_share_ : count.overlooked_share_of_neighbours_;
   const Lanes overlooked = max(count.overlooked_share_ * (to_doubles(high_) - to_doubles(low_)),
                                overlooked_around * (to_doubles(high) - to_doubles(low)));
   return {.mean = means,
@@ -149,6 +157,7 @@ MeanInterval PixelSamples::interval(const SampleCount& count) const {
 }
 
 template MeanInterval PixelSamples::interval<0>(const SampleCount& count) const;
-template MeanInterval PixelSamples::interval<PixelSamples::block_count>(const SampleCount& count) const;
+template MeanInterval PixelSamples::interval<PixelSamples::block_count>(
+    const SampleCount& count) const;
 
 }  // namespace crt::core

@@ -1,12 +1,12 @@
-// What is kept of a pixel's samples while more are to come: their sum, by blocks, and what tells how far the
-// mean may be from the truth.
+// What is kept of a pixel's samples while more are to come: their sum, by blocks, and what tells
+// how far the mean may be from the truth.
 //
-// How: the samples are one sequence cut into 4 to 8 blocks of equal length, each of which is spread over the
-// pixel as evenly as its length allows. Means of such blocks differ more than independent estimates of the
-// same quality as the whole would (together the blocks are spread better than any one of them), so that the
-// interval from their variance and Student's t covers the truth more often than it says. Where the blocks
-// agree by chance, or as the sampling is regular, the floor below holds. See docs/trade.md for what was
-// measured.
+// How: the samples are one sequence cut into 4 to 8 blocks of equal length, each of which is
+// broadcast over the pixel as evenly as its length allows. Means of such blocks differ more than
+// independent estimates of the same quality as the whole would (together the blocks are broadcast
+// better than any one of them), so that the interval from their variance and Student's t covers the
+// truth more often than it says. Where the blocks agree by chance, or as the sampling is regular,
+// the floor below holds. See docs/trade.md for what was measured.
 #pragma once
 
 #include <algorithm>
@@ -57,7 +57,8 @@ class SeenSamples {
   std::uint64_t differing_ = 0;  ///< bits in which others differ from it
 };
 
-/// What is claimed to hold the true mean of a pixel: each channel is within its half-width of the mean.
+/// What is claimed to hold the true mean of a pixel: each channel is within its half-width of the
+/// mean.
 struct MeanInterval {
   Lanes mean{};
   Lanes half_width{};
@@ -70,8 +71,8 @@ class DisplayScale {
  public:
   explicit DisplayScale(double gamma) : exponent_(1 / gamma) {}
 
-  /// Half of the widths of intervals on a display: the farthest that anything in them is from the mean, in
-  /// the worst channel. (Four at once take little longer than one.)
+  /// Half of the widths of intervals on a display: the farthest that anything in them is from the
+  /// mean, in the worst channel. (Four at once take little longer than one.)
   [[gnu::flatten]] Lanes half_widths(const std::array<MeanInterval, lane_count>& intervals) const;
 
  private:
@@ -84,14 +85,15 @@ class DisplayScale {
 /// What follows from how many samples a pixel has, at least one: found once for many pixels.
 class SampleCount {
  public:
-  /// Out of focus things fade over many pixels, each of which has few samples that hit them: what the
-  /// neighbours alone have seen counts as much there as what the pixel has.
+  /// Out of focus things fade over many pixels, each of which has few samples that hit them: what
+  /// the neighbours alone have seen counts as much there as what the pixel has.
   explicit SampleCount(std::int64_t count, bool with_lens = false);
 
  private:
   friend class PixelSamples;
 
-  /// Division by a whole number. By a power of two that is multiplication, with the same bits and sooner.
+  /// Division by a whole number. By a power of two that is multiplication, with the same bits and
+  /// sooner.
   class Divisor {
    public:
     explicit Divisor(std::int64_t number)
@@ -135,14 +137,14 @@ class PixelSamples {
   double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
 
   /// What is seen in one or several pixels.
-  struct Notes {
+  struct Statistics {
     Channels low;
     Channels high;
     std::uint32_t least_identity;
     std::uint32_t greatest_identity;
     bool mixed;  ///< some of them are
 
-    void take(const Notes& others) {
+    void take(const Statistics& others) {
       low = min(low, others.low);
       high = max(high, others.high);
       least_identity = std::min(least_identity, others.least_identity);
@@ -150,20 +152,22 @@ class PixelSamples {
       mixed |= others.mixed;
     }
   };
-  Notes notes() const { return {low_, high_, identity_, identity_, mixed_}; }
+  Statistics statistics() const { return {low_, high_, identity_, identity_, mixed_}; }
   /// Those of neighbours, in one or several portions: what is seen there may reach in here.
-  void keep(const Notes& notes) {
-    low_around_ = has_notes_ ? min(low_around_, notes.low) : notes.low;
-    high_around_ = has_notes_ ? max(high_around_, notes.high) : notes.high;
-    edge_ = edge_ || notes.mixed || notes.least_identity != identity_ || notes.greatest_identity != identity_;
-    has_notes_ = true;
+  void keep(const Statistics& statistics) {
+    low_around_ = has_statistics_ ? min(low_around_, statistics.low) : statistics.low;
+    high_around_ = has_statistics_ ? max(high_around_, statistics.high) : statistics.high;
+    edge_ = edge_ || statistics.mixed || statistics.least_identity != identity_ ||
+            statistics.greatest_identity != identity_;
+    has_statistics_ = true;
   }
 
   /// Says that there may be something here that the first samples can miss.
-  void expect_small_things() { expects_small_things_ = true; }
+  void expect_subpixel_objects() { expects_subpixel_objects_ = true; }
   /// Whether there are enough samples to see what there is.
   bool has_seen_enough(std::int64_t count) const {
-    return !expects_small_things_ || count >= (mixed_ ? enough_samples : enough_samples_of_one_thing);
+    return !expects_subpixel_objects_ ||
+           count >= (mixed_ ? enough_samples : enough_samples_of_one_thing);
   }
 
   /// All that is kept here, as bytes.
@@ -182,7 +186,8 @@ class PixelSamples {
   friend class SeenSamples;
   friend class SampleCount;
   static constexpr std::size_t block_count = 8;
-  /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33 of 100.
+  /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33
+  /// of 100.
   static constexpr std::int64_t enough_samples = 64;
   /// Wires that cover a 20th to a 14th of a pixel are missed by 64 samples in 3 of 1000 cases.
   static constexpr std::int64_t enough_samples_of_one_thing = 256;
@@ -197,8 +202,8 @@ class PixelSamples {
   static void for_each_number(Self& self, const Use& use);
   using Flag = bool PixelSamples::*;
   static constexpr std::array<Flag, 4> flags() {
-    return {&PixelSamples::mixed_, &PixelSamples::edge_, &PixelSamples::has_notes_,
-            &PixelSamples::expects_small_things_};
+    return {&PixelSamples::mixed_, &PixelSamples::edge_, &PixelSamples::has_statistics_,
+            &PixelSamples::expects_subpixel_objects_};
   }
 
   std::array<Channels, block_count> blocks_{};  ///< sums
@@ -210,8 +215,8 @@ class PixelSamples {
   std::uint32_t identity_ = 0;
   bool mixed_ = false;
   bool edge_ = false;  ///< things of several identities are here or in the neighbours
-  bool has_notes_ = false;
-  bool expects_small_things_ = false;
+  bool has_statistics_ = false;
+  bool expects_subpixel_objects_ = false;
 };
 
 inline int PixelSamples::block_exponent(std::int64_t count) {
@@ -221,7 +226,8 @@ inline int PixelSamples::block_exponent(std::int64_t count) {
 }
 
 inline void PixelSamples::merge_blocks() {
-  for (std::size_t i = 0; i < block_count / 2; ++i) blocks_[i] = blocks_[2 * i] + blocks_[2 * i + 1];
+  for (std::size_t i = 0; i < block_count / 2; ++i)
+    blocks_[i] = blocks_[2 * i] + blocks_[2 * i + 1];
   std::fill(blocks_.begin() + block_count / 2, blocks_.end(), Channels{});
 }
 

@@ -1,9 +1,9 @@
-// Passes: after which of them a pixel has how many samples. The numbers are fixed, so that a picture is a
-// function of its pass count.
+// Passes: after which of them a pixel has how many samples. The numbers are fixed, so that a
+// picture is a function of its pass count.
 //
-// Up to eight samples a pass gives one more to an eighth of the pixels, from then on every doubling of all
-// pixels' samples takes eight passes: a pass never adds more than an eighth to what is there, and a picture
-// of which each pixel has a sample can end at any of them.
+// Up to eight samples a pass gives one more to an eighth of the pixels, from then on every doubling
+// of all pixels' samples takes eight passes: a pass never adds more than an eighth to what is
+// there, and a picture of which each pixel has a sample can end at any of them.
 #pragma once
 
 #include <bit>
@@ -34,7 +34,8 @@ constexpr SamplesDone samples_after(int passes) {
   return {std::int64_t{samples_before_doubling + step} << doubling, 0};
 }
 
-/// The passes that it takes to have so many samples each, which must be a number that some pass ends with.
+/// The passes that it takes to have so many samples each, which must be a number that some pass
+/// ends with.
 constexpr int passes_until(std::int64_t samples) {
   if (samples <= samples_before_doubling) return passes_per_step * static_cast<int>(samples);
   const auto eighths = static_cast<std::uint64_t>(samples - 1) / samples_before_doubling;
@@ -54,7 +55,8 @@ constexpr std::int64_t samples_of_next_step(std::int64_t samples) {
 inline constexpr std::size_t most_steps =
     samples_before_doubling + std::size_t{passes_per_step} * std::numeric_limits<int>::digits;
 
-/// From 0 to 7: in which of the eight passes a pixel gets its next sample, those of each pass far apart.
+/// From 0 to 7: in which of the eight passes a pixel gets its next sample, those of each pass far
+/// apart.
 constexpr int rank_of_pixel(int x, int y) {
   const auto diagonal = static_cast<unsigned>(x + 3 * y) & 7u;
   return static_cast<int>((diagonal & 1u) << 2 | (diagonal & 2u) | diagonal >> 2);

@@ -1,11 +1,13 @@
-// Points of a pixel's samples: a sequence in four dimensions for each pixel, of which every beginning is
-// spread evenly and every point is a function of the seed, the pixel and its index alone.
+// Points of a pixel's samples: a sequence in four dimensions for each pixel, of which every
+// beginning is broadcast evenly and every point is a function of the seed, the pixel and its index
+// alone.
 //
-// Sources: Sobol, On the distribution of points in a cube and the approximate evaluation of integrals, 1967;
-// Joe and Kuo, Constructing Sobol sequences with better two-dimensional projections, 2008 (the direction
-// numbers); Owen, Randomly permuted (t,m,s)-nets and (t,s)-sequences, 1995 (the scrambling); Laine and
-// Karras, Stratified sampling for stochastic transparency, 2011, and Burley, Practical hash-based Owen
-// scrambling, 2020 (scrambling by a hash whose bits depend on the bits before them alone).
+// Sources: Sobol, On the distribution of points in a cube and the approximate evaluation of
+// integrals, 1967; Joe and Kuo, Constructing Sobol sequences with better two-dimensional
+// projections, 2008 (the direction numbers); Owen, Randomly permuted (t,m,s)-nets and
+// (t,s)-sequences, 1995 (the scrambling); Laine and Karras, Stratified sampling for stochastic
+// transparency, 2011, and Burley, Practical hash-based Owen scrambling, 2020 (scrambling by a hash
+// whose bits depend on the bits before them alone).
 #pragma once
 
 #include <array>
@@ -30,13 +32,13 @@ struct SequencePoint {
 
 namespace sequence_detail {
 
-/// A bit of the index turns over these bits of the coordinates. Written from the lowest bit up, that is in
-/// the order in which scrambling goes through them.
+/// A bit of the index turns over these bits of the coordinates. Written from the lowest bit up,
+/// that is in the order in which scrambling goes through them.
 using Column = std::array<std::uint32_t, sequence_dimensions>;
 inline constexpr int index_bits = 32;
 
-/// The start of a recurrence for direction numbers: a primitive polynomial over two elements, by its degree
-/// and inner coefficients, and the first odd numbers.
+/// The start of a recurrence for direction numbers: a primitive polynomial over two elements, by
+/// its degree and inner coefficients, and the first odd numbers.
 struct Recurrence {
   int degree;
   std::uint32_t coefficients;
@@ -62,7 +64,9 @@ constexpr Bits reversed(Bits bits) {
 #ifdef __AVX2__
 /// The same with the halves of bytes looked up.
 inline BitLanes reversed(const BitLanes& bits) {
-  const auto in_both_halves = [](const __m128i& bytes) { return _mm256_broadcastsi128_si256(bytes); };
+  const auto in_both_halves = [](const __m128i& bytes) {
+    return _mm256_broadcastsi128_si256(bytes);
+  };
   const __m256i low_half = _mm256_set1_epi8(0x0f);
   const __m128i of_a_half = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
   const __m256i to_low_half = in_both_halves(of_a_half);
@@ -96,7 +100,8 @@ constexpr std::array<Column, index_bits> columns() {
       const std::uint32_t back = numbers[static_cast<std::size_t>(i - degree)];
       number = back ^ back >> degree;
       for (int k = 1; k < degree; ++k) {
-        if ((coefficients >> (degree - 1 - k) & 1u) != 0) number ^= numbers[static_cast<std::size_t>(i - k)];
+        if ((coefficients >> (degree - 1 - k) & 1u) != 0)
+          number ^= numbers[static_cast<std::size_t>(i - k)];
       }
     }
     for (std::size_t i = 0; i < index_bits; ++i) result[i][dimension] = reversed(numbers[i]);
@@ -140,16 +145,16 @@ constexpr std::array<std::array<std::uint32_t, points_of_window>, sequence_dimen
 }
 inline constexpr auto low_bit_table = low_bits();
 
-/// Turns each bit over or not as a hash of the seed and the bits below it says. Both steps keep to that:
-/// adding and multiplying carry upwards, and an even factor leaves a bit itself out of what it is mixed with.
-/// (Of one number, or of lanes.)
+/// Turns each bit over or not as a hash of the seed and the bits below it says. Both steps keep to
+/// that: adding and multiplying carry upwards, and an even factor leaves a bit itself out of what
+/// it is mixed with. (Of one number, or of lanes.)
 template <class Bits>
 constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
   constexpr std::array<std::uint32_t, 3> even_factors = {0x9e3779baU, 0xbf58476cU, 0x94d049baU};
   bits += seed;
   bits ^= bits * even_factors[0];
-  // Bits times an odd factor, mixed with themselves times an even one: both products of the bits before, as
-  // the machine need not wait for the first then.
+  // Bits times an odd factor, mixed with themselves times an even one: both products of the bits
+  // before, as the machine need not wait for the first then.
   for (std::size_t i = 1; i < even_factors.size(); ++i) {
     const std::uint32_t odd_factor = seed << 1 | 1u;
     bits = bits * odd_factor ^ bits * (odd_factor * even_factors[i]);
@@ -174,15 +179,16 @@ class PixelSequence {
     int x = 0;
     int y = 0;
   };
-  static std::array<PixelSequence, lane_count> of_each(std::uint64_t seed,
-                                                       const std::array<Pixel, lane_count>& pixels) {
+  static std::array<PixelSequence, lane_count> of_each(
+      std::uint64_t seed, const std::array<Pixel, lane_count>& pixels) {
     WordLanes x;
     WordLanes y;
     for (std::size_t i = 0; i < lane_count; ++i) {
       x[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].x);
       y[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].y);
     }
-    const auto words = philox_rounds<WordLanes>({x, y, WordLanes{}, WordLanes{} + use}, key_of(seed));
+    const auto words =
+        philox_rounds<WordLanes>({x, y, WordLanes{}, WordLanes{} + use}, key_of(seed));
     std::array<PixelSequence, lane_count> sequences;
     for (std::size_t i = 0; i < lane_count; ++i) {
       for (std::size_t d = 0; d < sequence_dimensions; ++d) {
@@ -192,9 +198,9 @@ class PixelSequence {
     return sequences;
   }
 
-  /// Any 2^k points that follow each other from a multiple of 2^k on are spread evenly: on the pixel every
-  /// rectangle of area 2^-k that comes of halving its sides holds one of them, and so does, in every
-  /// dimension by itself, each of 2^k equal parts.
+  /// Any 2^k points that follow each other from a multiple of 2^k on are broadcast evenly: on the
+  /// pixel every rectangle of area 2^-k that comes of halving its sides holds one of them, and so
+  /// does, in every dimension by itself, each of 2^k equal parts.
   SequencePoint point(std::uint32_t index) const {
     const auto [pixel_u, pixel_v, lens_u, lens_v] = coordinates<sequence_dimensions>(index);
     return {pixel_u, pixel_v, lens_u, lens_v};
@@ -206,14 +212,14 @@ class PixelSequence {
     return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
-  /// The points from a multiple of their number on, side by side, by dimension; a group of them is as many as
-  /// there are lanes.
+  /// The points from a multiple of their number on, side by side, by dimension; a group of them is
+  /// as many as there are lanes.
   struct Window {
     static constexpr std::uint32_t size = sequence_detail::points_of_window;
     std::array<std::array<Lanes, size / lane_count>, sequence_dimensions> coordinates;
   };
-  /// Puts the points from `first` to before `end`, and some before and after them, to their places in a
-  /// window that they are all of; without the lens only their places on the pixel.
+  /// Puts the points from `first` to before `end`, and some before and after them, to their places
+  /// in a window that they are all of; without the lens only their places on the pixel.
   void points(std::uint32_t first, std::uint32_t end, bool with_lens, Window& window) const {
     with_lens ? fill<sequence_dimensions>(first, end, window) : fill<2>(first, end, window);
   }

@@ -62,7 +62,8 @@ double slope(const PreparedPattern& pattern, SurfacePoint point, double SurfaceP
 }  // namespace
 
 LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const SurfacePoint& point,
-                                     const Shape& shape, std::uint32_t face, CrossingList& scratch) {
+                                     const Shape& shape, std::uint32_t face,
+                                     CrossingList& scratch) {
   if (const auto* map = std::get_if<ImageMap>(&pattern.description())) {
     const UvGradient uv = uv_gradient(shape, face, point.position, point.normal, scratch);
     const double slope_u =

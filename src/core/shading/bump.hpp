@@ -1,5 +1,6 @@
-// Bump mapping: a surface shaded as if a pattern had raised it. Source: Blinn, Simulation of wrinkled
-// surfaces, SIGGRAPH 1978; here the height is a function of space, whose gradient tilts the normal.
+// Bump mapping: a surface shaded as if a pattern had raised it. Source: Blinn, Simulation of
+// wrinkled surfaces, SIGGRAPH 1978; here the height is a function of space, whose gradient tilts
+// the normal.
 #pragma once
 
 #include <cstdint>
@@ -18,7 +19,8 @@ struct LuminanceGradient {
 LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const SurfacePoint& point,
                                      const Shape& shape, std::uint32_t face, CrossingList& scratch);
 
-/// The normal of a surface raised along `normal` by a height of the given gradient, both in one space.
+/// The normal of a surface raised along `normal` by a height of the given gradient, both in one
+/// space.
 Vec3 tilted_normal(const Vec3& normal, const Vec3& height_gradient);
 
 /// `normal` if a viewer looking along `view` can see a surface turned like that; otherwise the

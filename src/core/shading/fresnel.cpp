@@ -13,9 +13,9 @@ struct Incidence {
   Real squared_sine;
 };
 
-/// The square of the cosine behind the boundary, below 0 under total internal reflection, by Snell's
-/// law: c2^2 = 1 - (n1/n2)^2 s1^2. For indices that are not far apart it is written so that nothing
-/// cancels at grazing incidence.
+/// The square of the cosine behind the boundary, below 0 under total internal reflection, by
+/// Snell's law: c2^2 = 1 - (n1/n2)^2 s1^2. For indices that are not far apart it is written so that
+/// nothing cancels at grazing incidence.
 template <class Real>
 Real squared_cosine_behind(const Incidence<Real>& incidence, const Real& n1, const Real& n2) {
   constexpr double far_apart = 1.5;
@@ -37,7 +37,7 @@ Real reflectance(const Incidence<Real>& incidence, const Real& c2, const Real& n
   const Real cosines = c1 * c2;
   const Real ratio = (cosines - sines) / (cosines + sines);
   const Real share = 0.5 * across * across * (1.0 + ratio * ratio);
-  return share < 1.0 ? share : spread<Real>(1);
+  return share < 1.0 ? share : broadcast<Real>(1);
 }
 
 Vec3 direction_of(const Vec3& v) {
@@ -64,7 +64,7 @@ template <class Real>
 Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& normal, const Real& n1,
                          const Real& n2) {
   const Real against = -dot(direction, normal);
-  const Real cosine = against > 1.0 ? spread<Real>(1) : against < 0.0 ? Real{} : against;
+  const Real cosine = against > 1.0 ? broadcast<Real>(1) : against < 0.0 ? Real{} : against;
   const Vec3Of<Real> along_boundary = direction + cosine * normal;
   const Incidence<Real> incidence{cosine, dot(along_boundary, along_boundary)};
   const Real squared = squared_cosine_behind(incidence, n1, n2);
@@ -73,13 +73,14 @@ Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& norm
   const Vec3Of<Real> behind = n1 / n2 * along_boundary - cosine_behind * normal;
 
   const auto is_no_boundary = n1 == n2;
-  const Real share = is_total ? spread<Real>(1) : reflectance(incidence, cosine_behind, n1, n2);
+  const Real share = is_total ? broadcast<Real>(1) : reflectance(incidence, cosine_behind, n1, n2);
   const Vec3Of<Real> refracted = chosen(is_total, Vec3Of<Real>{}, direction_of(behind));
   return {.reflectance = is_no_boundary ? Real{} : share,
           .direction = chosen(is_no_boundary, direction, refracted)};
 }
 
 template Refraction<double> refract(const Vec3&, const Vec3&, const double&, const double&);
-template Refraction<Lanes> refract(const VectorLanes&, const VectorLanes&, const Lanes&, const Lanes&);
+template Refraction<Lanes> refract(const VectorLanes&, const VectorLanes&, const Lanes&,
+                                   const Lanes&);
 
 }  // namespace crt::core

@@ -74,10 +74,10 @@ double gradient_noise(const Vec3& position, std::uint32_t seed) {
   }
   const double share_x = fade(x.past);
   const double share_y = fade(y.past);
-  const double near_z =
-      between(between(corners[0], corners[1], share_x), between(corners[2], corners[3], share_x), share_y);
-  const double far_z =
-      between(between(corners[4], corners[5], share_x), between(corners[6], corners[7], share_x), share_y);
+  const double near_z = between(between(corners[0], corners[1], share_x),
+                                between(corners[2], corners[3], share_x), share_y);
+  const double far_z = between(between(corners[4], corners[5], share_x),
+                               between(corners[6], corners[7], share_x), share_y);
   return std::clamp(between(near_z, far_z, fade(z.past)) / largest_sum, -1.0, 1.0);
 }
 

@@ -7,9 +7,9 @@
 
 namespace crt::core {
 
-/// Noise with features about 1 in size, in [-1, 1], 0 at whole coordinates; with continuous first and
-/// second derivatives. Another seed gives another function. Any finite position is valid; beyond
-/// 2^52, where doubles are whole numbers, it is 0 all along.
+/// Noise with features about 1 in size, in [-1, 1], 0 at whole coordinates; with continuous first
+/// and second derivatives. Another seed gives another function. Any finite position is valid;
+/// beyond 2^52, where doubles are whole numbers, it is 0 all along.
 ///
 /// Source: Perlin, Improving Noise, SIGGRAPH 2002. Gradients are chosen by a hash of the lattice
 /// point and not by a table of permutations, so that nothing repeats after 256 cells.

@@ -20,11 +20,11 @@ struct PhongSurfaces {
 /// What the point gets of all lights' ambient shares, lit or not.
 template <class Real>
 Vec3Of<Real> ambient_light(const Rgb& ambient, const Real& reflectivity) {
-  return (1.0 - reflectivity) * spread<Real>(ambient);
+  return (1.0 - reflectivity) * broadcast<Real>(ambient);
 }
 
-/// The diffuse and the specular light of one light that nothing hides, into `seen`; black if it is behind the
-/// surface. Only lanes of `lit` are asked for, others may hold anything.
+/// The diffuse and the specular light of one light that nothing hides, into `seen`; black if it is
+/// behind the surface. Only lanes of `lit` are asked for, others may hold anything.
 void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
                   const LaneMask& lit, VectorLanes& seen);
 

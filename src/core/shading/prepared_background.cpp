@@ -12,7 +12,8 @@ namespace {
 constexpr double full_turn = 2 * std::numbers::pi;
 }
 
-PreparedBackground::PreparedBackground(const Background& background, TexturePool& textures, int compat)
+PreparedBackground::PreparedBackground(const Background& background, TexturePool& textures,
+                                       int compat)
     : background_(background) {
   auto* const panorama = std::get_if<PanoramaBackground>(&background_);
   if (panorama == nullptr) return;
@@ -41,7 +42,8 @@ ColorLanes PreparedBackground::colors(const VectorLanes& directions, std::uint32
   return colors;
 }
 
-Color PreparedBackground::panorama(const PanoramaBackground& panorama, const Vec3& direction) const {
+Color PreparedBackground::panorama(const PanoramaBackground& panorama,
+                                   const Vec3& direction) const {
   const double width = texture_->width();
   const double height = texture_->height();
   const double across = std::atan2(direction.x, direction.z) + panorama.angle;

@@ -14,8 +14,8 @@ namespace crt::core {
 /// to the right of it: across the picture goes atan2(d.x, d.z) + angle.
 class PreparedBackground {
  public:
-  /// `compat` as in Settings: spherical panoramas of 2015 are of equal area, and angles turn them all the
-  /// other way.
+  /// `compat` as in Settings: spherical panoramas of 2015 are of equal area, and angles turn them
+  /// all the other way.
   PreparedBackground(const Background& background, TexturePool& textures, int compat = 0);
 
   /// The colour in a direction (unit length), not premultiplied.

@@ -71,8 +71,8 @@ LaneMask PreparedLight::sample(const VectorLanes& points, const Lanes& path_leng
   }
   if (kind_ == Kind::spot) light.intensities = cone_share(light.directions);
   if (falloff_ > 0) {
-    const Lanes way = counts_path_ ? path_lengths + light.distances : light.distances;
-    light.intensities *= min(lanes_of(largest_intensity), falloff_ / (way * way));
+    const Lanes distance = counts_path_ ? path_lengths + light.distances : light.distances;
+    light.intensities *= min(lanes_of(largest_intensity), falloff_ / (distance * distance));
   }
   return light.distances > 0.0;
 }

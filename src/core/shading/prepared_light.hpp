@@ -24,8 +24,8 @@ class PreparedLight {
   /// What every point gets of it, lit or not, if it mirrors nothing.
   Rgb ambient() const { return ambient_ * color_; }
 
-  /// The light at points; returns where it shines. `path_lengths` are the ways from the camera to the
-  /// points, over all bounces.
+  /// The light at points; returns where it shines. `path_lengths` are the paths from the camera to
+  /// the points, over all bounces.
   LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, LightSamples& light) const;
 
  private:

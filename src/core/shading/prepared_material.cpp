@@ -11,7 +11,8 @@ PreparedMaterial::PreparedMaterial(const SharedMaterial& material, TexturePool& 
   } else {
     pattern.emplace(std::get<Pattern>(description->color), textures);
   }
-  if (description->bump && description->bump_height != 0) bump.emplace(*description->bump, textures);
+  if (description->bump && description->bump_height != 0)
+    bump.emplace(*description->bump, textures);
 
   const bool gapless = pattern ? pattern->opaque() : color.a == 1;
   opaque = gapless && description->transparency == 0;

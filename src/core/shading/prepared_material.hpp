@@ -31,14 +31,14 @@ struct PreparedMaterial {
   /// all of it through.
   template <class Real>
   Real transparency(const Real& alpha) const {
-    const Real full = spread<Real>(description->transparency);
+    const Real full = broadcast<Real>(description->transparency);
     return alpha == 1.0 ? full : 1.0 - (1.0 - full) * alpha;
   }
 
   /// The strength of the diffuse light there.
   template <class Real>
   Real diffuse(const Real& transparency) const {
-    if (description->diffuse) return spread<Real>(*description->diffuse);
+    if (description->diffuse) return broadcast<Real>(*description->diffuse);
     const Real rest = (1.0 - description->reflectivity) - transparency;
     return rest > 0.0 ? rest : Real{};
   }

@@ -38,14 +38,14 @@ template <class Real>
 Vec3Of<Real> under_surface(const SurfacePointOf<Real>& point, double scale) {
   constexpr double of_scale = 0x1p-20;
   constexpr double of_coordinates = 0x1p-48;
-  const Real least = spread<Real>(scale * of_scale);
+  const Real least = broadcast<Real>(scale * of_scale);
   const Real depth = of_coordinates * largest_component(point.position);
   return point.position - (least < depth ? depth : least) * point.normal;
 }
 
 template <class Real = double, class Solid>
 Vec3Of<Real> in_periods(const Solid& pattern, const Vec3Of<Real>& position) {
-  return (position - spread<Real>(pattern.offset)) / spread<Real>(pattern.scale);
+  return (position - broadcast<Real>(pattern.offset)) / broadcast<Real>(pattern.scale);
 }
 
 // Of patterns of two colours with an edge between them: whether the second is seen.
@@ -59,7 +59,7 @@ auto is_second(const Checker& checker, const SurfacePointOf<Real>& point) {
 template <class Real>
 auto is_second(const Stripes& stripes, const SurfacePointOf<Real>& point) {
   const auto place = in_periods<Real>(stripes, under_surface(point, stripes.scale));
-  return period_share(dot(place, spread<Real>(stripes.direction))) >= 0.5;
+  return period_share(dot(place, broadcast<Real>(stripes.direction))) >= 0.5;
 }
 
 template <class Kind>
@@ -117,7 +117,8 @@ ColorLanes colors_at(const Kind& kind, const Texture* texture, const SurfacePoin
   } else {
     ColorLanes result;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      if ((lanes >> lane & 1u) != 0) result.set(lane, color_at(kind, texture, lane_of(points, lane)));
+      if ((lanes >> lane & 1u) != 0)
+        result.set(lane, color_at(kind, texture, lane_of(points, lane)));
     }
     return result;
   }
@@ -130,7 +131,8 @@ constexpr bool has_direction = requires(Solid pattern) {
 
 }  // namespace
 
-PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures) : pattern_(pattern) {
+PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures)
+    : pattern_(pattern) {
   std::visit(
       [&](auto& kind) {
         using Kind = std::decay_t<decltype(kind)>;
@@ -141,19 +143,21 @@ PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures) 
         } else {
           opaque_ = kind.color_a.a == 1 && kind.color_b.a == 1;
           brightest_ = std::max(brightest_channel(kind.color_a), brightest_channel(kind.color_b));
-          if constexpr (has_direction<Kind>) kind.direction = direction_and_length(kind.direction).direction;
+          if constexpr (has_direction<Kind>)
+            kind.direction = direction_and_length(kind.direction).direction;
         }
       },
       pattern_);
 }
 
 Color PreparedPattern::color(const SurfacePoint& point) const {
-  return std::visit([&](const auto& kind) { return color_at(kind, texture_.get(), point); }, pattern_);
+  return std::visit([&](const auto& kind) { return color_at(kind, texture_.get(), point); },
+                    pattern_);
 }
 
 ColorLanes PreparedPattern::colors(const SurfacePointLanes& points, std::uint32_t lanes) const {
-  return std::visit([&](const auto& kind) { return colors_at(kind, texture_.get(), points, lanes); },
-                    pattern_);
+  return std::visit(
+      [&](const auto& kind) { return colors_at(kind, texture_.get(), points, lanes); }, pattern_);
 }
 
 }  // namespace crt::core

@@ -10,8 +10,8 @@
 
 namespace crt::core {
 
-/// A pattern with its picture, if it has one, in linear light. The normals of points point out of the solid
-/// that is seen, also where a cutter made its surface.
+/// A pattern with its picture, if it has one, in linear light. The normals of points point out of
+/// the solid that is seen, also where a cutter made its surface.
 class PreparedPattern {
  public:
   PreparedPattern(const Pattern& pattern, TexturePool& textures);

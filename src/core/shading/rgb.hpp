@@ -27,8 +27,8 @@ inline double brightest_channel(const Color& color) {
   return std::max({color.r, color.g, color.b});
 }
 
-/// Shares of light are kept below this: so much, times all that lamps and surfaces may add, is still a
-/// number, however many surfaces brighten what they let through.
+/// Shares of light are kept below this: so much, times all that lights and surfaces may add, is
+/// still a number, however many surfaces brighten what they let through.
 inline constexpr double largest_share = 0x1p100;
 
 /// A share of light, kept within its bound.

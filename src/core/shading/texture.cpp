@@ -81,7 +81,8 @@ Texture::Texture(std::shared_ptr<const Image> image, double gamma)
     const double alpha = std::clamp(double{values[pixel + 3]}, 0.0, 1.0);
     opaque_ = opaque_ && alpha == 1;
     if (!(alpha > 0)) continue;
-    brightest = max(brightest, Lanes{values[pixel], values[pixel + 1], values[pixel + 2], 0} / alpha);
+    brightest =
+        max(brightest, Lanes{values[pixel], values[pixel + 1], values[pixel + 2], 0} / alpha);
   }
   brightest_ = std::max({brightest[0], brightest[1], brightest[2]});
 }
@@ -91,8 +92,8 @@ Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap
   const Neighbours row = neighbours(y, height(), wrap_y);
   const Color upper =
       mix(image_->at(column.first, row.first), image_->at(column.second, row.first), column.share);
-  const Color lower =
-      mix(image_->at(column.first, row.second), image_->at(column.second, row.second), column.share);
+  const Color lower = mix(image_->at(column.first, row.second),
+                          image_->at(column.second, row.second), column.share);
   return straight(mix(upper, lower, row.share));
 }
 

@@ -14,9 +14,9 @@ namespace crt::core {
 /// What a lookup between texels does where the picture ends.
 enum class TextureWrap { repeat, clamp };
 
-/// A picture in linear light, of finite values. One that is display-encoded is raised to the given gamma,
-/// once, into a copy, and one with values that are not finite gets 0 there, likewise; any other is shared as
-/// it is.
+/// A picture in linear light, of finite values. One that is display-encoded is raised to the given
+/// gamma, once, into a copy, and one with values that are not finite gets 0 there, likewise; any
+/// other is shared as it is.
 class Texture {
  public:
   /// `image` must not be null.
@@ -28,7 +28,8 @@ class Texture {
   /// Of memory, beside the picture as it was given.
   std::uint64_t bytes() const { return sizeof *this + own_bytes_; }
 
-  /// What in the picture, or in the file it is from, is not finite and counts as 0; for the user to know.
+  /// What in the picture, or in the file it is from, is not finite and counts as 0; for the user to
+  /// know.
   const NotFiniteValues& not_finite() const { return not_finite_; }
 
   /// Whether every texel covers fully.
@@ -38,7 +39,8 @@ class Texture {
   double brightest() const { return brightest_; }
 
   /// Bilinear, at (x, y) in texels: (0.5, 0.5) is the centre of the top left one. Any finite
-  /// position is valid. The colour is straight (not premultiplied); where nothing covers it is black.
+  /// position is valid. The colour is straight (not premultiplied); where nothing covers it is
+  /// black.
   Color bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const;
 
  private:
@@ -57,10 +59,12 @@ class TexturePool {
   /// Takes over what another pool has made, if it is for the same gamma, of what is asked for until
   /// settle() is called. `earlier` may be null.
   TexturePool(double gamma, const TexturePool* earlier)
-      : gamma_(gamma), earlier_(earlier != nullptr && earlier->gamma_ == gamma ? earlier : nullptr) {}
+      : gamma_(gamma),
+        earlier_(earlier != nullptr && earlier->gamma_ == gamma ? earlier : nullptr) {}
   void settle() { earlier_ = nullptr; }
 
-  /// What NotFiniteValues::message() says of its textures; in no order that depends on anything else.
+  /// What NotFiniteValues::message() says of its textures; in no order that depends on anything
+  /// else.
   std::vector<std::string> warnings() const;
 
   /// Of memory, of all its textures.

@@ -25,8 +25,8 @@ double step_on(const Shape& shape) {
 }
 
 /// (u, v) of the point of the face straight above or below `beside`, if it has one nearby.
-std::optional<Uv> uv_near(const Shape& shape, std::uint32_t face, const Vec3& beside, const Vec3& normal,
-                          double reach, CrossingList& scratch) {
+std::optional<Uv> uv_near(const Shape& shape, std::uint32_t face, const Vec3& beside,
+                          const Vec3& normal, double reach, CrossingList& scratch) {
   ObjectRay ray;
   ray.origin = beside;
   ray.direction = normal;
@@ -52,13 +52,15 @@ double change(double from, double to) {
 
 }  // namespace
 
-UvGradient uv_gradient(const Shape& shape, std::uint32_t face, const Vec3& position, const Vec3& normal,
-                       CrossingList& scratch) {
+UvGradient uv_gradient(const Shape& shape, std::uint32_t face, const Vec3& position,
+                       const Vec3& normal, CrossingList& scratch) {
   const double step = step_on(shape);
   const Vec3 least_aligned = std::abs(normal.x) < 0.5 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
   const Vec3 across = glm::normalize(glm::cross(normal, least_aligned));
   const Vec3 tangents[] = {across, glm::cross(normal, across)};
-  const auto uv_at = [&](const Vec3& point) { return uv_near(shape, face, point, normal, step, scratch); };
+  const auto uv_at = [&](const Vec3& point) {
+    return uv_near(shape, face, point, normal, step, scratch);
+  };
 
   UvGradient result;
   const std::optional<Uv> here = uv_at(position);

@@ -1,4 +1,5 @@
-// How a surface's (u, v) change from point to point: what a picture laid over it needs to be a bump.
+// How a surface's (u, v) change from point to point: what a picture laid over it needs to be a
+// bump.
 #pragma once
 
 #include "core/geometry/shape.hpp"
@@ -13,7 +14,7 @@ struct UvGradient {
 
 /// At a point of a face, by asking the shape for (u, v) of points beside it; 0 where it has none.
 /// `normal` is the face's there, of unit length and either sign; `scratch` is memory to reuse.
-UvGradient uv_gradient(const Shape& shape, std::uint32_t face, const Vec3& position, const Vec3& normal,
-                       CrossingList& scratch);
+UvGradient uv_gradient(const Shape& shape, std::uint32_t face, const Vec3& position,
+                       const Vec3& normal, CrossingList& scratch);
 
 }  // namespace crt::core

@@ -1,5 +1,5 @@
-// Eight floats side by side, for what is decided roughly and made certain elsewhere. As lanes.hpp has it for
-// doubles.
+// Eight floats side by side, for what is decided roughly and made certain elsewhere. As lanes.hpp
+// has it for doubles.
 #pragma once
 
 #include <cmath>

@@ -1,5 +1,5 @@
-// Four doubles side by side: what vector instructions do in one step, on every target with the same bits as
-// one by one. Vectors of GCC and Clang, which turn them into what the machine has.
+// Four doubles side by side: what vector instructions do in one step, on every target with the same
+// bits as one by one. Vectors of GCC and Clang, which turn them into what the machine has.
 #pragma once
 
 #include <algorithm>
@@ -42,7 +42,8 @@ Numbers lanes_at(const Number* column) {
   return lanes;
 }
 
-// Where GCC does not see that there is one instruction for all lanes it is named; the bits are the same.
+// Where GCC does not see that there is one instruction for all lanes it is named; the bits are the
+// same.
 
 /// Each rounded to the nearest float.
 inline FloatLanes to_floats(const Lanes& a) {
@@ -181,8 +182,8 @@ inline Lanes floor(const Lanes& a) {
 #endif
 }
 
-// Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles gives a
-// bool, and comparing lanes a mask of lanes.
+// Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles
+// gives a bool, and comparing lanes a mask of lanes.
 
 /// What comparing gives.
 template <class Real>
@@ -239,10 +240,10 @@ inline Lanes square_root(const Lanes& x) {
 }
 
 /// The absolute value.
-inline double size_of(double x) {
+inline double abs(double x) {
   return std::abs(x);
 }
-inline Lanes size_of(const Lanes& x) {
+inline Lanes abs(const Lanes& x) {
 #ifdef __AVX__
   return _mm256_andnot_pd(lanes_of(-0.0), x);
 #else
@@ -266,7 +267,7 @@ inline std::array<Lanes, lane_count> transposed(const std::array<Lanes, lane_cou
 
 /// The same number in a Real, which is a double or lanes.
 template <class Real>
-Real spread(double value) {
+Real broadcast(double value) {
   if constexpr (std::is_same_v<Real, double>) {
     return value;
   } else {
@@ -276,7 +277,7 @@ Real spread(double value) {
 
 /// Numbers that are by lane already.
 template <class Real>
-Lanes spread(const Lanes& values) {
+Lanes broadcast(const Lanes& values) {
   return values;
 }
 

@@ -1,4 +1,5 @@
-// Loops over many small items, and sorting, on several threads. What comes out never depends on how many.
+// Loops over many small items, and sorting, on several threads. What comes out never depends on how
+// many.
 #pragma once
 
 #include <algorithm>
@@ -13,10 +14,11 @@ namespace crt::core {
 /// Few items, of which each is little work, are not worth another thread.
 inline constexpr std::size_t items_for_a_thread = 4096;
 
-/// Calls body(begin, end) for ranges that make up 0 ... count, as run_tasks() does; a single range of up to
-/// `range_size` stays on this thread. The workers may be stopped between ranges.
+/// Calls body(begin, end) for ranges that make up 0 ... count, as run_tasks() does; a single range
+/// of up to `range_size` stays on this thread. The workers may be stopped between ranges.
 template <class Body>
-void for_ranges(std::size_t count, std::size_t range_size, const Workers& workers, const Body& body) {
+void for_ranges(std::size_t count, std::size_t range_size, const Workers& workers,
+                const Body& body) {
   run_tasks((count + range_size - 1) / range_size, workers.threads, [&](std::size_t range) {
     const FloatEnvironment ieee;
     workers.poll();
@@ -35,7 +37,8 @@ void sort_in_pieces(std::span<Item> items, const Workers& workers, const Less& l
     return;
   }
   const std::size_t half = items.size() / 2;
-  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(), less);
+  std::nth_element(items.begin(), items.begin() + static_cast<std::ptrdiff_t>(half), items.end(),
+                   less);
   sort_in_pieces(items.first(half), workers, less);
   sort_in_pieces(items.subspan(half), workers, less);
 }

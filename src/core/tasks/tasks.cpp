@@ -39,7 +39,8 @@ int available_threads() {
 
 /// TBB starts no more in this process, and says so on the terminal if it is asked to.
 int most_threads() {
-  return static_cast<int>(tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
+  return static_cast<int>(
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
 }
 #endif
 
@@ -52,7 +53,8 @@ void run_in_order(std::size_t count, const std::function<void(std::size_t)>& tas
 /// Takes tasks one after the other, on every thread that calls work().
 class SharedQueue {
  public:
-  SharedQueue(std::size_t count, const std::function<void(std::size_t)>& task) : count_(count), task_(task) {}
+  SharedQueue(std::size_t count, const std::function<void(std::size_t)>& task)
+      : count_(count), task_(task) {}
 
   void work() {
     try {
@@ -78,7 +80,8 @@ class SharedQueue {
 
 void run_in_parallel(std::size_t count, int threads, const std::function<void(std::size_t)>& task) {
   SharedQueue queue(count, task);
-  const std::size_t others = std::min(count, static_cast<std::size_t>(allowed_threads(threads))) - 1;
+  const std::size_t others =
+      std::min(count, static_cast<std::size_t>(allowed_threads(threads))) - 1;
   {
     std::vector<std::jthread> helpers;
     helpers.reserve(others);
@@ -95,7 +98,8 @@ void run_in_parallel(std::size_t count, int threads, const std::function<void(st
 #else
 
 void run_in_this_arena(std::size_t count, const std::function<void(std::size_t)>& task) {
-  // Bound to nothing around it: a host that cancels a task group of its own must not cut a picture short.
+  // Bound to nothing around it: a host that cancels a task group of its own must not cut a picture
+  // short.
   tbb::task_group_context context(tbb::task_group_context::isolated);
   tbb::parallel_for(
       tbb::blocked_range<std::size_t>(0, count),
@@ -120,7 +124,8 @@ void run_in_parallel(std::size_t count, int threads, const std::function<void(st
 
 int allowed_threads(int threads) {
   if (threads < 0) {
-    throw Error(ErrorCode::invalid_argument, "threads must not be negative; 0 means all", "threads");
+    throw Error(ErrorCode::invalid_argument, "threads must not be negative; 0 means all",
+                "threads");
   }
   return threads == 0 ? available_threads() : std::min(threads, most_threads());
 }

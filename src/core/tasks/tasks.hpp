@@ -1,5 +1,5 @@
-// Running tasks on several threads: the one place that knows what runs them (oneTBB, or plain threads
-// in builds with CRT_TASKS_THREADS).
+// Running tasks on several threads: the one place that knows what runs them (oneTBB, or plain
+// threads in builds with CRT_TASKS_THREADS).
 #pragma once
 
 #include <cstddef>
@@ -12,9 +12,9 @@ namespace crt::core {
 /// (invalid_argument) for a negative number.
 int allowed_threads(int threads);
 
-/// Calls task(0) ... task(count - 1), in any order and on up to `threads` threads (as above) at once,
-/// the calling one among them; 1 starts no thread and keeps the order. Returns when all are done. The
-/// first exception that a task throws stops what has not begun, and is rethrown here.
+/// Calls task(0) ... task(count - 1), in any order and on up to `threads` threads (as above) at
+/// once, the calling one among them; 1 starts no thread and keeps the order. Returns when all are
+/// done. The first exception that a task throws stops what has not begun, and is rethrown here.
 void run_tasks(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 
 }  // namespace crt::core

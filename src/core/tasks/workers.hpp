@@ -11,11 +11,13 @@ namespace crt::core {
 /// Asks whoever waits for a long piece of work whether it is to go on. Any thread may ask.
 class StopCheck {
  public:
-  /// `go_on` is called from one thread at a time; an empty one never stops anything. `what` names the work in
-  /// the error.
-  StopCheck(std::function<bool()> go_on, const char* what) : go_on_(std::move(go_on)), what_(what) {}
+  /// `go_on` is called from one thread at a time; an empty one never stops anything. `what` names
+  /// the work in the error.
+  StopCheck(std::function<bool()> go_on, const char* what)
+      : go_on_(std::move(go_on)), what_(what) {}
 
-  /// Throws Error (cancelled) if the answer is no, now or before. To be called often: asks now and then.
+  /// Throws Error (cancelled) if the answer is no, now or before. To be called often: asks now and
+  /// then.
   void poll();
 
  private:
@@ -36,7 +38,8 @@ struct Workers {
   StopCheck* stop = nullptr;
 
   // NOLINTNEXTLINE(google-explicit-constructor): a number of threads is enough to say
-  Workers(int most_threads = 0, StopCheck* stop_check = nullptr) : threads(most_threads), stop(stop_check) {}
+  Workers(int most_threads = 0, StopCheck* stop_check = nullptr)
+      : threads(most_threads), stop(stop_check) {}
 
   void poll() const {
     if (stop != nullptr) stop->poll();

@@ -1,5 +1,5 @@
-// A program that uses much of version 1.0's interface and checks what it gets. program.o was made of it once,
-// with that version's header, and is linked with every later library: see README.md.
+// A program that uses much of version 1.0's interface and checks what it gets. program.o was made
+// of it once, with that version's header, and is linked with every later library: see README.md.
 #include <crt/crt.h>
 #include <math.h>
 #include <stdio.h>
@@ -17,7 +17,8 @@ static void expect(int condition, const char* what, int line) {
 
 // A plate with a hole.
 static crt_entity* make_part(void) {
-  static const double low[3] = {-1, -1, 0}, high[3] = {1, 1, 1}, from[3] = {0, 0, -1}, to[3] = {0, 0, 2};
+  static const double low[3] = {-1, -1, 0}, high[3] = {1, 1, 1}, from[3] = {0, 0, -1},
+                      to[3] = {0, 0, 2};
   static const double moved[12] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 3};
   crt_entity *plate = NULL, *hole = NULL, *part = NULL, *placed = NULL, *numbered = NULL;
   EXPECT_OK(crt_box_create(low, high, &plate));
@@ -65,7 +66,8 @@ static crt_image* make_texture(void) {
   EXPECT(crt_image_width(image) == 2 && crt_image_height(image) == 2);
   EXPECT(memcmp(crt_image_pixels(image, &stride), pixels, sizeof pixels) == 0 && stride == 32);
   EXPECT_OK(crt_image_encode(image, "exr", NULL, &buffer));
-  EXPECT_OK(crt_image_decode(crt_buffer_data(buffer), crt_buffer_size(buffer), "texture.exr", &decoded));
+  EXPECT_OK(
+      crt_image_decode(crt_buffer_data(buffer), crt_buffer_size(buffer), "texture.exr", &decoded));
   EXPECT(crt_image_width(decoded) == 2);
   crt_buffer_release(crt_buffer_retain(buffer));
   crt_buffer_release(buffer);
@@ -128,7 +130,8 @@ static void set_scene(crt_scene* scene) {
   EXPECT_OK(crt_scene_get_background(scene, &background));
   EXPECT(background.type == CRT_BACKGROUND_GRADIENT && background.image == NULL);
   EXPECT_OK(crt_scene_get_settings(scene, &settings));
-  EXPECT(settings.width == 64 && settings.gamma == 1 && (settings.author == NULL || settings.author[0] == 0));
+  EXPECT(settings.width == 64 && settings.gamma == 1 &&
+         (settings.author == NULL || settings.author[0] == 0));
 }
 
 // A ray inside a struct of the program's own.
@@ -148,7 +151,8 @@ static void ask_rays(crt_prepared* prepared) {
   memset(probes, 0, sizeof probes);
   probes[0].ray = hits_plate;
   probes[1].ray = through_hole;
-  EXPECT_OK(crt_intersect(prepared, &probes[0].ray, sizeof(probe), 2, &probes[0].hit, sizeof(probe)));
+  EXPECT_OK(
+      crt_intersect(prepared, &probes[0].ray, sizeof(probe), 2, &probes[0].hit, sizeof(probe)));
   EXPECT(probes[0].hit.t == 3 && probes[0].hit.entity_id == 77 && probes[0].hit.normal[2] == -1);
   EXPECT((probes[0].hit.flags & CRT_HIT_ENTERING) != 0);
   EXPECT(isinf(probes[1].hit.t));
@@ -255,7 +259,8 @@ static int see_line(const char* line, size_t length, void* user) {
 
 static void run_scripts(void) {
   static const char wrong[] =
-      "ball = Macro (r) { Sphere { center -> vec3(0, 0, 0) radius -> r } }\nScene {\n  ball(-1)\n}\n";
+      "ball = Macro (r) { Sphere { center -> vec3(0, 0, 0) radius -> r } }\nScene {\n  "
+      "ball(-1)\n}\n";
   static const char right[] =
       "import \"given.crt\"\n"
       "print(\"hello\")\n"
@@ -270,12 +275,13 @@ static void run_scripts(void) {
   options.open_file = open_file;
   options.print = see_line;
   options.print_user = &lines;
-  EXPECT(crt_scene_from_script(wrong, sizeof wrong - 1, "wrong.crt", &options, &diagnostics, &scene) ==
-         CRT_ERROR_SCRIPT);
+  EXPECT(crt_scene_from_script(wrong, sizeof wrong - 1, "wrong.crt", &options, &diagnostics,
+                               &scene) == CRT_ERROR_SCRIPT);
   EXPECT(crt_diagnostics_count(diagnostics) == 1 && scene == NULL);
   diagnostic.struct_size = sizeof diagnostic;
   EXPECT_OK(crt_diagnostics_get(diagnostics, 0, &diagnostic));
-  EXPECT(diagnostic.severity == CRT_SEVERITY_ERROR && diagnostic.line == 1 && diagnostic.call_count == 1);
+  EXPECT(diagnostic.severity == CRT_SEVERITY_ERROR && diagnostic.line == 1 &&
+         diagnostic.call_count == 1);
   call.struct_size = sizeof call;
   EXPECT_OK(crt_diagnostics_get_call(diagnostics, 0, 0, &call));
   EXPECT(call.line == 3 && strcmp(call.name, "ball") == 0);

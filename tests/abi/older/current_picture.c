@@ -9,7 +9,8 @@ static int add_ball(crt_scene* scene) {
   crt_entity* ball = NULL;
   crt_pattern pattern;
   crt_material material;
-  int failed = crt_pattern_init(&pattern, sizeof pattern) || crt_material_init(&material, sizeof material);
+  int failed =
+      crt_pattern_init(&pattern, sizeof pattern) || crt_material_init(&material, sizeof material);
   pattern.color_a[0] = 0.25;
   material.pattern = &pattern;
   failed = failed || crt_sphere_create(center, 1, &bare) ||
@@ -24,7 +25,8 @@ static int set_scene(crt_scene* scene) {
   crt_camera camera;
   crt_background background;
   crt_settings settings;
-  const int failed = crt_light_init(&light, sizeof light) || crt_camera_init(&camera, sizeof camera) ||
+  const int failed = crt_light_init(&light, sizeof light) ||
+                     crt_camera_init(&camera, sizeof camera) ||
                      crt_background_init(&background, sizeof background) ||
                      crt_settings_init(&settings, sizeof settings);
   if (failed) return 1;

@@ -13,7 +13,8 @@ int main(void) {
     return 1;
   }
   const uint8_t* const corner = current;
-  const uint8_t* const middle = current + 4 * (picture_height / 2 * picture_width + picture_width / 2);
+  const uint8_t* const middle =
+      current + 4 * (picture_height / 2 * picture_width + picture_width / 2);
   if (memcmp(corner, middle, 4) != 0) return 0;
   puts("there is nothing in the picture");
   return 1;

@@ -1,5 +1,5 @@
-// crt.h as an older version might have had it: each struct that may grow ends earlier, where its comment
-// says. Compiled into programs for good, and so never brought up to date.
+// crt.h as an older version might have had it: each struct that may grow ends earlier, where its
+// comment says. Compiled into programs for good, and so never brought up to date.
 #pragma once
 
 #include <stddef.h>
@@ -101,8 +101,10 @@ int crt_sphere_create(const double center[3], double radius, crt_entity** out);
 int crt_entity_with_material(crt_entity* entity, const crt_material* material, crt_entity** out);
 int crt_scene_create(crt_scene** out);
 int crt_scene_from_script(const char* text, size_t length, const char* name,
-                          const crt_script_options* options, crt_diagnostics** diagnostics, crt_scene** out);
-int crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index, crt_diagnostic* diagnostic);
+                          const crt_script_options* options, crt_diagnostics** diagnostics,
+                          crt_scene** out);
+int crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
+                        crt_diagnostic* diagnostic);
 int crt_scene_add_entity(crt_scene* scene, crt_entity* entity);
 int crt_scene_add_light(crt_scene* scene, const crt_light* light);
 int crt_scene_set_camera(crt_scene* scene, const crt_camera* camera);
@@ -113,4 +115,5 @@ int crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 int crt_render(crt_prepared* prepared, const crt_render_options* options, crt_image** out);
 int crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t row_stride);
 int crt_image_stats(const crt_image* image, crt_render_stats* stats);
-int crt_image_write_with(const crt_image* image, const char* path, const crt_write_options* options);
+int crt_image_write_with(const crt_image* image, const char* path,
+                         const crt_write_options* options);

@@ -1,5 +1,5 @@
-// A program that was compiled against an older crt.h. Guards behind each struct show that the library leaves
-// alone what this version of the structs does not have.
+// A program that was compiled against an older crt.h. Guards behind each struct show that the
+// library leaves alone what this version of the structs does not have.
 #include <stdio.h>
 #include <string.h>
 

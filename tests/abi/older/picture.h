@@ -3,7 +3,11 @@
 
 #include <stdint.h>
 
-enum { picture_width = 48, picture_height = 36, picture_bytes = 4 * picture_width * picture_height };
+enum {
+  picture_width = 48,
+  picture_height = 36,
+  picture_bytes = 4 * picture_width * picture_height
+};
 
 // Each gives the picture's 8-bit RGBA, and 0 unless something failed. The one is compiled against
 // older_crt.h, the other against crt.h.

@@ -54,11 +54,13 @@ double use(const Library& crt) {
   crt.find<decltype(crt_settings_init)>("crt_settings_init")(&settings, sizeof settings);
   settings.width = 32;
   settings.height = 24;
-  REQUIRE(crt.find<decltype(crt_scene_set_settings)>("crt_scene_set_settings")(scene, &settings) == CRT_OK);
+  REQUIRE(crt.find<decltype(crt_scene_set_settings)>("crt_scene_set_settings")(scene, &settings) ==
+          CRT_OK);
   REQUIRE(crt.find<decltype(crt_scene_add_entity)>("crt_scene_add_entity")(scene, ball) == CRT_OK);
   REQUIRE(crt.find<decltype(crt_scene_prepare)>("crt_scene_prepare")(scene, &prepared) == CRT_OK);
   REQUIRE(crt.find<decltype(crt_render)>("crt_render")(prepared, nullptr, &image) == CRT_OK);
-  const float* const pixels = crt.find<decltype(crt_image_pixels)>("crt_image_pixels")(image, nullptr);
+  const float* const pixels =
+      crt.find<decltype(crt_image_pixels)>("crt_image_pixels")(image, nullptr);
   double sum = 0;
   for (std::size_t i = 0; i < std::size_t{4} * 32 * 24; ++i) sum += double{pixels[i]};
   crt.find<decltype(crt_image_release)>("crt_image_release")(image);
@@ -109,11 +111,12 @@ TEST_CASE("load, unload and load again leaks nothing") {
   const std::ptrdiff_t threads = thread_count();
   constexpr int cycles = 20;
   for (int i = 0; i < cycles; ++i) CHECK(cycle() == expected);
-  // Less than a small block a cycle; and as many mappings and threads as before, give or take what the
-  // allocator and TBB keep in reserve.
+  // Less than a small block a cycle; and as many mappings and threads as before, give or take what
+  // the allocator and TBB keep in reserve.
   CHECK(static_cast<double>(mallinfo2().uordblks) - static_cast<double>(heap) < cycles * 1024.0);
 #ifdef __SANITIZE_THREAD__
-  static_cast<void>(mappings);  // ThreadSanitizer maps memory of its own for each thread that there ever was
+  static_cast<void>(
+      mappings);  // ThreadSanitizer maps memory of its own for each thread that there ever was
 #else
   CHECK(maps().size() < mappings + cycles);
 #endif
@@ -121,22 +124,24 @@ TEST_CASE("load, unload and load again leaks nothing") {
 }
 
 TEST_CASE("a copy of the library is a second instance beside the first") {
-  const fs::path folder = fs::temp_directory_path() / ("crt-copy-" + fs::read_symlink("/proc/self").string());
+  const fs::path folder =
+      fs::temp_directory_path() / ("crt-copy-" + fs::read_symlink("/proc/self").string());
   fs::create_directories(folder);
   const fs::path copy = folder / "libcrt-copy.so";
   fs::copy_file(CRT_LIBRARY, copy, fs::copy_options::overwrite_existing);
   {
     const Library first(CRT_LIBRARY);
     const Library second(copy.string());
-    const bool apart =
-        first.find<decltype(crt_version)>("crt_version") != second.find<decltype(crt_version)>("crt_version");
+    const bool apart = first.find<decltype(crt_version)>("crt_version") !=
+                       second.find<decltype(crt_version)>("crt_version");
     CHECK(apart);
     CHECK(use(first) == use(second));
     // What one says the other does not.
     crt_entity* none = nullptr;
     const double center[3] = {0, 0, 0};
     const double radius = -1;
-    CHECK(second.find<decltype(crt_sphere_create)>("crt_sphere_create")(center, radius, &none) != CRT_OK);
+    CHECK(second.find<decltype(crt_sphere_create)>("crt_sphere_create")(center, radius, &none) !=
+          CRT_OK);
     CHECK(std::strlen(second.find<decltype(crt_error_message)>("crt_error_message")()) > 0);
     CHECK(std::strlen(first.find<decltype(crt_error_message)>("crt_error_message")()) == 0);
     // At once.

@@ -1,5 +1,5 @@
-// What happens when memory runs out: every allocation of a call is made to fail once, and each time an error
-// comes back and nothing is lost.
+// What happens when memory runs out: every allocation of a call is made to fail once, and each time
+// an error comes back and nothing is lost.
 #include <dlfcn.h>
 #include <execinfo.h>
 
@@ -40,7 +40,8 @@ bool fails_now() {
     --until_failure;
     return false;
   }
-  if (called_by_embree()) return false;  // Embree 3.13 uses what it has freed once memory has run out
+  if (called_by_embree())
+    return false;  // Embree 3.13 uses what it has freed once memory has run out
   until_failure = -1;
   failed = true;
   return true;
@@ -48,7 +49,8 @@ bool fails_now() {
 
 void* allocate(std::size_t size, std::size_t alignment) {
   if (fails_now()) return nullptr;
-  const std::size_t rounded = (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment;
+  const std::size_t rounded =
+      (std::max<std::size_t>(size, 1) + alignment - 1) / alignment * alignment;
   void* const block = std::aligned_alloc(alignment, rounded);
   if (block != nullptr) ++blocks;
   return block;
@@ -176,7 +178,8 @@ TEST_CASE("making, combining and placing entities") {
   const EntityHandle b = box(zero, {1, 1, 1});
   crt_entity* const both[] = {a.get(), b.get()};
   check_every_failure([&] {
-    return made_and_released<EntityHandle>([&](crt_entity** out) { return crt_union_create(both, 2, out); });
+    return made_and_released<EntityHandle>(
+        [&](crt_entity** out) { return crt_union_create(both, 2, out); });
   });
   check_every_failure([&] {
     return made_and_released<EntityHandle>(
@@ -219,7 +222,8 @@ TEST_CASE("putting a scene together and copying it") {
   });
   const SceneHandle scene = small_scene();
   check_every_failure([&] {
-    return made_and_released<SceneHandle>([&](crt_scene** out) { return crt_scene_copy(scene.get(), out); });
+    return made_and_released<SceneHandle>(
+        [&](crt_scene** out) { return crt_scene_copy(scene.get(), out); });
   });
   // A call that failed has changed nothing.
   std::size_t added = crt_scene_entity_count(scene.get());
@@ -288,13 +292,14 @@ TEST_CASE("running scripts, good and bad") {
   const std::string good =
       "f = Macro (n) { Sphere { center -> vec3(n, 0, 0) radius -> 1 } }\nl = [1, 2.5, \"three\"]\n"
       "Settings { title -> \"a title that is too long for the room that short texts have\" }\n"
-      "Scene { for (i in range(3)) { f(i) } Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, 1) } }\n";
+      "Scene { for (i in range(3)) { f(i) } Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, "
+      "1) } }\n";
   const std::string bad = "f = Macro (n) { g(n) }\nScene { f(2) }\n";
   const auto run = [](const std::string& text) {
     crt_diagnostics* diagnostics = nullptr;
     crt_scene* scene = nullptr;
-    const crt_status status =
-        crt_scene_from_script(text.data(), text.size(), "some/test.crt", nullptr, &diagnostics, &scene);
+    const crt_status status = crt_scene_from_script(text.data(), text.size(), "some/test.crt",
+                                                    nullptr, &diagnostics, &scene);
     const DiagnosticsHandle released(diagnostics);
     const SceneHandle also(scene);
     return status;

@@ -88,12 +88,15 @@ struct ProcessState {
   cpu_set_t affinity{};
   unsigned float_mode = _mm_getcsr();
 #ifndef CRT_TASKS_THREADS
-  std::size_t parallelism = tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
-  std::size_t stack_size = tbb::global_control::active_value(tbb::global_control::thread_stack_size);
+  std::size_t parallelism =
+      tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
+  std::size_t stack_size =
+      tbb::global_control::active_value(tbb::global_control::thread_stack_size);
 #endif
 
   ProcessState() {
-    for (char** variable = environ; *variable != nullptr; ++variable) environment.emplace_back(*variable);
+    for (char** variable = environ; *variable != nullptr; ++variable)
+      environment.emplace_back(*variable);
     for (int i = 1; i < 32; ++i) sigaction(i, nullptr, &signals[static_cast<std::size_t>(i)]);
     for (int i = 0; i < RLIM_NLIMITS; ++i) {
       getrlimit(static_cast<__rlimit_resource>(i), &limits[static_cast<std::size_t>(i)]);
@@ -160,7 +163,9 @@ TEST_CASE("nothing of the process is changed") {
   before.check_same(after);
 }
 
-TEST_CASE("a host's floating-point mode changes no picture, and is there in its callbacks and afterwards") {
+TEST_CASE(
+    "a host's floating-point mode changes no picture, and is there in its callbacks and "
+    "afterwards") {
   const SceneHandle scene = small_scene(64, 48);
   const std::vector<float> expected = [&] {
     const PreparedHandle prepared = prepare(scene.get());
@@ -259,7 +264,8 @@ TEST_CASE("64 threads query one prepared scene") {
           status = crt_intersect(prepared.get(), &rays[k], 0, 1, &hits[k], 0);
         }
       }
-      if (status != CRT_OK || std::memcmp(hits.data(), expected.data(), hits.size() * sizeof(crt_hit)) != 0) {
+      if (status != CRT_OK ||
+          std::memcmp(hits.data(), expected.data(), hits.size() * sizeof(crt_hit)) != 0) {
         ++wrong;
       }
     });
@@ -271,8 +277,8 @@ TEST_CASE("64 threads query one prepared scene") {
 TEST_CASE("a job is watched, and cancelled, by many threads") {
   const SceneHandle scene = small_scene(200, 150);
   const PreparedHandle prepared = prepare(scene.get());
-  const JobHandle job =
-      made<JobHandle>([&](crt_job** out) { return crt_render_start(prepared.get(), nullptr, out); });
+  const JobHandle job = made<JobHandle>(
+      [&](crt_job** out) { return crt_render_start(prepared.get(), nullptr, out); });
   std::atomic<int> wrong = 0;
   std::vector<std::thread> threads;
   for (int i = 0; i < 6; ++i) {
@@ -322,8 +328,8 @@ TEST_CASE("a job uses as many threads as the arena that it was started from has"
     arena.execute([&] {
       Callers callers;
       const crt_render_options options = options_with(callers, 0);
-      const JobHandle job =
-          made<JobHandle>([&](crt_job** out) { return crt_render_start(prepared.get(), &options, out); });
+      const JobHandle job = made<JobHandle>(
+          [&](crt_job** out) { return crt_render_start(prepared.get(), &options, out); });
       const ImageHandle image =
           made<ImageHandle>([&](crt_image** out) { return crt_job_wait(job.get(), out); });
       CHECK(threads_of(image.get()) == std::min(size, static_cast<int>(parallelism_allowed())));
@@ -340,7 +346,8 @@ TEST_CASE("a host may call from within its own parallel work") {
   std::atomic<int> wrong = 0;
   tbb::parallel_for(0, 16, [&](int) {
     crt_image* image = nullptr;
-    if (crt_render(prepared.get(), nullptr, &image) != CRT_OK || pixels_of(image) != expected) ++wrong;
+    if (crt_render(prepared.get(), nullptr, &image) != CRT_OK || pixels_of(image) != expected)
+      ++wrong;
     crt_image_release(image);
   });
   CHECK(wrong == 0);

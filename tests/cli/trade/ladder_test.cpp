@@ -58,12 +58,14 @@ TEST_CASE("what the script says comes first, and the rest keeps what it does not
   for (const Rung& rung : of_family(ladder, Family::grid)) CHECK(rung.settings.target_error == 0);
 }
 
-TEST_CASE("the grid goes from 1 to 16 without a lens, and mostly up in points of the lens with one") {
+TEST_CASE(
+    "the grid goes from 1 to 16 without a lens, and mostly up in points of the lens with one") {
   const std::vector<Rung> grid = of_family(ladder_of({}, false), Family::grid);
   CHECK(grid.front().settings.supersampling == 1);
   CHECK(grid.back().settings.supersampling == 16);
-  CHECK(std::is_sorted(grid.begin(), grid.end(),
-                       [](const Rung& a, const Rung& b) { return a.expected_samples < b.expected_samples; }));
+  CHECK(std::is_sorted(grid.begin(), grid.end(), [](const Rung& a, const Rung& b) {
+    return a.expected_samples < b.expected_samples;
+  }));
   const std::vector<Rung> lens = of_family(ladder_of(with_lens(), false), Family::grid);
   CHECK(lens.back().settings.dof_samples > lens.front().settings.dof_samples);
   CHECK(lens.back().options.find("--dofsamples") != std::string::npos);

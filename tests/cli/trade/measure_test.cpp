@@ -35,13 +35,15 @@ TEST_CASE("a difference is told in 8-bit steps of what a display shows") {
   CHECK(one.rmse == doctest::Approx(1).epsilon(1e-5));
   CHECK(one.p999 == doctest::Approx(1).epsilon(1e-5));
   // After gamma 2 a quarter shows as a half.
-  CHECK(displayed_difference(plain(5, 4, 0, 2), plain(5, 4, 0.25, 2)).rmse == doctest::Approx(127.5));
+  CHECK(displayed_difference(plain(5, 4, 0, 2), plain(5, 4, 0.25, 2)).rmse ==
+        doctest::Approx(127.5));
   // Whiter than white is white, and less than nothing black.
   CHECK(displayed_difference(plain(2, 2, 7), plain(2, 2, 1)).rmse == 0);
   CHECK(displayed_difference(plain(2, 2, -3), plain(2, 2, 0)).rmse == 0);
 }
 
-TEST_CASE("one channel of one pixel counts by the share that it is, and as the worst of its pixel") {
+TEST_CASE(
+    "one channel of one pixel counts by the share that it is, and as the worst of its pixel") {
   Image picture = plain(10, 10, 0);
   picture.set(3, 7, {0, 100.0 / 255, 0, 1});
   const PictureError error = displayed_difference(picture, plain(10, 10, 0));
@@ -86,7 +88,9 @@ TEST_CASE("the mean of two pictures is that of their light") {
   CHECK(mean.at(2, 1) == Color{0.5, 0.5, 0.5, 1});
 }
 
-TEST_CASE("bands lie in the picture, apart, as wide as it is, with about the pixels that were asked for") {
+TEST_CASE(
+    "bands lie in the picture, apart, as wide as it is, with about the pixels that were asked "
+    "for") {
   for (const int width : {1, 7, 640, 1920}) {
     for (const int height : {1, 23, 24, 100, 480, 1080, 65536}) {
       for (const double pixels : {1.0, 500.0, 30000.0, 1e6, 1e12}) {
@@ -130,7 +134,8 @@ TEST_CASE("random fronts: nothing on it is beaten, everything off it is") {
     for (Outcome& outcome : outcomes) outcome = {double(random() % 6), double(random() % 6)};
     const Places front = pareto_front(outcomes);
     const auto beats = [](const Outcome& a, const Outcome& b) {
-      return a.seconds <= b.seconds && a.error <= b.error && (a.seconds < b.seconds || a.error < b.error);
+      return a.seconds <= b.seconds && a.error <= b.error &&
+             (a.seconds < b.seconds || a.error < b.error);
     };
     for (std::size_t i = 0; i < outcomes.size(); ++i) {
       const bool on_front = std::find(front.begin(), front.end(), i) != front.end();
@@ -138,8 +143,9 @@ TEST_CASE("random fronts: nothing on it is beaten, everything off it is") {
       bool has_earlier_equal = false;
       for (std::size_t k = 0; k < outcomes.size(); ++k) {
         beaten = beaten || beats(outcomes[k], outcomes[i]);
-        has_earlier_equal = has_earlier_equal || (k < i && outcomes[k].seconds == outcomes[i].seconds &&
-                                                  outcomes[k].error == outcomes[i].error);
+        has_earlier_equal =
+            has_earlier_equal || (k < i && outcomes[k].seconds == outcomes[i].seconds &&
+                                  outcomes[k].error == outcomes[i].error);
       }
       CHECK(on_front == (!beaten && !has_earlier_equal));
     }

@@ -37,7 +37,8 @@ TradeReport small_report() {
 
 std::size_t count_of(const std::string& text, const std::string& piece) {
   std::size_t count = 0;
-  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1)) ++count;
+  for (std::size_t at = text.find(piece); at != std::string::npos; at = text.find(piece, at + 1))
+    ++count;
   return count;
 }
 
@@ -49,7 +50,8 @@ bool holds(const std::string& text, const std::string& piece) {
 
 TEST_CASE("the text says how the reference was made and how far it can be trusted") {
   const std::string text = report_text(small_report(), {});
-  for (const char* piece : {"700", "8192", "0.020", "0.30", "30720", "2 bands", "recursion depth 32"}) {
+  for (const char* piece :
+       {"700", "8192", "0.020", "0.30", "30720", "2 bands", "recursion depth 32"}) {
     CAPTURE(piece);
     CHECK(holds(text, piece));
   }
@@ -64,15 +66,16 @@ TEST_CASE("the text answers what was asked, and says so where nothing is good en
   CHECK(holds(fitting, "99.9 %: the reference is not certain enough to tell"));
   CHECK(holds(report_text(small_report(), {.seconds = {}, .error = 1.5}),
               "99.9 %: nothing that was tried is so accurate"));
-  CHECK(
-      holds(report_text(small_report(), {.seconds = 0.1, .error = {}}), "nothing that was tried is so fast"));
+  CHECK(holds(report_text(small_report(), {.seconds = 0.1, .error = {}}),
+              "nothing that was tried is so fast"));
 }
 
 TEST_CASE("errors that the reference cannot tell apart count as equal: the fastest is the best") {
   TradeReport report = small_report();
   report.rungs.push_back({Family::target, "--targeterror 0.000001", 300, 900, {0.03, 0.1}});
   report.rungs.push_back({Family::target, "--targeterror 0.000002", 200, 800, {0.035, 0.1}});
-  CHECK(holds(report_text(report, {.seconds = 1000.0, .error = {}}), "RMSE: --targeterror 0.000002"));
+  CHECK(
+      holds(report_text(report, {.seconds = 1000.0, .error = {}}), "RMSE: --targeterror 0.000002"));
 }
 
 TEST_CASE("the table for programs has a line a rung, with marks at the best") {
@@ -99,7 +102,8 @@ TEST_CASE("a plot of few, equal or perfect measurements is still one") {
   report.rungs[0].seconds = 0;
   report.rungs[0].error = {};
   report.uncertainty = {};
-  for (const std::string& text : {report_plot(report).svg(), report_text(report, {}), report_csv(report)}) {
+  for (const std::string& text :
+       {report_plot(report).svg(), report_text(report, {}), report_csv(report)}) {
     CHECK_FALSE(holds(text, "nan"));
     CHECK_FALSE(holds(text, "inf"));
   }

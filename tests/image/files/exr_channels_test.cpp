@@ -1,5 +1,5 @@
-// EXR files with channels beside the colours, as OpenImageIO reads them: names, types, and every number to
-// the bit.
+// EXR files with channels beside the colours, as OpenImageIO reads them: names, types, and every
+// number to the bit.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -80,8 +80,8 @@ TEST_CASE("an EXR file has each channel under its name, with its type, to the bi
     CAPTURE(with_alpha);
     Image image = smooth_picture(width, height, with_alpha);
     image.set_channels({floats("Z", 3), integers("id"), floats("N.X", -1), floats("N.Y", 0.25f),
-                        floats("N.Z", 8), floats("albedo.R", 0), floats("a-long-layer.name.G", 1e30f),
-                        integers("samples")});
+                        floats("N.Z", 8), floats("albedo.R", 0),
+                        floats("a-long-layer.name.G", 1e30f), integers("samples")});
     const TemporaryDirectory directory;
     const std::string path = (directory / "a.exr").string();
     image.write(path);
@@ -97,7 +97,8 @@ TEST_CASE("an EXR file has each channel under its name, with its type, to the bi
     const std::string colors = with_alpha ? "RGBA" : "RGB";
     for (std::size_t i = 0; i < colors.size(); ++i) {
       std::vector<float> values;
-      for (std::size_t at = i; at < image.pixels().size(); at += 4) values.push_back(image.pixels()[at]);
+      for (std::size_t at = i; at < image.pixels().size(); at += 4)
+        values.push_back(image.pixels()[at]);
       CHECK(content.channel(colors.substr(i, 1)) == bits_of({"", values}));
     }
   }

@@ -10,35 +10,36 @@ namespace crt::core {
 BoxShape::BoxShape(const Box& box)
     : lower_(glm::min(box.corner_a, box.corner_b)),
       upper_(glm::max(box.corner_a, box.corner_b)),
-      faces_{PlaneFace({-1, 0, 0}, lower_), PlaneFace({1, 0, 0}, upper_),  PlaneFace({0, -1, 0}, lower_),
-             PlaneFace({0, 1, 0}, upper_),  PlaneFace({0, 0, -1}, lower_), PlaneFace({0, 0, 1}, upper_)} {}
+      faces_{PlaneFace({-1, 0, 0}, lower_), PlaneFace({1, 0, 0}, upper_),
+             PlaneFace({0, -1, 0}, lower_), PlaneFace({0, 1, 0}, upper_),
+             PlaneFace({0, 0, -1}, lower_), PlaneFace({0, 0, 1}, upper_)} {}
 
-std::optional<Spine> BoxShape::spine() const {
+std::optional<CoreSegment> BoxShape::core_segment() const {
   const Vec3 size = upper_ - lower_;
   int along = size.y > size.x ? 1 : 0;
   if (size.z > size[along]) along = 2;
   Vec3 across = 0.5 * size;
   across[along] = 0;
   const double reach = glm::length(across);
-  return Spine{lower_ + across, upper_ - across, reach, reach};
+  return CoreSegment{lower_ + across, upper_ - across, reach, reach};
 }
 
 bool BoxShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const double shortest =
       unit_roundoff * (largest_component(upper_ - lower_) / largest_component(ray.direction));
-  Stretch stretch(ray.start, shortest);
+  ClippedSpan span(ray.start, shortest);
   if (ray.start.face == no_face) {
     const unsigned ends = possible_ends(ray);
     if (ends == 0) return false;
     for (std::uint32_t face = 0; face < faces_.size(); ++face) {
       if ((ends >> face & 1u) == 0) continue;
-      faces_[face].clip(ray, face, stretch);
-      if (stretch.empty()) return false;
+      faces_[face].clip(ray, face, span);
+      if (span.empty()) return false;
     }
   } else {
-    for (std::uint32_t face = 0; face < faces_.size(); ++face) faces_[face].clip(ray, face, stretch);
+    for (std::uint32_t face = 0; face < faces_.size(); ++face) faces_[face].clip(ray, face, span);
   }
-  return stretch.finish(out);
+  return span.finish(out);
 }
 
 unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
@@ -57,8 +58,8 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
     leave[i] = infinity;
     error[i] = 0;
     if (ray.direction[axis] == 0 && ray.direction_low[axis] == 0) {
-      const double room = slack * std::abs(origin);
-      if (lower_[axis] + room < origin && origin < upper_[axis] - room) continue;
+      const double margin = slack * std::abs(origin);
+      if (lower_[axis] + margin < origin && origin < upper_[axis] - margin) continue;
       return all_faces;
     }
     const double inverse = 1 / ray.direction[axis];
@@ -85,15 +86,15 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
 }
 
 template <class Real>
-void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face, bool with_uv,
-                           SurfacePointOf<Real>& point) const {
+void BoxShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t face,
+                           bool with_uv, SurfacePointOf<Real>& point) const {
   using Vector = Vec3Of<Real>;
   const PlaneFace& plane = faces_[face];
-  const Vector size = spread<Real>(upper_ - lower_);
-  const Vector within = clamp(offset, spread<Real>(Vec3(0)), size);
-  point.position = min(spread<Real>(upper_), spread<Real>(lower_) + within);
-  point.position[plane.axis()] = spread<Real>(plane.position()[plane.axis()]);
-  point.normal = spread<Real>(plane.unit_normal());
+  const Vector size = broadcast<Real>(upper_ - lower_);
+  const Vector within = clamp(offset, broadcast<Real>(Vec3(0)), size);
+  point.position = min(broadcast<Real>(upper_), broadcast<Real>(lower_) + within);
+  point.position[plane.axis()] = broadcast<Real>(plane.position()[plane.axis()]);
+  point.normal = broadcast<Real>(plane.unit_normal());
   if (!with_uv) return;
   const Vector share = within / size;
   point.u = plane.axis() == 0 ? share.z : share.x;

@@ -20,8 +20,8 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
   explicit BoxShape(const Box& box);
 
   bool is_solid() const override { return true; }
-  Proxy proxy() const override { return this; }
-  std::optional<Spine> spine() const final;
+  TypedShape typed() const override { return this; }
+  std::optional<CoreSegment> core_segment() const final;
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return lower_; }
@@ -34,8 +34,8 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
 
  private:
   static constexpr unsigned all_faces = 0x3f;
-  /// The faces, a bit each, through which a ray in free space can enter or leave the box, for all that plain
-  /// doubles tell; none if it surely misses.
+  /// The faces, a bit each, through which a ray in free space can enter or leave the box, for all
+  /// that plain doubles tell; none if it surely misses.
   unsigned possible_ends(const ObjectRay& ray) const;
 
   Vec3 lower_;

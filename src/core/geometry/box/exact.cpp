@@ -1,11 +1,11 @@
-// The box of the exact tier: the last of three faces that are entered against the first of three that are
-// left.
+// The box of the exact tier: the last of three faces that are entered against the first of three
+// that are left.
 #include <array>
 
 #include "core/geometry/box/box.hpp"
+#include "core/geometry/clipped_span.hpp"
 #include "core/geometry/exact_plane.hpp"
 #include "core/geometry/exact_shape.hpp"
-#include "core/geometry/stretch.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -37,7 +37,8 @@ class ExactBoxShape final : public ExactShape {
       if (surely_passed(enter, leave)) return false;
     }
     if (enter.face == no_face || leave.face == no_face) return false;
-    if (order(ray, faces_[enter.face], enter.meeting, faces_[leave.face], leave.meeting) >= 0) return false;
+    if (order(ray, faces_[enter.face], enter.meeting, faces_[leave.face], leave.meeting) >= 0)
+      return false;
     out.push_back(enter.meeting.crossing(enter.face));
     out.push_back(leave.meeting.crossing(leave.face));
     return false;
@@ -78,27 +79,28 @@ class ExactBoxShape final : public ExactShape {
 
   /// The start is on its face by identity; only where the line meets the others is left to tell.
   bool crossings_from_face(const ExactRay& ray, CrossingList& out) const {
-    Stretch stretch(ray.near.start, unit_roundoff * (size_ / largest_component(ray.near.direction)));
+    ClippedSpan span(ray.near.start,
+                     unit_roundoff * (size_ / largest_component(ray.near.direction)));
     for (std::uint32_t face = 0; face < faces_.size(); ++face) {
       ExactPlane::Meeting meeting;
       if (face == ray.near.start.face) {
         meeting.side = faces_[face].side(ray);
-        if (meeting.side <= 0 && ray.near.start.side == Side::outside) stretch.clear();
+        if (meeting.side <= 0 && ray.near.start.side == Side::outside) span.clear();
         if (meeting.side == 0) continue;
       } else {
         meeting = faces_[face].meet(ray);
       }
       if (!meeting.found()) {
-        if (!meeting.behind) stretch.clear();
+        if (!meeting.behind) span.clear();
         continue;
       }
       if (meeting.side > 0) {
-        stretch.leave(meeting.crossing(face));
+        span.leave(meeting.crossing(face));
       } else {
-        stretch.enter(meeting.crossing(face));
+        span.enter(meeting.crossing(face));
       }
     }
-    return stretch.finish(out);
+    return span.finish(out);
   }
 
   double size_;

@@ -1,7 +1,7 @@
 // Cone: all points between the planes across the axis through `from` and `to` whose distance from
 // the axis is at most the radius there, which goes from `radius` to `radius2` at a constant rate.
-// Equation, faces and (u, v): core/geometry/frustum/frustum.hpp. With radius2 = 0 there is no face 2.
-// Tests: tests/geometry/cone_test.cpp
+// Equation, faces and (u, v): core/geometry/frustum/frustum.hpp. With radius2 = 0 there is no
+// face 2. Tests: tests/geometry/cone_test.cpp
 #pragma once
 
 #include "core/geometry/frustum/frustum.hpp"
@@ -10,7 +10,8 @@ namespace crt::core {
 
 class ConeShape final : public FrustumShape {
  public:
-  explicit ConeShape(const Cone& cone) : FrustumShape(cone.from, cone.to, cone.radius, cone.radius2) {}
+  explicit ConeShape(const Cone& cone)
+      : FrustumShape(cone.from, cone.to, cone.radius, cone.radius2) {}
 };
 
 void validate(const Cone& cone);

@@ -33,8 +33,8 @@ bool DiscShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-void DiscShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
-                            SurfacePointOf<Real>& point) const {
+void DiscShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                            bool with_uv, SurfacePointOf<Real>& point) const {
   const Vec3Of<Real> relative = face_.onto_plane(offset);
   face_.write_point(relative, point);
   if (with_uv) set_polar(relative, frame_, radius_, point);

@@ -16,8 +16,9 @@ class ExactDiscShape final : public ExactFlatShape {
   bool contains(const ExactRay& ray, const Meeting& meeting) const override {
     const NearPoint point = near_point(ray, meeting);
     const double distance = glm::length(point.offset / radius_);
-    const double room = 1 - distance;
-    if (std::abs(room) > filter_rounding * (1 + distance) + 2 * (point.error / radius_)) return room > 0;
+    const double margin = 1 - distance;
+    if (std::abs(margin) > filter_rounding * (1 + distance) + 2 * (point.error / radius_))
+      return margin > 0;
     const ExactPoint exact = exact_meeting(ray, meeting);
     return (dot(exact.offset, exact.offset) - square(exact.weight * Dyadic(radius_))).sign() <= 0;
   }

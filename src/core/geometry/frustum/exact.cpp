@@ -16,14 +16,14 @@ namespace {
 class ExactSide {
  public:
   ExactSide(const ExactFrustum& frustum, const ExactRay& ray) : line_(ray.exact()) {
-    const DyadicVector way = exactly(frustum.wide) - exactly(frustum.narrow);
+    const DyadicVector axis = exactly(frustum.wide) - exactly(frustum.narrow);
     const DyadicVector offset = line_.origin - line_.weight * exactly(frustum.narrow);
     const Dyadic growth = Dyadic(frustum.wide_radius) - Dyadic(frustum.radius);
-    const Dyadic squared_length = dot(way, way);
-    const DyadicVector across = cross(offset, way);
-    const DyadicVector turning = cross(line_.direction, way);
-    radius_ = Dyadic(frustum.radius) * line_.weight * squared_length + growth * dot(offset, way);
-    radius_rate_ = growth * dot(line_.direction, way);
+    const Dyadic squared_length = dot(axis, axis);
+    const DyadicVector across = cross(offset, axis);
+    const DyadicVector turning = cross(line_.direction, axis);
+    radius_ = Dyadic(frustum.radius) * line_.weight * squared_length + growth * dot(offset, axis);
+    radius_rate_ = growth * dot(line_.direction, axis);
     g_ = {squared_length * dot(turning, turning) - square(radius_rate_),
           squared_length * dot(across, turning) - radius_ * radius_rate_,
           squared_length * dot(across, across) - square(radius_)};
@@ -37,10 +37,11 @@ class ExactSide {
     if (end.at_start) return g_.c.sign();
     const ExactPlane::Fraction t = end.plane->meet_exactly(line_);
     const Dyadic cross_term = g_.b * t.numerator * t.denominator;
-    return (g_.a * square(t.numerator) + cross_term + cross_term + g_.c * square(t.denominator)).sign();
+    return (g_.a * square(t.numerator) + cross_term + cross_term + g_.c * square(t.denominator))
+        .sign();
   }
 
-  std::optional<bool> dips_between(const CapMeeting& enter, const CapMeeting& leave) const {
+  std::optional<bool> is_inside_between(const CapMeeting& enter, const CapMeeting& leave) const {
     if (g_.a.sign() <= 0 || g_.discriminant().sign() <= 0) return false;
     return side_of_vertex(enter) < 0 && side_of_vertex(leave) > 0;
   }
@@ -85,7 +86,7 @@ class ExactFrustumShape final : public ExactShape {
  public:
   ExactFrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius)
       : frustum_(from, to, from_radius, to_radius),
-        caps_{ExactPlane::across_way(to, from, from), ExactPlane::across_way(from, to, to)},
+        caps_{ExactPlane::across_axis(to, from, from), ExactPlane::across_axis(from, to, to)},
         shortest_(unit_roundoff * std::min(frustum_.wide_radius, largest_component(to - from))) {}
 
   bool crossings(const ExactRay& ray, CrossingList& out) const override {
@@ -125,10 +126,10 @@ class ExactFrustumShape final : public ExactShape {
       if (piece.leave.face != no_face) out.push_back(piece.leave);
       return false;
     }
-    Stretch stretch(start, shortest_ / largest_component(ray.near.direction));
-    stretch.enter(piece.enter);
-    stretch.leave(piece.leave);
-    return stretch.finish(out);
+    ClippedSpan span(start, shortest_ / largest_component(ray.near.direction));
+    span.enter(piece.enter);
+    span.leave(piece.leave);
+    return span.finish(out);
   }
 
   std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
@@ -169,8 +170,8 @@ class ExactFrustumShape final : public ExactShape {
     const std::optional<int> at_leave = side.sign_at(leave);
     if (!at_enter || !at_leave) return std::nullopt;
     if (*at_enter >= 0 && *at_leave >= 0) {
-      const std::optional<bool> dips = side.dips_between(enter, leave);
-      if (!dips || !*dips) return dips;
+      const std::optional<bool> is_inside = side.is_inside_between(enter, leave);
+      if (!is_inside || !*is_inside) return is_inside;
     }
     const auto first = *at_enter < 0 ? enter.crossing() : side.root(true, enter, leave);
     if (first && first->t - first->error > first_above) {
@@ -185,32 +186,33 @@ class ExactFrustumShape final : public ExactShape {
 
   bool crossings_from_side(const ExactRay& ray, CrossingList& out) const {
     const RayStart& start = ray.near.start;
-    Stretch stretch(start, shortest_ / largest_component(ray.near.direction));
+    ClippedSpan span(start, shortest_ / largest_component(ray.near.direction));
     for (std::uint32_t cap = 0; cap < caps_.size(); ++cap) {
       const ExactPlane::Meeting meeting = caps_[cap].meet(ray);
       if (!meeting.found()) {
-        if (!meeting.behind) stretch.clear();
+        if (!meeting.behind) span.clear();
       } else if (meeting.side < 0) {
-        stretch.enter(meeting.crossing(cap + 1));
+        span.enter(meeting.crossing(cap + 1));
       } else {
-        stretch.leave(meeting.crossing(cap + 1));
+        span.leave(meeting.crossing(cap + 1));
       }
     }
     std::optional<SideStart> side = FilteredSide(frustum_, ray).start();
     if (!side) side = ExactSide(frustum_, ray).start();
-    clip_side_from_surface(*side, start, stretch);
-    return stretch.finish(out);
+    clip_side_from_surface(*side, start, span);
+    return span.finish(out);
   }
 
   ExactFrustum frustum_;
   std::array<ExactPlane, 2> caps_;  ///< at from and to
-  double shortest_;                 ///< what a ray that starts inwards has before it at least, for |d| = 1
+  double shortest_;  ///< what a ray that starts inwards has before it at least, for |d| = 1
 };
 
 }  // namespace
 
 std::unique_ptr<const ExactShape> make_exact_shape(const Cylinder& cylinder) {
-  return std::make_unique<ExactFrustumShape>(cylinder.from, cylinder.to, cylinder.radius, cylinder.radius);
+  return std::make_unique<ExactFrustumShape>(cylinder.from, cylinder.to, cylinder.radius,
+                                             cylinder.radius);
 }
 
 std::unique_ptr<const ExactShape> make_exact_shape(const Cone& cone) {

@@ -1,14 +1,15 @@
 // Cylinders and cones of the exact tier.
 //
-// With p from the centre of the narrower end, W the way from there to the wider end, r the narrower radius
-// and D how much wider the other is, a point between the caps is inside if
+// With p from the centre of the narrower end, W the axis from there to the wider end, r the
+// narrower radius and D how much wider the other is, a point between the caps is inside if
 //     g = |W|^2 |p x W|^2 - (r |W|^2 + D p . W)^2 < 0:
-// no root is taken and nothing divided, so g is a polynomial in the inputs. Between the planes of the caps
-// the second square is of a radius that is not negative, so the cone's other nappe never matters; and as what
-// is inside is convex, the signs of g where the line meets the two planes tell nearly all.
+// no root is taken and nothing divided, so g is a polynomial in the inputs. Between the planes of
+// the caps the second square is of a radius that is not negative, so the cone's other nappe never
+// matters; and as what is inside is convex, the signs of g where the line meets the two planes tell
+// nearly all.
 //
-// The signs come from doubles, then double-doubles, with bounds on the error (FilteredSide), and where those
-// leave one open from the quadratic without rounding (ExactSide, in the source file).
+// The signs come from doubles, then double-doubles, with bounds on the error (FilteredSide), and
+// where those leave one open from the quadratic without rounding (ExactSide, in the source file).
 // Tests: tests/geometry/exact_frustum_test.cpp
 #pragma once
 
@@ -28,7 +29,7 @@ struct ExactFrustum {
   double wide_radius;
   double unit;
 
-  PreciseVec3 way;              ///< W
+  PreciseVec3 axis;             ///< W
   DoubleDouble squared_length;  ///< |W|^2
   DoubleDouble narrow_part;     ///< r |W|^2
   DoubleDouble growth;          ///< D
@@ -52,13 +53,15 @@ struct CapMeeting {
 class FilteredSide {
  public:
   FilteredSide(const ExactFrustum& frustum, const ExactRay& ray)
-      : frustum_(frustum), ray_(ray), way_(frustum.way[0].hi, frustum.way[1].hi, frustum.way[2].hi) {}
+      : frustum_(frustum),
+        ray_(ray),
+        axis_(frustum.axis[0].hi, frustum.axis[1].hi, frustum.axis[2].hi) {}
 
   /// The sign of g where the line meets the plane of a cap; far away it is outside.
   std::optional<int> sign_at(const CapMeeting& end) const;
 
   /// Whether g, positive at both ends, is negative in between.
-  std::optional<bool> dips_between(const CapMeeting& enter, const CapMeeting& leave);
+  std::optional<bool> is_inside_between(const CapMeeting& enter, const CapMeeting& leave);
 
   /// Where g changes its sign into the solid or out of it.
   std::optional<Crossing> root(bool entering, const CapMeeting& enter, const CapMeeting& leave);
@@ -98,7 +101,9 @@ class FilteredSide {
     double rate_of_points;  ///< of inner and outer, at most, for each component of p
   };
 
-  double point_error(DoubleDouble t) const { return ray_.point_error(frustum_.narrow, t.hi) / frustum_.unit; }
+  double point_error(DoubleDouble t) const {
+    return ray_.point_error(frustum_.narrow, t.hi) / frustum_.unit;
+  }
 
   std::optional<int> rough_sign_at(DoubleDouble t, double off) const;
 
@@ -116,7 +121,7 @@ class FilteredSide {
   void find_middle(const CapMeeting& enter, const CapMeeting& leave);
 
   /// From the middle to an end, in t.
-  double way_to(const CapMeeting& end) const;
+  double distance_to(const CapMeeting& end) const;
 
   Local local() const;
 
@@ -128,7 +133,7 @@ class FilteredSide {
 
   const ExactFrustum& frustum_;
   const ExactRay& ray_;
-  Vec3 way_;                      ///< rounded
+  Vec3 axis_;                     ///< rounded
   std::optional<NearLine> line_;  ///< from the middle
   DoubleDouble middle_t_;
   Local middle_{};

@@ -15,9 +15,9 @@ FrustumShape::FrustumShape(const Vec3& from, const Vec3& to, double from_radius,
   const double wide = std::max(from_radius, to_radius);
   const double narrow = std::min(from_radius, to_radius);
   unit_ = power_of_two_below(wide);
-  const Vec3 way = to - from;
-  const double way_scale = power_of_two_below(largest_component(way));
-  height_ = glm::length(way * (1 / way_scale)) * way_scale / unit_;
+  const Vec3 axis = to - from;
+  const double axis_scale = power_of_two_below(largest_component(axis));
+  height_ = glm::length(axis * (1 / axis_scale)) * axis_scale / unit_;
   wide_radius_ = wide / unit_;
   narrow_radius_ = narrow / unit_;
   if (wide > narrow) {
@@ -42,34 +42,34 @@ Bounds FrustumShape::bounds() const {
 
 bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   NearLine line = NearLine::at_closest(ray, narrow_, unit_);
-  Stretch stretch(ray.start, line.to_t_length(unit_roundoff * std::min(height_, wide_radius_)));
+  ClippedSpan span(ray.start, line.to_t_length(unit_roundoff * std::min(height_, wide_radius_)));
   for (std::uint32_t cap = 0; cap < 2; ++cap) {
-    if (caps_[cap]) caps_[cap]->clip(ray, cap + 1, stretch);
+    if (caps_[cap]) caps_[cap]->clip(ray, cap + 1, span);
   }
   if (ray.start.face == side_face) {
-    clip_side_from_surface(ray, stretch);
-    return stretch.finish(out);
+    clip_side_from_surface(ray, span);
+    return span.finish(out);
   }
   // Squares of what is farther away could overflow. (What is closest is known to a few units.)
   constexpr double far = 64;
   const bool passes_far = largest_component(line.point) > far * (height_ + wide_radius_);
-  if (ray.start.face == no_face && (stretch.empty() || passes_far)) return false;
+  if (ray.start.face == no_face && (span.empty() || passes_far)) return false;
   const SideRates rates = side_rates(line);
-  if (!move_to_least(ray, line, rates, stretch)) return false;
-  clip_side(ray, line, rates, stretch);
-  return stretch.finish(out);
+  if (!move_to_least(ray, line, rates, span)) return false;
+  clip_side(ray, line, rates, span);
+  return span.finish(out);
 }
 
 /// To where |P|^2 + s0^2 is least between the caps; false if t has no number there.
 bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const SideRates& rates,
-                                 const Stretch& stretch) const {
-  // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a ball, and
-  // between the caps.
+                                 const ClippedSpan& span) const {
+  // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a
+  // sphere, and between the caps.
   const double least = where_least(line, rates);
   double t = line.to_t(std::isfinite(least) ? least : 0);
-  const double ball = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_speed));
-  t = std::clamp(t, line.to_t(0) - ball, line.to_t(0) + ball);
-  if (!stretch.empty()) t = std::min(std::max(t, stretch.enter_t()), stretch.leave_t());
+  const double sphere = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_length));
+  t = std::clamp(t, line.to_t(0) - sphere, line.to_t(0) + sphere);
+  if (!span.empty()) t = std::min(std::max(t, span.enter_t()), span.leave_t());
   if (!std::isfinite(t)) return false;
   line.move_to(ray, narrow_, t);
   return true;
@@ -82,14 +82,16 @@ double FrustumShape::approach(const SideEquation& side, double x) {
   return std::sqrt(side.discriminant) / std::abs(side.radius + side.radius_rate * x);
 }
 
-/// The crossing at a root, after one more shift to the root itself and one step of Newton's iteration on
-/// the distance from the side there, which knows nothing of the rounding of a, b and c. Beyond the caps a
-/// root stays where it is: next to a ruling it may be so far away that a distance there says nothing.
-Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
-                                const Root& root, const Stretch& stretch) const {
+/// The crossing at a root, after one more shift to the root itself and one step of Newton's
+/// iteration on the distance from the side there, which knows nothing of the rounding of a, b and
+/// c. Beyond the caps a root stays where it is: next to a ruling it may be so far away that a
+/// distance there says nothing.
+Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line,
+                                const SideEquation& side, const Root& root,
+                                const ClippedSpan& span) const {
   const Vec3 p = line.at(root.x);
   const Crossing crossing = side_crossing(line, side, root, reach_of(p));
-  if (!(crossing.t > stretch.enter_t() && crossing.t < stretch.leave_t())) return crossing;
+  if (!(crossing.t > span.enter_t() && crossing.t < span.leave_t())) return crossing;
   const auto unpolished = [&] {
     return side_crossing(line, side, root, std::max(reach_of(p), reach_of(line.point)));
   };
@@ -100,15 +102,16 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line, cons
   if (!std::isfinite(rate) || rate == 0) return unpolished();
   const double gap = std::sqrt(std::max(side.discriminant, 0.0)) / std::abs(side.a);
   const double reach = wide_radius_ + 2 * largest_component(p);
-  const bool apart = longest_step * reach < squarely * gap * rate;
-  if (!apart && !(rate > squarely * std::sqrt(line.squared_speed))) return unpolished();
+  const bool is_isolated = longest_step * reach < squarely * gap * rate;
+  if (!is_isolated && !(rate > squarely * std::sqrt(line.squared_length))) return unpolished();
   NearLine at_root = line;
   at_root.move_to(ray, narrow_, line.to_precise_t(root.x));
   const double distance = distance_from_side(at_root.point);
   double step = root.entering ? distance / rate : -distance / rate;
   Crossing result = crossing;
   result.t = at_root.to_t(step);
-  // Beside the apex the side bends away within such a step: the next ones take the slope that is there.
+  // Beside the apex the side bends away within such a step: the next ones take the slope that is
+  // there.
   constexpr int most_steps = 8;
   double radius = std::abs(side.radius + side.radius_rate * root.x);
   for (int i = 0; i < most_steps && !side.is_straight(step, radius, reach); ++i) {
@@ -131,11 +134,12 @@ double FrustumShape::reach_of(const Vec3& p) const {
   return wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
 }
 
-Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
-                                     double reach) const {
+Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& side,
+                                     const Root& root, double reach) const {
   const double t = line.to_t(root.x);
-  const double speed = std::sqrt(line.squared_speed);
-  const double graze = speed / std::sqrt(std::abs(side.a)) * grazing_error(line, reach, wide_radius_);
+  const double speed = std::sqrt(line.squared_length);
+  const double graze =
+      speed / std::sqrt(std::abs(side.a)) * grazing_error(line, reach, wide_radius_);
   const double longest = std::min(side.a > 0 ? graze : reach / speed, reach / speed);
   return {.t = t,
           .error = standard_error(line, t, reach, approach(side, root.x), longest),
@@ -143,8 +147,8 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
           .root = root.number};
 }
 
-/// Where the line grazes, the discriminant may be what is left of large numbers. From halfway between the
-/// roots it is a c with b nearly 0, and c the distance from the side there.
+/// Where the line grazes, the discriminant may be what is left of large numbers. From halfway
+/// between the roots it is a c with b nearly 0, and c the distance from the side there.
 void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, const SideRates& rates,
                                      SideEquation& side) const {
   if (passes_plainly(line, side)) return;
@@ -152,58 +156,60 @@ void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, const
   const bool cancels = std::abs(side.discriminant) < nearly * (side.b * side.b);
   const double middle = -side.b / side.a;
   const double farthest = (height_ + wide_radius_) * (height_ + wide_radius_);
-  if (!(side.a > 0 && cancels && middle * middle * line.squared_speed < farthest)) return;
+  if (!(side.a > 0 && cancels && middle * middle * line.squared_length < farthest)) return;
   line.move_to(ray, narrow_, line.to_precise_t(middle));
   side = side_equation(line, rates);
 }
 
 void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, const SideRates& rates,
-                             Stretch& stretch) const {
+                             ClippedSpan& span) const {
   SideEquation side = side_equation(line, rates);
   center_on_grazing(ray, line, rates, side);
   const auto enter = [&](double x, std::uint8_t number) {
-    stretch.enter(polished(ray, line, side, {side.on_nappe(x), true, number}, stretch));
+    span.enter(polished(ray, line, side, {side.on_nappe(x), true, number}, span));
   };
   const auto leave = [&](double x, std::uint8_t number) {
-    stretch.leave(polished(ray, line, side, {side.on_nappe(x), false, number}, stretch));
+    span.leave(polished(ray, line, side, {side.on_nappe(x), false, number}, span));
   };
   const bool is_within = side.is_within();
   if (side.a >= 0 && !(side.discriminant > 0)) {
     // (Within, only the axis of a cylinder meets nothing.)
-    if (!is_within) stretch.clear();
+    if (!is_within) span.clear();
     return;
   }
   const auto [low, high] = SideRoots<double>(side);
   if (side.a >= 0) {
     // (Parallel to a ruling one of them is infinite.)
-    if (side.is_on_other_nappe()) return stretch.clear();
+    if (side.is_on_other_nappe()) return span.clear();
     enter(low, 0);
     leave(high, 1);
   } else if (is_within ? side.b * side.radius < 0 : side.radius_rate > 0) {
-    // One on each nappe. From within both are ahead or both behind; from outside it is this one's where the
-    // radius grows.
+    // One on each nappe. From within both are ahead or both behind; from outside it is this one's
+    // where the radius grows.
     enter(high, 1);
   } else if (!is_within || side.b * side.radius > 0) {
     leave(low, 0);
   }
 }
 
-/// The root at the origin is known, so c is 0 whatever rounding made of the origin and the other root
-/// is -2 b / a, on this nappe if a > 0.
-void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const {
+/// The root at the origin is known, so c is 0 whatever rounding made of the origin and the other
+/// root is -2 b / a, on this nappe if a > 0.
+void FrustumShape::clip_side_from_surface(const ObjectRay& ray, ClippedSpan& span) const {
   const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
   SideEquation side = side_equation(line, side_rates(line));
   side.discriminant = side.b * side.b;
   Crossing other = side_crossing(line, side, {}, reach_of(line.point));
   if (side.a != 0) {
     const double x = -2 * side.b / side.a;
-    // Towards the apex the rounding of the origin grows as the radius shrinks, and there it is another matter
-    // which of the roots is the origin: the one at which the line enters, or the one at which it leaves.
+    // Towards the apex the rounding of the origin grows as the radius shrinks, and there it is
+    // another matter which of the roots is the origin: the one at which the line enters, or the one
+    // at which it leaves.
     constexpr double much_narrower = 0.5;
     if (side.a > 0 && !(side.radius + side.radius_rate * x >= much_narrower * side.radius)) {
-      other = root_next_to_apex(ray, side.b >= 0, stretch);
+      other = root_next_to_apex(ray, side.b >= 0, span);
     } else {
-      other = side_crossing(line, side, {.x = x}, std::max(reach_of(line.at(x)), reach_of(line.point)));
+      other =
+          side_crossing(line, side, {.x = x}, std::max(reach_of(line.at(x)), reach_of(line.point)));
       other.error += line.to_t_length(start_error(side.c, side.a, side.b));
     }
   }
@@ -212,41 +218,44 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, Stretch& stretch
                                 .radius = ray.start.on_face ? 1 : sign_of(side.radius),
                                 .radius_rate = sign_of(side.radius_rate),
                                 .other = other},
-                               ray.start, stretch);
+                               ray.start, span);
 }
 
-/// The root of a line that crosses the side elsewhere, too, where it is much wider: that one is behind the
-/// wanted one if the line is entering here, else ahead.
-Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const {
+/// The root of a line that crosses the side elsewhere, too, where it is much wider: that one is
+/// behind the wanted one if the line is entering here, else ahead.
+Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering,
+                                         const ClippedSpan& span) const {
   NearLine line = NearLine::at_closest(ray, narrow_, unit_);
   const SideRates rates = side_rates(line);
-  move_to_least(ray, line, rates, stretch);
+  move_to_least(ray, line, rates, span);
   const SideEquation side = side_equation(line, rates);
   const auto [low, high] = SideRoots<double>(side);
-  return polished(ray, line, side, {side.on_nappe(entering ? low : high), entering, 0}, stretch);
+  return polished(ray, line, side, {side.on_nappe(entering ? low : high), entering, 0}, span);
 }
 
 template <class Real>
 FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset,
                                          SurfacePointOf<Real>& point) {
   using Vector = Vec3Of<Real>;
-  const Vector axis = spread<Real>(frustum.axis_);
-  const Vector p = spread<Real>(1 / frustum.unit_) * offset;
+  const Vector axis = broadcast<Real>(frustum.axis_);
+  const Vector p = broadcast<Real>(1 / frustum.unit_) * offset;
   const Real z = dot(p, axis);
   // Across the axis, twice: the second time removes what the first one's rounding left along it.
   Vector across = p - z * axis;
   across = across - dot(across, axis) * axis;
   const auto at_apex = largest_component(across) == 0.0;
-  radial = chosen(at_apex, spread<Real>(frustum.frame_.zero), unit_vector(across));
+  radial = chosen(at_apex, broadcast<Real>(frustum.frame_.zero), unit_vector(across));
   // Onto the ruling in this direction, straight.
   const double sine = frustum.sine_;
   const double cosine = frustum.cosine_;
   const Real slant = (dot(across, radial) - frustum.narrow_radius_) * sine + z * cosine;
-  share = clamp(slant * cosine / frustum.height_, Real{}, spread<Real>(1));
-  const Real radius = frustum.narrow_radius_ + (frustum.wide_radius_ - frustum.narrow_radius_) * share;
-  point.position = spread<Real>(frustum.narrow_) +
-                   spread<Real>(frustum.unit_) * (share * frustum.height_ * axis + radius * radial);
-  point.normal = unit_vector(spread<Real>(cosine) * radial - spread<Real>(sine) * axis);
+  share = clamp(slant * cosine / frustum.height_, Real{}, broadcast<Real>(1));
+  const Real radius =
+      frustum.narrow_radius_ + (frustum.wide_radius_ - frustum.narrow_radius_) * share;
+  point.position =
+      broadcast<Real>(frustum.narrow_) +
+      broadcast<Real>(frustum.unit_) * (share * frustum.height_ * axis + radius * radial);
+  point.normal = unit_vector(broadcast<Real>(cosine) * radial - broadcast<Real>(sine) * axis);
   if (sine > 0) point.normal = chosen(at_apex, -axis, point.normal);
 }
 
@@ -256,7 +265,8 @@ void FrustumShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, 
   if (face != side_face) return write_cap_point(offset, face - 1, with_uv, point);
   const SidePoint<Real> side(*this, offset, point);
   if (!with_uv) return;
-  point.u = turn(dot(side.radial, spread<Real>(frame_.zero)), dot(side.radial, spread<Real>(frame_.quarter)));
+  point.u = turn(dot(side.radial, broadcast<Real>(frame_.zero)),
+                 dot(side.radial, broadcast<Real>(frame_.quarter)));
   point.v = narrow_ == from_ ? side.share : 1 - side.share;
 }
 

@@ -1,39 +1,40 @@
 // What cylinders and cones have in common: a round solid about an axis whose radius changes at a
 // constant rate, cut off by two flat caps.
 //
-// Notation. The frame's origin is the centre of the *narrower* end and w points to the wider one, so
-// that the radius r + z tan(alpha) at height z is a sum of what is not negative: nothing cancels, and
-// an apex is exactly at z = 0. With P and M the cross products of the line's point and direction with
-// w, times cos(alpha), and s0 + s1 x = cos(alpha) r + sin(alpha) z the radius along the line, again
-// times cos(alpha), the side is
+// Notation. The frame's origin is the centre of the *narrower* end and w points to the wider one,
+// so that the radius r + z tan(alpha) at height z is a sum of what is not negative: nothing
+// cancels, and an apex is exactly at z = 0. With P and M the cross products of the line's point and
+// direction with w, times cos(alpha), and s0 + s1 x = cos(alpha) r + sin(alpha) z the radius along
+// the line, again times cos(alpha), the side is
 //     |P + M x|^2 = (s0 + s1 x)^2   on the nappe s0 + s1 x >= 0,
-// a x^2 + 2 b x + c = 0 with a = (|M| - |s1|)(|M| + |s1|), b = P . M - s0 s1, c = (|P| - s0)(|P| + s0).
-// Cross products keep |M| good to a rounding at any angle to the axis, where 1 - (w . d)^2 would have no
-// digit left.
+// a x^2 + 2 b x + c = 0 with a = (|M| - |s1|)(|M| + |s1|), b = P . M - s0 s1, c = (|P| - s0)(|P| +
+// s0). Cross products keep |M| good to a rounding at any angle to the axis, where 1 - (w . d)^2
+// would have no digit left.
 //
-// Roundings. The left side minus the right one is (radial + radius) g, with g the distance from the side. P,
-// M, s0 and s1 are off by some u of |p| and |d|: the coefficients by some u times |P|^2 + s0^2, by as much
-// of |P||M| + |s0 s1| and |M|^2 + s1^2. So g at x is off by some u times
+// Roundings. The left side minus the right one is (radial + radius) g, with g the distance from the
+// side. P, M, s0 and s1 are off by some u of |p| and |d|: the coefficients by some u times |P|^2 +
+// s0^2, by as much of |P||M| + |s0 s1| and |M|^2 + s1^2. So g at x is off by some u times
 //     ((|P| + |M x|)^2 + (|s0| + |s1 x|)^2) / (s0 + s1 x).
-// Solved between the caps where |P|^2 + s0^2 is least, x has the sign of P . M + s0 s1, or that is 0, and
-// this is at most 4 u (s0 + s1 x) at a root, times what "some" is: the roots are those of a line that is
-// moved by no more than what the standard tier promises. (From where the radius is much larger than at the
-// root, as it may be next to an apex, they would not be.) The discriminant must be that of these very
-// coefficients, b^2 - a c without another rounding: then what little is left of a, b and c next to a ruling
-// agrees with itself, and roots that leave the solid's reach do so on the right side. In exact arithmetic it
-// is the same as |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones.
+// Solved between the caps where |P|^2 + s0^2 is least, x has the sign of P . M + s0 s1, or that is
+// 0, and this is at most 4 u (s0 + s1 x) at a root, times what "some" is: the roots are those of a
+// line that is moved by no more than what the standard tier promises. (From where the radius is
+// much larger than at the root, as it may be next to an apex, they would not be.) The discriminant
+// must be that of these very coefficients, b^2 - a c without another rounding: then what little is
+// left of a, b and c next to a ruling agrees with itself, and roots that leave the solid's reach do
+// so on the right side. In exact arithmetic it is the same as |s0 M - s1 P|^2 - |P x M|^2, whose
+// rounding is larger than b^2 next to rulings of cones.
 //
-// The set of points inside is convex, so a line cuts one stretch out of it.
+// The set of points inside is convex, so a line cuts one span out of it.
 #pragma once
 
 #include <algorithm>
 #include <optional>
 
 #include "core/geometry/angles.hpp"
+#include "core/geometry/clipped_span.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/plane_face.hpp"
 #include "core/geometry/shape.hpp"
-#include "core/geometry/stretch.hpp"
 
 namespace crt::core {
 
@@ -42,26 +43,29 @@ template <class Real>
 struct FrustumEntry {
   using Mask = MaskOf<Real>;
 
-  Mask missed{};  ///< it is nowhere inside
-  Mask known{};   ///< it enters there; without both a closer look is needed to tell
+  Mask rejected{};  ///< it is nowhere inside
+  Mask known{};     ///< it enters there; without both a closer look is needed to tell
   Real t{};
   Real error{};  ///< as in Crossing
 };
 
-/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the side
-/// u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the height from
-/// `from`; on the caps u is the same angle and v the distance from the axis; all in [0, 1].
+/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the
+/// side u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the
+/// height from `from`; on the caps u is the same angle and v the distance from the axis; all in [0,
+/// 1].
 class FrustumShape : public ShapeOfPoints<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
 
   bool is_solid() const final { return true; }
-  Proxy proxy() const final { return this; }
+  TypedShape typed() const final { return this; }
   Bounds bounds() const final;
-  std::optional<Spine> spine() const final { return Spine{from_, to_, radii_[0], radii_[1]}; }
+  std::optional<CoreSegment> core_segment() const final {
+    return CoreSegment{from_, to_, radii_[0], radii_[1]};
+  }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
-  /// The first crossing of rays that start on none of the faces' surfaces, where it is plainly on the side;
-  /// each is an ObjectRay or a PlainRay, or as many side by side.
+  /// The first crossing of rays that start on none of the faces' surfaces, where it is plainly on
+  /// the side; each is an ObjectRay or a PlainRay, or as many side by side.
   template <class Real, class Ray>
   FrustumEntry<Real> first_entry(const Ray& ray) const;
   Vec3 anchor(std::uint32_t face) const final {
@@ -94,31 +98,39 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
     /// Whether the line is within the cone at x = 0, on either nappe.
     MaskOf<Real> is_within() const { return c < 0.0; }
-    /// Whether the roots are on the other nappe, where a is not negative and both are on one: that where x =
-    /// 0 is if the line is within there, whatever is left of a and b, else that of the middle between them.
+    /// Whether the roots are on the other nappe, where a is not negative and both are on one: that
+    /// where x = 0 is if the line is within there, whatever is left of a and b, else that of the
+    /// middle between them.
     MaskOf<Real> is_on_other_nappe() const {
-      return either(both(is_within(), radius < 0.0), without(a * radius < b * radius_rate, is_within()));
+      return either(both(is_within(), radius < 0.0),
+                    without(a * radius < b * radius_rate, is_within()));
     }
     /// Of a root that is on this nappe: not beyond the apex, whatever is left of a and b.
-    Real on_nappe(const Real& x) const { return radius + radius_rate * x < 0.0 ? -radius / radius_rate : x; }
-    /// Whether a step along the line that ends at such a radius strays from the tangent there by no more than
-    /// the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1 x) at most.)
+    Real on_nappe(const Real& x) const {
+      return radius + radius_rate * x < 0.0 ? -radius / radius_rate : x;
+    }
+    /// Whether a step along the line that ends at such a radius strays from the tangent there by no
+    /// more than the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1
+    /// x) at most.)
     MaskOf<Real> is_straight(const Real& step, const Real& radius_there, const Real& reach) const {
-      return step * step * (a + radius_rate * radius_rate) <= 2 * unit_roundoff * reach * radius_there;
+      return step * step * (a + radius_rate * radius_rate) <=
+             2 * unit_roundoff * reach * radius_there;
     }
   };
   using SideEquation = SideEquationOf<double>;
   template <class Real>
   SideRatesOf<Real> side_rates(const NearLineOf<Real>& line) const;
   template <class Real>
-  SideEquationOf<Real> side_equation(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const;
+  SideEquationOf<Real> side_equation(const NearLineOf<Real>& line,
+                                     const SideRatesOf<Real>& rates) const;
   /// x of the point where |P|^2 + s0^2 is least; no number if there is no such.
   template <class Real>
   Real where_least(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const;
   static double approach(const SideEquation& side, double x);
   /// Whether the line does not graze the side.
   template <class Real>
-  static MaskOf<Real> passes_plainly(const NearLineOf<Real>& line, const SideEquationOf<Real>& side);
+  static MaskOf<Real> passes_plainly(const NearLineOf<Real>& line,
+                                     const SideEquationOf<Real>& side);
   struct Root {
     double x = 0;
     bool entering = false;
@@ -127,13 +139,14 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   /// Of a point in units, relative to the narrow end.
   template <class Vector>
   RealOf<Vector> distance_from_side(const Vector& p) const;
-  Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side, const Root& root,
-                    const Stretch& stretch) const;
+  Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
+                    const Root& root, const ClippedSpan& span) const;
   /// R + |x| of a point in units, relative to the narrow end.
   double reach_of(const Vec3& p) const;
   Crossing side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
                          double reach) const;
-  /// Both roots of a side equation, by the formulas that add what has one sign (Ray Tracing Gems ch. 7).
+  /// Both roots of a side equation, by the formulas that add what has one sign (Ray Tracing Gems
+  /// ch. 7).
   template <class Real>
   struct SideRoots {
     Real low;
@@ -142,12 +155,13 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     explicit SideRoots(const SideEquationOf<Real>& side);
   };
   bool move_to_least(const ObjectRay& ray, NearLine& line, const SideRates& rates,
-                     const Stretch& stretch) const;
+                     const ClippedSpan& span) const;
   void center_on_grazing(const ObjectRay& ray, NearLine& line, const SideRates& rates,
                          SideEquation& side) const;
-  void clip_side(const ObjectRay& ray, NearLine& line, const SideRates& rates, Stretch& stretch) const;
-  void clip_side_from_surface(const ObjectRay& ray, Stretch& stretch) const;
-  Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const Stretch& stretch) const;
+  void clip_side(const ObjectRay& ray, NearLine& line, const SideRates& rates,
+                 ClippedSpan& span) const;
+  void clip_side_from_surface(const ObjectRay& ray, ClippedSpan& span) const;
+  Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const ClippedSpan& span) const;
   /// What is on the side at `offset` from the middle of the narrow end, or next to it.
   template <class Real>
   struct SidePoint {
@@ -180,15 +194,15 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 template <class Real>
 [[gnu::always_inline]] inline auto FrustumShape::side_rates(const NearLineOf<Real>& line) const
     -> SideRatesOf<Real> {
-  const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Vec3Of<Real> m = spread<Real>(cosine_) * accurate_cross(line.direction, axis);
+  const Vec3Of<Real> axis = broadcast<Real>(axis_);
+  const Vec3Of<Real> m = broadcast<Real>(cosine_) * accurate_cross(line.direction, axis);
   return {.m = m, .m_squared = dot(m, m), .radius_rate = sine_ * dot(line.direction, axis)};
 }
 
 template <class Real>
 [[gnu::always_inline]] inline Real FrustumShape::where_least(const NearLineOf<Real>& line,
                                                              const SideRatesOf<Real>& rates) const {
-  const Vec3Of<Real> axis = spread<Real>(axis_);
+  const Vec3Of<Real> axis = broadcast<Real>(axis_);
   const Real across = cosine_ * dot(accurate_cross(line.point, axis), rates.m);
   const Real s0 = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
   const Real s1 = rates.radius_rate;
@@ -198,8 +212,8 @@ template <class Real>
 template <class Real>
 auto FrustumShape::side_equation(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const
     -> SideEquationOf<Real> {
-  const Vec3Of<Real> axis = spread<Real>(axis_);
-  const Vec3Of<Real> p = spread<Real>(cosine_) * accurate_cross(line.point, axis);
+  const Vec3Of<Real> axis = broadcast<Real>(axis_);
+  const Vec3Of<Real> p = broadcast<Real>(cosine_) * accurate_cross(line.point, axis);
   const Real m_length = square_root(rates.m_squared);
   const Real p_length = square_root(dot(p, p));
   SideEquationOf<Real> side{};
@@ -207,18 +221,19 @@ auto FrustumShape::side_equation(const NearLineOf<Real>& line, const SideRatesOf
   side.radius_rate = rates.radius_rate;
   const Real s0 = side.radius;
   const Real s1 = side.radius_rate;
-  side.a = (m_length - size_of(s1)) * (m_length + size_of(s1));
+  side.a = (m_length - abs(s1)) * (m_length + abs(s1));
   side.b = dot(p, rates.m) - s0 * s1;
-  side.c = (p_length - size_of(s0)) * (p_length + size_of(s0));
+  side.c = (p_length - abs(s0)) * (p_length + abs(s0));
   side.discriminant = difference_of_products(side.b, side.b, side.a, side.c);
   return side;
 }
 
 template <class Real>
-MaskOf<Real> FrustumShape::passes_plainly(const NearLineOf<Real>& line, const SideEquationOf<Real>& side) {
+MaskOf<Real> FrustumShape::passes_plainly(const NearLineOf<Real>& line,
+                                          const SideEquationOf<Real>& side) {
   constexpr double nearly = 0x1p-20;
   const Real radius = side.radius + side.radius_rate * (-side.b / side.a);
-  return size_of(side.discriminant) > nearly * nearly * line.squared_speed * radius * radius;
+  return abs(side.discriminant) > nearly * nearly * line.squared_length * radius * radius;
 }
 
 template <class Real>
@@ -234,7 +249,7 @@ FrustumShape::SideRoots<Real>::SideRoots(const SideEquationOf<Real>& side) {
 template <class Vector>
 RealOf<Vector> FrustumShape::distance_from_side(const Vector& p) const {
   using Real = RealOf<Vector>;
-  const Vector axis = spread<Real>(axis_);
+  const Vector axis = broadcast<Real>(axis_);
   const Vector across = accurate_cross(p, axis);
   return cosine_ * (square_root(dot(across, across)) - narrow_radius_) -
          sine_ * accurate_dot(p, axis).value();

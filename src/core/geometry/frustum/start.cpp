@@ -5,37 +5,37 @@
 namespace crt::core {
 namespace {
 
-/// A ray that starts on the cone's other nappe, on some other primitive. It meets this one, from within
-/// the other, once or never.
-void clip_side_from_other_nappe(SideStart& side, Stretch& stretch) {
-  if (side.a >= 0) return stretch.clear();
+/// A ray that starts on the cone's other nappe, on some other primitive. It meets this one, from
+/// within the other, once or never.
+void clip_side_from_other_nappe(SideStart& side, ClippedSpan& span) {
+  if (side.a >= 0) return span.clear();
   if (side.radius_rate > 0) {
     side.other.root = 1;
-    stretch.enter(side.other);
+    span.enter(side.other);
   } else {
-    stretch.leave(side.other);
+    span.leave(side.other);
   }
 }
 
 }  // namespace
 
-void clip_side_from_surface(SideStart side, const RayStart& start, Stretch& stretch) {
+void clip_side_from_surface(SideStart side, const RayStart& start, ClippedSpan& span) {
   constexpr std::uint32_t face = FrustumShape::side_face;
-  if (side.radius < 0) return clip_side_from_other_nappe(side, stretch);
+  if (side.radius < 0) return clip_side_from_other_nappe(side, span);
   if (side.a > 0) {
     const bool leaving = side.b >= 0;
     side.other.root = leaving ? 0 : 1;
     const Crossing here{.face = face, .root = static_cast<std::uint8_t>(leaving ? 1 : 0)};
-    if (!leaving && start.side == Side::outside) return stretch.clear();
-    stretch.enter(leaving ? side.other : here);
-    stretch.leave(leaving ? here : side.other);
+    if (!leaving && start.side == Side::outside) return span.clear();
+    span.enter(leaving ? side.other : here);
+    span.leave(leaving ? here : side.other);
     return;
   }
   // Steeper than the side: on the way to the wider end the ray enters for good.
-  if (side.radius_rate < 0) return stretch.leave({.face = face});
-  if (start.side == Side::outside) return stretch.clear();
+  if (side.radius_rate < 0) return span.leave({.face = face});
+  if (start.side == Side::outside) return span.clear();
   if (side.radius_rate > 0) {
-    stretch.enter({.face = face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
+    span.enter({.face = face, .root = static_cast<std::uint8_t>(side.a < 0 ? 1 : 0)});
   }
 }
 

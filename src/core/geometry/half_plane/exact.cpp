@@ -5,7 +5,8 @@
 namespace crt::core {
 namespace {
 
-/// Of a point in the plane, the direction tells the side as well as what of it is across the normal.
+/// Of a point in the plane, the direction tells the side as well as what of it is across the
+/// normal.
 class ExactHalfPlaneShape final : public ExactFlatShape {
  public:
   explicit ExactHalfPlaneShape(const HalfPlane& half_plane)

@@ -16,7 +16,8 @@ Vec3 edge(const HalfPlane& half_plane) {
 
 HalfPlaneShape::HalfPlaneShape(const HalfPlane& half_plane)
     : face_(half_plane.normal, half_plane.position),
-      inward_(unit_vector(accurate_cross(unit_vector(edge(half_plane)), face_.normal())) + Vec3(0.0)) {}
+      inward_(unit_vector(accurate_cross(unit_vector(edge(half_plane)), face_.normal())) +
+              Vec3(0.0)) {}
 
 Bounds HalfPlaneShape::bounds() const {
   Bounds result = Bounds::everything();
@@ -38,20 +39,21 @@ bool HalfPlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-void HalfPlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
-                                 SurfacePointOf<Real>& point) const {
+void HalfPlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                                 bool with_uv, SurfacePointOf<Real>& point) const {
   const Vec3Of<Real> relative = face_.onto_plane(offset);
   face_.write_point(relative, point);
   if (!with_uv) return;
-  point.u = max(Real{}, dot(relative, spread<Real>(inward_)));
-  point.v = dot(relative, spread<Real>(glm::cross(face_.unit_normal(), inward_)));
+  point.u = max(Real{}, dot(relative, broadcast<Real>(inward_)));
+  point.v = dot(relative, broadcast<Real>(glm::cross(face_.unit_normal(), inward_)));
 }
 
 void validate(const HalfPlane& half_plane) {
   check_direction("normal", half_plane.normal);
   check_coordinates("position", half_plane.position);
   check_direction("direction", half_plane.direction);
-  if (largest_component(edge(half_plane)) == 0) reject("direction", "must not be parallel to normal");
+  if (largest_component(edge(half_plane)) == 0)
+    reject("direction", "must not be parallel to normal");
 }
 
 std::unique_ptr<const Shape> make_shape(const HalfPlane& half_plane) {

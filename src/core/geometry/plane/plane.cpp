@@ -32,13 +32,13 @@ bool PlaneShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-void PlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
-                             SurfacePointOf<Real>& point) const {
+void PlaneShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                             bool with_uv, SurfacePointOf<Real>& point) const {
   const Vec3Of<Real> relative = face_.onto_plane(offset);
   face_.write_point(relative, point);
   if (!with_uv) return;
-  point.u = dot(relative, spread<Real>(axes_.u));
-  point.v = dot(relative, spread<Real>(axes_.v));
+  point.u = dot(relative, broadcast<Real>(axes_.u));
+  point.v = dot(relative, broadcast<Real>(axes_.v));
 }
 
 void validate(const Plane& plane) {

@@ -16,7 +16,7 @@ class PlaneShape final : public ShapeOfPoints<PlaneShape> {
   explicit PlaneShape(const Plane& plane);
 
   bool is_solid() const override { return true; }
-  Proxy proxy() const override { return this; }
+  TypedShape typed() const override { return this; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }

@@ -1,11 +1,11 @@
-// The sphere of the exact tier. Doubles tell the lines that clearly miss or hit; those that hit get their t
-// by Newton's iteration on |p(t)|^2 - r^2 in double-double. The few that all but touch get both from the
-// quadratic without rounding.
+// The sphere of the exact tier. Doubles tell the lines that clearly miss or hit; those that hit get
+// their t by Newton's iteration on |p(t)|^2 - r^2 in double-double. The few that all but touch get
+// both from the quadratic without rounding.
+#include "core/geometry/clipped_span.hpp"
 #include "core/geometry/exact_quadratic.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/near_line.hpp"
 #include "core/geometry/sphere/sphere.hpp"
-#include "core/geometry/stretch.hpp"
 #include "core/math/precise_transform.hpp"
 
 namespace crt::core {
@@ -22,8 +22,8 @@ class ExactSphereShape final : public ExactShape {
     const double r = radius_ / unit_;
     const double closest = line.closest();
     const double distance = glm::length(line.at(closest));
-    // Some tens of roundings of numbers of the line's size near the sphere, and what the ray itself is off
-    // by.
+    // Some tens of roundings of numbers of the line's size near the sphere, and what the ray itself
+    // is off by.
     constexpr double filter_rounding = 0x1p9 * unit_roundoff;
     constexpr double largest_rest = 4;  // of NearLine::at_closest
     const double open = filter_rounding * (distance + r + largest_rest) +
@@ -31,7 +31,7 @@ class ExactSphereShape final : public ExactShape {
     if (distance - r > open) return false;
     if (!(r - distance > open)) return exact_crossings(ray, out);
 
-    const double a = line.squared_speed;
+    const double a = line.squared_length;
     const double half_chord = std::sqrt(a * (r + distance) * (r - distance)) / a;
     Crossing enter{.t = line.to_t(closest - half_chord), .root = 0, .entering = true};
     Crossing leave{.t = line.to_t(closest + half_chord), .root = 1, .entering = false};
@@ -46,7 +46,8 @@ class ExactSphereShape final : public ExactShape {
   std::optional<RealRoot> place(const ExactRay& ray, const Crossing& crossing) const override {
     if (is_start(ray, crossing)) return RealRoot::at(0);
     const ExactQuadratic equation = quadratic(ray.exact());
-    return root_at(ray, crossing, ray.near.start.face == 0 ? equation.beside_zero() : equation.polynomial());
+    return root_at(ray, crossing,
+                   ray.near.start.face == 0 ? equation.beside_zero() : equation.polynomial());
   }
 
   ExactSurface surface(std::uint32_t /*face*/) const override {
@@ -70,8 +71,8 @@ class ExactSphereShape final : public ExactShape {
       t = t + DoubleDouble(-change);
 
       const double size = sum_of_sizes(p);
-      const double height_error =
-          2 * size * ray.point_error(center_, t.hi) + precise_roundoff * (size * size + radius_ * radius_);
+      const double height_error = 2 * size * ray.point_error(center_, t.hi) +
+                                  precise_roundoff * (size * size + radius_ * radius_);
       // The slope and the change are rounded, too.
       constexpr double change_rounding = 0x1p-48;
       const NewtonStep newton{.change = change,
@@ -115,17 +116,18 @@ class ExactSphereShape final : public ExactShape {
             (sum_of_sizes(d) * ray.point_error(center_, 0) + size * ray.direction_error +
              precise_roundoff * size * largest_component(near.direction)) /
             a.hi +
-        (precise_roundoff + 4 * ray.direction_error / largest_component(near.direction)) * std::abs(t.hi);
+        (precise_roundoff + 4 * ray.direction_error / largest_component(near.direction)) *
+            std::abs(t.hi);
     const bool outside = near.start.side == Side::outside;
     Crossing other{.root = static_cast<std::uint8_t>(!outside)};
     if (!settle(ray, t, error, other)) {
       other = exact_crossing(quadratic(ray.exact()).root_beside_zero(), other);
     }
-    Stretch stretch(near.start, unit_roundoff * (radius_ / largest_component(near.direction)));
+    ClippedSpan span(near.start, unit_roundoff * (radius_ / largest_component(near.direction)));
     const Crossing start{.root = static_cast<std::uint8_t>(outside)};
-    stretch.enter(outside ? other : start);
-    stretch.leave(outside ? start : other);
-    return stretch.finish(out);
+    span.enter(outside ? other : start);
+    span.leave(outside ? start : other);
+    return span.finish(out);
   }
 
   Vec3 center_;

@@ -4,7 +4,7 @@
 
 #include "core/geometry/angles.hpp"
 #include "core/geometry/checks.hpp"
-#include "core/geometry/stretch.hpp"
+#include "core/geometry/clipped_span.hpp"
 
 namespace crt::core {
 
@@ -30,39 +30,41 @@ bool SphereShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 
 bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out) const {
   const auto end = SphereOtherEnd<double>::of(ray, center_, radius_, unit_);
-  Stretch stretch(ray.start, end.least_way);
+  ClippedSpan span(ray.start, end.least_length);
   if (ray.start.side == Side::outside) {
-    stretch.enter({.t = end.t, .error = end.error, .root = 0});
-    stretch.leave({.root = 1});
+    span.enter({.t = end.t, .error = end.error, .root = 0});
+    span.leave({.root = 1});
   } else {
-    stretch.enter({.root = 0});
-    stretch.leave({.t = end.t, .error = end.error, .root = 1});
+    span.enter({.root = 0});
+    span.leave({.t = end.t, .error = end.error, .root = 1});
   }
-  return stretch.finish(out);
+  return span.finish(out);
 }
 
 namespace {
 
-/// On a sphere, or on one for each lane; next to where a line of that direction crosses it, which is at
-/// `offset` from the center.
+/// On a sphere, or on one for each lane; next to where a line of that direction crosses it, which
+/// is at `offset` from the center.
 template <class Real>
-inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius, const Vec3Of<Real>& offset,
-                               const Vec3Of<Real>& direction, bool with_uv, SurfacePointOf<Real>& point) {
+inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius,
+                               const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                               bool with_uv, SurfacePointOf<Real>& point) {
   const auto is_apart = largest_component(offset) > 0.0;
   const Vec3Of<Real> n = unit_vector(chosen(is_apart, offset, -direction));
   point.position = center + radius * n;
   point.normal = n;
   if (!with_uv) return;
   point.u = turn(n.z, n.x);
-  point.v = rise(square_root(n.x * n.x + n.z * n.z), n.y);
+  point.v = latitude(square_root(n.x * n.x + n.z * n.z), n.y);
 }
 
 }  // namespace
 
 template <class Real>
-void SphereShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t,
-                              bool with_uv, SurfacePointOf<Real>& point) const {
-  write_sphere_point<Real>(spread<Real>(center_), spread<Real>(radius_), offset, direction, with_uv, point);
+void SphereShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
+                              std::uint32_t, bool with_uv, SurfacePointOf<Real>& point) const {
+  write_sphere_point<Real>(broadcast<Real>(center_), broadcast<Real>(radius_), offset, direction,
+                           with_uv, point);
 }
 
 void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
@@ -74,7 +76,8 @@ void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count
   };
   const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});
   const VectorLanes center = {x, y, z};
-  write_sphere_point<Lanes>(center, radius, rays.from_center(center, t), rays.direction, with_uv, points);
+  write_sphere_point<Lanes>(center, radius, rays.from_center(center, t), rays.direction, with_uv,
+                            points);
 }
 
 Surface SphereShape::surface(std::uint32_t) const {

@@ -1,12 +1,11 @@
 // Sphere: all points p with |p - center| <= radius.
 //
 // Solved relative to the closest approach, with the discriminant r^2 - l^2 (l the distance of line
-// and centre) factored (r + l)(r - l): Haines, Guenther, Akenine-Moeller, Precision improvements for
-// ray/sphere intersection, Ray Tracing Gems ch. 7, 2019.
+// and centre) factored (r + l)(r - l): Haines, Guenther, Akenine-Moeller, Precision improvements
+// for ray/sphere intersection, Ray Tracing Gems ch. 7, 2019.
 //
-// Face 0 is all of it. u is the longitude about y, 0 at +z and growing towards +x; v the latitude, 0 at the
-// lowest point and 1 at the highest; both in [0, 1].
-// Tests: tests/geometry/sphere_test.cpp
+// Face 0 is all of it. u is the longitude about y, 0 at +z and growing towards +x; v the latitude,
+// 0 at the lowest point and 1 at the highest; both in [0, 1]. Tests: tests/geometry/sphere_test.cpp
 #pragma once
 
 #include <array>
@@ -28,10 +27,11 @@ struct SphereChord {
   /// Of one end, as in Crossing.
   Real error_of(const Real& end) const { return rounding_of(end) + error; }
 
-  /// Of a line that does not start on the surface. `unit` is the sphere's (see below). All that tells of the
-  /// sphere may be by lane.
+  /// Of a line that does not start on the surface. `unit` is the sphere's (see below). All that
+  /// tells of the sphere may be by lane.
   template <class Ray, class Center, class Size>
-  static SphereChord of(const Ray& ray, const Center& center, const Size& radius, const Size& unit) {
+  static SphereChord of(const Ray& ray, const Center& center, const Size& radius,
+                        const Size& unit) {
     Real closest;
     const auto line = NearLineOf<Real>::at_closest(ray, center, unit, closest);
     return on(line, closest, radius * inverse_of_power(unit));
@@ -43,8 +43,9 @@ struct SphereChord {
 
 template <class Real>
 template <class Size>
-SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real& closest, const Size& r) {
-  const Real a = line.squared_speed;
+SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real& closest,
+                                        const Size& r) {
+  const Real a = line.squared_length;
   const Vec3Of<Real> nearest = line.at(closest);
   const Real distance = square_root(dot(nearest, nearest));
   const auto meets = distance < r;
@@ -55,7 +56,8 @@ SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real
   const Real half_chord = root / a;
   const Real enter = line.to_t(closest - half_chord);
   const Real leave = line.to_t(closest + half_chord);
-  // As standard_error() has it, for |n . d| = root / r; and next to nothing comes near the grazing error.
+  // As standard_error() has it, for |n . d| = root / r; and next to nothing comes near the grazing
+  // error.
   const Size reach = 2.0 * r;
   const Size across = standard_error_across(reach) * r;
   Real along = across / root;
@@ -71,15 +73,15 @@ SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real
 template <class Real>
 struct SphereOtherEnd {
   Real t{};
-  Real error{};      ///< as in Crossing
-  Real least_way{};  ///< what rounding makes of a way that is none
+  Real error{};         ///< as in Crossing
+  Real least_length{};  ///< what rounding makes of a way that is none
 
   template <class Ray>
   static SphereOtherEnd of(const Ray& ray, const Vec3& center, double radius, double unit);
 };
 
-/// One root of a x^2 + 2 b x + c is 0 by identity, so c is 0 whatever rounding made of the origin, and
-/// the other root is -2 b / a.
+/// One root of a x^2 + 2 b x + c is 0 by identity, so c is 0 whatever rounding made of the origin,
+/// and the other root is -2 b / a.
 template <class Real>
 template <class Ray>
 SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center, double radius,
@@ -87,15 +89,15 @@ SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center
   const auto line = NearLineOf<Real>::at_origin(ray, center, unit);
   const double r = radius / unit;
   const double reach = 2 * r;
-  const Real a = line.squared_speed;
+  const Real a = line.squared_length;
   const Real b = dot(line.point, line.direction);
   const Real distance = square_root(dot(line.point, line.point));
-  const Real off_surface = size_of((distance + r) * (distance - r));
+  const Real off_surface = abs((distance + r) * (distance - r));
   SphereOtherEnd end;
   end.t = line.to_t(-2.0 * b / a);
-  end.error = standard_error(line, end.t, reach, size_of(b) / r, grazing_error(line, reach, r)) +
+  end.error = standard_error(line, end.t, reach, abs(b) / r, grazing_error(line, reach, r)) +
               line.to_t_length(start_error(off_surface, a, b));
-  end.least_way = line.to_t_length(spread<Real>(unit_roundoff * r));
+  end.least_length = line.to_t_length(broadcast<Real>(unit_roundoff * r));
   return end;
 }
 
@@ -104,7 +106,7 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   explicit SphereShape(const Sphere& sphere);
 
   bool is_solid() const override { return true; }
-  Proxy proxy() const override { return this; }
+  TypedShape typed() const override { return this; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   /// Of rays that do not start on the surface, each an ObjectRay or as many side by side.
@@ -117,8 +119,9 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
                    bool with_uv, SurfacePointOf<Real>& point) const;
   /// points_on() of rays each of which crosses a sphere of its own, to the last bit; t is by ray.
-  static void points_on_each(const std::array<const SphereShape*, lane_count>& spheres, const RayLanes& rays,
-                             const Lanes& t, bool with_uv, SurfacePointLanes& points);
+  static void points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
+                             const RayLanes& rays, const Lanes& t, bool with_uv,
+                             SurfacePointLanes& points);
   std::uint32_t face_count() const override { return 1; }
   Surface surface(std::uint32_t face) const override;
   std::size_t bytes() const override { return sizeof *this; }

@@ -1,17 +1,18 @@
-// The torus of the exact tier. Doubles tell how often the line goes in and out, with a bound on what rounding
-// may change of that (TorusLine), and each crossing gets its t by Newton's iteration on
+// The torus of the exact tier. Doubles tell how often the line goes in and out, with a bound on
+// what rounding may change of that (TorusLine), and each crossing gets its t by Newton's iteration
+// on
 //     G = (rho - R)^2 + z^2 - r^2
-// in double-double. What that leaves open is told by polynomials in t without rounding: with q relative to
-// the centre, A the axis of any length and S = |q|^2 + R^2 - r^2, a point is inside if S < 2 R rho, that is
-// if
+// in double-double. What that leaves open is told by polynomials in t without rounding: with q
+// relative to the centre, A the axis of any length and S = |q|^2 + R^2 - r^2, a point is inside if
+// S < 2 R rho, that is if
 //     S < 0  or  Q = |A|^2 S^2 - 4 R^2 (|q|^2 |A|^2 - (q . A)^2) < 0.
-// All crossings are roots of Q. Of the quartic's other roots, where a spindle torus has its inner lemon and
-// where the line only touches, both sides are alike.
+// All crossings are roots of Q. Of the quartic's other roots, where a spindle torus has its inner
+// lemon and where the line only touches, both sides are alike.
 #include <optional>
 
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/near_line.hpp"
-#include "core/geometry/torus/dips.hpp"
+#include "core/geometry/torus/spans.hpp"
 #include "core/geometry/torus/torus.hpp"
 #include "core/math/dyadic_polynomial.hpp"
 #include "core/math/precise_transform.hpp"
@@ -19,8 +20,8 @@
 namespace crt::core {
 namespace {
 
-/// The torus along a line without rounding: S and Q, each times some positive number, as polynomials of x
-/// with t = shift + scale x, where x is about 1 at the torus.
+/// The torus along a line without rounding: S and Q, each times some positive number, as
+/// polynomials of x with t = shift + scale x, where x is about 1 at the torus.
 class ExactTorusLine {
  public:
   /// Of t itself.
@@ -59,12 +60,12 @@ class ExactTorusLine {
     return place;
   }
 
-  /// Finds the crossing at about t, if that is the only one within `room` of it; or cannot tell.
-  bool find(const DoubleDouble& t, double room, Crossing& crossing) const {
+  /// Finds the crossing at about t, if that is the only one within `margin` of it; or cannot tell.
+  bool find(const DoubleDouble& t, double margin, Crossing& crossing) const {
     const double x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
     constexpr double narrowest = 0x1p-44;
     constexpr double widening = 0x1p10;
-    for (double width = narrowest; width < room / scale_; width *= widening) {
+    for (double width = narrowest; width < margin / scale_; width *= widening) {
       const Dyadic low = Dyadic(x) - Dyadic(width);
       const Dyadic high = Dyadic(x) + Dyadic(width);
       if (is_inside(low) == crossing.entering || is_inside(high) != crossing.entering) continue;
@@ -110,11 +111,14 @@ class ExactTorusLine {
     }
   }
 
-  bool is_inside(const Dyadic& x) const { return sum_.value(x).sign() < 0 || quartic_.value(x).sign() < 0; }
+  bool is_inside(const Dyadic& x) const {
+    return sum_.value(x).sign() < 0 || quartic_.value(x).sign() < 0;
+  }
 
   void refine(const Dyadic& low, const Dyadic& high, Crossing& crossing) const {
-    const Dyadic x = refined_root(quartic_, low, high, offset_,
-                                  [&](const Dyadic& place) { return is_inside(place) == crossing.entering; });
+    const Dyadic x = refined_root(quartic_, low, high, offset_, [&](const Dyadic& place) {
+      return is_inside(place) == crossing.entering;
+    });
     crossing = exact_crossing((Dyadic(scale_) * (x + offset_)).rounded().unscaled(), crossing);
   }
 
@@ -147,15 +151,15 @@ class ExactTorusShape final : public ExactShape {
     const double ray_error = ray.point_error(torus_.center, line.to_t(line.closest())) / unit_;
     const double off = roundings * unit_roundoff * size + 2 * ray_error;
     torus.take_care(off);
-    TorusLine::Dips dips = torus.dips();
-    dips.certain = dips.certain && std::isfinite(off + largest_component(line.point));
+    TorusLine::Spans spans = torus.spans();
+    spans.certain = spans.certain && std::isfinite(off + largest_component(line.point));
     if (on_surface) {
-      obey_side(ray.near.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
-      append_from_surface(ray, line, dips, out);
+      obey_side(ray.near.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, spans);
+      append_from_surface(ray, line, spans, out);
       return false;
     }
     const std::size_t before = out.size();
-    if (dips.certain && append(ray, line, dips, out)) return false;
+    if (spans.certain && append(ray, line, spans, out)) return false;
     out.resize(before);
     ExactTorusLine(torus_, ray, line, unit_).append(out);
     return false;
@@ -180,22 +184,23 @@ class ExactTorusShape final : public ExactShape {
     return {glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along)};
   }
 
-  /// The crossings of dips that are certain; or cannot tell them apart.
-  bool append(const ExactRay& ray, const NearLine& line, const TorusLine::Dips& dips,
+  /// The crossings of spans that are certain; or cannot tell them apart.
+  bool append(const ExactRay& ray, const NearLine& line, const TorusLine::Spans& spans,
               CrossingList& out) const {
     std::optional<ExactTorusLine> exact;
     std::uint8_t root = 0;
-    for (std::size_t i = 0; i < dips.count; ++i) {
+    for (std::size_t i = 0; i < spans.count; ++i) {
       for (const bool entering : {true, false}) {
         Crossing crossing{.root = root++, .entering = entering};
-        const double x = entering ? dips.dip[i].enter : dips.dip[i].leave;
+        const double x = entering ? spans.span[i].enter : spans.span[i].leave;
         if (!polish(ray, line.to_precise_t(x), {}, crossing)) {
           if (!exact) exact.emplace(torus_, ray, line, unit_);
           // To the other crossings it is farther than that.
           constexpr double share = 1.0 / 3;
-          double room = dips.dip[i].leave - dips.dip[i].enter;
-          if (dips.count > 1) room = std::min(room, dips.dip[1].enter - dips.dip[0].leave);
-          if (!exact->find(line.to_precise_t(x), line.to_t_length(share * room), crossing)) return false;
+          double margin = spans.span[i].leave - spans.span[i].enter;
+          if (spans.count > 1) margin = std::min(margin, spans.span[1].enter - spans.span[0].leave);
+          if (!exact->find(line.to_precise_t(x), line.to_t_length(share * margin), crossing))
+            return false;
         }
         out.push_back(crossing);
         if (ray.near.is_first_asked(crossing)) return true;
@@ -204,15 +209,16 @@ class ExactTorusShape final : public ExactShape {
     return true;
   }
 
-  /// The root at the start is 0 by identity. The others are where G is what it is at the start, which
-  /// rounding has put only nearly on the surface.
-  void append_from_surface(const ExactRay& ray, const NearLine& line, const TorusLine::Dips& dips,
+  /// The root at the start is 0 by identity. The others are where G is what it is at the start,
+  /// which rounding has put only nearly on the surface.
+  void append_from_surface(const ExactRay& ray, const NearLine& line, const TorusLine::Spans& spans,
                            CrossingList& out) const {
-    const DoubleDouble level = precise_level(precise_from_center(ray.near, torus_.center, 0.0)).value;
+    const DoubleDouble level =
+        precise_level(precise_from_center(ray.near, torus_.center, 0.0)).value;
     std::uint8_t root = 0;
-    for (std::size_t i = 0; i < dips.count; ++i) {
+    for (std::size_t i = 0; i < spans.count; ++i) {
       for (const bool entering : {true, false}) {
-        const double x = entering ? dips.dip[i].enter : dips.dip[i].leave;
+        const double x = entering ? spans.span[i].enter : spans.span[i].leave;
         Crossing crossing{.root = root++, .entering = entering};
         // Next to the start, where the ray grazes, the sign of t is all that there is to know.
         if (x != 0 && !polish(ray, line.to_precise_t(x), level, crossing)) {
@@ -252,14 +258,16 @@ class ExactTorusShape final : public ExactShape {
     const Vec3 vertical = axis_ * (along.hi / squared_axis_.hi);
     const Vec3 radial = rho.hi > 0 ? (point - vertical) * (outward.hi / rho.hi) : Vec3(0);
     level.half_gradient = radial + vertical;
-    // Of each length some roundings; of G twice its distance from the ring as much, and some of its squares.
+    // Of each length some roundings; of G twice its distance from the ring as much, and some of its
+    // squares.
     const double size = std::abs(outward.hi) + level.height + tube_;
     level.error = precise_roundoff * size * (8 * (ring_ + rho.hi + level.height) + size);
     return level;
   }
 
   /// Newton's iteration for G = goal until t is certain to the last bit; false if that fails.
-  bool polish(const ExactRay& ray, DoubleDouble t, const DoubleDouble& goal, Crossing& crossing) const {
+  bool polish(const ExactRay& ray, DoubleDouble t, const DoubleDouble& goal,
+              Crossing& crossing) const {
     const Vec3 d = ray.near.direction * (1 / unit_);
     const double speed = std::sqrt(glm::dot(d, d));
     constexpr int most_steps = 4;
@@ -267,19 +275,19 @@ class ExactTorusShape final : public ExactShape {
       const Level level = precise_level(precise_from_center(ray.near, torus_.center, t));
       const double rate = 2 * glm::dot(level.half_gradient, d);
       const double change = (level.value - goal).value() / rate;
-      // No second derivative of G on the way there and as far beyond is larger.
-      const double way = std::abs(change) * speed;
-      const double curvature = 2 * speed * speed * (1 + ring_ / (level.rho - 2 * way));
+      // No second derivative of G between here and the root, and as far beyond is larger.
+      const double distance_moved = std::abs(change) * speed;
+      const double curvature = 2 * speed * speed * (1 + ring_ / (level.rho - 2 * distance_moved));
       const double distance = std::abs(level.outward) + level.height;
       constexpr double rate_rounding = 0x1p-46;
       // Next to the axis the direction away from it is what is left of the point.
       const double size = ring_ + level.rho + level.height;
       const double rate_error =
           rate_rounding * speed * (distance + std::abs(level.outward) * (size / level.rho));
-      if (!(level.rho > 4 * way) || (rate < 0) != crossing.entering) return false;
+      if (!(level.rho > 4 * distance_moved) || (rate < 0) != crossing.entering) return false;
       t = t + DoubleDouble(-change);
       const double off = ray.point_error(torus_.center, t.hi) / unit_;
-      const double level_error = level.error + 2 * off * (distance + way + off);
+      const double level_error = level.error + 2 * off * (distance + distance_moved + off);
       const NewtonStep newton{.change = change,
                               .value_error = level_error,
                               .rate = rate,

@@ -13,15 +13,16 @@ template <class Real>
   const Real rho = square_root(p.x * p.x + p.y * p.y);
   const Real outward = rho - ring_;
   const Real rho_rate = rho > 0.0 ? (p.x * direction_.x + p.y * direction_.y) / rho : Real{};
-  return {
-      .rho = rho,
-      .value = on_surface_ ? value_from_start(x, p, rho) : outward * outward - (tube_ - p.z) * (tube_ + p.z),
-      .half_slope = outward * rho_rate + p.z * direction_.z};
+  return {.rho = rho,
+          .value = on_surface_ ? value_from_start(x, p, rho)
+                               : outward * outward - (tube_ - p.z) * (tube_ + p.z),
+          .half_slope = outward * rho_rate + p.z * direction_.z};
 }
 
 /// G(x) - G(0) with x as a factor.
 template <class Real>
-Real TorusLineOf<Real>::value_from_start(const Real& x, const Vec3Of<Real>& p, const Real& rho) const {
+Real TorusLineOf<Real>::value_from_start(const Real& x, const Vec3Of<Real>& p,
+                                         const Real& rho) const {
   const Vec3Of<Real> sum = p + point_;
   const Real rho_sum = rho + square_root(point_.x * point_.x + point_.y * point_.y);
   const Real lateral = sum.x * direction_.x + sum.y * direction_.y;
@@ -31,22 +32,22 @@ Real TorusLineOf<Real>::value_from_start(const Real& x, const Vec3Of<Real>& p, c
 
 template <class Real>
 Real TorusLineOf<Real>::half_curvature(const Level& here) const {
-  const Real bent = squared_speed_ - turning_ / (here.rho * here.rho * here.rho);
-  return here.rho > 0.0 ? bent : squared_speed_;
+  const Real bent = squared_length_ - turning_ / (here.rho * here.rho * here.rho);
+  return here.rho > 0.0 ? bent : squared_length_;
 }
 
-/// Within the ball and the slab that hold the torus, and a little more, so that both ends are outside
-/// whatever the rounding.
+/// Within the sphere and the slab that hold the torus, and a little more, so that both ends are
+/// outside whatever the rounding.
 template <class Real>
 auto TorusLineOf<Real>::range(const Mask& wanted, Range& result) const -> Mask {
   constexpr double margin = 1 + 0x1p-40;
-  const double ball = (ring_ + tube_) * margin + off_;
-  const Real closest = -dot(point_, direction_) / squared_speed_;
+  const double sphere = (ring_ + tube_) * margin + off_;
+  const Real closest = -dot(point_, direction_) / squared_length_;
   const Vec3Of<Real> nearest = point_ + closest * direction_;
   const Real distance = square_root(dot(nearest, nearest));
-  const Mask in_ball = both(wanted, distance < ball);
-  if (!any(in_ball)) return in_ball;
-  const Real half = square_root((ball - distance) * (ball + distance) / squared_speed_);
+  const Mask in_sphere = both(wanted, distance < sphere);
+  if (!any(in_sphere)) return in_sphere;
+  const Real half = square_root((sphere - distance) * (sphere + distance) / squared_length_);
   result = {closest - half, closest + half};
 
   const double slab = tube_ * margin + off_;
@@ -59,8 +60,8 @@ auto TorusLineOf<Real>::range(const Mask& wanted, Range& result) const -> Mask {
     result.low = min(result.low, Real{});
     result.high = max(result.high, Real{});
   }
-  const Mask in_slab = either(direction_.z != 0.0, size_of(point_.z) < slab);
-  return both(both(in_ball, in_slab), result.low < result.high);
+  const Mask in_slab = either(direction_.z != 0.0, abs(point_.z) < slab);
+  return both(both(in_sphere, in_slab), result.low < result.high);
 }
 
 /// Where rho'' > a / R, that is rho^3 < R D / a; an empty range at its end if nowhere.
@@ -70,15 +71,17 @@ auto TorusLineOf<Real>::concave_part(const Range& range) const -> Range {
   const Mask is_lateral = lateral_speed > 0.0;
   const Real middle = -(point_.x * direction_.x + point_.y * direction_.y) / lateral_speed;
   const Real passing_distance = passing_ / square_root(lateral_speed);
-  const Real cube = turning_ / squared_speed_;
+  const Real cube = turning_ / squared_length_;
   // Most lines pass the axis nearer or farther than that by more than any rounding.
   constexpr double plainly = 1 - 0x1p-40;
   constexpr double smallest = 0x1p-300;
-  const Mask passes_by = both(passing_distance > smallest,
-                              cube < plainly * (passing_distance * passing_distance * passing_distance));
+  const Mask passes_by =
+      both(passing_distance > smallest,
+           cube < plainly * (passing_distance * passing_distance * passing_distance));
   const Real inflection = any(without(is_lateral, passes_by)) ? cube_root(cube) : Real{};
   const Mask bends = inflection > passing_distance;
-  const Real square = (inflection - passing_distance) * (inflection + passing_distance) / lateral_speed;
+  const Real square =
+      (inflection - passing_distance) * (inflection + passing_distance) / lateral_speed;
   const Real half = bends ? square_root(square) : Real{};
   const Mask somewhere = without(is_lateral, without(passing_ > 0.0, bends));
   return {somewhere ? clamp(middle - half, range.low, range.high) : range.high,
@@ -91,12 +94,12 @@ Real TorusLineOf<Real>::value_error(const Real& x) const {
   if (off_ == 0) return Real{};
   const Vec3Of<Real> p = point_ + x * direction_;
   const Real outward = square_root(p.x * p.x + p.y * p.y) - ring_;
-  return 2 * off_ * (size_of(outward) + size_of(p.z) + tube_ + off_);
+  return 2 * off_ * (abs(outward) + abs(p.z) + tube_ + off_);
 }
 
 template <class Real>
 Real TorusLineOf<Real>::slope_error() const {
-  return 4 * off_ * square_root(squared_speed_);
+  return 4 * off_ * square_root(squared_length_);
 }
 
 /// How far above 0 a tangent must stay to show that all of a part of this length is.
@@ -105,9 +108,11 @@ Real TorusLineOf<Real>::margin(const Real& value_error, const Real& length) cons
   return off_ > 0 ? value_error + slope_error() * length + inflection_error_ : Real{};
 }
 
-/// In the convex part between a point outside and the concave part: a point inside, if there is one.
+/// In the convex part between a point outside and the concave part: a point inside, if there is
+/// one.
 template <class Real>
-auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mask& wanted) const -> Search {
+auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mask& wanted) const
+    -> Search {
   const Mask has_part = both(wanted, outer != inner);
   Search result{.certain = without(wanted, has_part)};
   if (!any(has_part)) return result;
@@ -119,11 +124,11 @@ auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mas
   result.certain = either(result.certain, result.found);
   Mask open = without(has_part, result.found);
   if (!any(open)) return result;
-  // If G rises from here on, it rises all the way out. Next to the axis the slope is not known.
+  // If G rises from here on, it rises all the step out. Next to the axis the slope is not known.
   constexpr double next_to_axis = 0x1p-20;
   const Real rise = outer < inner ? -here.half_slope : here.half_slope;
   const Mask rises = both(rise >= 0.0, here.rho > next_to_axis);
-  const Mask is_outside = both(rises, here.value >= margin(error, size_of(inner - outer)));
+  const Mask is_outside = both(rises, here.value >= margin(error, abs(inner - outer)));
   result.certain = either(result.certain, both(open, is_outside));
   open = without(open, is_outside);
   if (!any(open)) return result;
@@ -134,12 +139,12 @@ auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mas
           .level = Level::chosen(open, within.level, result.level)};
 }
 
-/// In a part where sign * G is convex, and not negative at its ends: a point where it is negative, if there
-/// is one. Newton's iteration for the minimum, kept between bounds; it stops when the tangents show that all
-/// is positive.
+/// In a part where sign * G is convex, and not negative at its ends: a point where it is negative,
+/// if there is one. Newton's iteration for the minimum, kept between bounds; it stops when the
+/// tangents show that all is positive.
 template <class Real>
-auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign, const Mask& wanted) const
-    -> Search {
+auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
+                                  const Mask& wanted) const -> Search {
   constexpr int most_steps = 200;
   const Real length = to - from;
   Real low = from;
@@ -165,7 +170,7 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     const Mask is_level = slope == 0.0;
     const Real farthest = upwards ? x - low : high - x;
     const Real open = margin(error, high - low);
-    const Mask is_none = is_level ? height > open : height - size_of(slope) * farthest > open;
+    const Mask is_none = is_level ? height > open : height - abs(slope) * farthest > open;
     result.certain = either(result.certain, both(going, is_none));
     going = without(going, either(is_none, is_level));
     if (!any(going)) break;
@@ -174,7 +179,8 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     high = upwards ? x : high;
     const Real curvature = 2.0 * sign * half_curvature(here);
     const Real next = x - slope / curvature;
-    const bool shrinks = step % 4 != 3;  // now and then halve, so that the bounds close in from both sides
+    const bool shrinks =
+        step % 4 != 3;  // now and then halve, so that the bounds close in from both sides
     const Mask by_newton = both(both(curvature > 0.0, next > low), next < high);
     const Real middle = low + (high - low) / 2.0;
     const Real onwards = shrinks ? (by_newton ? next : middle) : middle;
@@ -183,41 +189,43 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
   return result;
 }
 
-/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is not in
-/// between.
+/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is
+/// not in between.
 template <class Real>
 Real TorusLineOf<Real>::first_guess(const Bracket& bracket) const {
-  const Real way = bracket.positive - bracket.negative;
+  const Real step = bracket.positive - bracket.negative;
   const Level& inside = bracket.inside;
-  // `onwards` is half its slope on the way.
+  // `onwards` is half its slope on the step.
   const Real bend = half_curvature(inside);
-  const Mask backwards = way < 0.0;
+  const Mask backwards = step < 0.0;
   const Real onwards = backwards ? -inside.half_slope : inside.half_slope;
   const Real root = square_root(onwards * onwards - bend * inside.value);
   const Mask is_uphill = onwards > 0.0;
-  const Real length = (is_uphill ? -inside.value : root - onwards) / (is_uphill ? onwards + root : bend);
-  const Mask is_within = both(length > 0.0, length < size_of(way));
+  const Real length =
+      (is_uphill ? -inside.value : root - onwards) / (is_uphill ? onwards + root : bend);
+  const Mask is_within = both(length > 0.0, length < abs(step));
   return is_within ? bracket.negative + (backwards ? -length : length) : bracket.positive;
 }
 
-/// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line slants,
-/// what is left is no more than the step's square times the largest |G'' / 2| on the way; with the root at
-/// the start divided out, G'(x) / x more.
+/// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line
+/// slants, what is left is no more than the step's square times the largest |G'' / 2| on the step;
+/// with the root at the start divided out, G'(x) / x more.
 template <class Real>
-auto TorusLineOf<Real>::is_last_step(const Real& x, const Level& from, const Real& step) const -> Mask {
+auto TorusLineOf<Real>::is_last_step(const Real& x, const Level& from, const Real& step) const
+    -> Mask {
   const double rounding = unit_roundoff * tube_ * (ring_ + tube_);
   const Real cube = from.rho * from.rho * from.rho;
-  const Real bend =
-      squared_speed_ + turning_ / cube + (on_surface_ ? Real(size_of(2.0 * from.half_slope / x)) : Real{});
-  // Near enough that the distance from the axis does not shrink by more than a fourth, its cube to less than
-  // a third.
+  const Real bend = squared_length_ + turning_ / cube +
+                    (on_surface_ ? Real(abs(2.0 * from.half_slope / x)) : Real{});
+  // Near enough that the distance from the axis does not shrink by more than a fourth, its cube to
+  // less than a third.
   constexpr double change_of_bend = 3;
-  const Mask is_near = 16.0 * squared_speed_ * step * step < from.rho * from.rho;
+  const Mask is_near = 16.0 * squared_length_ * step * step < from.rho * from.rho;
   return both(is_near, change_of_bend * bend * step * step < rounding);
 }
 
-/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each beside
-/// the last but one.
+/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each
+/// beside the last but one.
 template <class Real>
 Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
   Real negative = bracket.negative;
@@ -230,7 +238,7 @@ Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
     going = without(going, at_start);
   }
   constexpr int most_steps = 200;
-  Real step = size_of(positive - negative);
+  Real step = abs(positive - negative);
   Real step_before = step;
   for (int steps = 0; steps < most_steps && any(going); ++steps) {
     const Level here = level(x);
@@ -252,10 +260,10 @@ Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
     going = without(going, is_found);
     if (!any(going)) break;
 
-    const Mask halves = both(both(low < next, next < high), size_of(change) <= step_before / 2.0);
+    const Mask halves = both(both(low < next, next < high), abs(change) <= step_before / 2.0);
     const Real onwards = halves ? next : low + (high - low) / 2.0;
     step_before = step;
-    step = size_of(onwards - from);
+    step = abs(onwards - from);
     x = going ? onwards : x;
     going = without(going, either(onwards == from, onwards == low, onwards == high));
   }
@@ -277,8 +285,8 @@ auto TorusLineOf<Real>::first_entry(const Mask& wanted) const -> Entry {
            Level::chosen(first.found, first.level, second.level)}};
 }
 
-/// The last stretch ends behind the last point that is found to be inside; if that is not ahead of the start,
-/// at the start or before it.
+/// The last span ends behind the last point that is found to be inside; if that is not ahead of the
+/// start, at the start or before it.
 template <class Real>
 auto TorusLineOf<Real>::comes_back(const Mask& wanted) const -> Mask {
   Range whole;

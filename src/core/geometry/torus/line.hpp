@@ -1,11 +1,12 @@
-// A line seen from a torus: G along it, and the stretches where G < 0. See torus.hpp for what G is.
+// A line seen from a torus: G along it, and the intervals where G < 0. See torus.hpp for what G is.
 #pragma once
 
 #include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
-/// One line, or as many side by side as a Real has lanes, each with what it has alone to the last bit.
+/// One line, or as many side by side as a Real has lanes, each with what it has alone to the last
+/// bit.
 template <class Real>
 class TorusLineOf {
  public:
@@ -19,9 +20,9 @@ class TorusLineOf {
         direction_(direction),
         ring_(ring),
         tube_(tube),
-        squared_speed_(dot(direction, direction)),
+        squared_length_(dot(direction, direction)),
         passing_(without_what_vanishes(
-            size_of(difference_of_products(point.x, direction.y, point.y, direction.x)))),
+            abs(difference_of_products(point.x, direction.y, point.y, direction.x)))),
         turning_(ring * passing_ * passing_),
         on_surface_(on_surface) {}
 
@@ -33,7 +34,8 @@ class TorusLineOf {
 
     /// Of each line that of `a` or that of `b`.
     static Level chosen(const Mask& first, const Level& a, const Level& b) {
-      return {first ? a.rho : b.rho, first ? a.value : b.value, first ? a.half_slope : b.half_slope};
+      return {first ? a.rho : b.rho, first ? a.value : b.value,
+              first ? a.half_slope : b.half_slope};
     }
   };
   Level level(const Real& x) const;
@@ -51,11 +53,12 @@ class TorusLineOf {
     Mask found{};  ///< else it is nowhere inside
     Bracket bracket;
   };
-  /// Where wanted lines first enter the torus, if they do not start on the surface: as stretches() has it.
+  /// Where wanted lines first enter the torus, if they do not start on the surface: as intervals()
+  /// has it.
   Entry first_entry(const Mask& wanted) const;
 
-  /// Which of wanted lines, which start on the surface and outwards, are inside somewhere at x > 0. Of others
-  /// it is certain that dips() has nothing there.
+  /// Which of wanted lines, which start on the surface and outwards, are inside somewhere at x > 0.
+  /// Of others it is certain that spans() has nothing there.
   Mask comes_back(const Mask& wanted) const;
 
   Real half_slope(const Real& x) const { return level(x).half_slope; }           ///< G' / 2
@@ -84,7 +87,7 @@ class TorusLineOf {
   Vec3Of<Real> direction_;
   double ring_;
   double tube_;
-  Real squared_speed_;
+  Real squared_length_;
   Real passing_;  ///< sqrt(D): the line's angular momentum about the axis
   Real turning_;  ///< R D
   bool on_surface_;

@@ -4,7 +4,7 @@
 
 #include "core/geometry/checks.hpp"
 #include "core/geometry/disc/disc.hpp"
-#include "core/geometry/torus/dips.hpp"
+#include "core/geometry/torus/spans.hpp"
 
 namespace crt::core {
 
@@ -26,8 +26,8 @@ Bounds TorusShape::bounds() const {
 template <class Vector>
 Vector TorusShape::in_frame(const Vector& v) const {
   using Real = RealOf<Vector>;
-  return {dot(v, spread<Real>(frame_.zero)), dot(v, spread<Real>(frame_.quarter)),
-          dot(v, spread<Real>(frame_.along))};
+  return {dot(v, broadcast<Real>(frame_.zero)), dot(v, broadcast<Real>(frame_.quarter)),
+          dot(v, broadcast<Real>(frame_.along))};
 }
 
 template <class Real>
@@ -36,29 +36,29 @@ TorusLineOf<Real> TorusShape::in_frame(const NearLineOf<Real>& line, bool on_sur
 }
 
 template <class Real>
-[[gnu::always_inline]] inline TorusShape::Meeting<Real> TorusShape::meeting(const NearLineOf<Real>& line,
-                                                                            const TorusLineOf<Real>& torus,
-                                                                            const Real& x,
-                                                                            const Real& length) const {
+[[gnu::always_inline]] inline TorusShape::Meeting<Real> TorusShape::meeting(
+    const NearLineOf<Real>& line, const TorusLineOf<Real>& torus, const Real& x,
+    const Real& length) const {
   const double size = ring_ + tube_;
   const Vec3Of<Real> place = line.at(x);
   const Real reach = size + square_root(dot(place, place));
-  // |n . d| is |G'| / 2r, and no root moves by more than the dip and the grazing error are long.
+  // |n . d| is |G'| / 2r, and no root moves by more than the span and the grazing error are long.
   return {.reach = reach,
-          .approach = size_of(torus.half_slope(x)) / tube_,
+          .approach = abs(torus.half_slope(x)) / tube_,
           .longest = length + grazing_error(line, reach, size)};
 }
 
 template <class Real>
-TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus,
+TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line,
+                                         const TorusLineOf<Real>& torus,
                                          const typename TorusEntry<Real>::Mask& wanted) const {
   const auto entry = torus.first_entry(wanted);
   TorusEntry<Real> result{.found = entry.found};
   if (!any(entry.found)) return result;
   const Real x = torus.root(entry.bracket, entry.found);
   result.t = line.to_t(x);
-  // From there on the line is inside for at least as long as up to that point, and where that is not next to
-  // nothing it does not matter how much longer.
+  // From there on the line is inside for at least as long as up to that point, and where that is
+  // not next to nothing it does not matter how much longer.
   const Real inside = entry.bracket.negative;
   const Meeting<Real> at = meeting<Real>(line, torus, x, inside - x);
   const auto is_steep = standard_error_across(at.reach) < at.longest * at.approach;
@@ -77,8 +77,8 @@ template TorusEntry<double> TorusShape::first_entry(const ObjectRay&, const bool
 template TorusEntry<Lanes> TorusShape::first_entry(const ObjectRayLanes&, const LaneMask&) const;
 
 template <class Real, class Ray>
-typename TorusEntry<Real>::Mask TorusShape::comes_back(const Ray& ray,
-                                                       const typename TorusEntry<Real>::Mask& wanted) const {
+typename TorusEntry<Real>::Mask TorusShape::comes_back(
+    const Ray& ray, const typename TorusEntry<Real>::Mask& wanted) const {
   const auto line = NearLineOf<Real>::at_origin(ray, center_, unit_);
   return in_frame<Real>(line, true).comes_back(wanted);
 }
@@ -87,8 +87,8 @@ template LaneMask TorusShape::comes_back<Lanes>(const ObjectRayLanes&, const Lan
 
 bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   const bool on_surface = ray.start.face == 0;
-  const NearLine line =
-      on_surface ? NearLine::at_origin(ray, center_, unit_) : NearLine::at_closest(ray, center_, unit_);
+  const NearLine line = on_surface ? NearLine::at_origin(ray, center_, unit_)
+                                   : NearLine::at_closest(ray, center_, unit_);
   TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
   if (!on_surface && ray.first_above < std::numeric_limits<double>::infinity()) {
     const auto first = first_entry<double>(line, torus, true);
@@ -99,12 +99,13 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
       return false;
     }
   }
-  // Of one end of a dip, whose length is known so far.
-  const auto crossing = [&](double x, std::size_t dip, bool entering, double length) {
-    Crossing end{.root = static_cast<std::uint8_t>(2 * dip + (entering ? 0 : 1)), .entering = entering};
+  // Of one end of a span, whose length is known so far.
+  const auto crossing = [&](double x, std::size_t span, bool entering, double length) {
+    Crossing end{.root = static_cast<std::uint8_t>(2 * span + (entering ? 0 : 1)),
+                 .entering = entering};
     if (on_surface && x == 0) return end;
     end.t = line.to_t(x);
-    // The speed is at least 1, and no dip longer than the torus is wide.
+    // The speed is at least 1, and no span longer than the torus is wide.
     if (end.t < ray.begin) {
       end.error = line.to_t_length(2 * (ring_ + tube_));
       return end;
@@ -116,26 +117,27 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     end.error = standard_error(line, end.t, reach, approach, longest) + line.to_t_length(along);
     return end;
   };
-  const auto add = [&](const TorusLine::Dip& ends, std::size_t dip) {
-    const Crossing enter = crossing(ends.enter, dip, true, ends.leave - ends.enter);
-    const Crossing leave = crossing(ends.leave, dip, false, ends.leave - ends.enter);
+  const auto add = [&](const TorusLine::Span& ends, std::size_t span) {
+    const Crossing enter = crossing(ends.enter, span, true, ends.leave - ends.enter);
+    const Crossing leave = crossing(ends.leave, span, false, ends.leave - ends.enter);
     if (!(enter.t < leave.t)) return;
     out.push_back(enter);
     out.push_back(leave);
   };
 
   if (on_surface) {
-    TorusLine::Dips dips = torus.dips(ray.begin >= 0 ? 0 : -std::numeric_limits<double>::infinity());
-    obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, dips);
-    for (std::size_t i = 0; i < dips.count; ++i) add(dips.dip[i], i);
+    TorusLine::Spans spans =
+        torus.spans(ray.begin >= 0 ? 0 : -std::numeric_limits<double>::infinity());
+    obey_side(ray.start.side, torus.half_curvature(0) > 0, unit_roundoff * tube_, spans);
+    for (std::size_t i = 0; i < spans.count; ++i) add(spans.span[i], i);
     return false;
   }
-  const TorusLine::Stretches stretches = torus.stretches();
-  for (std::size_t i = 0; i < stretches.count; ++i) {
-    const auto& [enter, leave] = stretches.stretch[i];
+  const TorusLine::Intervals intervals = torus.intervals();
+  for (std::size_t i = 0; i < intervals.count; ++i) {
+    const auto& [enter, leave] = intervals.interval[i];
     const double first = torus.root(enter, true);
-    // The stretch goes on to where it is known to be inside: its end needs not be known if it is not asked
-    // for.
+    // The span goes on to where it is known to be inside: its end needs not be known if it is not
+    // asked for.
     const Crossing entry = crossing(first, i, true, leave.positive - first);
     if (ray.is_first_asked(entry) && entry.t < line.to_t(leave.negative)) {
       out.push_back(entry);
@@ -149,28 +151,33 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 
 template <class Real>
 TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Real>& offset) {
-  const Vec3Of<Real> along = spread<Real>(torus.frame_.along);
-  const Vec3Of<Real> p = spread<Real>(1 / torus.unit_) * offset;
+  const Vec3Of<Real> along = broadcast<Real>(torus.frame_.along);
+  const Vec3Of<Real> p = broadcast<Real>(1 / torus.unit_) * offset;
   height = dot(p, along);
   // Twice: the second time removes what the first one's rounding left along the axis.
   Vec3Of<Real> across = p - height * along;
   across = across - dot(across, along) * along;
-  radial = chosen(largest_component(across) > 0.0, unit_vector(across), spread<Real>(torus.frame_.zero));
+  radial = chosen(largest_component(across) > 0.0, unit_vector(across),
+                  broadcast<Real>(torus.frame_.zero));
   outward = dot(across, radial) - torus.ring_;
 }
 
 template <class Real>
-void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
-                             SurfacePointOf<Real>& point) const {
+void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                             bool with_uv, SurfacePointOf<Real>& point) const {
   const TubePlace<Real> place(*this, offset);
   const Vec3Of<Real>& radial = place.radial;
-  const Vec3Of<Real> from_ring = place.outward * radial + place.height * spread<Real>(frame_.along);
-  const Vec3Of<Real> normal = chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
-  const Vec3Of<Real> from_center = spread<Real>(ring_) * radial + spread<Real>(tube_) * normal;
-  point.position = spread<Real>(center_) + spread<Real>(unit_) * from_center;
+  const Vec3Of<Real> from_ring =
+      place.outward * radial + place.height * broadcast<Real>(frame_.along);
+  const Vec3Of<Real> normal =
+      chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
+  const Vec3Of<Real> from_center =
+      broadcast<Real>(ring_) * radial + broadcast<Real>(tube_) * normal;
+  point.position = broadcast<Real>(center_) + broadcast<Real>(unit_) * from_center;
   point.normal = normal;
   if (!with_uv) return;
-  point.u = turn(dot(radial, spread<Real>(frame_.zero)), dot(radial, spread<Real>(frame_.quarter)));
+  point.u =
+      turn(dot(radial, broadcast<Real>(frame_.zero)), dot(radial, broadcast<Real>(frame_.quarter)));
   point.v = turn(place.outward, place.height);
 }
 

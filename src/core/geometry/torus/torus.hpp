@@ -1,14 +1,15 @@
-// Torus: all points within `thickness` of the circle of the given `radius` about `center` across `axis`.
+// Torus: all points within `thickness` of the circle of the given `radius` about `center` across
+// `axis`.
 //
-// With rho the distance from the axis and z the height along it, R the radius and r the thickness, a
-// point is inside if G = (rho - R)^2 + z^2 - r^2 < 0. The usual quartic is G times (rho + R)^2 + z^2 - r^2,
-// whose roots are the inner lemon of a spindle torus, which is no boundary. So roots are isolated on G
-// itself, evaluated at points near the torus, never by coefficients: along a line its second
-// derivative is 2 a - 2 R rho'', and rho'' = D / rho^3 (D constant) has a single bump where the line passes
-// the axis. G is therefore convex, concave, convex, between two points known in closed form; it has at most
-// one dip in each convex part and one rise between them, and a root between each two of those.
-// Newton's iteration for a root begins where the parabola that osculates G at the dip's inner point ends, and
-// ends when a step leaves less of G than its rounding.
+// With rho the distance from the axis and z the height along it, R the radius and r the thickness,
+// a point is inside if G = (rho - R)^2 + z^2 - r^2 < 0. The usual quartic is G times (rho + R)^2 +
+// z^2 - r^2, whose roots are the inner lemon of a spindle torus, which is no boundary. So roots are
+// isolated on G itself, evaluated at points near the torus, never by coefficients: along a line its
+// second derivative is 2 a - 2 R rho'', and rho'' = D / rho^3 (D constant) has a single bump where
+// the line passes the axis. G is therefore convex, concave, convex, between two points known in
+// closed form; it has at most one span in each convex part and one rise between them, and a root
+// between each two of those. Newton's iteration for a root begins where the parabola that osculates
+// G at the span's inner point ends, and ends when a step leaves less of G than its rounding.
 //
 // A ray that starts on the surface has G(x) = (x - x0) H(x), with H in closed form (a difference of
 // squares and of distances), so its own root is gone by algebra.
@@ -41,12 +42,12 @@ class TorusShape final : public ShapeOfPoints<TorusShape> {
   explicit TorusShape(const Torus& torus);
 
   bool is_solid() const override { return true; }
-  Proxy proxy() const override { return this; }
+  TypedShape typed() const override { return this; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  /// The first crossing of rays that do not start on the surface, where it is told without the others; of
-  /// wanted rays, which are each an ObjectRay or as many side by side.
+  /// The first crossing of rays that do not start on the surface, where it is told without the
+  /// others; of wanted rays, which are each an ObjectRay or as many side by side.
   template <class Real, class Ray>
   TorusEntry<Real> first_entry(const Ray& ray, const typename TorusEntry<Real>::Mask& wanted) const;
   /// Which of wanted rays, which start on the surface and outwards, may cross it again at t > 0.
@@ -79,7 +80,7 @@ class TorusShape final : public ShapeOfPoints<TorusShape> {
     Real approach;
     Real longest;
   };
-  /// At x, next to a stretch inside the torus of that length.
+  /// At x, next to a span inside the torus of that length.
   template <class Real>
   Meeting<Real> meeting(const NearLineOf<Real>& line, const TorusLineOf<Real>& torus, const Real& x,
                         const Real& length) const;

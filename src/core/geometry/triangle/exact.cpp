@@ -29,14 +29,15 @@ class ExactTriangleShape final : public ExactFlatShape {
   /// The sign of (from - o) . ((to - from) x d), as in triangle.hpp.
   static int side_of_edge(const ExactRay& ray, double t, const Vec3& from, const Vec3& to) {
     const Vec3 d = scaled_to_one(ray.near.direction);
-    const double stretch = largest_component(d) / largest_component(ray.near.direction);
+    const double span = largest_component(d) / largest_component(ray.near.direction);
     const Vec3 edge = to - from;
     const Vec3 start = -ray.near.from_center(from, t);
     const double volume = glm::dot(start, accurate_cross(edge, d));
     const double start_size = largest_component(start);
-    const double open =
-        filter_rounding * start_size + ray.point_error(from, t) + start_size * stretch * ray.direction_error;
-    constexpr double largest_sum = 12;  // of six products, each of components of edge and d (below 2)
+    const double open = filter_rounding * start_size + ray.point_error(from, t) +
+                        start_size * span * ray.direction_error;
+    constexpr double largest_sum =
+        12;  // of six products, each of components of edge and d (below 2)
     if (std::abs(volume) > largest_sum * open * largest_component(edge)) return volume > 0 ? 1 : -1;
     return exact_side_of_edge(ray.exact(), from, to);
   }

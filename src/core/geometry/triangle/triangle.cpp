@@ -29,8 +29,8 @@ PreciseVec3 precise_normal_of(const Triangle& triangle) {
                difference(triangle.c, triangle.a, inverse_length_scale(ac)));
 }
 
-/// The same good to a rounding even for slivers; 0 if it is within the rounding of double-double, so that the
-/// corners are on a line for all we can tell.
+/// The same good to a rounding even for slivers; 0 if it is within the rounding of double-double,
+/// so that the corners are on a line for all we can tell.
 Vec3 rounded_normal(const PreciseVec3& product) {
   constexpr double rounding = 0x1p-98;
   const Vec3 normal = rounded(product);
@@ -45,20 +45,23 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
   const Vec3 start = -ray.from_center(from, t);
   const double volume = glm::dot(start, accurate_cross(edge, d));
   constexpr double filter = 16 * unit_roundoff;
-  if (std::abs(volume) > filter * largest_component(start) * largest_component(edge) * largest_component(d)) {
+  if (std::abs(volume) >
+      filter * largest_component(start) * largest_component(edge) * largest_component(d)) {
     return volume > 0 ? 1 : -1;
   }
 
-  const double scale = 1 / power_of_two_below(std::max(largest_component(edge), largest_component(start)));
+  const double scale =
+      1 / power_of_two_below(std::max(largest_component(edge), largest_component(start)));
   const double direction_scale = 1 / power_of_two_below(largest_component(ray.direction));
   PreciseVec3 direction;
   PreciseVec3 offset;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);
-    direction[i] = two_sum(ray.direction[axis] * direction_scale, ray.direction_low[axis] * direction_scale);
+    direction[i] =
+        two_sum(ray.direction[axis] * direction_scale, ray.direction_low[axis] * direction_scale);
     const DoubleDouble exact = two_sum(ray.origin[axis], -from[axis]);
-    const DoubleDouble origin =
-        DoubleDouble(exact.hi * scale, exact.lo * scale) + DoubleDouble(ray.origin_low[axis] * scale);
+    const DoubleDouble origin = DoubleDouble(exact.hi * scale, exact.lo * scale) +
+                                DoubleDouble(ray.origin_low[axis] * scale);
     offset[i] = -(origin + direction[i] * DoubleDouble(t / direction_scale * scale));
   }
   const PreciseVec3 moment = cross(difference(to, from, scale), direction);
@@ -82,8 +85,8 @@ Bounds TriangleShape::bounds() const {
 }
 
 bool TriangleShape::passes_edges(const ObjectRay& ray) const {
-  // Seen from a point of the line next to the triangle: where a line nearly in its plane meets that plane
-  // may be so far away that no side could be told.
+  // Seen from a point of the line next to the triangle: where a line nearly in its plane meets that
+  // plane may be so far away that no side could be told.
   const double scale = inverse_length_scale(ray.direction);
   const Vec3 d = ray.direction * scale;
   const double t = -glm::dot(ray.from_center(corners_[0], 0), d) / glm::dot(d, d) * scale;
@@ -97,8 +100,8 @@ bool TriangleShape::passes_edges(const ObjectRay& ray) const {
   return !(left && right);
 }
 
-/// Of a line that is parallel to the triangle but for little more than the rounding of the normal, the
-/// normal's further digits decide.
+/// Of a line that is parallel to the triangle but for little more than the rounding of the normal,
+/// the normal's further digits decide.
 PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
   constexpr double nearly_parallel = 0x1p-40;
@@ -135,13 +138,13 @@ bool TriangleShape::crossings(const ObjectRay& ray, CrossingList& out) const {
 }
 
 template <class Real>
-void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t, bool with_uv,
-                                SurfacePointOf<Real>& point) const {
+void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, std::uint32_t,
+                                bool with_uv, SurfacePointOf<Real>& point) const {
   using Vector = Vec3Of<Real>;
   const Vector relative = face_.onto_plane(offset);
   face_.write_point(relative, point);
   const Bounds box = bounds();
-  point.position = clamp(point.position, spread<Real>(box.lower), spread<Real>(box.upper));
+  point.position = clamp(point.position, broadcast<Real>(box.lower), broadcast<Real>(box.upper));
   if (!with_uv) return;
   const Vec3 ab = corners_[1] - corners_[0];
   const Vec3 ac = corners_[2] - corners_[0];
@@ -153,12 +156,14 @@ void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
     point.u = point.v = Real{};
     return;
   }
-  const Vector across = spread<Real>(area);
-  const Vector scaled = spread<Real>(scale) * relative;
-  const Real u = dot(accurate_cross(scaled, spread<Real>(ac * scale_c)), across) / squared_area;
+  const Vector across = broadcast<Real>(area);
+  const Vector scaled = broadcast<Real>(scale) * relative;
+  const Real u = dot(accurate_cross(scaled, broadcast<Real>(ac * scale_c)), across) / squared_area;
   const Real v =
-      dot(accurate_cross(spread<Real>(ab * scale), spread<Real>(scale_c) * relative), across) / squared_area;
-  point.u = clamp(u, Real{}, spread<Real>(1));
+      dot(accurate_cross(broadcast<Real>(ab * scale), broadcast<Real>(scale_c) * relative),
+          across) /
+      squared_area;
+  point.u = clamp(u, Real{}, broadcast<Real>(1));
   point.v = clamp(v, Real{}, 1 - point.u);
 }
 
@@ -170,7 +175,8 @@ void validate(const Triangle& triangle) {
   check_coordinates("a", triangle.a);
   check_coordinates("b", triangle.b);
   check_coordinates("c", triangle.c);
-  if (!has_area(triangle)) reject("c", "must not be on a line with a and b (the triangle has no area)");
+  if (!has_area(triangle))
+    reject("c", "must not be on a line with a and b (the triangle has no area)");
 }
 
 std::unique_ptr<const Shape> make_shape(const Triangle& triangle) {

@@ -1,5 +1,6 @@
 // Triangle: the surface between three corners. Its normal is (b - a) x (c - a), component by
-// component as usual: seen from where it points to, a, b, c run clockwise (the space is left-handed).
+// component as usual: seen from where it points to, a, b, c run clockwise (the space is
+// left-handed).
 //
 // A line hits it if it passes the three edges on the same side. The side is the sign of a triple
 // product, found again in double-double where doubles leave it open; a line through an edge hits,

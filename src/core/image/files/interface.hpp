@@ -1,6 +1,6 @@
-// The border between crt_core and the module crt_image_files, which alone links OpenImageIO: a plain
-// table of C functions. The module is loaded when the first image file is read or written, so a
-// program that touches none pays nothing for OpenImageIO and the many libraries behind it.
+// The border between crt_core and the module crt_image_files, which alone links OpenImageIO: a
+// plain table of C functions. The module is loaded when the first image file is read or written, so
+// a program that touches none pays nothing for OpenImageIO and the many libraries behind it.
 //
 // No exception crosses, nothing allocated on one side is freed on the other, and both sides see
 // files as bytes in memory only.
@@ -36,8 +36,8 @@ struct ImageFilesError {
 /// Who takes a decoded picture.
 struct ImageFilesPicture {
   void* context;
-  /// Called once the size is known and the first rows were read: room for 4 * width * height floats,
-  /// or null. `integer` tells a file of integers from one of floats.
+  /// Called once the size is known and the first rows were read: room for 4 * width * height
+  /// floats, or null. `integer` tells a file of integers from one of floats.
   float* (*allocate)(void* context, int width, int height, bool integer);
 };
 
@@ -62,7 +62,8 @@ struct ImageFileChannel {
   const std::uint32_t* integers;
 };
 
-/// A picture to encode: rows from the top, without gaps, as `bytes` or as `floats`; the other is null.
+/// A picture to encode: rows from the top, without gaps, as `bytes` or as `floats`; the other is
+/// null.
 struct ImageFilesRequest {
   const char* format;
   int width;
@@ -72,15 +73,18 @@ struct ImageFilesRequest {
   const float* floats;
   const ImageFileText* texts;
   std::size_t text_count;
-  const ImageFileChannel* others;  ///< only beside floats, and if the format takes any number of channels
+  const ImageFileChannel*
+      others;  ///< only beside floats, and if the format takes any number of channels
   std::size_t other_count;
 };
 
 struct ImageFiles {
   int version;
   /// Gives RGBA with premultiplied alpha; floats that are not finite stay as they are.
-  ImageFilesStatus (*decode)(const ImageFilesContent*, const ImageFilesPicture*, const ImageFilesError*);
-  ImageFilesStatus (*encode)(const ImageFilesRequest*, const ImageFilesBytes*, const ImageFilesError*);
+  ImageFilesStatus (*decode)(const ImageFilesContent*, const ImageFilesPicture*,
+                             const ImageFilesError*);
+  ImageFilesStatus (*encode)(const ImageFilesRequest*, const ImageFilesBytes*,
+                             const ImageFilesError*);
 };
 
 /// The one symbol that the module exports: a function of this type.

@@ -78,7 +78,8 @@ ChannelUse channel_use(const OIIO::ImageSpec& spec) {
   return use;
 }
 
-/// One pixel as the file has it to linear RGBA with premultiplied alpha; what is not finite stays so.
+/// One pixel as the file has it to linear RGBA with premultiplied alpha; what is not finite stays
+/// so.
 void convert_pixel(const float* from, const ChannelUse& use, float* to) {
   const float given = use.alpha < 0 ? 1.0f : from[use.alpha];
   const float alpha = std::isfinite(given) ? std::clamp(given, 0.0f, 1.0f) : given;
@@ -93,7 +94,8 @@ void convert_pixel(const float* from, const ChannelUse& use, float* to) {
 void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
   if (spec.deep) throw std::runtime_error("deep images have no single picture");
   if (spec.depth > 1) throw std::runtime_error("it is a volume, not a picture");
-  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1) throw std::runtime_error("it has no pixels");
+  if (spec.width < 1 || spec.height < 1 || spec.nchannels < 1)
+    throw std::runtime_error("it has no pixels");
   const auto too_large = [&](int width, int height) {
     return static_cast<std::size_t>(width) > max_pixels / static_cast<std::size_t>(height);
   };
@@ -111,7 +113,8 @@ void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
 
 /// Reads the picture in strips of whole rows. Room for all of it is made when the first strip is
 /// there, so that a short file with a tall claim costs nothing.
-void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const ImageFilesPicture& picture) {
+void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
+                 const ImageFilesPicture& picture) {
   constexpr int most_rows = 64;
   constexpr int strip_pixels = 1 << 20;
   const int strip =
@@ -126,14 +129,16 @@ void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec, const Ima
   for (int y = 0; y < spec.height; y += strip) {
     const int begin = spec.y + y;
     const int end = spec.y + std::min(y + strip, spec.height);
-    const bool read =
-        spec.tile_width > 0
-            ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z, spec.z + 1, 0,
-                               use.count, OIIO::TypeFloat, rows.get())
-            : input.read_scanlines(0, 0, begin, end, spec.z, 0, use.count, OIIO::TypeFloat, rows.get());
-    if (!read) throw std::runtime_error(reason(input.geterror(), "its pixels are broken or missing"));
+    const bool read = spec.tile_width > 0
+                          ? input.read_tiles(0, 0, spec.x, spec.x + spec.width, begin, end, spec.z,
+                                             spec.z + 1, 0, use.count, OIIO::TypeFloat, rows.get())
+                          : input.read_scanlines(0, 0, begin, end, spec.z, 0, use.count,
+                                                 OIIO::TypeFloat, rows.get());
+    if (!read)
+      throw std::runtime_error(reason(input.geterror(), "its pixels are broken or missing"));
     if (y == 0)
-      to = picture.allocate(picture.context, spec.width, spec.height, !spec.format.is_floating_point());
+      to = picture.allocate(picture.context, spec.width, spec.height,
+                            !spec.format.is_floating_point());
     if (to == nullptr) throw std::bad_alloc();
     const float* from = rows.get();
     for (std::size_t left = width * static_cast<std::size_t>(end - begin); left > 0; --left) {
@@ -180,7 +185,8 @@ void add_channels(const ImageFilesRequest& request, OIIO::ImageSpec& spec) {
 OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
   const OIIO::TypeDesc type = request.bytes != nullptr ? OIIO::TypeUInt8 : OIIO::TypeFloat;
   OIIO::ImageSpec spec(request.width, request.height, request.channels, type);
-  if (request.channels == 4 && request.bytes != nullptr) spec.attribute("oiio:UnassociatedAlpha", 1);
+  if (request.channels == 4 && request.bytes != nullptr)
+    spec.attribute("oiio:UnassociatedAlpha", 1);
   if (request.other_count > 0) add_channels(request, spec);
   for (std::size_t i = 0; i < request.text_count; ++i) {
     spec.attribute(request.texts[i].name, request.texts[i].value);
@@ -195,7 +201,8 @@ OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
 }
 
 /// Rows of pixels with all their channels, each number in four bytes of its own type.
-void gather_rows(const ImageFilesRequest& request, std::size_t begin, std::size_t end, std::uint32_t* to) {
+void gather_rows(const ImageFilesRequest& request, std::size_t begin, std::size_t end,
+                 std::uint32_t* to) {
   const auto colors = static_cast<std::size_t>(request.channels);
   const auto width = static_cast<std::size_t>(request.width);
   for (std::size_t pixel = begin * width; pixel < end * width; ++pixel) {
@@ -203,8 +210,9 @@ void gather_rows(const ImageFilesRequest& request, std::size_t begin, std::size_
     to += colors;
     for (std::size_t i = 0; i < request.other_count; ++i) {
       const ImageFileChannel& other = request.others[i];
-      const void* const value =
-          other.floats != nullptr ? static_cast<const void*>(other.floats + pixel) : other.integers + pixel;
+      const void* const value = other.floats != nullptr
+                                    ? static_cast<const void*>(other.floats + pixel)
+                                    : other.integers + pixel;
       std::memcpy(to++, value, sizeof *to);
     }
   }
@@ -243,14 +251,15 @@ ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes*
     output->set_ioproxy(&target);
     if (!output->open(request->format, output_spec(*request)) || !write_pixels(*request, *output) ||
         !output->close()) {
-      throw std::runtime_error(reason(output->geterror(), "the picture cannot be written in this format"));
+      throw std::runtime_error(
+          reason(output->geterror(), "the picture cannot be written in this format"));
     }
     if (!sink->append(sink->context, bytes.data(), bytes.size())) throw std::bad_alloc();
   });
 }
 
-/// Keeps OpenEXR from starting threads of its own. (OpenImageIO's own are forbidden file by file: its
-/// global attribute "threads" starts some in order to end them.)
+/// Keeps OpenEXR from starting threads of its own. (OpenImageIO's own are forbidden file by file:
+/// its global attribute "threads" starts some in order to end them.)
 void forbid_threads() {
   constexpr int no_pool = -1;
   OIIO::attribute("exr_threads", no_pool);
@@ -262,7 +271,7 @@ void forbid_threads() {
 
 extern "C" __attribute__((visibility("default"))) const crt::core::ImageFiles* crt_image_files() {
   crt::core::forbid_threads();
-  static constexpr crt::core::ImageFiles functions = {crt::core::image_files_version, crt::core::decode,
-                                                      crt::core::encode};
+  static constexpr crt::core::ImageFiles functions = {crt::core::image_files_version,
+                                                      crt::core::decode, crt::core::encode};
   return &functions;
 }

@@ -1,5 +1,5 @@
-/* A program of somebody else's that links libcrt: it asks a ray, renders a small picture and writes it.
- * usage: program picture.png */
+/* A program of somebody else's that links libcrt: it asks a ray, renders a small picture and writes
+ * it. usage: program picture.png */
 #include <crt/crt.h>
 #include <math.h>
 #include <stdio.h>

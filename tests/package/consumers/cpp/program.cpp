@@ -1,5 +1,5 @@
-// A program of somebody else's that links crt::core and crt::lang: it asks a ray, renders a small picture
-// and writes it. usage: program picture.png
+// A program of somebody else's that links crt::core and crt::lang: it asks a ray, renders a small
+// picture and writes it. usage: program picture.png
 #include <crt/crt.hpp>
 #include <crt/script.hpp>
 #include <iostream>
@@ -7,7 +7,8 @@
 int main(int argc, char** argv) try {
   if (argc != 2) return 2;
   crt::Scene scene =
-      crt::run_script("Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }", "sphere.crt").scene.value();
+      crt::run_script("Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }", "sphere.crt")
+          .scene.value();
   scene.lights = {crt::PointLight{.origin = {0, 3, 0}}};
   scene.settings = {.width = 64, .height = 48};
   const crt::PreparedScene prepared = crt::prepare(scene);

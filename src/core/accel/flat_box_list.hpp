@@ -1,0 +1,215 @@
+// A few boxes in a row, for rays through scenes of few objects.
+#pragma once
+
+#include <array>
+#include <bit>
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "core/accel/interval_packet.hpp"
+#include "core/csg/evaluate.hpp"
+#include "core/csg/ray_slabs.hpp"
+#include "core/math/lanes.hpp"
+
+namespace crt::core {
+
+/// Does what EmbreeTree does, where that would take longer to begin than this to look at all boxes,
+/// four at a time. All in doubles.
+class FlatBoxList {
+ public:
+  static constexpr std::size_t most_boxes = 64;
+
+  FlatBoxList() = default;
+  /// Up to most_boxes of them, all finite.
+  explicit FlatBoxList(std::span<const Bounds> boxes)
+      : groups_((boxes.size() + lane_count - 1) / lane_count), count_(boxes.size()) {
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+      Group& group = groups_[i / lane_count];
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        group.lower[axis][static_cast<int>(i % lane_count)] =
+            boxes[i].lower[static_cast<int>(axis)];
+        group.upper[axis][static_cast<int>(i % lane_count)] =
+            boxes[i].upper[static_cast<int>(axis)];
+      }
+    }
+  }
+
+  std::uint64_t bytes() const { return groups_.capacity() * sizeof(Group); }
+
+  /// Whether it can be asked for a ray: not for one that begins behind its origin, or that is
+  /// parallel to boxes' sides, or all but.
+  static bool takes(const WorldRay& ray) {
+    constexpr double least = 1 / RaySlabs::largest_inverse;
+    const Vec3& d = ray.direction;
+    return ray.t_min >= 0 && std::abs(d.x) > least && std::abs(d.y) > least &&
+           std::abs(d.z) > least;
+  }
+  /// The same of some rays of a packet.
+  static RayMask takes(const RayPacket& packet, RayMask rays) {
+    RayMask taken = 0;
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      const FilterLine<Lanes>& lines = packet.groups[group];
+      const Lanes steepest =
+          max(max(abs(lines.inverse[0]), abs(lines.inverse[1])), abs(lines.inverse[2]));
+      const LaneMask is_taken = both(lines.begin >= 0.0, steepest < RaySlabs::largest_inverse);
+      taken |= (lanes & mask_of(is_taken)) << (group * lane_count);
+    });
+    return taken;
+  }
+
+  /// Visits, from near to far, at least every box that the ray meets at t_min <= t <= limit.
+  /// visit(box) returns the t beyond which nothing matters any more (below t_min: stop).
+  template <class Visit>
+  void traverse(const WorldRay& ray, double limit, const Visit& visit) const {
+    BoxTimes enter;
+    const std::uint64_t met = boxes_met(ray, limit, enter);
+    visit_all<true>(met, enter, ray.t_min, limit, visit);
+  }
+
+  /// The same for some rays of a packet, all of which it takes: visit(box, met) of a box and those
+  /// rays that may meet it within their limits returns which of these it has changed. What is near
+  /// and what far is the same for all of them; if not even that is asked for, the order is any.
+  template <bool FromNear, class Visit>
+  void traverse(const RayPacket& packet, RayMask rays, const Visit& visit) const {
+    const IntervalPacket intervals(packet, rays);
+    BoxTimes enter;
+    const std::uint64_t met = boxes_met(intervals, enter);
+    double limit = intervals.end();
+    visit_all<FromNear>(met, enter, intervals.begin(), limit, [&](std::uint32_t box) {
+      const RayMask meeting = rays_meeting(box, packet, rays);
+      if (meeting != 0 && visit(box, meeting) != 0)
+        limit = IntervalPacket::last_limit(packet, rays);
+      return limit;
+    });
+  }
+
+ private:
+  /// Lower and upper ends of boxes by axis; or where lines start, and by what to multiply.
+  using ByAxis = std::array<Lanes, 3>;
+  struct Group {
+    ByAxis lower{};
+    ByAxis upper{};
+  };
+
+  /// When something enters each of them; of use only where it does.
+  struct BoxTimes {
+    alignas(sizeof(Lanes)) std::array<double, most_boxes> of;
+
+    void set(std::size_t group, const Lanes& times) {
+      std::memcpy(&of[group * lane_count], &times, sizeof times);
+    }
+  };
+
+  /// When lines are in boxes.
+  struct Spans {
+    Lanes from;
+    Lanes to;
+
+    /// From what is not below 0 on. What overflows is no number, and no span is empty that begins
+    /// with it.
+    LaneMask empty() const { return safe_from() > to; }
+    /// So much earlier as all roundings can be of what RaySlabs has both ends rounded by.
+    Lanes safe_from() const { return fma(from, lanes_of(-4 * RaySlabs::slack), from); }
+  };
+
+  static Spans spans(const Group& boxes, const ByAxis& origin, const ByAxis& inverse,
+                     const Lanes& begin, const Lanes& limit) {
+    Spans result{begin, limit};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const Lanes first = (boxes.lower[axis] - origin[axis]) * inverse[axis];
+      const Lanes second = (boxes.upper[axis] - origin[axis]) * inverse[axis];
+      result.from = max(result.from, min(first, second));
+      result.to = min(result.to, max(first, second));
+    }
+    return result;
+  }
+
+  template <bool FromNear, class Visit>
+  static void visit_all(std::uint64_t boxes, const BoxTimes& enter, double begin, double limit,
+                        const Visit& visit) {
+    while (boxes != 0) {
+      const std::size_t box = FromNear ? nearest(boxes, enter) : first_of(boxes);
+      boxes &= ~(std::uint64_t{1} << box);
+      if (enter.of[box] > limit) {
+        if (FromNear) return;
+        continue;
+      }
+      limit = visit(static_cast<std::uint32_t>(box));
+      if (limit < begin) return;
+    }
+  }
+
+  static std::size_t first_of(std::uint64_t boxes) {
+    return static_cast<std::size_t>(std::countr_zero(boxes));
+  }
+  static std::size_t nearest(std::uint64_t boxes, const BoxTimes& enter) {
+    std::size_t nearest = first_of(boxes);
+    for (std::uint64_t rest = boxes & (boxes - 1); rest != 0; rest &= rest - 1) {
+      const std::size_t other = first_of(rest);
+      if (enter.of[other] < enter.of[nearest]) nearest = other;
+    }
+    return nearest;
+  }
+
+  /// A bit for each, and when the ray enters those.
+  std::uint64_t boxes_met(const WorldRay& ray, double limit, BoxTimes& enter) const {
+    ByAxis origin;
+    ByAxis inverse;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      origin[axis] = lanes_of(ray.origin[static_cast<int>(axis)]);
+      inverse[axis] = lanes_of(1 / ray.direction[static_cast<int>(axis)]);
+    }
+    std::uint64_t missed = 0;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      const Spans of_ray = spans(groups_[i], origin, inverse, lanes_of(ray.t_min), lanes_of(limit));
+      enter.set(i, of_ray.safe_from());
+      missed |= static_cast<std::uint64_t>(mask_of(of_ray.empty())) << (i * lane_count);
+    }
+    return ~missed & all_boxes();
+  }
+
+  /// A bit for each that some ray may meet, and a time before which none is in there.
+  std::uint64_t boxes_met(const IntervalPacket& intervals, BoxTimes& enter) const {
+    std::uint64_t missed = 0;
+    for (std::size_t i = 0; i < groups_.size(); ++i) {
+      Spans of_any{lanes_of(intervals.begin()), lanes_of(intervals.end())};
+      for (std::size_t axis = 0; axis < 3; ++axis) {
+        intervals.bound(axis, groups_[i].lower[axis], groups_[i].upper[axis], of_any.from,
+                        of_any.to);
+      }
+      enter.set(i, of_any.safe_from());
+      missed |= static_cast<std::uint64_t>(mask_of(of_any.empty())) << (i * lane_count);
+    }
+    return ~missed & all_boxes();
+  }
+
+  RayMask rays_meeting(std::uint32_t box, const RayPacket& packet, RayMask rays) const {
+    const Group& boxes = groups_[box / lane_count];
+    const auto i = static_cast<int>(box % lane_count);
+    Group same;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      same.lower[axis] = lanes_of(boxes.lower[axis][i]);
+      same.upper[axis] = lanes_of(boxes.upper[axis][i]);
+    }
+    RayMask met = 0;
+    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      const FilterLine<Lanes>& lines = packet.groups[group];
+      const Spans of_rays =
+          spans(same, lines.origin, lines.inverse, lines.begin, packet.limits[group]);
+      met |= (lanes & ~mask_of(of_rays.empty())) << (group * lane_count);
+    });
+    return met;
+  }
+
+  std::uint64_t all_boxes() const {
+    return count_ == 0 ? 0 : ~std::uint64_t{0} >> (most_boxes - count_);
+  }
+
+  std::vector<Group> groups_;
+  std::size_t count_ = 0;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,75 @@
+// The span of a line inside a convex solid: the whole line at first, then cut by one face after
+// another. It also keeps the promises about rays that start on a surface (Shape::crossings).
+#pragma once
+
+#include <algorithm>
+#include <limits>
+
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+/// (All inline, so that crossings stay in registers.) A ray that starts on a face starts within
+/// what the other faces bound: where rounding says otherwise (next to an edge), it is corrected to
+/// t = 0, and the face it starts on goes first.
+class ClippedSpan {
+ public:
+  /// `shortest` is what a ray still has to go, in units of t, when it starts into the solid and
+  /// rounding (or a direction at odds with its side) would have it leave at once.
+  ClippedSpan(const RayStart& start, double shortest) : start_(start), shortest_(shortest) {
+    enter_.t = -infinity;
+    leave_.t = infinity;
+  }
+
+  /// The line is inside only after this crossing.
+  void enter(const Crossing& crossing) {
+    const bool is_start = crossing.face == start_.face;
+    const double t = starts_on_face() ? std::min(crossing.t, 0.0) : crossing.t;
+    if (t > enter_.t || (is_start && t == enter_.t)) {
+      enter_ = crossing;
+      enter_.t = t;
+    }
+  }
+
+  /// The line is inside only before this crossing.
+  void leave(const Crossing& crossing) {
+    const bool is_start = crossing.face == start_.face;
+    const double t = starts_on_face() ? std::max(crossing.t, 0.0) : crossing.t;
+    if (t < leave_.t || (is_start && t == leave_.t)) {
+      leave_ = crossing;
+      leave_.t = t;
+    }
+  }
+
+  /// The line is nowhere inside.
+  void clear() { empty_ = true; }
+
+  bool empty() const { return empty_ || !(enter_.t < leave_.t); }
+  double enter_t() const { return enter_.t; }
+  double leave_t() const { return leave_.t; }
+
+  /// Appends the finite ends; whether the line is inside at t = -inf. There is no more to come.
+  bool finish(CrossingList& out) {
+    if (empty_) return false;
+    if (starts_on_face() && start_.side == Side::inside && !(leave_.t > 0)) leave_.t = shortest_;
+    if (!(enter_.t < leave_.t)) return false;
+    enter_.entering = true;
+    leave_.entering = false;
+    if (enter_.t > -infinity) out.push_back(enter_);
+    if (leave_.t < infinity) out.push_back(leave_);
+    return enter_.t == -infinity;
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+
+  bool starts_on_face() const { return start_.face != no_face && start_.on_face; }
+
+  RayStart start_;
+  double shortest_;
+  bool empty_ = false;
+  Crossing enter_;
+  Crossing leave_;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,116 @@
+#include "core/intersect/isolated.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <glm/common.hpp>
+#include <glm/geometric.hpp>
+
+#include "core/math/vector.hpp"
+#include "core/shading/opacity.hpp"
+#include "core/tasks/parallel.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// So many boxes are looked at for one object.
+constexpr int most_looks = 1024;
+
+/// Boxes of objects that lie in memory as they lie in space, and boxes around every few of them,
+/// and so on.
+class BoxLevels {
+ public:
+  BoxLevels(const CompiledScene& scene, std::span<const std::uint32_t> objects)
+      : scene_(scene), objects_(objects) {
+    for (std::size_t count = objects.size(); count > 1; count = levels_.back().size()) {
+      std::vector<Bounds> level((count + width - 1) / width);
+      for (std::size_t i = 0; i < count; ++i) level[i / width].include(box(levels_.size(), i));
+      levels_.push_back(std::move(level));
+    }
+  }
+
+  /// Whether a box touches that of any object but one.
+  bool touches_other(const Bounds& margin, std::uint32_t object) const {
+    int looks = 0;
+    return touches(margin, object, levels_.size(), 0, looks);
+  }
+
+ private:
+  static constexpr std::size_t width = 8;
+
+  const Bounds& box(std::size_t level, std::size_t index) const {
+    return level == 0 ? scene_.objects[objects_[index]].bounds : levels_[level - 1][index];
+  }
+  std::size_t size(std::size_t level) const {
+    return level == 0 ? objects_.size() : levels_[level - 1].size();
+  }
+
+  bool touches(const Bounds& margin, std::uint32_t object, std::size_t level, std::size_t index,
+               int& looks) const {
+    if (++looks > most_looks) return true;
+    if (!box(level, index).touches(margin)) return false;
+    if (level == 0) return objects_[index] != object;
+    const std::size_t end = std::min((index + 1) * width, size(level - 1));
+    for (std::size_t child = index * width; child < end; ++child) {
+      if (touches(margin, object, level - 1, child, looks)) return true;
+    }
+    return false;
+  }
+
+  const CompiledScene& scene_;
+  std::span<const std::uint32_t> objects_;
+  std::vector<std::vector<Bounds>> levels_;
+};
+
+/// Whether a plane's surface passes by a box.
+bool passes_by(const BoundingProxy& plane, const ProxyAxis& axis, const Bounds& box) {
+  const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
+  const Vec3 steepness = glm::abs(axis.normal);
+  constexpr double roundings = 0x1p-40;
+  const double reach = glm::dot(steepness, box.upper - middle) +
+                       roundings * glm::dot(steepness, glm::abs(middle) + glm::abs(plane.place));
+  return std::abs(glm::dot(axis.normal, middle - plane.place)) > reach;
+}
+
+}  // namespace
+
+std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
+                                            std::span<const SharedMaterial> materials,
+                                            std::span<const std::uint32_t> bounded,
+                                            const BoundingProxies& unbounded, double margin,
+                                            const Workers& workers) {
+  const bool is_light_let_in =
+      std::any_of(materials.begin(), materials.end(),
+                  [](const auto& material) { return lets_light_in(*material); });
+  if (!is_light_let_in || bounded.empty()) return {};
+
+  std::vector<std::uint32_t> isolated(scene.objects.size(), nothing);
+  const BoxLevels boxes(scene, bounded);
+  const auto is_isolated = [&](std::uint32_t index) {
+    const SceneObject& object = scene.objects[index];
+    const std::span<const Leaf> leaves = scene.leaves_of(object);
+    if (!object.solid || std::none_of(leaves.begin(), leaves.end(), [&](const Leaf& leaf) {
+          return lets_light_in(*materials[leaf.material]);
+        })) {
+      return false;
+    }
+    const Bounds around = object.bounds.grown(2 * margin);
+    for (const BoundingProxy& other : unbounded.list) {
+      const bool passes = other.kind == BoundingProxy::Kind::plane
+                              ? passes_by(other, unbounded.axes[other.detail], around)
+                              : !scene.objects[other.object].bounds.touches(around);
+      if (!passes) return false;
+    }
+    return !boxes.touches_other(around, index);
+  };
+  for_ranges(bounded.size(), items_for_a_thread, workers, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t place = begin; place < end; ++place) {
+      if (is_isolated(bounded[place])) isolated[bounded[place]] = static_cast<std::uint32_t>(place);
+    }
+  });
+  const bool is_none = std::all_of(isolated.begin(), isolated.end(),
+                                   [](std::uint32_t place) { return place == nothing; });
+  return is_none ? std::vector<std::uint32_t>() : isolated;
+}
+
+}  // namespace crt::core

@@ -1,0 +1,288 @@
+// The filter of small CSG objects against following all crossings: what it calls sure is so, to the
+// bit.
+#include "core/csg/interval_filter.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <limits>
+
+#include "core/intersect/accelerator.hpp"
+#include "core/ray/line_of_ray.hpp"
+#include "csg/continued_ray.hpp"
+#include "support/same_answers.hpp"
+#include "support/solids.hpp"
+
+using namespace crt;
+using namespace crt::core;
+using namespace crt::test;
+
+namespace {
+
+constexpr double infinity = std::numeric_limits<double>::infinity();
+
+#if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+constexpr std::uint32_t scene_count = 20'000;
+#else
+constexpr std::uint32_t scene_count = 500;
+#endif
+
+/// Trees of spheres and boxes, most of whose faces coincide, or all but.
+class Trees {
+ public:
+  explicit Trees(std::uint32_t seed) : make_(seed), grid_(make_.integer(0, 3)) {
+    // A whole tree may be far from the origin, or of any size.
+    if (make_.integer(0, 3) == 0) place_ = std::exp2(make_.integer(0, 24)) * make_.grid_point();
+    if (make_.integer(0, 3) == 0) unit_ = std::exp2(make_.integer(-80, 80));
+  }
+
+  SolidMaker& random() { return make_; }
+  Vec3 to_world(const Vec3& p) const { return unit_ * (place_ + p); }
+  double size_in_world(double size) const { return unit_ * size; }
+
+  Entity tree(int depth) {
+    if (depth == 0 || make_.integer(0, 5) == 0) return leaf();
+    std::vector<Entity> parts;
+    const int count = make_.integer(2, 4);
+    for (int i = 0; i < count; ++i) parts.push_back(tree(depth - 1));
+    switch (make_.integer(0, 2)) {
+      case 0:
+        return csg_union(parts);
+      case 1:
+        return csg_intersection(parts);
+      default:
+        return csg_difference(parts[0], std::span(parts).subspan(1));
+    }
+  }
+
+  /// A coordinate: of the grid, of the grid but for the last bits, or any.
+  double coordinate(double on_grid) {
+    if (grid_ == 0) return on_grid;
+    if (grid_ == 1) return on_grid + make_.real(-1, 1);
+    return on_grid + std::exp2(make_.integer(-54, -20)) * make_.integer(-3, 3);
+  }
+  Vec3 point() {
+    const Vec3 p = make_.grid_point();
+    return {coordinate(p.x), coordinate(p.y), coordinate(p.z)};
+  }
+
+ private:
+  Entity leaf() {
+    const Vec3 a = point();
+    if (make_.integer(0, 1) == 0) {
+      return Sphere{.center = to_world(a),
+                    .radius = size_in_world(coordinate(make_.integer(2, 4)))};
+    }
+    const Vec3 size(make_.integer(2, 4), make_.integer(2, 4), make_.integer(2, 4));
+    return Box{.corner_a = to_world(a), .corner_b = to_world(a + size)};
+  }
+
+  SolidMaker make_;
+  int grid_;
+  Vec3 place_{0, 0, 0};
+  double unit_ = 1;
+};
+
+/// Through the tree: anyhow, along the grid, or next to grazing one of its spheres.
+WorldRay random_ray(Trees& trees) {
+  SolidMaker& random = trees.random();
+  Vec3 origin(random.real(-9, 9), random.real(-9, 9), random.real(-9, 9));
+  Vec3 through(random.real(-3, 3), random.real(-3, 3), random.real(-3, 3));
+  switch (random.integer(0, 3)) {
+    case 0:
+      origin = 2.0 * trees.point();
+      through = trees.point();
+      break;
+    case 1: {
+      // One of the coordinates stays that of a plane, or of a sphere's side.
+      through = trees.point();
+      const int axis = random.integer(0, 2);
+      origin[axis] = through[axis] + std::exp2(random.integer(-60, -5)) * random.integer(-1, 1);
+      break;
+    }
+    default:
+      break;
+  }
+  if (origin == through) through += Vec3(1, 0, 0);
+  WorldRay ray;
+  ray.origin = trees.to_world(origin);
+  ray.direction =
+      glm::normalize(through - origin) * (random.integer(0, 1) == 0 ? 1.0 : random.real(0.5, 2));
+  switch (random.integer(0, 3)) {
+    case 0:
+      ray.t_min = -infinity;
+      break;
+    case 1:
+      ray.t_min = trees.size_in_world(random.real(-1, 9));
+      ray.t_max = ray.t_min + trees.size_in_world(random.real(0, 9));
+      break;
+    default:
+      break;
+  }
+  return ray;
+}
+
+struct Counts {
+  std::uint64_t missed = 0;
+  std::uint64_t met = 0;
+  std::uint64_t open = 0;
+
+  std::uint64_t sure() const { return missed + met; }
+};
+
+class Comparison {
+ public:
+  explicit Comparison(const Entity& tree, Precision precision)
+      : Comparison(compile(std::span(&tree, 1), precision)) {}
+
+  const CompiledScene& scene() const { return accelerator_.compiled(); }
+  /// Whether the tree is one object that has a filter.
+  bool has_filter() const {
+    return scene().objects.size() == 1 && scene().objects.front().is_csg() &&
+           scene().programs.size() == 1 && !program().filter.empty();
+  }
+  const CsgProgram& program() const { return scene().programs.front(); }
+
+  /// Side by side rays find what they find alone.
+  void compare_packet(std::span<const WorldRay> rays, RayMask some) {
+    const RayBatch batch = batch_of(rays, some);
+    std::array<RayHit, packet_size> hits;
+    accelerator_.nearest_each(batch, some, hits, Packets::always, work_);
+    const PacketStarts starts = accelerator_.noted_starts(batch, some);
+    const RayMask met = accelerator_.any_each(batch, starts, some, Packets::always, work_);
+    for_each_ray(some, [&](std::size_t i) {
+      REQUIRE(same(hits[i], accelerator_.nearest(rays[i], work_)));
+      REQUIRE(((met >> i & 1u) != 0) == hits[i].found());
+    });
+  }
+
+  /// Returns whether there is a hit.
+  bool compare(const WorldRay& ray, CsgHit& hit, Counts& counts) {
+    WorldRay whole = ray;
+    if (ray.t_max < infinity) whole.t_max = std::nextafter(ray.t_max, infinity);
+    CsgEvaluation evaluation(program(), scene().leaves, scene().face_surfaces, whole, csg_work_);
+    const bool found = evaluation.next(hit);
+    compare_change(ray, found ? &hit : nullptr, counts);
+    compare_nearest(ray, found && hit.t < ray.t_max ? &hit : nullptr);
+    return found;
+  }
+
+ private:
+  explicit Comparison(CompiledScene compiled)
+      : materials_(compiled.materials), accelerator_(std::move(compiled), materials_) {}
+
+  void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
+    const FilterLine<double> line = line_of(ray);
+    const bool on_surface = ray.start.surface != nothing;
+    const BoundaryChanges<double> change =
+        program().filter.first_changes<double>({.lines = line,
+                                                .limits = ray.t_max,
+                                                .asked = 1,
+                                                .on_surface = on_surface,
+                                                .starts = {&ray.start, 1}},
+                                               scene().leaves, scene().face_surfaces);
+    if (change.none) {
+      ++counts.missed;
+      REQUIRE(hit == nullptr);
+    } else if (change.one) {
+      ++counts.met;
+      REQUIRE(hit != nullptr);
+      REQUIRE(hit->leaf == static_cast<std::uint32_t>(change.leaf));
+      REQUIRE(hit->entering == change.into_object);
+      REQUIRE(hit->t - hit->error >= change.from);
+      REQUIRE(hit->t + hit->error <= change.to);
+    } else {
+      ++counts.open;
+    }
+  }
+
+  /// What comes of it; `hit` is the first, if there is one.
+  void compare_nearest(const WorldRay& ray, const CsgHit* hit) {
+    const RayHit nearest = accelerator_.nearest(ray, work_);
+    REQUIRE(nearest.found() == (hit != nullptr));
+    REQUIRE(accelerator_.any(ray, work_) == (hit != nullptr));
+    if (hit == nullptr) return;
+    REQUIRE(nearest.t == hit->t);
+    REQUIRE(nearest.error == hit->error);
+    REQUIRE(nearest.t_low == hit->t_low);
+    REQUIRE(nearest.leaf == program().first_leaf + hit->leaf);
+    REQUIRE(nearest.face == hit->face);
+    REQUIRE(nearest.surface == hit->surface);
+    REQUIRE(nearest.root == hit->root);
+    REQUIRE(nearest.entering == hit->entering);
+  }
+
+  std::vector<SharedMaterial> materials_;
+  Accelerator accelerator_;
+  CsgWorkspace csg_work_;
+  RayWorkspace work_;
+};
+
+/// Calls use(trees, comparison) for many trees.
+template <class Use>
+void for_filtered_trees(const Use& use) {
+  for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
+    Trees trees(seed);
+    Comparison comparison(trees.tree(trees.random().integer(1, 3)),
+                          seed % 4 == 3 ? Precision::exact : Precision::standard);
+    if (!comparison.has_filter()) continue;
+    CAPTURE(seed);
+    use(trees, comparison);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("what a filter calls sure is what following all crossings finds") {
+  Counts free;
+  Counts from_surface;
+  for_filtered_trees([&](Trees& trees, Comparison& comparison) {
+    for (int i = 0; i < 30; ++i) {
+      CAPTURE(i);
+      const WorldRay ray = random_ray(trees);
+      CsgHit hit;
+      if (!comparison.compare(ray, hit, free)) continue;
+      for (const Side side : {Side::outside, Side::inside}) {
+        for (int k = 0; k < 3; ++k) {
+          const Vec3 direction = k == 0 ? ray.direction : random_ray(trees).direction;
+          CsgHit next;
+          comparison.compare(
+              continued(comparison.scene(), comparison.program(), ray, hit, direction, side), next,
+              from_surface);
+        }
+      }
+    }
+  });
+  CHECK(free.met > scene_count);
+  CHECK(free.missed > scene_count);
+  CHECK(from_surface.met > scene_count / 20);
+  CHECK(from_surface.missed > scene_count);
+}
+
+TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
+  for_filtered_trees([&](Trees& trees, Comparison& comparison) {
+    // All but alike, so that the packet's rays meet the same leaves, or each its own; some start on
+    // a surface.
+    std::vector<WorldRay> rays;
+    Counts counts;
+    while (rays.size() < packet_size) {
+      WorldRay ray = random_ray(trees);
+      CsgHit hit;
+      if (trees.random().integer(0, 1) == 0 && comparison.compare(ray, hit, counts)) {
+        const Vec3 direction = random_ray(trees).direction;
+        const Side side = trees.random().integer(0, 1) == 0 ? Side::outside : Side::inside;
+        ray = continued(comparison.scene(), comparison.program(), ray, hit, direction, side);
+      }
+      const int alike = trees.random().integer(1, 5);
+      for (int i = 0; i < alike && rays.size() < packet_size; ++i) {
+        rays.push_back(ray);
+        ray.direction +=
+            1e-3 * glm::length(ray.direction) * trees.random().real(-1, 1) * trees.point();
+      }
+    }
+    const auto some = static_cast<RayMask>(trees.random().integer(1, (1 << packet_size) - 1));
+    comparison.compare_packet(rays, some);
+    comparison.compare_packet(rays, RayPacket::all(packet_size));
+  });
+}
