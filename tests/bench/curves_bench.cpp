@@ -106,7 +106,7 @@ Scene alternating_depth(int n) {
 const Curve curves[] = {
     {"sparse union", "one union of N spheres in a box", sparse_union, 1'000'000, 500},
     {"plate of holes", "a box minus N spheres side by side", plate_of_holes, 1'000'000, 500},
-    {"nested shells", "a box minus N balls around one another, seen from their middle",
+    {"nested shells", "a box minus N spheres around one another, seen from their middle",
      nested_shells, 1'000, 100},
     {"holes in a row", "a box minus N spheres that overlap, along the ray", holes_in_a_row, 1'000,
      100},

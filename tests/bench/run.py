@@ -184,7 +184,7 @@ def main() -> int:
     print("\n" + "\n\n".join(filter(None, (tables.all_tables(results), trade_tables.all_tables(results)))))
     if not bench.options.quick:
         page.write(SOURCE / "docs", results, bench.machine_file().read_text())
-        bench.say("wrote docs/speed.md and docs/trade.md and their plots")
+        bench.say("wrote docs/speed.md, docs/trade_measured.md, docs/trade_scenes.md and their plots")
     if failed:
         bench.say(f"FAILED: {', '.join(failed)}")
     return 1 if failed else 0

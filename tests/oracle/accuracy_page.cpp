@@ -62,69 +62,86 @@ std::string placed_row(std::size_t kind, const Record& record) {
 
 constexpr const char* introduction = R"(# Accuracy, measured
 
-This page is written by `./dev oracle`: every primitive against an oracle that solves its implicit
-equation along the line, in sums of a few doubles that carry a bound on their error, and where
-that leaves anything open in MPFR arithmetic, with precision raised until the answer is certain
-(`tests/oracle`).
+This page shows how far CRT's intersections are from the true ones. It is for readers who want the
+evidence behind [what the geometry promises](numerics.md). `./dev oracle` writes it.
 
-Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the ray's origin
-10^-3 to 10^12 sizes. Half of the rays are plain. A tenth each: grazing (along a tangent, moved in
-or out by 10^-16 to 0.1 sizes), parallel to a coordinate axis, aimed at edges and corners,
-starting on the surface, and 10^-16 to 0.1 off parallel to a face or an axis. Of the rays at
-cylinders and cones a tenth more is along a ruling, a straight line of the side (turned off it by
-10^-16 to 0.1, shifted by as many sizes, both or neither), and another tenth is of all these
-kinds; both are at solids whose height and radius, or two radii, are up to 10^6 apart. At all
-primitives one ray in ten, of whatever kind, has a direction of extreme length (2^-850 to 2^850), or
-components up to 10^280 apart, and is counted as that.
+The oracle (`tests/oracle`) solves the implicit equation of each primitive along the line. It works
+in sums of a few doubles that carry a bound on their error. Where that leaves anything open, it goes
+on in MPFR arithmetic and raises the precision until the answer is certain.
 
-*standard* and *exact* are the two tiers of [what the geometry promises](numerics.md). *naive* are
-the formulas that everyone writes first, in plain doubles (`tests/oracle/naive.cpp`); it is
-measured with a million rays at most.
+Three methods are compared. *standard* and *exact* are CRT's two tiers. *naive* are the textbook
+formulas in plain doubles (`tests/oracle/naive.cpp`), measured with a million rays at most.
 
-- **wrong**: rays that are told to be inside (or outside) of the solid at a point that is farther
-  from its surface than 8 u (R + |x|) and the spacing of t's doubles there; for surfaces, rays
-  whose hit or miss differs from the true one though they meet the plane farther from the rim than
-  the bound of t (below) and 8 u (R + |x|). In the exact tier: rays with any other crossings than
-  the true ones.
+## The rays
+
+Sizes and the offset of the scene are 10^-9 to 10^9. The origin of a ray is 10^-3 to 10^12 sizes
+away. Half of the rays are plain. A tenth of all rays is of each of these kinds:
+
+- *grazing*: along a tangent, moved in or out by 10^-16 to 0.1 sizes;
+- *axis-parallel*: parallel to a coordinate axis;
+- *edges, corners*: aimed at these;
+- *on the surface*: starting there;
+- *nearly parallel*: 10^-16 to 0.1 off parallel to a face or an axis.
+
+Cylinders and cones get another tenth *along a ruling*, a straight line of the side. It is turned
+off by 10^-16 to 0.1, shifted by as many sizes, both or neither. One more tenth at them is of all
+these kinds. In both tenths height and radius, or two radii, are up to 10^6 apart.
+
+One ray in ten, of whatever kind, has an *extreme direction* and is counted as that. Its length is
+2^-850 to 2^850, or its components are up to 10^280 apart.
+
+## The columns
+
+- **wrong**: rays reported inside (or outside) the solid at a point that is clearly on the other
+  side. The point is then farther from the surface than 8 u (R + |x|) and the spacing of t's
+  doubles there. For surfaces: rays whose hit or miss differs from the true one, though they meet
+  the plane farther from the edge than the bound of t (below) and 8 u (R + |x|). In the exact
+  tier: rays with any other crossings than the true ones.
 - **close calls**: rays decided otherwise than the truth, but within that. The exact tier has
   none, by definition.
-- **error / bound**: the largest |t - true t|, over what is promised, of all kinds of rays that
+- **error / bound**: the largest |t - true t| over what is promised, of all kinds of rays that
   were decided right. The standard tier promises 0.5 ulp(t) + 8 u (R + |x|) / |n . d|, and the
-  naive formulas are held against the same; the exact tier 0.51 ulp(t), of a torus 1 ulp(t).
-- **ulps**: |t - true t| in units of the last place of t, for plain rays. What is above one half
-  in the standard tier is what the place and the slant of the ray make unavoidable in doubles: the
-  bound's second term. A start on the surface itself, where t is but rounding, is not counted.
-- **ns**: nanoseconds a ray on one core, over all kinds of rays, each of another primitive; the
+  naive formulas are held against the same. The exact tier promises 0.51 ulp(t), of a torus
+  1 ulp(t).
+- **ulps**: |t - true t| in units of the last place of t, for plain rays: what 99.9 % stay below,
+  and the largest (max). What is above one half in the standard tier is the bound's second term: the
+  position and the slant of the ray make it unavoidable in doubles. A start on the surface itself,
+  where t is nothing but rounding, is not counted.
+- **ns**: nanoseconds per ray on one core, over all kinds of rays, each at another primitive; the
   best of many rounds.
-- **escalations**: how often a ray asked for exact arithmetic, on average over all kinds, half of
-  which are hard on purpose.
+- **fallbacks**: exact fallbacks per ray, on average over all kinds, half of which are hard on
+  purpose. The statistics call them `escalations`.
 
-u is 2^-53; R the radius of a ball that holds the primitive (0 for planes); x the point relative
-to its centre; n . d the cosine of the slant.
+u is 2^-53. R is the radius of a sphere that holds the primitive (0 for planes), x the point
+relative to its centre, and n . d the cosine of the slant.
+
+## By primitive
 
 )";
 
 constexpr const char* tiers_table = R"(
-| primitive | | rays | wrong | close calls | error / bound | ulps, 99.9 % | ulps, largest | ns | escalations |
+| primitive | tier | rays | wrong | close calls | error / bound | 99.9 % | max | ns | fallbacks |
 |---|---|---|---|---|---|---|---|---|---|
 )";
 
 constexpr const char* by_kind = R"(
 ## By kind of ray
 
-The error in ulps that 99.9 % of the crossings stay below, standard / exact / naive:
+This table has the error in ulps that 99.9 % of the crossings stay below, as
+standard / exact / naive:
 
 )";
 
 constexpr const char* close_calls = R"(
-The share of close calls in the standard tier:
+This table has the share of close calls in the standard tier:
 
 )";
 
 constexpr const char* by_distance = R"(
 ## By distance
 
-The error of plain rays that 99.9 % stay below, by the distance of the origin, in sizes:
+The plot shows the error that 99.9 % of the plain rays stay below, against the distance of their
+origin in sizes:
 
 ![Error against distance](accuracy.svg)
 )";
@@ -132,36 +149,41 @@ The error of plain rays that 99.9 % stay below, by the distance of the origin, i
 constexpr const char* placed_table = R"(
 ## Transformed primitives
 
-The exact tier, with transforms that rotate, scale by factors up to 10^8 apart, mirror and shift:
+The exact tier was measured with transforms that rotate, mirror, shift and scale by factors up to
+10^8 apart:
 
-| primitive | rays | wrong | error / bound | escalations |
+| primitive | rays | wrong | error / bound | fallbacks |
 |---|---|---|---|---|
 )";
 
 constexpr const char* trees_table = R"(
 ## Trees of solids
 
-Random unions, differences and intersections of up to 27 solids on a grid, turned, scaled and moved
-on it, with rays through its corners, along its edges and within its planes, against membership by
-exact roots. Of all faces about {:.0f} % lie on a surface that another solid of the tree has too.
-*wrong* is as above. The exact tier has no close calls: crossings are in the order in which they are,
-however near to each other.
+The trees are random unions, differences and intersections of up to 27 solids on a grid, turned,
+scaled and moved on it. Rays go through its corners, along its edges and within its planes. They are
+compared with membership by exact roots. About {:.0f} % of all faces lie on a surface that another
+solid of the tree has too.
 
-| | trees | rays | crossings | wrong | close calls | escalations |
+*wrong* is as above. The exact tier has no close calls: it reports crossings in their true order,
+however near to each other they are.
+
+| tier | trees | rays | crossings | wrong | close calls | fallbacks |
 |---|---|---|---|---|---|---|
 )";
 
 constexpr const char* agreement_table = R"(
 ## Do all queries agree?
 
-Each ray is asked in every way there is: its nearest hit, its distance, whether it is blocked, all
-its crossings; alone and in a batch of others. Subjects are every primitive, trees of two or three
-solids and crowds of solids, of the sizes and offsets above, a quarter of them transformed; rays are
-of all kinds, one in five with a direction whose length or components are near the ends of what
-doubles hold, and parts of these that begin or end at a crossing or a double beside it.
-A *disagreement* is a ray of which two answers, as they are promised, cannot both be true.
+Each ray is asked for its nearest hit, its distance, whether it is blocked, and all its crossings;
+alone and in a batch of others. A *disagreement* is a ray of which two answers, as they are
+promised, cannot both be true.
 
-| subject | | rays | with hits | disagreements |
+Subjects are every primitive, trees of two or three solids, and crowds of solids. They have the
+sizes and offsets above, and a quarter of them is transformed. Rays are of all kinds. One in five
+has a direction whose length or components are near the ends of what doubles hold. Parts of rays
+begin or end at a crossing, or a double beside it.
+
+| subject | tier | rays | with hits | disagreements |
 |---|---|---|---|---|
 )";
 
@@ -260,7 +282,7 @@ std::string accuracy_page(const MeasuredAll& all) {
 std::string with_rows_replaced(const std::string& page, const MeasuredAll& some) {
   std::vector<RowReplacement> replacements;
   for (const MeasuredPrimitive& one : some.primitives) {
-    replacements.emplace_back("| primitive | | rays", tier_rows(one.in_place));
+    replacements.emplace_back("| primitive | tier | rays", tier_rows(one.in_place));
     replacements.emplace_back(heading_of(by_kind), ulps_by_kind(one.in_place));
     replacements.emplace_back(heading_of(close_calls), close_calls_by_kind(one.in_place));
     replacements.emplace_back(heading_of(placed_table), placed_row(one.in_place.kind, one.placed));

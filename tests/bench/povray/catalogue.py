@@ -111,7 +111,7 @@ def glass() -> Scene:
     balls = tuple(
         Sphere((2.2 * (i % 4) - 3.3, 0.8 * (i // 4), 2.2 * (i // 4) - 2), stream.between(0.7, 1), crystal)
         for i in range(12))
-    return Scene("12 glass balls over tiles, 10 bounces", balls + (Plane(-1.5, TILES),),
+    return Scene("12 glass spheres over tiles, 10 bounces", balls + (Plane(-1.5, TILES),),
                  Camera(position=(1, 4, -9), pointing=(0, 0, 0)), ambient=0, depth=10)
 
 

@@ -52,7 +52,7 @@ def wires() -> Scene:
     balls = tuple(
         Sphere((stream.between(-115, 115), stream.between(-85, 85), -25), 0.1 + 0.0056 * i, bright)
         for i in range(60))
-    return Scene("wires, needles and balls thinner than a pixel", cylinders + needles + balls,
+    return Scene("wires, needles and spheres thinner than a pixel", cylinders + needles + balls,
                  camera_of_pixels("wires"), FAR_LIGHT, ambient=0.4)
 
 
@@ -67,7 +67,7 @@ def silhouettes() -> Scene:
         Torus(place(), stream.between(0.3, 0.6), stream.between(0.06, 0.16),
               (stream.between(0, 180), stream.between(0, 180), 0), WOOD)
         for _ in range(16))
-    return Scene("40 balls and 16 tori before the background", balls + rings, STUDIO)
+    return Scene("40 spheres and 16 tori before the background", balls + rings, STUDIO)
 
 
 def glass_rows() -> Scene:
@@ -77,18 +77,18 @@ def glass_rows() -> Scene:
         Sphere((1.9 * column - 2.85, 0.1, 2.1 * row - 3), stream.between(0.75, 0.95), CRYSTAL)
         for row in range(3) for column in range(4))
     camera = Camera(position=(0.4, 1.1, -11), pointing=(0, 0, 0), fov=35)
-    return Scene("three rows of glass balls over tiles, 10 bounces", balls + (Plane(-1, TILES),), camera, ambient=0,
+    return Scene("three rows of glass spheres over tiles, 10 bounces", balls + (Plane(-1, TILES),), camera, ambient=0,
                  depth=10)
 
 
 def defocus() -> Scene:
     camera = Camera(position=STUDIO.position, pointing=STUDIO.pointing, aperture=0.3, focal_distance=11,
                     aperture_shape="hexagon")
-    return Scene("100 balls behind a six-sided lens", spheres(100).things, camera, lens_samples=37, noisy=True)
+    return Scene("100 spheres behind a six-sided lens", spheres(100).things, camera, lens_samples=37, noisy=True)
 
 
 def flat() -> Scene:
-    return Scene("a plane under a lamp and nothing else", (Plane(-1, FLOOR),),
+    return Scene("a plane under a light and nothing else", (Plane(-1, FLOOR),),
                  Camera(position=(0, 4, -5), pointing=(0, -1, 0)))
 
 
@@ -109,7 +109,7 @@ def scale() -> Scene:
             z = far * stream.between(0.8, 1.2)
             things.append(Sphere((x, size * stream.between(0.9, 1), z), size, SHINY))
     camera = Camera(position=(0, 6, -12), pointing=(0, 4.5, 10))
-    return Scene("balls of radius 1 to 1e6", tuple(things), camera, (PointLight((8e6, 12e6, -1e7)),))
+    return Scene("spheres of radius 1 to 1e6", tuple(things), camera, (PointLight((8e6, 12e6, -1e7)),))
 
 
 SCENES = {

@@ -2,8 +2,20 @@
 
 import pathlib
 import re
+import textwrap
 
 from . import plots, tables, trade_plots, trade_tables
+
+
+def wrapped(text: str) -> str:
+    """Breaks lines of prose that are longer than a page of docs/ has them; rows of tables and headings stay whole."""
+    def lines_of(line: str) -> str:
+        if len(line) <= 100 or line.startswith(("|", "#", "![")):
+            return line
+        return textwrap.fill(line, 99, subsequent_indent="  " if line.startswith("- ") else "",
+                             break_long_words=False, break_on_hyphens=False)
+
+    return "\n".join(lines_of(line) for line in text.split("\n"))
 
 
 def filled(page: str, name: str, text: str) -> str:
@@ -11,7 +23,7 @@ def filled(page: str, name: str, text: str) -> str:
     pattern = re.compile(re.escape(begin) + ".*?" + re.escape(end), re.DOTALL)
     if not pattern.search(page):
         raise ValueError(f"the page has no place for {name}: no {begin} ... {end}")
-    return pattern.sub(lambda _: f"{begin}\n{text}\n{end}", page)
+    return pattern.sub(lambda _: f"{begin}\n{wrapped(text)}\n{end}", page)
 
 
 def with_plot(caption: str, file: str, table: str) -> str:
@@ -35,7 +47,9 @@ def write(folder: pathlib.Path, results: dict, machine: str) -> None:
 def write_speed(folder: pathlib.Path, results: dict, machine: str) -> None:
     texts = {"povray": with_plot("How many times as long POV-Ray traces, for each scene", "speed.svg",
                                  tables.povray_table(results)),
-             "povray, BSP tree": tables.bsp_table(results), "threads": tables.threads_table(results), "embree": tables.embree_table(results),
+             "povray, scenes": tables.scene_list(results),
+             "povray, BSP tree": tables.bsp_table(results), "threads": tables.threads_table(results),
+             "embree": tables.embree_table(results),
              "curves": with_plot("Nanoseconds a ray against the number of solids", "speed_curves.svg",
                                  tables.curves_table(results))}
     if not any(texts.values()):
@@ -58,7 +72,7 @@ def write_trade(folder: pathlib.Path, results: dict, machine: str) -> None:
                                   trade_tables.honesty_table(results))}
     if not any(texts.values()):
         return
-    fill(folder / "trade.md", {"machine": machine, **texts})
+    fill(folder / "trade_measured.md", {"machine": machine, **texts})
     fill(folder / "trade_scenes.md", {
         "machine": machine, "scenes": with_plot("What 99.9 % of the pixels stay below, against time", "trade_p999.svg",
                                                 trade_tables.scene_tables(results))})

@@ -37,11 +37,11 @@ def povray_table(results: dict, prefix: str = "povray/") -> str:
     threads = list(next(iter(scenes.values()))["threads"])
     head = ["scene"]
     for count in threads:
-        head += [f"crt, {plural(count)}", f"POV-Ray, {plural(count)}", "ratio"]
-    head += [f"crt gains by {threads[-1]}", "pixels apart"]
+        head += [f"CRT, {count}", f"POV-Ray, {count}", "ratio"]
+    head += ["gain", "apart"]
     rows = []
     for name, result in scenes.items():
-        row = [f"`{name}`: {result['about']}"]
+        row = [f"`{name}`"]
         for count in threads:
             times = result["threads"][count]
             row += [marked(times["crt"], result["crt_divisor"]), marked(times["povray"], result["pov_divisor"]),
@@ -49,6 +49,10 @@ def povray_table(results: dict, prefix: str = "povray/") -> str:
         gain = result["threads"][threads[0]]["crt"] / result["threads"][threads[-1]]["crt"]
         rows.append(row + [f"{gain:.2f}", f"{result['different_pixels']:.3%}"])
     return f"{table(head, rows)}\n\n{povray_summary(scenes, threads)}"
+
+
+def scene_list(results: dict, prefix: str = "povray/") -> str:
+    return "\n".join(f"- `{name}`: {result['about']}" for name, result in povray_results(results, prefix).items())
 
 
 def bsp_table(results: dict) -> str:
@@ -59,13 +63,14 @@ def povray_summary(scenes: dict, threads: list[str]) -> str:
     first = next(iter(scenes.values()))
     lines = [f"Seconds of tracing at {first['width']} x {first['height']} pixels, medians of"
              f" {min(s['rounds'] for s in scenes.values())} to {max(s['rounds'] for s in scenes.values())} rounds;"
-             " the ratio is the median of each round's."]
+             f" the ratio is the median of each round's. The heads name the number of threads: {' or '.join(threads)}."]
     for count in threads:
         ratios = {name: result["threads"][count]["ratio"] for name, result in scenes.items()}
         least = min(ratios, key=ratios.get)
         lines.append(f"On {plural(count)} the median of all ratios is {rounded(statistics.median(ratios.values()))},"
                      f" the least {rounded(ratios[least])} (`{least}`).")
-    return "\n".join(lines)
+    lines.append(f"*gain* is what CRT gains by {threads[-1]} threads, *apart* the share of pixels that differ.")
+    return " ".join(lines)
 
 
 # ---- threads ------------------------------------------------------------------------------------
@@ -76,7 +81,7 @@ def threads_table(results: dict) -> str:
     if not scenes:
         return ""
     count = next(iter(scenes.values()))["threads"]
-    head = ["scene", "1 thread", f"{count} processes at once, each", f"{count} threads", "gain", "gain there is"]
+    head = ["scene", "1 thread", f"{count} processes at once, each", f"{count} threads", "gain", "possible gain"]
     gains = {name: result["alone"] / result["together"] for name, result in scenes.items()}
     limits = {name: count * result["alone"] / result["at_once"] for name, result in scenes.items()}
     rows = [[f"`{name}`", *(rounded(result[times]) for times in ("alone", "at_once", "together")),
@@ -85,8 +90,8 @@ def threads_table(results: dict) -> str:
     least = min(gains, key=gains.get)
     rounds = [result["rounds"] for result in scenes.values()]
     return (f"{table(head, rows)}\n\nSeconds of tracing, the least of {min(rounds)} to {max(rounds)} rounds. The median of"
-            f" the gains is {statistics.median(gains.values()):.2f}, the least {gains[least]:.2f} (`{least}`); of the gain that"
-            f" there is they are {min(shares):.0%} to {max(shares):.0%}, in the median {statistics.median(shares):.0%}.")
+            f" the gains is {statistics.median(gains.values()):.2f}, the least {gains[least]:.2f} (`{least}`); of the"
+            f" possible gain they are {min(shares):.0%} to {max(shares):.0%}, in the median {statistics.median(shares):.0%}.")
 
 
 # ---- ray queries and Embree ---------------------------------------------------------------------
@@ -115,13 +120,13 @@ def embree_table(results: dict) -> str:
         return ""
     columns = embree_columns(results["embree"]["rows"])
     names = list(max(columns.values(), key=len))
-    head = [""] + [f"{spheres:.0e} spheres, {flow}".replace("e+0", "e") for spheres, flow in columns]
+    head = [""] + [f"{spheres:.0e}, {flow}".replace("e+0", "e") for spheres, flow in columns]
     speeds = [[name] + [speed(column[name]) if name in column else "" for column in columns.values()] for name in names]
     ratios = [[name] + [f"**{ratio_to_yardstick(column, flow, name)}**" if name in column else ""
                         for (_, flow), column in columns.items()] for name in names if "CRT" in name]
-    return ("Millions of rays in a second of one processor:\n\n" + table(head, speeds)
-            + "\n\nOurs against Embree with the double-precision callback (packets for coherent rays, one by one for"
-            " scattered ones):\n\n" + table(head, ratios))
+    return ("Millions of rays in a second of one processor, by the number of spheres:\n\n" + table(head, speeds)
+            + "\n\nCRT's speed over that of Embree with the double-precision callback (packets for coherent rays,"
+            " one by one for scattered ones):\n\n" + table(head, ratios))
 
 
 # ---- cost curves --------------------------------------------------------------------------------

@@ -67,20 +67,33 @@ def saved(result: dict, row: dict, error: str) -> Need | None:
     return Need(grid.value / row["samples"], grid.bound)
 
 
-def saving_cell(result: dict, family: str, target: str) -> str:
-    """Samples: how many times as many it takes for the same RMSE / for the same 99.9 % error."""
-    for row in curves.family(result, family):
-        if row["name"] == target:
-            both = [saved(result, row, error) for error in ERRORS]
-            return f"{rounded(row['samples'])}: " + " / ".join("?" if one is None else told(one) for one in both)
-    return ""
+def samples_cell(result: dict, row: dict) -> str:
+    return rounded(row["samples"])
+
+
+def saving_cell(result: dict, row: dict) -> str:
+    """How many times as many samples it takes for the same RMSE / for the same 99.9 % error."""
+    both = [saved(result, row, error) for error in ERRORS]
+    return " / ".join("?" if one is None else told(one) for one in both)
+
+
+def cells_by_setting(result: dict, cell) -> list[str]:
+    found = [[row for row in curves.family(result, family) if row["name"] == target] for family, target in TOLD]
+    return [cell(result, rows[0]) if rows else "" for rows in found]
 
 
 def saving_table(results: dict) -> str:
-    rows = [[f"`{name}`", f"{result['hard']:.0%}", *(saving_cell(result, *setting) for setting in TOLD)]
-            for name, result in scenes_of(results).items() if name != "flat"]
-    heads = [f"{target}, `minsamples` 4" if family == ladders.LOW_START else target for family, target in TOLD]
-    return table(["scene", "hard pixels", *heads], rows) if rows else ""
+    scenes = {name: result for name, result in scenes_of(results).items() if name != "flat"}
+    if not scenes:
+        return ""
+    heads = [f"{target} from 4" if family == ladders.LOW_START else target for family, target in TOLD]
+    samples = [[f"`{name}`", f"{result['hard']:.0%}", *cells_by_setting(result, samples_cell)]
+               for name, result in scenes.items()]
+    factors = [[f"`{name}`", *cells_by_setting(result, saving_cell)] for name, result in scenes.items()]
+    return ("Samples a pixel, by target error (*from 4*: with `minsamples` 4):\n\n"
+            + table(["scene", "hard pixels", *heads], samples)
+            + "\n\nHow many times as many the grid needs for the same RMSE / the same 99.9 % error:\n\n"
+            + table(["scene", *heads], factors))
 
 
 # ---- time: CRT against POV-Ray ------------------------------------------------------------------
@@ -119,12 +132,12 @@ def contest_table(results: dict, choose, heading: str) -> str:
         all_ratios.append(ratios)
     if not rows:
         return ""
-    head = ["scene", f"POV-Ray's {heading}, seconds"]
+    head = ["scene", "POV-Ray"]
     for error in ERRORS.values():
-        head += [f"its {error}", "CRT, seconds", "ratio"]
+        head += [f"its {error}", "CRT", "ratio"]
     medians = [rounded(statistics.median(ratios)) for ratios in zip(*all_ratios)]
     return (table(head, rows)
-            + f"\n\nThe median of the ratios is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error.")
+            + f"\n\nTimes are in seconds; POV-Ray's are with {heading}. The median of the ratios is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error.")
 
 
 def named_table(results: dict) -> str:
@@ -133,7 +146,7 @@ def named_table(results: dict) -> str:
 
 
 def finest_table(results: dict) -> str:
-    return contest_table(results, finest_of_povray, "finest")
+    return contest_table(results, finest_of_povray, "its finest setting")
 
 
 def overhead_table(results: dict) -> str:
