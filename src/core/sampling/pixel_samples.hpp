@@ -6,7 +6,7 @@
 // independent estimates of the same quality as the whole would (together the blocks are broadcast
 // better than any one of them), so that the interval from their variance and Student's t covers the
 // truth more often than it says. Where the blocks agree by chance, or as the sampling is regular,
-// the floor below holds. See docs/trade.md for what was measured.
+// the floor below holds. See docs/design/sampling.md for what was measured.
 #pragma once
 
 #include <algorithm>
