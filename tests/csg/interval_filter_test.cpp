@@ -1,5 +1,5 @@
-// The filter of small CSG objects against following all crossings: what it calls sure is so, to the
-// bit.
+// The interval filter of CSG objects against following all crossings: what it calls sure is so, to
+// the bit.
 #include "core/csg/interval_filter.hpp"
 
 #include <doctest/doctest.h>
@@ -53,6 +53,28 @@ class Trees {
         return csg_intersection(parts);
       default:
         return csg_difference(parts[0], std::span(parts).subspan(1));
+    }
+  }
+
+  /// Makes a tree of so many leaves that their boxes are looked at, in the order of entry.
+  Entity crowd() {
+    std::vector<Entity> added;
+    std::vector<Entity> taken;
+    const int count = make_.integer(20, 200);
+    for (int i = 0; i < count; ++i) {
+      added.push_back(tree(make_.integer(0, 1)));
+      taken.push_back(leaf());
+    }
+    const Entity all = csg_union(added);
+    switch (make_.integer(0, 3)) {
+      case 0:
+        return all;
+      case 1:
+        return csg_difference(tree(1), taken);
+      case 2:
+        return all ^ csg_union(taken);
+      default:
+        return csg_difference(all, taken);
     }
   }
 
@@ -175,13 +197,13 @@ class Comparison {
   void compare_change(const WorldRay& ray, const CsgHit* hit, Counts& counts) {
     const FilterLine<double> line = line_of(ray);
     const bool on_surface = ray.start.surface != nothing;
-    const BoundaryChanges<double> change =
-        program().filter.first_changes<double>({.lines = line,
-                                                .limits = ray.t_max,
-                                                .asked = 1,
-                                                .on_surface = on_surface,
-                                                .starts = {&ray.start, 1}},
-                                               scene().leaves, scene().face_surfaces);
+    const BoundaryChanges<double> change = program().filter.first_changes<double>(
+        {.lines = line,
+         .limits = ray.t_max,
+         .asked = 1,
+         .on_surface = on_surface,
+         .starts = {&ray.start, 1}},
+        program(), scene().leaves, scene().face_surfaces, near_leaves_, csg_work_.steps);
     if (change.none) {
       ++counts.missed;
       REQUIRE(hit == nullptr);
@@ -216,6 +238,7 @@ class Comparison {
   std::vector<SharedMaterial> materials_;
   Accelerator accelerator_;
   CsgWorkspace csg_work_;
+  NearLeavesWorkspace near_leaves_;
   RayWorkspace work_;
 };
 
@@ -258,6 +281,33 @@ TEST_CASE("what a filter calls sure is what following all crossings finds") {
   CHECK(free.missed > scene_count);
   CHECK(from_surface.met > scene_count / 20);
   CHECK(from_surface.missed > scene_count);
+}
+
+TEST_CASE("the filter of a large object is right about what it calls sure") {
+  Counts free;
+  Counts from_surface;
+  for (std::uint32_t seed = 0; seed < scene_count / 50; ++seed) {
+    CAPTURE(seed);
+    Trees trees(seed);
+    Comparison comparison(trees.crowd(), seed % 4 == 3 ? Precision::exact : Precision::standard);
+    if (!comparison.has_filter() || comparison.program().leaf_count() <= 32) continue;
+    std::vector<WorldRay> rays;
+    while (rays.size() < packet_size) {
+      rays.push_back(random_ray(trees));
+      CsgHit hit;
+      if (!comparison.compare(rays.back(), hit, free)) continue;
+      const Side side = trees.random().integer(0, 1) == 0 ? Side::outside : Side::inside;
+      const WorldRay next = continued(comparison.scene(), comparison.program(), rays.back(), hit,
+                                      random_ray(trees).direction, side);
+      comparison.compare(next, hit, from_surface);
+      if (rays.size() < packet_size) rays.push_back(next);
+    }
+    comparison.compare_packet(rays, RayPacket::all(packet_size));
+  }
+  CHECK(free.met > scene_count / 50);
+  CHECK(free.missed > scene_count / 50);
+  CHECK(from_surface.met > 0);
+  CHECK(from_surface.missed > scene_count / 50);
 }
 
 TEST_CASE("rays side by side find of small CSG objects what each finds alone") {

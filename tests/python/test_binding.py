@@ -110,7 +110,7 @@ class Structs(unittest.TestCase):
             self.assertEqual(len(names), sum(member >= 0 for member in ours))
 
     def test_aovs_have_the_bits_of_the_header(self):
-        bits = {name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+) = (\d+)", HEADER)}
+        bits = {name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+)\s*=\s*(\d+)", HEADER)}
         self.assertEqual(rendering._AOV_BITS, bits)
 
     def test_rays_and_hits_have_the_frozen_layout(self):

@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <bit>
-#include <limits>
 #include <optional>
 
 #include "core/csg/evaluate.hpp"
-#include "core/csg/leaf_intervals.hpp"
+#include "core/csg/near_leaves.hpp"
 #include "core/csg/program.hpp"
 #include "core/math/vector.hpp"
 
@@ -21,14 +20,7 @@ constexpr bool is_upper(std::uint32_t face) {
   return face % 2 == 1;
 }
 
-/// The index of the last bit that is set, which is taken away; there must be one.
-std::uint32_t take_bit(std::uint32_t& bits) {
-  const auto index = static_cast<std::uint32_t>(std::countr_zero(bits));
-  bits &= bits - 1;
-  return index;
-}
-
-/// A leaf in the world; none if it is no sphere, or not where doubles tell exactly.
+/// Returns a leaf in the world; nothing if it is no sphere, or not where doubles tell exactly.
 std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
   if (shape_as<SphereShape>(leaf.shape->typed()) == nullptr) return {};
   const Surface surface = leaf.shape->surface(0);
@@ -37,12 +29,9 @@ std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
   return IntervalFilter::Sphere{*place, surface.sizes[0]};
 }
 
-bool is_box(const Leaf& leaf) {
-  return shape_as<BoxShape>(leaf.shape->typed()) != nullptr;
-}
-
-/// The same of a box, whose faces are two across each axis.
+/// Returns a leaf in the world; nothing if it is no box. A box's faces are two across each axis.
 std::optional<IntervalFilter::Box> box_of(const Leaf& leaf) {
+  if (shape_as<BoxShape>(leaf.shape->typed()) == nullptr) return {};
   IntervalFilter::Box box{};
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
     const std::optional<Vec3> place =
@@ -58,248 +47,310 @@ std::optional<IntervalFilter::Box> box_of(const Leaf& leaf) {
 
 IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                                std::span<const FaceSurface> faces) {
-  if (leaves.size() > most_places || program.nodes.size() > most_places) return;
+  if (!program.paths.empty()) return;
   IntervalFilter filter;
-  filter.first_leaf_ = program.first_leaf;
+  filter.places_.reserve(leaves.size());
+  for (const Leaf& leaf : leaves) {
+    Place place{.complemented = leaf.complemented};
+    if (const std::optional<Sphere> sphere = sphere_of(leaf)) {
+      place.index = static_cast<std::uint32_t>(filter.spheres_.size());
+      filter.spheres_.push_back(*sphere);
+      filter.spheres_.back().leaf = static_cast<std::uint32_t>(filter.places_.size());
+    } else if (const std::optional<Box> box = box_of(leaf)) {
+      place.index = static_cast<std::uint32_t>(filter.boxes_.size());
+      place.is_box = true;
+      filter.boxes_.push_back(*box);
+      filter.boxes_.back().leaf = static_cast<std::uint32_t>(filter.places_.size());
+    } else {
+      return;
+    }
+    filter.places_.push_back(place);
+  }
+  filter.spheres_.shrink_to_fit();
+  filter.boxes_.shrink_to_fit();
   filter.first_face_ = leaves.front().first_face;
   filter.end_face_ = leaves.back().first_face + leaves.back().face_count;
-  if (!filter.place_leaves(leaves)) return;
-  filter.place_nodes(program);
   for (std::uint32_t face = filter.first_face_; face < filter.end_face_; ++face) {
     if (faces[face].surface < filter.first_face_) filter.shares_surfaces_ = true;
   }
   *this = std::move(filter);
 }
 
-bool IntervalFilter::place_leaves(std::span<const Leaf> leaves) {
-  for (const bool boxes : {false, true}) {
-    for (std::uint32_t i = 0; i < leaves.size(); ++i) {
-      if (is_box(leaves[i]) != boxes) continue;
-      const std::optional<Sphere> sphere = boxes ? std::nullopt : sphere_of(leaves[i]);
-      const std::optional<Box> box = boxes ? box_of(leaves[i]) : std::nullopt;
-      if (!sphere && !box) return false;
-      put(i, leaves[i], spheres_.size() + boxes_.size());
-      if (sphere) spheres_.push_back(*sphere);
-      if (box) boxes_.push_back(*box);
-    }
-  }
-  return true;
-}
-
-void IntervalFilter::put(std::uint32_t index, const Leaf& leaf, std::size_t place) {
-  place_of_[index] = static_cast<std::uint8_t>(place);
-  leaf_at_[place] = static_cast<std::uint8_t>(index);
-  used_ |= bit_of(place);
-  if (leaf.complemented) complemented_ |= bit_of(place);
-}
-
-void IntervalFilter::place_nodes(const CsgProgram& program) {
-  nodes_.resize(program.nodes.size());
-  for (std::size_t i = 0; i < nodes_.size(); ++i) {
-    nodes_[i].all = program.nodes[i].needed > 1;
-    if (i > 0) nodes_[program.nodes[i].parent].nodes |= bit_of(i);
-  }
-  for (std::size_t i = 0; i < program.leaf_count(); ++i) {
-    nodes_[program.leaf_parents[i]].leaves |= bit_of(place_of_[i]);
-  }
-}
-
 std::size_t IntervalFilter::bytes() const {
   return spheres_.capacity() * sizeof(Sphere) + boxes_.capacity() * sizeof(Box) +
-         nodes_.capacity() * sizeof(Node);
+         places_.capacity() * sizeof(Place);
 }
 
 const IntervalFilter::Sphere* IntervalFilter::sphere(std::uint32_t leaf) const {
-  const std::size_t place = place_of_[leaf];
-  return place < spheres_.size() ? &spheres_[place] : nullptr;
+  const Place& place = places_[leaf];
+  return place.is_box ? nullptr : &spheres_[place.index];
 }
 
 const IntervalFilter::Box* IntervalFilter::box(std::uint32_t leaf) const {
-  const std::size_t place = place_of_[leaf];
-  return place < spheres_.size() ? nullptr : &boxes_[place - spheres_.size()];
+  const Place& place = places_[leaf];
+  return place.is_box ? &boxes_[place.index] : nullptr;
 }
 
 template <class Real>
-BoundaryChanges<Real> IntervalFilter::first_changes(const IntervalFilterRays<Real>& rays,
-                                                    std::span<const Leaf> leaves,
-                                                    std::span<const FaceSurface> faces) const {
+bool IntervalFilter::enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
+                             LeafInterval<Real>& interval) const {
+  const Place& place = places_[leaf];
+  return place.is_box ? lines.enclose(boxes_[place.index], interval)
+                      : lines.enclose(spheres_[place.index], interval);
+}
+
+/// Searches the first changes of some rays.
+template <class Real>
+class IntervalFilter::Search {
+ public:
   using Mask = MaskOf<Real>;
-  BoundaryChanges<Real> changes;
-  Ends<Real> ends(rays.lines, rays.limits, lanes_of_mask<Real>(rays.asked));
-  Mask asked = ends.asked();
-  for (std::size_t i = 0; i < spheres_.size(); ++i) ends.set(i, spheres_[i]);
-  for (std::size_t i = 0; i < boxes_.size(); ++i) ends.set(spheres_.size() + i, boxes_[i]);
-  for (std::uint32_t starting = rays.on_surface & rays.asked; starting != 0;) {
-    const std::uint32_t lane = take_bit(starting);
-    if (!set_start(rays.starts[lane], lane, leaves, faces, ends)) {
-      asked = without(asked, lanes_of_mask<Real>(bit_of(lane)));
+
+  Search(const IntervalFilter& filter, const IntervalFilterRays<Real>& rays,
+         const CsgProgram& program, NearLeavesWorkspace& workspace, const RaySteps& steps)
+      : filter_(filter),
+        rays_(rays),
+        lines_(rays.lines, rays.limits, lanes_of_mask<Real>(rays.asked)),
+        near_(filter, program, lines_, rays.asked, workspace, steps),
+        steps_(steps) {}
+
+  BoundaryChanges<Real> find(std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
+                             std::uint32_t first_leaf) {
+    gather(-least(lines_.asked() ? -lines_.lines().certain_from : broadcast<Real>(infinity)));
+    if (is_too_much()) return changes_;
+    Mask asked = lines_.asked();
+    for (std::uint32_t starting = rays_.on_surface & rays_.asked; starting != 0;
+         starting &= starting - 1) {
+      const auto lane = static_cast<std::uint32_t>(std::countr_zero(starting));
+      if (!set_start(rays_.starts[lane], lane, leaves, faces, first_leaf)) {
+        asked = without(asked, EnclosedLines<Real>::lane_bit(lane));
+      }
+    }
+    const Real& begin = rays_.lines.begin;
+    const Real from = root_possible_from(begin, true);
+    const Mask may_be_inside = both(asked, from == begin);
+    if (any(may_be_inside)) advance(false, root_possible_from(begin, false), may_be_inside);
+    const Mask outside = without(asked, may_be_inside);
+    if (any(outside)) advance(true, from, outside);
+    return changes_;
+  }
+
+ private:
+  /// Gathers more and more leaves at a time, so that to look at all anew adds up to little.
+  void gather(double t) {
+    near_.gather(batch_, t);
+    batch_ *= 2;
+  }
+  Real horizon() const { return broadcast<Real>(near_.horizon()); }
+
+  /// Returns a t before which the root surely does not have a value, if it does not before this
+  /// one: the first at which it may, or the horizon.
+  Real root_possible_from(const Real& t, bool value) {
+    return min(possible_from(near_.node(0), t, value), horizon());
+  }
+
+  /// Goes from a t before which the root surely does not have a value to where it has it, for those
+  /// rays that are going.
+  void advance(bool value, Real t, Mask going) {
+    while (true) {
+      const Mask beyond = without(going, t <= lines_.limits());
+      changes_.none = either(changes_.none, beyond);
+      going = without(going, beyond);
+      if (!any(going) || is_too_much()) return;
+      if (any(both(going, t >= horizon()))) {
+        gather(-infinity);
+      } else {
+        const Real next = root_possible_from(t, value);
+        const Mask there = both(going, next == t);
+        if (any(there)) {
+          const Mask unseen = set_change(value, t, there);
+          going = either(without(going, there), unseen);
+          if (any(unseen)) gather(-infinity);
+        }
+        t = next;
+      }
     }
   }
 
-  const Real& begin = rays.lines.begin;
-  const Real from = possible_from(ends, 0, begin, true);
-  const Mask may_be_inside = both(asked, from == begin);
-  if (any(may_be_inside))
-    advance(ends, false, possible_from(ends, 0, begin, false), may_be_inside, changes);
-  const Mask outside = without(asked, may_be_inside);
-  if (any(outside)) advance(ends, true, from, outside, changes);
-  return changes;
-}
-
-/// Goes from where the root may have a value to where it has it, of those rays that are going.
-template <class Real>
-void IntervalFilter::advance(const Ends<Real>& ends, bool value, Real from, MaskOf<Real> going,
-                             BoundaryChanges<Real>& changes) const {
-  while (true) {
-    const auto beyond = without(going, from <= ends.limits());
-    changes.none = either(changes.none, beyond);
-    going = without(going, beyond);
-    if (!any(going)) return;
-    const Real next = possible_from(ends, 0, from, value);
-    const auto there = both(going, next == from);
-    if (any(there)) set_change(ends, value, from, there, changes);
-    going = without(going, there);
-    from = next;
+  /// Notes the changes at the ends of leaves that begin at `from`, where there is just one and it
+  /// is certain. Returns the rays of which that end reaches beyond the horizon.
+  Mask set_change(bool value, const Real& from, Mask rays) {
+    Mask unseen{};
+    rays = both(rays, from > lines_.lines().certain_from);
+    for (const NearLeaf<Real>& leaf : near_.leaves()) {
+      if (!any(rays)) break;
+      const LeafInterval<Real>& interval = leaf.interval;
+      const bool leaving = wants_outside(leaf, value);
+      Mask here = both(rays, (leaving ? interval.leave_from : interval.enter_from) == from);
+      if (!any(here)) continue;
+      rays = without(rays, here);
+      const Real to = leaving ? interval.leave_to : interval.enter_to;
+      const Mask is_seen = either(to < horizon(), to >= lines_.limits());
+      unseen = either(unseen, without(here, is_seen));
+      here = both(here, is_seen);
+      // Next to grazing it, the leaf may not be met at all.
+      const Mask is_isolated = leaving ? interval.enter_to < from : interval.leave_from > to;
+      const Mask sure =
+          both(both(here, to < lines_.limits()), both(is_isolated, depends_on(leaf, from, to)));
+      changes_.one = either(changes_.one, sure);
+      if (value) changes_.into_object = either(changes_.into_object, sure);
+      if (!leaving) changes_.into_leaf = either(changes_.into_leaf, sure);
+      changes_.leaf = sure ? broadcast<Real>(leaf.leaf) : changes_.leaf;
+      changes_.from = sure ? from : changes_.from;
+      changes_.to = sure ? to : changes_.to;
+    }
+    return unseen;
   }
-}
 
-/// The changes at the ends of leaves that begin at `from`, where there is just one and it is
-/// certain.
-template <class Real>
-void IntervalFilter::set_change(const Ends<Real>& ends, bool value, const Real& from,
-                                MaskOf<Real> rays, BoundaryChanges<Real>& changes) const {
-  rays = both(rays, from > ends.lines().certain_from);
-  const Places turned = turned_for(value);
-  for (Places places = used_ & ~ends.outside(); places != 0 && any(rays);) {
-    const std::uint32_t place = take_bit(places);
-    const auto& of_leaf = ends[place];
-    const bool leaving = (turned & bit_of(place)) != 0;
-    const auto here = both(rays, (leaving ? of_leaf.leave_from : of_leaf.enter_from) == from);
-    if (!any(here)) continue;
-    rays = without(rays, here);
-    const Real to = leaving ? of_leaf.leave_to : of_leaf.enter_to;
-    // Next to grazing it, the leaf may not be met at all.
-    const auto is_isolated = leaving ? of_leaf.enter_to < from : of_leaf.leave_from > to;
-    const auto sure =
-        both(both(here, to < ends.limits()), both(is_isolated, depends_on(place, ends, from, to)));
-    changes.one = either(changes.one, sure);
-    if (value) changes.into_object = either(changes.into_object, sure);
-    if (!leaving) changes.into_leaf = either(changes.into_leaf, sure);
-    changes.leaf = sure ? broadcast<Real>(leaf_at_[place]) : changes.leaf;
-    changes.from = sure ? from : changes.from;
-    changes.to = sure ? to : changes.to;
-  }
-}
-
-/// Of the surface at the start it is known otherwise where the ray meets it; false if not by all
-/// that is told here.
-template <class Real>
-bool IntervalFilter::set_start(const StartPoint& start, std::size_t lane,
-                               std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
-                               Ends<Real>& ends) const {
-  const std::uint32_t index = start.leaf - first_leaf_;
-  const bool is_named_here = start.surface >= first_face_ && start.surface < end_face_;
-  if (index >= leaves.size()) return !is_named_here && !shares_surfaces_;
-  const Leaf& leaf = leaves[index];
-  const bool is_shared = faces[leaf.first_face + start.face].shared != FaceSurface::not_shared;
-  if (is_shared || !ends.starts_at_0(lane)) return false;
-  const std::size_t place = place_of_[index];
-  if (start_on_leaf(leaf, start.leaf, faces, start).side == Side::outside) {
-    ends.set_left(place, lane);
+  /// Makes the interval of the leaf that a ray starts on agree with that: where the ray meets the
+  /// surface is known otherwise there. Returns false if that does not follow from what is known
+  /// here.
+  bool set_start(const StartPoint& start, std::uint32_t lane, std::span<const Leaf> leaves,
+                 std::span<const FaceSurface> faces, std::uint32_t first_leaf) {
+    const std::uint32_t index = start.leaf - first_leaf;
+    const bool is_named_here =
+        start.surface >= filter_.first_face_ && start.surface < filter_.end_face_;
+    if (index >= leaves.size()) return !is_named_here && !filter_.shares_surfaces_;
+    const Leaf& leaf = leaves[index];
+    const bool is_shared = faces[leaf.first_face + start.face].shared != FaceSurface::not_shared;
+    if (is_shared || !lines_.starts_at_0(lane)) return false;
+    const std::span<NearLeaf<Real>> near = near_.leaves();
+    const auto found = std::find_if(near.begin(), near.end(),
+                                    [&](const auto& other) { return other.leaf == index; });
+    const Mask ray = EnclosedLines<Real>::lane_bit(lane);
+    if (start_on_leaf(leaf, start.leaf, faces, start).side == Side::outside) {
+      if (found != near.end()) found->interval.set_outside(ray);
+      return true;
+    }
+    if (found == near.end() || !goes_into(index, start.face, lane) ||
+        !lines_.is_inside_soon(found->interval, lane)) {
+      return false;
+    }
+    found->interval.set_inside_first(ray);
     return true;
   }
-  return goes_into(place, start.face, lane, ends) && ends.set_entered(place, lane);
-}
 
-template <class Real>
-bool IntervalFilter::goes_into(std::size_t place, std::uint32_t face, std::size_t lane,
-                               const Ends<Real>& ends) const {
-  if (place < spheres_.size()) return ends.starts_on(spheres_[place], lane);
-  return ends.goes_into_box(face / 2, is_upper(face), lane);
-}
-
-/// The first t not before this one at which a node may have a value.
-template <class Real>
-Real IntervalFilter::possible_from(const Ends<Real>& ends, std::uint32_t node_index, Real t,
-                                   bool value) const {
-  const Node& node = nodes_[node_index];
-  const Places turned = turned_for(value);
-  const Places open = node.leaves & ~ends.outside();
-  std::uint32_t children = node.nodes;
-  const auto leaf_from = [&](std::uint32_t place) {
-    return (turned & bit_of(place)) != 0 ? ends[place].outside_from(t) : ends[place].inside_from(t);
-  };
-  // What is turned and not come into has the value everywhere, what is not turned nowhere.
-  if (node.all == value) {
-    if ((node.leaves & ends.outside() & ~turned) != 0) return broadcast<Real>(infinity);
-    for (Places places = open; places != 0;) t = leaf_from(take_bit(places));
-    while (children != 0) t = possible_from(ends, take_bit(children), t, value);
-    return t;
+  bool goes_into(std::uint32_t leaf, std::uint32_t face, std::uint32_t lane) const {
+    if (const Sphere* sphere = filter_.sphere(leaf)) return lines_.starts_on(*sphere, lane);
+    return lines_.goes_into_box(face / 2, is_upper(face), lane);
   }
-  if ((node.leaves & ends.outside() & turned) != 0) return t;
-  Real first = broadcast<Real>(infinity);
-  for (Places places = open; places != 0;) first = min(first, leaf_from(take_bit(places)));
-  while (children != 0) first = min(first, possible_from(ends, take_bit(children), t, value));
-  return first;
-}
 
-/// Whether leaves are true, of those in `mixed` by ray; of the others for all of them.
-template <class Real>
-struct IntervalFilter::Values {
-  Places all = 0;
-  Places mixed = 0;
-  std::array<MaskOf<Real>, most_places> by_ray;
-};
+  /// Returns whether a leaf's being outside makes for a value of the root.
+  static bool wants_outside(const NearLeaf<Real>& leaf, bool value) {
+    return value == leaf.complemented;
+  }
 
-/// Where a node is true.
-template <class Real>
-MaskOf<Real> IntervalFilter::holds(const Values<Real>& values, std::uint32_t node_index) const {
-  using Mask = MaskOf<Real>;
-  const Node& node = nodes_[node_index];
-  const Mask nowhere{};
-  const Mask everywhere = lanes_of_mask<Real>(~std::uint32_t{0});
-  std::uint32_t children = node.nodes;
-  Places mixed = node.leaves & values.mixed;
-  const Places fixed = node.leaves & ~values.mixed;
-  if (node.all) {
-    Mask result = (fixed & ~values.all) == 0 ? everywhere : nowhere;
-    while (mixed != 0 && any(result)) result = both(result, values.by_ray[take_bit(mixed)]);
-    while (children != 0 && any(result)) result = both(result, holds(values, take_bit(children)));
+  /// Returns the first t not before this one at which a node may have a value.
+  Real possible_from(const NearNode& node, Real t, bool value) {
+    const bool needs_all = node.all == value;
+    if (node.deciding > 0) return needs_all ? broadcast<Real>(infinity) : t;
+    Real first = broadcast<Real>(infinity);
+    const auto take = [&](const Real& of_child) {
+      if (needs_all) {
+        t = of_child;
+      } else {
+        first = min(first, of_child);
+      }
+    };
+    for (std::uint32_t i = node.first_leaf; i != no_item;) {
+      const NearLeaf<Real>& leaf = near_.leaves()[i];
+      take(wants_outside(leaf, value) ? leaf.interval.outside_from(t)
+                                      : leaf.interval.inside_from(t));
+      i = leaf.next;
+      ++looked_at_;
+    }
+    for (std::uint32_t i = node.first_node; i != no_item; i = near_.node(i).next) {
+      take(possible_from(near_.node(i), t, value));
+    }
+    return needs_all ? t : first;
+  }
+
+  /// Returns whether all leaves but one are certain between two t, and the root depends on that
+  /// one: on its path to the root all other children leave the decision to the child on the path.
+  Mask depends_on(const NearLeaf<Real>& open, const Real& from, const Real& to) {
+    Mask result = lanes_of_mask<Real>(~std::uint32_t{0});
+    for (std::uint32_t i = open.node; i != no_item; i = near_.node(i).parent) {
+      near_.node(i).is_on_path = true;
+      if (near_.node(i).deciding > 0) result = Mask{};
+    }
+    for (const NearLeaf<Real>& leaf : near_.leaves()) {
+      if (&leaf == &open) continue;
+      const NearNode& parent = near_.node(leaf.node);
+      result = both(result, parent.is_on_path ? has_value(leaf, parent.all, from, to)
+                                              : either(leaf.interval.is_inside(from, to),
+                                                       leaf.interval.is_outside(from, to)));
+      if (!any(result)) break;
+    }
+    for (std::uint32_t i = open.node; i != no_item; i = near_.node(i).parent) {
+      near_.node(i).is_on_path = false;
+    }
+    std::uint32_t on_path = no_item;
+    for (std::uint32_t i = open.node; i != no_item && any(result); i = near_.node(i).parent) {
+      const NearNode& node = near_.node(i);
+      for (std::uint32_t k = node.first_node; k != no_item; k = near_.node(k).next) {
+        if (k != on_path) result = both(result, has_value(near_.node(k), node.all, from, to));
+      }
+      on_path = i;
+    }
     return result;
   }
-  if ((fixed & values.all) != 0) return everywhere;
-  Mask result = nowhere;
-  while (mixed != 0) result = either(result, values.by_ray[take_bit(mixed)]);
-  while (children != 0) result = either(result, holds(values, take_bit(children)));
-  return result;
-}
 
-/// Whether all leaves but one are certain between two t, and the root hangs on that one.
-template <class Real>
-MaskOf<Real> IntervalFilter::depends_on(std::size_t place, const Ends<Real>& ends, const Real& from,
-                                        const Real& to) const {
-  using Mask = MaskOf<Real>;
-  Values<Real> values;
-  values.all = ends.outside() & complemented_;
-  values.mixed = used_ & ~(ends.outside() | bit_of(place));
-  Mask certain = lanes_of_mask<Real>(~std::uint32_t{0});
-  for (Places others = values.mixed; others != 0;) {
-    const std::uint32_t other = take_bit(others);
-    const Mask inside = ends[other].is_inside(from, to);
-    const Mask outside = ends[other].is_outside(from, to);
-    certain = both(certain, either(inside, outside));
-    values.by_ray[other] = (complemented_ & bit_of(other)) != 0 ? outside : inside;
+  /// Returns whether a leaf that is certain between two t has a value for the node above it.
+  static Mask has_value(const NearLeaf<Real>& leaf, bool value, const Real& from, const Real& to) {
+    return wants_outside(leaf, value) ? leaf.interval.is_outside(from, to)
+                                      : leaf.interval.is_inside(from, to);
   }
-  const Mask without_it = holds(values, 0);
-  values.all |= bit_of(place);
-  return both(certain, without(holds(values, 0), without_it));
+  /// Returns whether a node has a value, whose leaves are certain between two t.
+  Mask has_value(const NearNode& node, bool value, const Real& from, const Real& to) {
+    const bool needs_all = node.all == value;
+    const Mask everywhere = lanes_of_mask<Real>(~std::uint32_t{0});
+    if (node.deciding > 0) return needs_all ? Mask{} : everywhere;
+    Mask result = needs_all ? everywhere : Mask{};
+    const auto take = [&](const Mask& of_child) {
+      result = needs_all ? both(result, of_child) : either(result, of_child);
+    };
+    for (std::uint32_t i = node.first_leaf; i != no_item; i = near_.leaves()[i].next) {
+      take(has_value(near_.leaves()[i], value, from, to));
+    }
+    for (std::uint32_t i = node.first_node; i != no_item; i = near_.node(i).next) {
+      take(has_value(near_.node(i), value, from, to));
+    }
+    return result;
+  }
+
+  /// Returns whether following all crossings would cost less than the search has done already.
+  bool is_too_much() {
+    constexpr std::uint64_t looks_a_leaf = 32;
+    constexpr std::uint64_t free = 1024;
+    return looked_at_ > looks_a_leaf * near_.leaves().size() + free ||
+           near_.leaves().size() > steps_.most();
+  }
+
+  const IntervalFilter& filter_;
+  const IntervalFilterRays<Real>& rays_;
+  EnclosedLines<Real> lines_;
+  NearLeaves<Real> near_;
+  const RaySteps& steps_;
+  BoundaryChanges<Real> changes_;
+  std::size_t batch_ = 8;
+  std::uint64_t looked_at_ = 0;
+};
+
+template <class Real>
+BoundaryChanges<Real> IntervalFilter::first_changes(const IntervalFilterRays<Real>& rays,
+                                                    const CsgProgram& program,
+                                                    std::span<const Leaf> leaves,
+                                                    std::span<const FaceSurface> faces,
+                                                    NearLeavesWorkspace& workspace,
+                                                    const RaySteps& steps) const {
+  Search<Real> search(*this, rays, program, workspace, steps);
+  return search.find(leaves, faces, program.first_leaf);
 }
 
-template BoundaryChanges<double> IntervalFilter::first_changes(const IntervalFilterRays<double>&,
-                                                               std::span<const Leaf>,
-                                                               std::span<const FaceSurface>) const;
-template BoundaryChanges<Lanes> IntervalFilter::first_changes(const IntervalFilterRays<Lanes>&,
-                                                              std::span<const Leaf>,
-                                                              std::span<const FaceSurface>) const;
+template BoundaryChanges<double> IntervalFilter::first_changes(
+    const IntervalFilterRays<double>&, const CsgProgram&, std::span<const Leaf>,
+    std::span<const FaceSurface>, NearLeavesWorkspace&, const RaySteps&) const;
+template BoundaryChanges<Lanes> IntervalFilter::first_changes(
+    const IntervalFilterRays<Lanes>&, const CsgProgram&, std::span<const Leaf>,
+    std::span<const FaceSurface>, NearLeavesWorkspace&, const RaySteps&) const;
 
 }  // namespace crt::core

@@ -1,15 +1,20 @@
-// Where a ray first comes into a small CSG object, or out of it, by plain formulas: what most rays
-// ask, for a fraction of what following all crossings costs.
+// The interval filter finds where a ray first comes into a CSG object, or out of it, by plain
+// formulas. That is what most rays ask, for a fraction of what following all crossings costs.
 //
-// Of each leaf it is told where a line enters and leaves it, each end as an interval that surely
-// holds it. A leaf is surely inside or outside between these intervals and unknown within them.
-// Where the root has one value at first, the first place where it may have the other is found by
-// advances: from a place t a leaf that surely does not have the value wanted goes on to where that
-// ends, a node that has it if all of its children do goes on to the last of what they say, and one
-// that has it if any does to the first. Where there is no such place the ray misses. Else the place
-// is the end of one leaf; and if, all along the interval of that end, all other leaves are certain
-// and the root hangs on that one, it is there that the root changes, and there is but one crossing
-// to be found exactly.
+// A line enters and leaves each leaf somewhere in an interval (leaf_intervals.hpp): between these
+// the leaf is surely inside or outside, and within them it is unknown. Where the root has one value
+// at first, the search advances to the first t at which it may have the other:
+//
+//  - A leaf that surely does not have the wanted value at t advances to where that ends.
+//  - A node that has the value if all of its children do advances to the last of what these say,
+//    and one that has it if any child does to the first.
+//
+// If there is no such t, the ray misses. Else t is where the end of one leaf begins. If all other
+// leaves are certain along the interval of that end, and the root depends on that leaf, the root
+// changes there, and one crossing is left to be found exactly.
+//
+// The leaves are gathered from the object's BVH in the order in which lines come to their boxes
+// (near_leaves.hpp), as far as the search goes.
 #pragma once
 
 #include <array>
@@ -64,91 +69,78 @@ inline BoundaryChanges<double> lane_of(const BoundaryChanges<Lanes>& changes, st
           .to = changes.to[i]};
 }
 
-/// Of programs with few leaves, which all are spheres or boxes that are not turned.
+template <class Real>
+class EnclosedLines;
+template <class Real>
+struct LeafInterval;
+class NearLeavesWorkspace;
+class RaySteps;
+
+/// The filter of a program whose leaves all are spheres or boxes that are not turned. Deep programs
+/// have none.
 class IntervalFilter {
  public:
   struct Sphere {
     Vec3 center;
     double radius;
+    std::uint32_t leaf = 0;  ///< its number within the object
   };
   struct Box {
-    Vec3 lower;
-    Vec3 upper;
+    Vec3 lower{0, 0, 0};
+    Vec3 upper{0, 0, 0};
+    std::uint32_t leaf = 0;
   };
 
-  /// None, for other programs.
+  /// Makes one that is empty, as other programs have it.
   IntervalFilter() = default;
   /// `leaves` are those of the program.
   IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                  std::span<const FaceSurface> faces);
 
-  bool empty() const { return nodes_.empty(); }
-  /// Of memory, beside the object itself.
+  bool empty() const { return places_.empty(); }
+  /// Returns the bytes that it takes beside the object itself.
   std::size_t bytes() const;
 
-  /// What counts are crossings with t_min < t <= limit, by what CsgEvaluation says of the ray.
-  /// `leaves` are those of the program.
+  /// Finds the first crossings of the boundary with t_min < t <= limit that count, by what
+  /// CsgEvaluation says of the ray. `leaves` are those of `program`, the filter's own.
   template <class Real>
   BoundaryChanges<Real> first_changes(const IntervalFilterRays<Real>& rays,
-                                      std::span<const Leaf> leaves,
-                                      std::span<const FaceSurface> faces) const;
+                                      const CsgProgram& program, std::span<const Leaf> leaves,
+                                      std::span<const FaceSurface> faces,
+                                      NearLeavesWorkspace& workspace, const RaySteps& steps) const;
 
-  /// A leaf in the world, by its number within the object; none if it is of the other kind.
+  /// Returns a leaf in the world, by its number within the object; null if it is of the other kind.
   const Sphere* sphere(std::uint32_t leaf) const;
   const Box* box(std::uint32_t leaf) const;
+  bool is_complemented(std::uint32_t leaf) const { return places_[leaf].complemented; }
+
+  /// Calls use(leaf) for each leaf, as a Sphere or a Box.
+  template <class Use>
+  void for_each_leaf(const Use& use) const {
+    for (const Sphere& sphere : spheres_) use(sphere);
+    for (const Box& box : boxes_) use(box);
+  }
+
+  /// Encloses the part of lines in a leaf, as EnclosedLines has it.
+  template <class Real>
+  bool enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
+               LeafInterval<Real>& interval) const;
 
  private:
-  static constexpr std::size_t most_places = 32;
-  /// A bit for each place. Spheres have the first places, and boxes those after them.
-  using Places = std::uint32_t;
-  static constexpr std::uint32_t bit_of(std::size_t index) { return std::uint32_t{1} << index; }
+  template <class Real>
+  class Search;
 
-  struct Node {
-    bool all = false;         ///< true if all of its children are; else if any is
-    Places leaves = 0;        ///< that are its children
-    std::uint32_t nodes = 0;  ///< likewise, a bit each
+  /// Where a leaf is among those of its kind.
+  struct Place {
+    std::uint32_t index = 0;
+    bool is_box = false;
+    bool complemented = false;
   };
-
-  template <class Real>
-  class Ends;
-  template <class Real>
-  struct Values;
-
-  bool place_leaves(std::span<const Leaf> leaves);
-  void put(std::uint32_t index, const Leaf& leaf, std::size_t place);
-  void place_nodes(const CsgProgram& program);
-
-  template <class Real>
-  bool set_start(const StartPoint& start, std::size_t lane, std::span<const Leaf> leaves,
-                 std::span<const FaceSurface> faces, Ends<Real>& ends) const;
-  template <class Real>
-  bool goes_into(std::size_t place, std::uint32_t face, std::size_t lane,
-                 const Ends<Real>& ends) const;
-  template <class Real>
-  void advance(const Ends<Real>& ends, bool value, Real from, MaskOf<Real> going,
-               BoundaryChanges<Real>& changes) const;
-  template <class Real>
-  void set_change(const Ends<Real>& ends, bool value, const Real& from, MaskOf<Real> rays,
-                  BoundaryChanges<Real>& changes) const;
-  template <class Real>
-  Real possible_from(const Ends<Real>& ends, std::uint32_t node_index, Real t, bool value) const;
-  template <class Real>
-  MaskOf<Real> depends_on(std::size_t place, const Ends<Real>& ends, const Real& from,
-                          const Real& to) const;
-  template <class Real>
-  MaskOf<Real> holds(const Values<Real>& values, std::uint32_t node_index) const;
-  /// The leaves whose being outside makes for a value of the root, if others' being inside does.
-  Places turned_for(bool value) const { return value ? complemented_ : ~complemented_; }
 
   std::vector<Sphere> spheres_;
   std::vector<Box> boxes_;
-  std::vector<Node> nodes_;  ///< 0 is the root
-  std::array<std::uint8_t, most_places> leaf_at_{};
-  std::array<std::uint8_t, most_places> place_of_{};  ///< of a leaf
-  Places used_ = 0;
-  Places complemented_ = 0;
-  std::uint32_t first_leaf_ = 0;  ///< in the scene
-  std::uint32_t first_face_ = 0;
+  std::vector<Place> places_;     ///< by leaf
+  std::uint32_t first_face_ = 0;  ///< in the scene
   std::uint32_t end_face_ = 0;
   bool shares_surfaces_ = false;  ///< with what was written before
 };

@@ -66,6 +66,16 @@ class LeafBvh {
     }
   }
 
+  /// Calls use(child, box) for each child of a node.
+  template <class Use>
+  void for_each_child(std::uint32_t node_index, const Use& use) const {
+    const Node& node = nodes_[node_index];
+    for (std::size_t i = 0; i < node.count; ++i) {
+      use(node.children[i], Bounds{{node.lower[0][i], node.lower[1][i], node.lower[2][i]},
+                                   {node.upper[0][i], node.upper[1][i], node.upper[2][i]}});
+    }
+  }
+
   friend bool operator==(const LeafBvh&, const LeafBvh&) = default;
 
  private:

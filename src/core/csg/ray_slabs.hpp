@@ -62,9 +62,10 @@ class RaySlabs {
     return spans;
   }
 
-  /// The spans of lines that have their bit in `some`; origins are what is meant.
-  static LineSpanLanes spans(const FilterLine<Lanes>& lines, const Bounds& box,
-                             std::uint32_t some) {
+  /// Returns the spans of lines that have their bit in `some`, in one box, as span() of each has
+  /// them.
+  static LineSpanLanes spans(const FilterLine<Lanes>& lines, const Bounds& box, std::uint32_t some,
+                             const Lanes& origin_errors = Lanes{}) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     LineSpanLanes span{.enter = lanes_of(-infinity), .leave = lanes_of(infinity)};
     LaneMask steep{};
@@ -75,8 +76,9 @@ class RaySlabs {
       const Lanes second = (box.upper[axis] - lines.origin[i]) * inverse;
       const Lanes low = min(first, second);
       const Lanes high = max(first, second);
-      span.enter = max(span.enter, low - slack * abs(low));
-      span.leave = min(span.leave, high + slack * abs(high));
+      const Lanes error = origin_errors > 0.0 ? origin_errors * abs(inverse) : Lanes{};
+      span.enter = max(span.enter, low - slack * abs(low) - error);
+      span.leave = min(span.leave, high + slack * abs(high) + error);
       LaneMask is_steep = abs(inverse) > largest_inverse;
       if (any(is_steep)) {
         // Between planes that it goes along a line is from minus infinity to infinity, as told
@@ -91,7 +93,7 @@ class RaySlabs {
       const int i = std::countr_zero(left);
       const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
       const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
-      const LineSpan of_line = RaySlabs(origin, direction).span(box);
+      const LineSpan of_line = RaySlabs(origin, direction, origin_errors[i]).span(box);
       span.enter[i] = of_line.enter;
       span.leave[i] = of_line.leave;
     }

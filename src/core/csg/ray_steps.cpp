@@ -8,11 +8,10 @@ namespace crt::core {
 
 void RaySteps::look(std::uint64_t taken) const {
   poll();
-  const std::uint64_t most = rules == nullptr ? usual_most_steps : rules->most;
-  if (taken <= most) return;
+  if (taken <= most()) return;
   throw Error(ErrorCode::limit, fmt::format("a ray comes near more than {} things at once: "
                                             "there are too many in one place (see max_ray_steps)",
-                                            most));
+                                            most()));
 }
 
 void RaySteps::poll() const {

@@ -36,7 +36,10 @@ class RaySteps {
   /// The same of a ray that has taken so many steps.
   void look(std::uint64_t taken) const;
 
-  /// Of work that is not counted.
+  /// Returns how many steps a ray may take.
+  std::uint64_t most() const { return rules == nullptr ? usual_most_steps : rules->most; }
+
+  /// Asks whether to go on, for work that is not counted.
   void poll() const;
 
  private:

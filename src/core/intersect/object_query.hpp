@@ -171,12 +171,14 @@ bool ObjectQuery<Kind>::test_filter(std::uint32_t object_index, const SceneObjec
   if (filter == nullptr) return false;
   const FilterLine<double> line = line_of(*ray_);
   const bool on_surface = ray_->start.surface != nothing;
-  const auto change = filter->first_changes<double>({.lines = line,
-                                                     .limits = limit_,
-                                                     .asked = 1,
-                                                     .on_surface = on_surface,
-                                                     .starts = {&ray_->start, 1}},
-                                                    scene.leaves_of(object), scene.face_surfaces);
+  const auto change =
+      filter->first_changes<double>({.lines = line,
+                                     .limits = limit_,
+                                     .asked = 1,
+                                     .on_surface = on_surface,
+                                     .starts = {&ray_->start, 1}},
+                                    scene.programs[object.program], scene.leaves_of(object),
+                                    scene.face_surfaces, work_->near_leaves, work_->csg.steps);
   if (!change.one) return change.none;
   if constexpr (Kind::any_will_do) {
     if (change.to < line.certain_to) {

@@ -298,7 +298,8 @@ class PacketTests {
          .asked = asked,
          .on_surface = RayPacket::lanes(packet_.starts.on_surface, group),
          .starts = std::span(answers_.rays.starts).subspan(group * lane_count, lane_count)},
-        scene.leaves_of(scene.objects[object]), scene.face_surfaces);
+        scene.programs[scene.objects[object].program], scene.leaves_of(scene.objects[object]),
+        scene.face_surfaces, answers_.work.near_leaves, answers_.work.csg.steps);
     RayMask to_come = asked & mask_of(changes.one);
     RayMask open = asked & ~mask_of(changes.one | changes.none);
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));

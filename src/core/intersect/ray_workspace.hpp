@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "core/csg/evaluate.hpp"
+#include "core/csg/near_leaves.hpp"
 #include "core/ray/ray_hit.hpp"
 #include "core/ray/ray_packet.hpp"
 
@@ -17,6 +18,7 @@ struct RayWorkspace {
   std::uint64_t intersection_tests = 0;  ///< rays against objects
   std::uint64_t leaf_escalations = 0;    ///< of lone primitives: see escalations()
   CsgWorkspace csg;                      ///< counts its events itself
+  NearLeavesWorkspace near_leaves;
   CrossingList crossings;
   /// Of the last hit that has company: the crossings at its place in the order in which their
   /// objects were written, and those so near that rounding may put a ray which starts there on

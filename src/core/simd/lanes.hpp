@@ -253,6 +253,14 @@ inline Lanes abs(const Lanes& x) {
 #endif
 }
 
+/// The least of all lanes.
+inline double least(double x) {
+  return x;
+}
+inline double least(const Lanes& x) {
+  return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+}
+
 /// Of four rows the columns.
 inline std::array<Lanes, lane_count> transposed(const std::array<Lanes, lane_count>& rows) {
   const Lanes even_low = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);

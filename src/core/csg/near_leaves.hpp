@@ -1,0 +1,270 @@
+// The leaves of a CSG object that some rays come near, with the nodes above them.
+#pragma once
+
+#include <algorithm>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <type_traits>
+#include <variant>
+#include <vector>
+
+#include "core/csg/leaf_intervals.hpp"
+#include "core/csg/program.hpp"
+#include "core/csg/ray_steps.hpp"
+
+namespace crt::core {
+
+inline constexpr std::uint32_t no_item = 0xffffffffu;
+
+/// A leaf that some line comes near.
+template <class Real>
+struct NearLeaf {
+  LeafInterval<Real> interval;
+  std::uint32_t leaf = 0;        ///< its number within the object
+  std::uint32_t node = 0;        ///< the node above it
+  std::uint32_t next = no_item;  ///< the next leaf below the same node
+  bool complemented = false;
+};
+
+/// A node of the program above such leaves.
+struct NearNode {
+  bool all = false;            ///< whether it is true if all of its children are, else if any is
+  std::uint32_t deciding = 0;  ///< its other children that alone decide its value
+  std::uint32_t first_leaf = no_item;
+  std::uint32_t last_leaf = no_item;
+  std::uint32_t first_node = no_item;
+  std::uint32_t last_node = no_item;
+  std::uint32_t parent = no_item;
+  std::uint32_t next = no_item;  ///< the next node below the same one
+  bool is_on_path = false;       ///< for whoever follows a path up to the root
+};
+
+/// Memory that one thread reuses from ray to ray.
+class NearLeavesWorkspace {
+  template <class Real>
+  friend class NearLeaves;
+
+  /// Where a node of the program is among the nodes here.
+  struct Slot {
+    std::uint64_t stamp = 0;
+    std::uint32_t node = 0;
+  };
+  /// A box that some line enters at `enter`, and none before.
+  struct Opening {
+    double enter = 0;
+    LeafBvh::Child child;
+  };
+
+  template <class Real>
+  std::vector<NearLeaf<Real>>& leaves() {
+    if constexpr (std::is_same_v<Real, double>) {
+      return leaves_of_one_;
+    } else {
+      return leaves_of_lanes_;
+    }
+  }
+
+  std::uint64_t stamp_ = 0;
+  std::vector<Slot> slots_;
+  std::vector<NearNode> nodes_;    ///< the root first
+  std::vector<Opening> openings_;  ///< a heap, the nearest first
+  std::vector<NearLeaf<double>> leaves_of_one_;
+  std::vector<NearLeaf<Lanes>> leaves_of_lanes_;
+};
+
+/// Gathers leaves in the order in which lines come to their boxes, as far as that is asked for: up
+/// to the horizon, beyond which there may be more. All other leaves are outside of their primitives
+/// up to there, as far as it matters.
+template <class Real>
+class NearLeaves {
+ public:
+  /// All arguments must outlive it; `asked` has a bit for each line. Of a small object all leaves
+  /// are gathered at once: that costs less than their boxes.
+  NearLeaves(const IntervalFilter& filter, const CsgProgram& program,
+             const EnclosedLines<Real>& lines, std::uint32_t asked, NearLeavesWorkspace& workspace,
+             const RaySteps& steps)
+      : filter_(filter),
+        program_(program),
+        lines_(lines),
+        asked_(asked),
+        work_(workspace),
+        leaves_(workspace.leaves<Real>()),
+        steps_(steps),
+        slabs_(slabs_of(lines.lines())) {
+    ++work_.stamp_;
+    if (work_.slots_.size() < program.nodes.size()) work_.slots_.resize(program.nodes.size());
+    work_.nodes_.clear();
+    work_.openings_.clear();
+    slot_of(0);
+    if (program.leaf_count() <= most_small) {
+      add_all();
+      link_added();
+      return;
+    }
+    for (const std::uint32_t leaf : program.tree.unbounded()) add(leaf);
+    link_added();
+    if (program.tree.has_root()) put_off(LeafBvh::Child::node(0), -infinity);
+  }
+
+  /// Returns the root for 0.
+  NearNode& node(std::uint32_t index) { return work_.nodes_[index]; }
+  std::span<NearLeaf<Real>> leaves() { return {leaves_.data(), count_}; }
+
+  /// Beyond that there may be other leaves; infinity if there are none.
+  double horizon() const {
+    return work_.openings_.empty() ? infinity : work_.openings_.front().enter;
+  }
+
+  /// Gathers so many leaves more if there are so many, and all that lines may come to up to t; but
+  /// not many more than a ray may come near.
+  void gather(std::size_t more, double t) {
+    const std::size_t enough = count_ + more;
+    auto& openings = work_.openings_;
+    while (!openings.empty() && (count_ < enough || openings.front().enter <= t)) {
+      if (count_ > steps_.most()) break;
+      const LeafBvh::Child child = openings.front().child;
+      std::pop_heap(openings.begin(), openings.end(), is_later);
+      openings.pop_back();
+      if (++opened_ % steps_per_look == 0) [[unlikely]]
+        steps_.poll();
+      if (child.is_leaf()) {
+        add(child.index());
+      } else {
+        program_.tree.for_each_child(child.index(), [&](LeafBvh::Child next, const Bounds& box) {
+          const double enter = first_enter(box);
+          if (enter < infinity) put_off(next, enter);
+        });
+      }
+    }
+    link_added();
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  /// The leaves of an object that is small.
+  static constexpr std::uint32_t most_small = 32;
+
+  static bool is_later(const NearLeavesWorkspace::Opening& a,
+                       const NearLeavesWorkspace::Opening& b) {
+    return a.enter > b.enter;
+  }
+  void put_off(LeafBvh::Child child, double enter) {
+    work_.openings_.push_back({enter, child});
+    std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_later);
+  }
+
+  /// One line's slabs, or nothing: lines side by side have what it takes.
+  using Slabs = std::conditional_t<std::is_same_v<Real, double>, RaySlabs, std::monostate>;
+  static Slabs slabs_of(const FilterLine<Real>& line) {
+    if constexpr (std::is_same_v<Real, double>) {
+      const auto& [x, y, z] = line.origin;
+      const auto& [dx, dy, dz] = line.direction;
+      return RaySlabs({x, y, z}, {dx, dy, dz}, line.start_error);
+    } else {
+      return {};
+    }
+  }
+  auto span_in(const Bounds& box) const {
+    if constexpr (std::is_same_v<Real, double>) {
+      return slabs_.span(box);
+    } else {
+      return RaySlabs::spans(lines_.lines(), box, asked_, lines_.lines().start_error);
+    }
+  }
+
+  /// Returns where the first of the lines enters a box; infinity if none does while it matters.
+  double first_enter(const Bounds& box) const {
+    const FilterLine<Real>& lines = lines_.lines();
+    const auto part = span_in(box);
+    const MaskOf<Real> near = both(both(part.enter <= part.leave, part.enter <= lines_.limits()),
+                                   part.leave >= lines.begin - lines.start_error);
+    return least(both(near, lines_.asked()) ? part.enter : broadcast<Real>(infinity));
+  }
+
+  void add(std::uint32_t leaf) {
+    if (count_ == leaves_.size()) leaves_.resize(2 * count_ + most_small);
+    NearLeaf<Real>& near = leaves_[count_];
+    if (!filter_.enclose(leaf, lines_, near.interval)) return;
+    near.leaf = leaf;
+    ++count_;
+  }
+
+  void add_all() {
+    if (leaves_.size() < program_.leaf_count()) leaves_.resize(most_small);
+    NearLeaf<Real>* next = leaves_.data();
+    filter_.for_each_leaf([&](const auto& solid) {
+      next->leaf = solid.leaf;
+      if (lines_.enclose(solid, next->interval)) ++next;
+    });
+    count_ = static_cast<std::size_t>(next - leaves_.data());
+  }
+
+  /// Links the leaves that were added to the nodes above them: afterwards, so that the processor
+  /// encloses several leaves at once.
+  void link_added() {
+    std::uint32_t node = no_item;
+    std::uint32_t slot = no_item;
+    for (; linked_ < count_; ++linked_) {
+      NearLeaf<Real>& near = leaves_[linked_];
+      if (const std::uint32_t above = program_.leaf_parents[near.leaf]; above != node) {
+        node = above;
+        slot = slot_of(node);
+      }
+      near.complemented = filter_.is_complemented(near.leaf);
+      near.node = slot;
+      near.next = no_item;
+      NearNode& parent = work_.nodes_[slot];
+      take(parent, near.complemented);
+      const auto index = static_cast<std::uint32_t>(linked_);
+      if (parent.first_leaf == no_item) {
+        parent.first_leaf = index;
+      } else {
+        leaves_[parent.last_leaf].next = index;
+      }
+      parent.last_leaf = index;
+    }
+  }
+
+  std::uint32_t slot_of(std::uint32_t node_index) {
+    NearLeavesWorkspace::Slot& slot = work_.slots_[node_index];
+    if (slot.stamp == work_.stamp_) return slot.node;
+    const CsgNode& node = program_.nodes[node_index];
+    const auto index = static_cast<std::uint32_t>(work_.nodes_.size());
+    slot = {work_.stamp_, index};
+    const bool all = node.needed > 1;
+    work_.nodes_.push_back(
+        {.all = all, .deciding = all ? node.needed - node.count_outside : node.count_outside});
+    if (node_index == 0) return index;
+    const std::uint32_t above = slot_of(node.parent);
+    work_.nodes_[index].parent = above;
+    NearNode& parent = work_.nodes_[above];
+    take(parent, node.count_outside >= node.needed);
+    if (parent.first_node == no_item) {
+      parent.first_node = index;
+    } else {
+      work_.nodes_[parent.last_node].next = index;
+    }
+    parent.last_node = index;
+    return index;
+  }
+
+  /// Takes a child, with its value where all leaves are outside, out of those that decide a node.
+  static void take(NearNode& node, bool value_outside) {
+    if (value_outside != node.all) --node.deciding;
+  }
+
+  const IntervalFilter& filter_;
+  const CsgProgram& program_;
+  const EnclosedLines<Real>& lines_;
+  std::uint32_t asked_;
+  NearLeavesWorkspace& work_;
+  std::vector<NearLeaf<Real>>& leaves_;  ///< more of them than there are
+  std::size_t count_ = 0;
+  std::size_t linked_ = 0;
+  const RaySteps& steps_;
+  Slabs slabs_;
+  std::uint64_t opened_ = 0;
+};
+
+}  // namespace crt::core
