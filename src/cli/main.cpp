@@ -1,4 +1,4 @@
-// The command `crt`: renders CRT scripts and checks them.
+// The command `crt` renders CRT scripts and checks them.
 #include <fmt/format.h>
 
 #include <cstdio>

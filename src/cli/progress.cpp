@@ -24,8 +24,7 @@ constexpr milliseconds redraw_interval{100};
 /// Before this share is done, an estimate of the time left is worth nothing.
 constexpr double least_share_to_estimate = 0.02;
 constexpr std::string_view erase_line = "\r\033[K";
-/// What of a terminal's width the bar does not take: the name's ends, the percentage, the time
-/// left.
+/// These columns of a terminal are not for the bar: the name's ends, the percentage, the time left.
 constexpr int width_besides_bar = 32;
 constexpr int widest_bar = 40;
 
@@ -37,7 +36,7 @@ int terminal_width() {
 }
 
 std::string clock_text(double seconds) {
-  // More than this is no use to anyone, and fits a whole number.
+  // A longer time is of no use to anyone. This one fits a whole number.
   constexpr double a_thousand_hours = 3.6e6;
   const int whole = static_cast<int>(std::ceil(std::clamp(seconds, 0.0, a_thousand_hours)));
   const int hours = whole / 3600;

@@ -31,7 +31,8 @@ ExitCode exit_code_of(ErrorCode code) {
   return ExitCode::internal;
 }
 
-/// Of two codes the one that says more: a script that is wrong matters more than a file it lacks.
+/// Returns the code that says more of two. A script that is wrong matters more than a file it
+/// lacks.
 ExitCode graver(ExitCode a, ExitCode b) {
   constexpr ExitCode by_gravity[] = {ExitCode::interrupted, ExitCode::internal, ExitCode::usage,
                                      ExitCode::script,      ExitCode::files,    ExitCode::done};
@@ -42,7 +43,7 @@ ExitCode graver(ExitCode a, ExitCode b) {
 }  // namespace
 
 void Reporter::add(const std::vector<Diagnostic>& diagnostics) {
-  // The first error is the cause of some that follow: a name is unknown since its file is missing.
+  // The first error can cause others: a name is unknown since its file is missing.
   const auto first_error =
       std::find_if(diagnostics.begin(), diagnostics.end(),
                    [](const Diagnostic& it) { return it.severity == Severity::error; });
