@@ -16,7 +16,7 @@ void hold_standard_streams() {
   }
 }
 
-bool tell(std::FILE* stream, std::string_view text) {
+bool write_text(std::FILE* stream, std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   const int error = errno;
   const bool flushed = std::fflush(stream) == 0;

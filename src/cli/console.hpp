@@ -17,7 +17,7 @@ namespace crt::cli {
 void hold_standard_streams();
 
 /// Writes text and flushes it, and says whether the stream took it. If not, errno says why.
-bool tell(std::FILE* stream, std::string_view text);
+bool write_text(std::FILE* stream, std::string_view text);
 
 /// Says whether a value of errno means that the caller has closed the stream.
 bool is_closed(int error);

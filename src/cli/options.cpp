@@ -299,7 +299,7 @@ ExitCode complain(const std::exception& error, const CLI::App& app, int argc,
   } else if (argc <= 1) {
     message = "say what to do, such as: crt render scene.crt";
   }
-  tell(stderr, fmt::format("crt: error: {}\nSee {} --help.\n", message, command));
+  write_text(stderr, fmt::format("crt: error: {}\nSee {} --help.\n", message, command));
   return ExitCode::usage;
 }
 

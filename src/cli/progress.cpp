@@ -58,7 +58,7 @@ Progress::Progress(std::string name, ProgressStyle style) : name_(std::move(name
 
 Progress::~Progress() {
   if (!drawn_) return;
-  tell(stderr, erase_line);
+  write_text(stderr, erase_line);
 }
 
 void Progress::update(double share) {
@@ -71,20 +71,20 @@ void Progress::draw_bar(double share, Clock::time_point now) {
   if (drawn_ && now - last_drawn_ < redraw_interval) return;
   last_drawn_ = now;
   drawn_ = true;
-  const int room = terminal_width() - width_besides_bar - static_cast<int>(name_.size());
-  const int width = std::clamp(room, 0, widest_bar);
+  const int columns = terminal_width() - width_besides_bar - static_cast<int>(name_.size());
+  const int width = std::clamp(columns, 0, widest_bar);
   const int filled = static_cast<int>(share * width);
   const std::string bar =
       width == 0 ? "" : fmt::format(" [{:#<{}}{:.<{}}]", "", filled, "", width - filled);
-  tell(stderr, fmt::format("{}{}{} {:3.0f} %{}", erase_line, name_, bar, std::floor(100 * share),
-                           time_left(share, now)));
+  write_text(stderr, fmt::format("{}{}{} {:3.0f} %{}", erase_line, name_, bar,
+                                 std::floor(100 * share), time_left(share, now)));
 }
 
 void Progress::print_line(double share, Clock::time_point now) {
   const int tenth = static_cast<int>(10 * share);
   if (tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  tell(stderr, fmt::format("{}: {} %{}\n", name_, 10 * tenth, time_left(share, now)));
+  write_text(stderr, fmt::format("{}: {} %{}\n", name_, 10 * tenth, time_left(share, now)));
 }
 
 std::string Progress::time_left(double share, Clock::time_point now) const {

@@ -78,14 +78,15 @@ void Reporter::note(const std::string& message) {
 }
 
 void Reporter::print(const std::string& text, IfClosed if_closed) {
-  if (tell(stdout, text) || (is_closed(errno) && if_closed == IfClosed::is_fine)) return;
+  if (write_text(stdout, text) || (is_closed(errno) && if_closed == IfClosed::is_fine)) return;
   add(ErrorCode::io,
       fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)),
       ExitCode::files);
 }
 
 void Reporter::say(const std::string& text) {
-  if (!tell(stderr, text) && !is_closed(errno)) exit_code_ = graver(exit_code_, ExitCode::files);
+  if (!write_text(stderr, text) && !is_closed(errno))
+    exit_code_ = graver(exit_code_, ExitCode::files);
 }
 
 void Reporter::add_one(const Diagnostic& diagnostic, const std::string& text) {

@@ -241,7 +241,7 @@ class Trade {
     double share_before = 0;
     for (const Region& part : parts_) {
       const double share = pixels_of(part) / measured_pixels_;
-      // A time budget is for all regions together.
+      // The time budget is shared among the parts.
       scene.settings.time_budget = share * settings.time_budget;
       const PreparedScene prepared = prepare(scene, *prepared_);
       Image image = render_part(prepared, part, share_before, share);
