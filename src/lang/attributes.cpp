@@ -43,7 +43,7 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-/// One of some words, in small letters or large ones.
+/// Reads one of some words, in small letters or large ones.
 template <class Enum, std::size_t count>
 void choose(const Given& given, const std::array<std::pair<std::string_view, Enum>, count>& choices,
             Enum& field) {
