@@ -74,8 +74,8 @@ void convert_optional(const Given& given, Context& context, std::optional<Field>
 }  // namespace
 
 void convert(const Given& given, Context&, double& field) {
-  double room = 0;
-  const double* number = as_float(given.value, room);
+  double storage = 0;
+  const double* number = as_float(given.value, storage);
   if (!number) wrong_type(given);
   require_finite(given, *number);
   field = *number;

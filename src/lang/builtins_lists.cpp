@@ -32,14 +32,14 @@ Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t
   if (step == 0) refuse_step(arguments);
   // The distance is unsigned, since that between two Integers can be larger than an Integer.
   const bool up = step > 0;
-  std::uint64_t way = 0;
+  std::uint64_t distance = 0;
   if (up ? end > first : end < first) {
-    way = up ? static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(first)
-             : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(end);
+    distance = up ? static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(first)
+                  : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(end);
   }
   const std::uint64_t stride =
       up ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step);
-  const std::uint64_t count = way / stride + (way % stride != 0 ? 1 : 0);
+  const std::uint64_t count = distance / stride + (distance % stride != 0 ? 1 : 0);
   arguments.context.check_list_size(arguments.call, count);
   std::vector<Value> items;
   items.reserve(count);

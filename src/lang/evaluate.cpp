@@ -152,8 +152,9 @@ Transform transform_of(const Modifier& modifier, const Value& operand) {
         return rotate(*vector);
     }
   }
-  double room = 0;
-  const double* number = modifier.kind == ModifierKind::scale ? as_float(operand, room) : nullptr;
+  double storage = 0;
+  const double* number =
+      modifier.kind == ModifierKind::scale ? as_float(operand, storage) : nullptr;
   if (number) return scale(*number);
   const char* wanted = modifier.kind == ModifierKind::scale ? "a number or a Vec3" : "a Vec3";
   fail(modifier.operand->span, "'{}' takes {}, not {}", modifier_name(modifier.kind), wanted,

@@ -164,15 +164,15 @@ Value divided(const Color& c, double divisor) {
 /// Computes with a Vec3 or Color and a number on either side.
 template <class Triple>
 bool scale_by_number(BinaryOperator op, const Value& left, const Value& right, Value& result) {
-  double room = 0;
+  double storage = 0;
   if (const auto* triple = std::get_if<Triple>(&left)) {
-    const double* number = as_float(right, room);
+    const double* number = as_float(right, storage);
     if (!number || (op != BinaryOperator::multiply && op != BinaryOperator::divide)) return false;
     result = op == BinaryOperator::multiply ? scaled(*triple, *number) : divided(*triple, *number);
     return true;
   }
   const auto* triple = std::get_if<Triple>(&right);
-  const double* number = triple ? as_float(left, room) : nullptr;
+  const double* number = triple ? as_float(left, storage) : nullptr;
   if (!number || op != BinaryOperator::multiply) return false;
   result = scaled(*triple, *number);
   return true;

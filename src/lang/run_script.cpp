@@ -157,11 +157,12 @@ void Session::run_import(const Import& import) {
   const auto cycle = std::find_if(running_.begin(), running_.end(),
                                   [&](const auto& running) { return running.first == found.path; });
   if (cycle != running_.end()) {
-    std::string way;
+    std::string chain;
     for (auto script = cycle; script != running_.end(); ++script)
-      way += printable(script->second) + " imports ";
-    throw Failure{.span = span,
-                  .message = fmt::format("scripts import one another: {}{}", way, printable(name))};
+      chain += printable(script->second) + " imports ";
+    throw Failure{
+        .span = span,
+        .message = fmt::format("scripts import one another: {}{}", chain, printable(name))};
   }
   if (!imported_.insert(found.path).second) return;
   const std::size_t left =

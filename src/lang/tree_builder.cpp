@@ -150,7 +150,7 @@ Expression* TreeBuilder::logical(LogicalOperator op, Expression* left, const Exp
   const Span span{left->span.begin, right->span.end};
   const auto* same = std::get_if<Logical>(&left->node);
   if (!same || same->op != op) left = expression(span, Logical{op, {left}});
-  charge(sizeof(right), span);  // NOLINT(bugprone-sizeof-expression): room for one pointer more
+  charge(sizeof(right), span);  // NOLINT(bugprone-sizeof-expression): the size of a pointer
   check_height(right->span, height_of(right));
   std::get<Logical>(left->node).operands.push_back(right);
   left->span = span;

@@ -90,13 +90,14 @@ std::string type_with_article(const Value& value);
 /// Returns "a" or "an", as the word needs.
 std::string_view article(std::string_view word);
 
-/// Returns a number as a Float, or null for any other value.
-inline const double* as_float(const Value& value, double& room) {
+/// Returns a number as a Float, or null for any other value. An Integer is converted into
+/// `storage`.
+inline const double* as_float(const Value& value, double& storage) {
   if (const auto* number = std::get_if<double>(&value)) return number;
   const auto* integer = std::get_if<std::int64_t>(&value);
   if (!integer) return nullptr;
-  room = static_cast<double>(*integer);
-  return &room;
+  storage = static_cast<double>(*integer);
+  return &storage;
 }
 
 /// Returns a Float as text: the shortest that reads as the same number ("2" for 2.0).
