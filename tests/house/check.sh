@@ -37,7 +37,10 @@ without() {
 }
 
 code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h')
-users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h' 'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
+users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h'
+  'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
+scripts=('*.sh' '*.py' '*.rs' '*.cmake' '*.cmake.in' '*CMakeLists.txt' dev .ci/run docs/make-gallery)
+recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
 layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect prepare render image)
@@ -113,6 +116,40 @@ check_ends() {
   done
 }
 
+# Lines end at this column. A line with a URL may be longer, and so may the tables that the oracle writes.
+most_columns=100
+check_columns() {
+  LC_ALL=C.UTF-8 lines_with "^.{$((most_columns + 1))}" "${code[@]}" "${users[@]}" "${scripts[@]}" '*.md' |
+    without "$recorded|^docs/accuracy\.md:[0-9]+:\||https?://" | cut -c 1-120
+}
+
+# The subject of a commit fits a line of `git log`. Older ones stay as they are.
+most_in_subject=72
+check_subjects() {
+  git log --no-merges --since=2026-11-25T12:00:00Z --format='%h %s' 2>/dev/null |
+    awk -v most="$most_in_subject" '{ n = length($0) - length($1) - 1 } n > most { print $0 " (" n " characters)" }' || true
+}
+
+# Words that say nothing to a reader who knows the field, and what the field says instead.
+banned_words=(outlines? 'judges?' Verdict told has_company company_width 'lamps?' 'eye rays?'
+  FirstBalls BallSearch Spine CsgSketch RayBundle small_things leaf_tree box_row node_paths
+  going_on go_back users_rays expect_points squared_speed leaf_told are_told)
+check_words() {
+  lines_with "\b($(IFS='|' && echo "${banned_words[*]}"))\b" 'src/*' 'include/*' 'tests/*' 'docs/*.md' |
+    without "$recorded|^docs/design/|^tests/house/check\.sh:|\.(json|abi):" | cut -c 1-160
+}
+
+# A documentation comment is a sentence with a subject and a verb, not an answer to a question that is not there.
+sentences_in=('include/*' 'src/lang/*' 'src/cli/*' 'src/capi/*')
+check_sentences() {
+  local opening='(The same|Of|Likewise|As before|Ditto)\b'
+  # With /// the first line of a comment is the one after a line that is none.
+  tracked "${sentences_in[@]}" | xargs -r -d '\n' awk -v opening="^[[:space:]]*(///|/\\*\\*)<? $opening" '
+    FNR == 1 { inside = 0 }
+    $0 ~ opening && !inside { print FILENAME ":" FNR ":" $0 }
+    { inside = $0 ~ /^[[:space:]]*\/\/\/ / }'
+}
+
 check_layers | complain "A layer uses one above it (${layers[*]})"
 only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel | complain "TBB outside src/core/tasks and src/core/accel"
@@ -138,6 +175,10 @@ long_files "$limit_of_lines" 1000000 | complain "Over $limit_of_lines lines: spl
 check_scripts | complain "Shell scripts"
 check_ends | complain "Line ends"
 check_promises | complain "A promise without its test"
+check_columns | complain "Over $most_columns columns"
+check_subjects | complain "A commit's subject has over $most_in_subject characters"
+check_words | complain "A word that is not the field's: see docs/glossary.md and CONTRIBUTING.md"
+check_sentences | complain "A comment that is no sentence: say what the thing is or does"
 
 long_files "$wish_of_lines" "$limit_of_lines" | sed "s/^/note: over $wish_of_lines lines, think of splitting: /"
 

@@ -22,10 +22,11 @@ class Reference:
 
 
 class Handle:
-    """Something of the library. Lives as long as it is used; `close()`, or `with`, ends its use earlier.
+    """Something of the library. Lives as long as it is used; `close()`, or `with`, ends its use
+    earlier.
 
-    Closing drops this object's reference. A call of another thread that is under way, and arrays that were
-    lent, have references of their own, so closing never pulls anything from under them.
+    Closing drops this object's reference. A call of another thread that is under way, and arrays
+    that were lent, have references of their own, so closing never pulls anything from under them.
     """
 
     _name: ClassVar[str]  # of the type in crt.h

@@ -1,8 +1,8 @@
 """libcrt itself: where it is found, and the functions of crt.h that this package calls.
 
 The environment variable CRT_LIBRARY may name the file; otherwise the system's loader is asked for
-libcrt.so.1. A function that returns a status raises crt.Error instead. Calls give up Python's lock, so other
-threads go on.
+libcrt.so.1. A function that returns a status raises crt.Error instead. Calls give up Python's lock,
+so other threads go on.
 """
 
 import ctypes

@@ -5,7 +5,8 @@
         position: Vector
         fov: Double
 
-is a ctypes.Structure that begins with struct_size, as all of them do, and goes on with these fields.
+is a ctypes.Structure that begins with struct_size, as all of them do, and goes on with these
+fields.
 """
 
 import ctypes
@@ -37,7 +38,8 @@ def vector(numbers: Sequence[float]) -> Any:
 
 
 class Struct(ctypes.Structure):
-    """Keyword arguments change fields; the others keep what the library's crt_*_init() has put there."""
+    """Keyword arguments change fields; the others keep what the library's crt_*_init() has put
+    there."""
 
     _name: ClassVar[str]
     _kinds: ClassVar[dict[str, Any]]
@@ -64,7 +66,8 @@ class Struct(ctypes.Structure):
 
     @classmethod
     def _filled_by(cls: type[Self], function: str, *arguments: Any) -> Self:
-        """What a function of the library writes into its last argument, with texts of Python's own."""
+        """What a function of the library writes into its last argument, with texts of Python's
+        own."""
         self = cls()
         getattr(library, function)(*arguments, ctypes.byref(self))
         for name, kind in cls._kinds.items():
@@ -80,7 +83,9 @@ class Struct(ctypes.Structure):
     def __setattr__(self, name: str, value: Any) -> None:
         kind = self._kinds.get(name)
         if kind is None:
-            raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {', '.join(self._kinds)}")
+            raise AttributeError(
+                f"{type(self).__name__} has no {name!r}; it has {', '.join(self._kinds)}"
+            )
         if kind is ctypes.c_void_p:
             if value is not None and name in self._pointees:
                 require_type(value, self._pointees[name], name)
@@ -95,15 +100,20 @@ class Struct(ctypes.Structure):
         return _to_python(value) if kept is None else kept
 
     def __repr__(self) -> str:
-        fields = ", ".join(f"{name}={getattr(self, name)!r}" for name in self._kinds if name != "reserved")
+        fields = ", ".join(
+            f"{name}={getattr(self, name)!r}" for name in self._kinds if name != "reserved"
+        )
         return f"{type(self).__name__}({fields})"
 
 
 def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
-    """Makes fields of a class's annotations. `name` is the struct's; `has_init`: there is a crt_*_init()."""
+    """Makes fields of a class's annotations. `name` is the struct's; `has_init`: there is a
+    crt_*_init()."""
 
     def finish(cls: Class) -> Class:
-        notes = {field: annotation.__metadata__ for field, annotation in cls.__annotations__.items()}
+        notes = {
+            field: annotation.__metadata__ for field, annotation in cls.__annotations__.items()
+        }
         kinds = {field: note[0] for field, note in notes.items()}
         cls._name = name
         cls._kinds = kinds
@@ -118,7 +128,9 @@ def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
 def require_type(value: Any, name: str, argument: str) -> None:
     """Refuses what is not of this type of crt.h: the library could only take it for one."""
     if getattr(value, "_name", None) != name:
-        raise TypeError(f"{argument} must be a {name.removeprefix('crt_')}, not a {type(value).__name__}")
+        raise TypeError(
+            f"{argument} must be a {name.removeprefix('crt_')}, not a {type(value).__name__}"
+        )
 
 
 def reference(value: Struct, name: str) -> Any:

@@ -22,16 +22,25 @@ Point = Sequence[float]
 
 
 class Entity(Handle):
-    """Something in a scene. All that follow take `material=` and `id=`, as with_material and with_id do."""
+    """Something in a scene. All that follow take `material=` and `id=`, as with_material and
+    with_id do."""
 
     _name = "crt_entity"
 
     def _create(
-        self, function: str, *arguments: Any, material: Material | None = None, id: int | None = None
+        self,
+        function: str,
+        *arguments: Any,
+        material: Material | None = None,
+        id: int | None = None,
     ) -> None:
         self._take(create(function, *arguments))
         if material is not None:
-            self._take(create("crt_entity_with_material", self._handle, reference(material, "crt_material")))
+            self._take(
+                create(
+                    "crt_entity_with_material", self._handle, reference(material, "crt_material")
+                )
+            )
         if id is not None:
             self._take(create("crt_entity_with_id", self._handle, id))
 
@@ -51,9 +60,15 @@ class Entity(Handle):
         if rows.shape == (4, 4) and np.array_equal(rows[3], (0, 0, 0, 1)):
             rows = rows[:3]
         if rows.shape != (3, 4):
-            raise ValueError("a transform is a 3 x 4 matrix, or 4 x 4 with 0, 0, 0, 1 in its last row")
+            raise ValueError(
+                "a transform is a 3 x 4 matrix, or 4 x 4 with 0, 0, 0, 1 in its last row"
+            )
         return Entity._adopt(
-            create("crt_entity_with_transform", self._handle, (ctypes.c_double * 12)(*rows.ravel().tolist()))
+            create(
+                "crt_entity_with_transform",
+                self._handle,
+                (ctypes.c_double * 12)(*rows.ravel().tolist()),
+            )
         )
 
     def moved(self, offset: Point) -> "Entity":
@@ -110,7 +125,8 @@ def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
 
 
 class Empty(Entity):
-    """Nothing: the solid without a point. No ray meets it; in combinations it is what the empty set is."""
+    """Nothing: the solid without a point. No ray meets it; in combinations it is what the empty set
+    is."""
 
     def __init__(self, **common: Any) -> None:
         self._create("crt_empty_create", **common)
@@ -136,7 +152,8 @@ class Plane(Entity):
 
 
 class HalfPlane(Entity):
-    """A surface: the half of a plane on the `direction` side of the line through `position` across it."""
+    """A surface: the half of a plane on the `direction` side of the line through `position` across
+    it."""
 
     def __init__(self, normal: Point, position: Point, direction: Point, **common: Any) -> None:
         vectors = vector(normal), vector(position), vector(direction)
@@ -151,14 +168,18 @@ class Cylinder(Entity):
 class Cone(Entity):
     """A cone, or with `radius2`, at the end, a part of one."""
 
-    def __init__(self, start: Point, end: Point, radius: float, radius2: float = 0, **common: Any) -> None:
+    def __init__(
+        self, start: Point, end: Point, radius: float, radius2: float = 0, **common: Any
+    ) -> None:
         self._create("crt_cone_create", vector(start), vector(end), radius, radius2, **common)
 
 
 class Torus(Entity):
     """All within `thickness` of the circle of `radius` about `center` across `axis`."""
 
-    def __init__(self, center: Point, axis: Point, radius: float, thickness: float, **common: Any) -> None:
+    def __init__(
+        self, center: Point, axis: Point, radius: float, thickness: float, **common: Any
+    ) -> None:
         self._create("crt_torus_create", vector(center), vector(axis), radius, thickness, **common)
 
 
@@ -197,7 +218,9 @@ def _handles(entities: Iterable[Entity]) -> tuple[Any, int]:
     for part in parts:
         require_type(part, "crt_entity", "a part")
     references: list[Reference] = [part._handle for part in parts]
-    array: Any = (ctypes.c_void_p * len(references))(*(reference._as_parameter_ for reference in references))
+    array: Any = (ctypes.c_void_p * len(references))(
+        *(reference._as_parameter_ for reference in references)
+    )
     array.references = references  # live as long as the array
     return array, len(references)
 

@@ -57,7 +57,8 @@ class Diagnostic:
 
 
 class ScriptError(Error):
-    """A script that failed. `diagnostics` has all there is to say, the text is as compilers print it."""
+    """A script that failed. `diagnostics` has all there is to say, the text is as compilers print
+    it."""
 
     def __init__(self, status: Status, message: str, diagnostics: list[Diagnostic]) -> None:
         super().__init__(status, message)

@@ -16,7 +16,8 @@ class Expression:
 
 
 def to_expression(value: Any) -> str:
-    """Booleans, numbers and strings as they are; a tuple of three is a Vec3, any other sequence a List."""
+    """Booleans, numbers and strings as they are; a tuple of three is a Vec3, any other sequence a
+    List."""
     if isinstance(value, Expression):
         return value.text
     if isinstance(value, (bool, np.bool_)):
@@ -33,7 +34,9 @@ def to_expression(value: Any) -> str:
         return f"vec3({', '.join(map(to_expression, value))})"
     if isinstance(value, (tuple, list, np.ndarray)):
         return f"[{', '.join(map(to_expression, value))}]"
-    raise TypeError(f"a {type(value).__name__} has no counterpart in scripts; crt.Expression takes any text")
+    raise TypeError(
+        f"a {type(value).__name__} has no counterpart in scripts; crt.Expression takes any text"
+    )
 
 
 def to_expressions(values: Mapping[str, Any]) -> tuple[list[str], list[str]]:

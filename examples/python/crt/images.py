@@ -31,7 +31,8 @@ class Image(Handle):
 
     @classmethod
     def from_rgba8(cls, pixels: NDArray[Any]) -> "Image":
-        """A copy of height x width x 4 uint8 as displays want them: gamma applied, alpha straight."""
+        """A copy of height x width x 4 uint8 as displays want them: gamma applied, alpha
+        straight."""
         return cls._of_array("crt_image_from_rgba8", pixels, np.dtype(np.uint8))
 
     @classmethod
@@ -46,19 +47,23 @@ class Image(Handle):
     @classmethod
     def _of_array(cls, function: str, pixels: NDArray[Any], dtype: np.dtype[Any]) -> "Image":
         if pixels.dtype != dtype or pixels.ndim != 3 or pixels.shape[2] != 4:
-            raise TypeError(f"pixels are height x width x 4 {dtype}, not {pixels.shape} {pixels.dtype}")
+            raise TypeError(
+                f"pixels are height x width x 4 {dtype}, not {pixels.shape} {pixels.dtype}"
+            )
         height, width, channels = pixels.shape
         row_bytes = width * channels * dtype.itemsize
-        if pixels.strides[1:] != (channels * dtype.itemsize, dtype.itemsize) or pixels.strides[0] < row_bytes:
+        steps = (channels * dtype.itemsize, dtype.itemsize)
+        if pixels.strides[1:] != steps or pixels.strides[0] < row_bytes:
             raise TypeError(
-                "pixels of a row must follow one another, and rows must not overlap or run backwards"
+                "pixels of a row must follow one another, and rows must not overlap or run"
+                " backwards"
             )
         return cls._adopt(create(function, width, height, pixels.ctypes.data, pixels.strides[0]))
 
     @property
     def not_finite(self) -> tuple[int, int, int]:
-        """How many pixels of the file had values that are not finite (they count as 0), and the column and row
-        of the first; (0, 0, 0) if there are none."""
+        """How many pixels of the file had values that are not finite (they count as 0), and the
+        column and row of the first; (0, 0, 0) if there are none."""
         x, y = ctypes.c_uint32(), ctypes.c_uint32()
         pixels = library.crt_image_not_finite(self._handle, ctypes.byref(x), ctypes.byref(y))
         return int(pixels), x.value, y.value
@@ -73,13 +78,15 @@ class Image(Handle):
 
     @property
     def pixels(self) -> NDArray[Any]:
-        """height x width x 4 float32, read-only: the library's own memory, which the array keeps."""
+        """height x width x 4 float32, read-only: the library's own memory, which the array
+        keeps."""
         return np.asarray(_LentArray.of_pixels(self._handle))
 
     @property
     def channels(self) -> dict[str, NDArray[Any]]:
-        """What there is beside the colours (see Prepared.render), by name: height x width float32, or uint32
-        for "id" and "samples"; read-only: the library's own memory, which the arrays keep."""
+        """What there is beside the colours (see Prepared.render), by name: height x width float32,
+        or uint32 for "id" and "samples"; read-only: the library's own memory, which the arrays
+        keep."""
         reference = self._handle
         count = library.crt_image_channel_count(reference)
         names = [library.crt_image_channel_name(reference, index) for index in range(count)]
@@ -96,12 +103,14 @@ class Image(Handle):
     def save(
         self, path: str | os.PathLike[str], *, reproducible: bool = False, colors_only: bool = False
     ) -> None:
-        """Writes a file; its ending tells the format. `reproducible` leaves out how long the render took,
-        `colors_only` the channels beside the colours, which only .exr files hold."""
+        """Writes a file; its ending tells the format. `reproducible` leaves out how long the render
+        took, `colors_only` the channels beside the colours, which only .exr files hold."""
         options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
         library.crt_image_write_with(self._handle, path, ctypes.byref(options))
 
-    def encode(self, format: str, *, reproducible: bool = False, colors_only: bool = False) -> bytes:
+    def encode(
+        self, format: str, *, reproducible: bool = False, colors_only: bool = False
+    ) -> bytes:
         """The bytes of a file of this format: "png", "exr", ...; otherwise as save()."""
         options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
         handle = create("crt_image_encode", self._handle, format, ctypes.byref(options))
@@ -132,7 +141,12 @@ class _LentArray:
     """What NumPy makes an array of, which keeps this, which keeps the image."""
 
     def __init__(
-        self, reference: Reference, address: int, kind: type, shape: tuple[int, ...], strides: tuple[int, ...]
+        self,
+        reference: Reference,
+        address: int,
+        kind: type,
+        shape: tuple[int, ...],
+        strides: tuple[int, ...],
     ) -> None:
         self._reference = reference
         self.__array_interface__: dict[str, Any] = {
@@ -155,4 +169,6 @@ class _LentArray:
         floats = library.crt_image_channel(reference, name)
         address = floats or library.crt_image_channel_uint(reference, name)
         height, width = library.crt_image_height(reference), library.crt_image_width(reference)
-        return cls(reference, address, np.float32 if floats else np.uint32, (height, width), (4 * width, 4))
+        return cls(
+            reference, address, np.float32 if floats else np.uint32, (height, width), (4 * width, 4)
+        )

@@ -1,7 +1,7 @@
 """Rays and hits as NumPy arrays that the library reads and writes where they are.
 
-RAY and HIT are the layouts of crt_ray and crt_hit. Arrays of them may be of any shape, and have gaps: a
-field of an array of larger records will do. What would need a copy is refused.
+RAY and HIT are the layouts of crt_ray and crt_hit. Arrays of them may be of any shape, and have
+gaps: a field of an array of larger records will do. What would need a copy is refused.
 """
 
 import math
@@ -15,7 +15,14 @@ from .values import Camera, Projection
 
 RAY = np.dtype([("origin", "f8", 3), ("direction", "f8", 3), ("t_min", "f8"), ("t_max", "f8")])
 HIT = np.dtype(
-    [("t", "f8"), ("normal", "f8", 3), ("u", "f8"), ("v", "f8"), ("entity_id", "u4"), ("flags", "u4")]
+    [
+        ("t", "f8"),
+        ("normal", "f8", 3),
+        ("u", "f8"),
+        ("v", "f8"),
+        ("entity_id", "u4"),
+        ("flags", "u4"),
+    ]
 )
 
 ENTERING = 1  # of a hit's flags: into the solid, or through a surface against its normal

@@ -47,17 +47,20 @@ class Prepared(Handle):
     ) -> Image:
         """Renders a picture.
 
-        `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
-        `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
-        unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id",
-        "albedo", "samples" and "error", become Image.channels. `checkpoint`: a file that keeps a picture which
-        is rendered by passes, and from which the next render goes on. `max_ray_steps`: things that one ray may
-        be tested against, see crt_render_options. `progress` is told the share that is
-        done, `log` what there is to tell; they may be called from other threads, one at a time. What
-        progress raises cancels the render and comes out of here. So does Ctrl-C.
+        `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top
+        left. `seed` takes the place of the settings', unless it is 0. `passes`: renders so many
+        (stats.passes), unless it is 0, whatever the settings' time budget. `aovs`, some of "depth",
+        "normal", "id", "albedo", "samples" and "error", become Image.channels. `checkpoint`: a file
+        that keeps a picture which is rendered by passes, and from which the next render goes on.
+        `max_ray_steps`: things that one ray may be tested against, see crt_render_options.
+        `progress` is told the share that is done, `log` what there is to tell; they may be called
+        from other threads, one at a time. What progress raises cancels the render and comes out of
+        here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log)
+        options = _options(
+            guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log
+        )
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
 
@@ -76,21 +79,25 @@ class Prepared(Handle):
     ) -> "Job":
         """Starts to render in the background; as render() otherwise."""
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log)
+        options = _options(
+            guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log
+        )
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
     def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
         """The nearest hit of each ray; a miss has an infinite t.
 
-        `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if given,
-        has crt.HIT and as many items. Both are used in place.
+        `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if
+        given, has crt.HIT and as many items. Both are used in place.
         """
         questions = Batch(rays, RAY, "rays")
         if out is None:
             out = np.empty(questions.shape, HIT)
         answers = Batch(out, HIT, "hits")
         if answers.shape != questions.shape or not out.flags.writeable:
-            raise ValueError(f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}")
+            raise ValueError(
+                f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
+            )
         library.crt_intersect(
             self._handle,
             questions.address,
@@ -102,7 +109,8 @@ class Prepared(Handle):
         return out
 
     def distances(self, rays: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """How far each ray's nearest hit is (infinity for a miss), and of which entity: faster than intersect()."""
+        """How far each ray's nearest hit is (infinity for a miss), and of which entity: faster than
+        intersect()."""
         questions = Batch(rays, RAY, "rays")
         out = np.empty(questions.shape, np.float64)
         ids = np.empty(questions.shape, np.uint32)
@@ -172,7 +180,8 @@ class Job(Handle):
         library.crt_job_cancel(self._handle)
 
     def wait(self) -> Image:
-        """The image, once it is there; or raises what went wrong, such as what the progress callback raised.
+        """The image, once it is there; or raises what went wrong, such as what the progress
+        callback raised.
 
         Ctrl-C in here cancels the job.
         """
@@ -195,7 +204,8 @@ class _JobReference(Reference):
         self._options = options
 
     def __del__(self) -> None:
-        if self._guard.is_inside():  # a callback drops its own job, whose thread then ends by itself, later
+        # a callback drops its own job, whose thread then ends by itself, later
+        if self._guard.is_inside():
             _still_needed.append(self._options)
         super().__del__()
 

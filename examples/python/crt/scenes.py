@@ -20,7 +20,8 @@ from .values import Background, Camera, Light, Settings
 
 
 class Scene(Handle):
-    """The description of a picture. What `prepare()` makes of it, ready for rays, does not change with it."""
+    """The description of a picture. What `prepare()` makes of it, ready for rays, does not change
+    with it."""
 
     _name = "crt_scene"
 
@@ -64,15 +65,18 @@ class Scene(Handle):
     ) -> "Scene":
         """The scene of a script: a str is its text, a path (pathlib.Path) its file.
 
-        `name` stands for a text in messages. `variables` of the top level and attributes of Settings get
-        these values in place of the script's (see crt.Expression). `t` is the frame of an animation. `compat`
-        may be 2015, for a script of that year (docs/compat.md). `print` gets each line that the script
-        prints. `open_file` is asked for the content of each file that the script names; None leaves it to
-        the file system. `limits` are max_steps and the like, see crt_script_options. What a callback raises comes out of here; so does Ctrl-C. A script that is wrong
-        raises crt.ScriptError.
+        `name` stands for a text in messages. `variables` of the top level and attributes of
+        Settings get these values in place of the script's (see crt.Expression). `t` is the frame of
+        an animation. `compat` may be 2015, for a script of that year (docs/compat.md). `print` gets
+        each line that the script prints. `open_file` is asked for the content of each file that the
+        script names; None leaves it to the file system. `limits` are max_steps and the like, see
+        crt_script_options. What a callback raises comes out of here; so does Ctrl-C. A script that
+        is wrong raises crt.ScriptError.
         """
         guard = Guard()
-        options = _ScriptOptions(t=t, compat=compat, allow_outside_files=allow_outside_files, **limits)
+        options = _ScriptOptions(
+            t=t, compat=compat, allow_outside_files=allow_outside_files, **limits
+        )
         options.set(**_pairs("variable", variables), **_pairs("setting", settings))
         directories = [to_utf8(directory) for directory in resource_directories]
         options.resource_directories = _texts(directories)
@@ -118,7 +122,10 @@ class Scene(Handle):
         with self._lock:
             scene = self._handle
             count = library.crt_scene_entity_count(scene)
-            return [Entity._adopt(create("crt_scene_get_entity", scene, index)) for index in range(count)]
+            return [
+                Entity._adopt(create("crt_scene_get_entity", scene, index))
+                for index in range(count)
+            ]
 
     @property
     def lights(self) -> list[Light]:
@@ -176,7 +183,9 @@ class Scene(Handle):
         options.max_primitives = max_primitives
         options.poll = POLL(lambda _user: guard.call(_nothing))
         with self._lock, guard.raising():
-            return Prepared._adopt(create("crt_scene_prepare_with", self._handle, ctypes.byref(options)))
+            return Prepared._adopt(
+                create("crt_scene_prepare_with", self._handle, ctypes.byref(options))
+            )
 
     def render(self, **options: Any) -> Image:
         """Prepares and renders; the options are those of Prepared.render()."""

@@ -1,14 +1,24 @@
 """Materials, lights, cameras, backgrounds and settings.
 
-The fields, their units, ranges and defaults are those of the structs of the same name in crt.h: vectors are
-three numbers, colours linear RGB, angles radians. Each class takes fields as keyword arguments, and they may
-be changed later; whoever takes a value copies it.
+The fields, their units, ranges and defaults are those of the structs of the same name in crt.h:
+vectors are three numbers, colours linear RGB, angles radians. Each class takes fields as keyword
+arguments, and they may be changed later; whoever takes a value copies it.
 """
 
 import enum
 from typing import Any
 
-from ._structs import Double, ImagePointer, Int, Long, PatternPointer, Struct, Text, Vector, growable
+from ._structs import (
+    Double,
+    ImagePointer,
+    Int,
+    Long,
+    PatternPointer,
+    Struct,
+    Text,
+    Vector,
+    growable,
+)
 
 
 class PatternType(enum.IntEnum):
@@ -104,7 +114,8 @@ class LightType(enum.IntEnum):
 
 @growable("crt_light")
 class Light(Struct):
-    """Light.point(origin=...), Light.parallel(origin=..., pointing=...), Light.spot(), Light.cylinder()."""
+    """Light.point(origin=...), Light.parallel(origin=..., pointing=...), Light.spot(),
+    Light.cylinder()."""
 
     type: Int
     origin: Vector
@@ -181,7 +192,8 @@ class BackgroundType(enum.IntEnum):
 
 @growable("crt_background")
 class Background(Struct):
-    """What a ray that hits nothing sees: a colour, Background.gradient(), or Background.panorama(image)."""
+    """What a ray that hits nothing sees: a colour, Background.gradient(), or
+    Background.panorama(image)."""
 
     type: Int
     color: Vector

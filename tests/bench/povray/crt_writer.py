@@ -6,8 +6,8 @@ from typing import TextIO
 import numpy as np
 
 from .model import (
-    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus,
-    Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere,
+    Spheres, Torus, Union,
 )
 
 
@@ -29,7 +29,8 @@ def rows(centers: np.ndarray, call: str) -> str:
 
 
 class Writer:
-    """Names are given to materials and to bodies that an expression needs; all go before the Scene."""
+    """Names are given to materials and to bodies that an expression needs; all go before the
+    Scene."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -52,7 +53,9 @@ class Writer:
         scene, camera = self.scene, self.scene.camera
         fov, projection = camera.fov, ""
         if camera.orthographic_height is not None:
-            fov = 2 * math.degrees(math.atan(camera.orthographic_height / 2 / camera.focal_distance))
+            fov = 2 * math.degrees(
+                math.atan(camera.orthographic_height / 2 / camera.focal_distance)
+            )
             projection = '  projection -> "orthographic"\n'
         lights = ",\n    ".join(
             f"PointLight {{ origin -> {vector(light.origin)} color -> {color(light.color)}"
@@ -88,14 +91,17 @@ class Writer:
         if material not in self.materials:
             paint = material.color
             if isinstance(paint, Checker):
-                paint = (f"Checker {{ colorA -> {color(paint.color_a)} colorB -> {color(paint.color_b)}"
+                paint = (f"Checker {{ colorA -> {color(paint.color_a)}"
+                         f" colorB -> {color(paint.color_b)}"
                          f" scale -> {number(paint.scale)} offset -> {vector(paint.offset)} }}")
             else:
                 paint = color(paint)
             self.materials[material] = self.define("material", (
                 f"Material {{ color -> {paint} diffuse -> {number(material.diffuse)}"
-                f" specular -> {number(material.specular)} shininess -> {number(material.shininess)}"
-                f" reflectivity -> {number(material.reflectivity)} transparency -> {number(material.transparency)}"
+                f" specular -> {number(material.specular)} shininess ->"
+                f" {number(material.shininess)}"
+                f" reflectivity -> {number(material.reflectivity)} transparency ->"
+                f" {number(material.transparency)}"
                 f" refractiveindex -> {number(material.refractive_index)} }}"))
         return self.materials[material]
 
@@ -103,14 +109,18 @@ class Writer:
         """Statements that emit the thing."""
         if isinstance(thing, Spheres):
             ball = self.define("ball", (
-                f"Macro (x, y, z) {{ Sphere {{ center -> vec3(x, y, z) radius -> {number(thing.radius)}"
+                f"Macro (x, y, z)"
+                f" {{ Sphere {{ center -> vec3(x, y, z) radius -> {number(thing.radius)}"
                 f" material -> {self.material(thing.material)} }} }}"))
             return rows(thing.centers, ball)
         if isinstance(thing, Lenses):
             half = [
                 f"Sphere {{ center -> vec3(x, y, z {sign} {number(thing.half_gap)})"
-                f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}" for sign in "-+"]
-            return rows(thing.centers, self.define("lens", f"Macro (x, y, z) {{ {half[0]} ^ {half[1]} }}"))
+                f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}"
+                for sign in "-+"]
+            return rows(
+                thing.centers, self.define("lens", f"Macro (x, y, z) {{ {half[0]} ^ {half[1]} }}")
+            )
         return self.value(thing)
 
     def value(self, thing) -> str:
@@ -126,7 +136,8 @@ class Writer:
                     f" material -> {self.material(thing.material)} }}")
         if isinstance(thing, Cylinder):
             return (f"Cylinder {{ from -> {vector(thing.start)} to -> {vector(thing.end)}"
-                    f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}")
+                    f" radius -> {number(thing.radius)} material ->"
+                    f" {self.material(thing.material)} }}")
         if isinstance(thing, Cone):
             return (f"Cone {{ from -> {vector(thing.start)} to -> {vector(thing.end)}"
                     f" radius -> {number(thing.start_radius)} radius2 -> {number(thing.end_radius)}"
@@ -135,8 +146,10 @@ class Writer:
             return (f"Plane {{ normal -> vec3(0, 1, 0) position -> {vector((0, thing.height, 0))}"
                     f" material -> {self.material(thing.material)} }}")
         if isinstance(thing, Torus):
-            return (f"Torus {{ center -> vec3(0, 0, 0) axis -> vec3(0, 1, 0) radius -> {number(thing.radius)}"
-                    f" thickness -> {number(thing.thickness)} material -> {self.material(thing.material)} }}"
+            return (f"Torus {{ center -> vec3(0, 0, 0) axis -> vec3(0, 1, 0)"
+                    f" radius -> {number(thing.radius)}"
+                    f" thickness -> {number(thing.thickness)} material ->"
+                    f" {self.material(thing.material)} }}"
                     f" <rotate {vector(thing.turn)}, translate {vector(thing.center)}>")
         if isinstance(thing, Union):
             return " + ".join(map(self.value, thing.parts))

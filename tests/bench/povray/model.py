@@ -1,4 +1,5 @@
-"""What a scene is before it is written in either language. Both worlds are left-handed with y up."""
+"""What a scene is before it is written in either language. Both worlds are left-handed with y
+up."""
 
 from dataclasses import dataclass
 
@@ -19,7 +20,8 @@ class Checker:
 
 @dataclass(frozen=True)
 class Material:
-    """A highlight is the same in both programs on grey only: CRT tints it by the colour, POV-Ray does not."""
+    """A highlight is the same in both programs on grey only: CRT tints it by the colour, POV-Ray
+    does not."""
 
     color: Vector | Checker = (0.5, 0.5, 0.5)
     diffuse: float = 1
@@ -133,7 +135,8 @@ class Camera:
     orthographic_height: float | None = None  # of what the picture shows, instead of fov
     aperture: float = 0  # radius of the lens, scene units
     focal_distance: float = 1
-    aperture_shape: str = "circle"  # in CRT alone: POV-Ray 3.7 has round lenses, and gets one of the same area
+    # in CRT alone: POV-Ray 3.7 has round lenses, and gets one of the same area
+    aperture_shape: str = "circle"
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,5 @@
-"""What a family of settings takes for an accuracy, between its settings by straight lines in logarithms."""
+"""What a family of settings takes for an accuracy, between its settings by straight lines in
+logarithms."""
 
 import math
 from dataclasses import dataclass
@@ -9,7 +10,8 @@ SENSIBLE = 2  # times its reference's uncertainty: an error below that says noth
 @dataclass(frozen=True)
 class Need:
     value: float
-    bound: str = ""  # "<": it takes at most so much, there is nothing coarser; ">": there is nothing finer
+    # "<": it takes at most so much, there is nothing coarser; ">": there is nothing finer
+    bound: str = ""
 
 
 def family(result: dict, name: str) -> list[dict]:
@@ -48,6 +50,10 @@ def need(rows: list[dict], cost: str, error: str, wanted: float) -> Need:
 
 
 def least(needs: list[Need]) -> Need:
-    """Of several families the one that takes least; what no family reaches is told by the dearest."""
+    """Of several families the one that takes least; what no family reaches is told by the
+    dearest."""
     reached = [one for one in needs if one.bound != ">"]
-    return min(reached, key=lambda one: one.value) if reached else max(needs, key=lambda one: one.value)
+    return (
+        min(reached, key=lambda one: one.value) if reached
+        else max(needs, key=lambda one: one.value)
+    )

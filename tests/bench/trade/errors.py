@@ -1,10 +1,12 @@
-"""How far a picture is from what its settings converge to, in steps of 8 bits of what a display shows."""
+"""How far a picture is from what its settings converge to, in steps of 8 bits of what a display
+shows."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-GAMMA = 2.2  # of displays: both programs write value^(1/GAMMA), and CRT's target error is about that
+# of displays: both programs write value^(1/GAMMA), and CRT's target error is about that
+GAMMA = 2.2
 FULL = 255
 
 
