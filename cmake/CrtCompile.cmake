@@ -26,7 +26,8 @@ if(CRT_SANITIZE)
     -fsanitize=${CRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
   target_link_options(crt_compile INTERFACE -fsanitize=${CRT_SANITIZE})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # What sanitizers add hides from GCC 12 that an empty std::optional's content is never looked at.
+    # With what sanitizers add, GCC 12 does not see that an empty std::optional's content is never
+    # read.
     target_compile_options(crt_compile INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()

@@ -15,7 +15,8 @@ find_package(OpenImageIO REQUIRED)
 # Debian's OpenImageIO 2.4 names an include directory of OpenCV that does not exist.
 get_target_property(oiio_includes OpenImageIO::OpenImageIO INTERFACE_INCLUDE_DIRECTORIES)
 list(FILTER oiio_includes EXCLUDE REGEX opencv)
-set_target_properties(OpenImageIO::OpenImageIO PROPERTIES INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")
+set_target_properties(OpenImageIO::OpenImageIO PROPERTIES
+  INTERFACE_INCLUDE_DIRECTORIES "${oiio_includes}")
 
 find_program(RE2C re2c REQUIRED)
 find_package(BISON 3.8 REQUIRED)

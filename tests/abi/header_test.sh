@@ -1,11 +1,12 @@
 #!/usr/bin/env bash
-# crt.h compiles on its own, strictly, as each C and C++ that it is for, by each compiler that is there.
+# crt.h compiles on its own, strictly, as each C and C++ that it is for, by each installed compiler.
 # shellcheck source=tests/abi/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 printf '#include <crt/crt.h>\n#include <crt/crt.h>\nint main(void) { return CRT_OK; }\n' >alone.c
 cp alone.c alone.cpp
-strict=(-pedantic-errors -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only -I "$SOURCE/include")
+strict=(-pedantic-errors -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only
+  -I "$SOURCE/include")
 
 compilations=0
 declare -A tried=()

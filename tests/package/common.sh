@@ -16,7 +16,8 @@ expect_png() {
   [[ $(od -An -tx1 -N8 "$1" | tr -d ' ') == 89504e470d0a1a0a ]] || fail "$1 is no PNG file"
 }
 
-# run_program COMMAND...: has a consumer write program.png in its folder, with an environment of its own.
+# run_program COMMAND... has a consumer write program.png in its folder, with an environment of its
+# own.
 run_program() {
   rm -f program.png
   env -u LD_LIBRARY_PATH "$@" "$PWD/program.png"

@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds and runs a consumer against the installed, moved tree. usage: consumer_test.sh KIND, one of the cases below.
+# Builds and runs a consumer against the installed, moved tree.
+# usage: consumer_test.sh KIND, one of the cases below.
 # shellcheck source=tests/package/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -12,8 +13,10 @@ cd "$build"
 
 # with_cmake PROJECT TREE [ARGUMENT...]
 with_cmake() {
-  cmake -S "$consumers/$1" -B . -DCMAKE_PREFIX_PATH="$2" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
-    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli "${@:3}" >configure.log 2>&1 || fail "$(cat configure.log)"
+  cmake -S "$consumers/$1" -B . -DCMAKE_PREFIX_PATH="$2" \
+    -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli "${@:3}" >configure.log 2>&1 ||
+    fail "$(cat configure.log)"
   cmake --build . >build.log 2>&1 || fail "$(cat build.log)"
   run_program ./program
 }
@@ -49,10 +52,12 @@ case $kind in
     ;;
   subdirectory)
     # Building all of CRT once more would take too long to be told that it still does.
-    cmake -S "$consumers/subdirectory" -B . -DCRT_SOURCE="$SOURCE" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    cmake -S "$consumers/subdirectory" -B . -DCRT_SOURCE="$SOURCE" \
+      -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
       >configure.log 2>&1 || fail "$(cat configure.log)"
     cmake --build . --target help >targets.txt
-    ! grep -E '(test_|abi_|\bhello\b)' targets.txt || fail "a project with CRT in it has CRT's tests and examples"
+    ! grep -E '(test_|abi_|\bhello\b)' targets.txt ||
+      fail "a project with CRT in it has CRT's tests and examples"
     exit
     ;;
   *) fail "no kind $kind" ;;
@@ -63,5 +68,6 @@ if [[ $kind == *static* || $kind == *cpp ]]; then
 else
   readelf -d program | grep -qF 'NEEDED' || fail "the program has no libraries"
   readelf -d program | grep -qF '[libcrt.so.1]' || fail "the program does not need libcrt.so.1"
-  ! readelf -d program | grep -E 'NEEDED.*(embree|tbb|fmt|stdc)' || fail "it needs what is libcrt's business"
+  ! readelf -d program | grep -E 'NEEDED.*(embree|tbb|fmt|stdc)' ||
+    fail "it needs the libraries that libcrt uses"
 fi

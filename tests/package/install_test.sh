@@ -10,7 +10,8 @@ mkdir -p "$WORK"
 install_to() {
   local prefix=$1
   shift
-  cmake --install "$BUILD" --prefix "$prefix" "$@" >"$WORK/install.log" || fail "$(cat "$WORK/install.log")"
+  cmake --install "$BUILD" --prefix "$prefix" "$@" >"$WORK/install.log" ||
+    fail "$(cat "$WORK/install.log")"
 }
 
 # files_in FOLDER: all files and links, by name.
@@ -29,7 +30,8 @@ for component in runtime development command; do
   install_to "$WORK/component/$component" --component $component
   files_in "$WORK/component/$component"
 done | grep -v '/copyright$' | sort >"$WORK/components.txt"
-diff "$WORK/components.txt" <(files_in "$moved") || fail "the components are not a partition of the whole"
+diff "$WORK/components.txt" <(files_in "$moved") ||
+  fail "the components are not a partition of the whole"
 
 # expect COMPONENT FILE...
 expect() {
@@ -40,19 +42,25 @@ expect() {
   done
 }
 expect runtime "$LIBDIR/libcrt.so.1" "$LIBDIR/crt/crt_image_files.so"
-expect development include/crt/crt.h include/crt/crt.hpp "$LIBDIR/libcrt.so" "$LIBDIR"/libcrt{,_core,_lang}.a share/doc/crt/LICENSE \
-  "$LIBDIR/pkgconfig/crt.pc" "$LIBDIR/cmake/crt/crtConfig.cmake"
+expect development include/crt/crt.h include/crt/crt.hpp "$LIBDIR/libcrt.so" \
+  "$LIBDIR"/libcrt{,_core,_lang}.a share/doc/crt/LICENSE "$LIBDIR/pkgconfig/crt.pc" \
+  "$LIBDIR/cmake/crt/crtConfig.cmake"
 expect command bin/crt
-diff <(files_in "$SOURCE/include") <(files_in "$moved/include") || fail "not the headers of the source"
+diff <(files_in "$SOURCE/include") <(files_in "$moved/include") ||
+  fail "not the headers of the source"
 
-[[ $(readlink "$moved/$LIBDIR/libcrt.so") == libcrt.so.1 ]] || fail "libcrt.so is not a link to libcrt.so.1"
-[[ $(readlink "$moved/$LIBDIR/libcrt.so.1") == libcrt.so.1.* ]] || fail "libcrt.so.1 is not a link to the version"
+[[ $(readlink "$moved/$LIBDIR/libcrt.so") == libcrt.so.1 ]] ||
+  fail "libcrt.so is not a link to libcrt.so.1"
+[[ $(readlink "$moved/$LIBDIR/libcrt.so.1") == libcrt.so.1.* ]] ||
+  fail "libcrt.so.1 is not a link to the version"
 
-for binary in "$moved/bin/crt" "$moved/$LIBDIR/libcrt.so" "$moved/$LIBDIR/crt/crt_image_files.so"; do
+for binary in "$moved/bin/crt" "$moved/$LIBDIR/libcrt.so" \
+  "$moved/$LIBDIR/crt/crt_image_files.so"; do
   ! readelf -d "$binary" | grep -E 'R(UN)?PATH' || fail "$binary has a path to libraries"
 done
 # Debug information names the source files, which is what it is for.
-[[ $BUILD_TYPE == *Deb* ]] || ! grep -rlF -e "$BUILD/" -e "$SOURCE/" "$moved" || fail "they name folders of this build"
+[[ $BUILD_TYPE == *Deb* ]] || ! grep -rlF -e "$BUILD/" -e "$SOURCE/" "$moved" ||
+  fail "they name folders of this build"
 
 # The command finds its module from where it is.
 cd "$WORK"
