@@ -149,7 +149,8 @@ std::vector<std::string> run(bool quick) {
           "{:18} N = {:8}: {:10.1f} ns a ray, {:8.1f} crossings; prepared in {:.3f} s\n",
           curve.name, n, median(point.nanoseconds), point.events, point.prepare_seconds);
       rows.push_back(fmt::format(
-          R"({{"curve": "{}", "about": "{}", "n": {}, "prepare_seconds": {}, "tests": {}, "events": {}, "nanoseconds": [{}]}})",
+          R"({{"curve": "{}", "about": "{}", "n": {}, "prepare_seconds": {}, "tests": {}, )"
+          R"("events": {}, "nanoseconds": [{}]}})",
           curve.name, curve.about, n, point.prepare_seconds, point.tests, point.events,
           fmt::join(point.nanoseconds, ", ")));
     }

@@ -115,7 +115,8 @@ struct Successes {
 
   std::string text(double steps) const {
     return fmt::format(
-        R"({{"steps": {}, "pixels": {}, "trials": {}, "within": {}, "low": {}, "claimed": {}, "worst_pixel": {}}})",
+        R"({{"steps": {}, "pixels": {}, "trials": {}, "within": {}, "low": {}, "claimed": {}, )"
+        R"("worst_pixel": {}}})",
         steps, pixels, trials, within, test::clopper_pearson_low(within, trials),
         claims / static_cast<double>(std::max<std::int64_t>(trials, 1)) * steps_of_8_bits,
         worst_pixel);

@@ -10,11 +10,11 @@ inline const std::string ball_script = R"(n = 3
 print("t is " + t)
 print("n is " + n)
 Settings {
-  width -> 16
-  height -> 12
+  width -> 16 height -> 12
   title -> "A ball"
   camera -> Camera { position -> vec3(0, 0, -4) pointing -> vec3(0, 0, 0) }
-  lights -> [ParallelLight { from -> vec3(0, 5, -5) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) }]
+  lights -> [ParallelLight {
+    from -> vec3(0, 5, -5) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) }]
 }
 Scene {
   Sphere { center -> vec3(0, n - 3, 0) radius -> 1.0 }

@@ -248,7 +248,9 @@ for (i in range(3)) {
     map = ImageMap { image -> "picture.png" repeatU -> 2 }
     sky = Background { image -> "./picture.png" angle -> 1.5 projection -> "cylindrical" }
 }
-Settings { background -> Background { image -> "picture.png" angle -> 1.5 projection -> "cylindrical" } }
+Settings {
+    background -> Background { image -> "picture.png" angle -> 1.5 projection -> "cylindrical" }
+}
 )");
   REQUIRE(result.ok());
   const auto* panorama = std::get_if<crt::PanoramaBackground>(&result.result.scene->background);
