@@ -32,7 +32,7 @@ typedef struct measure {
   double moment[3];  // the integrals of x, y and z over the part
 } measure;
 
-// The plate's upper side is at z = 0, with its middle at x = y = 0.
+// Makes the plate, whose upper side is at z = 0, with its middle at x = y = 0.
 static int make_part(crt_prepared** out) {
   const double corner[3] = {-width / 2, -depth / 2, -height},
                opposite[3] = {width / 2, depth / 2, 0};
@@ -65,7 +65,7 @@ static measure closed_form(void) {
   return m;
 }
 
-// Adds what the line along z through the middle of a cell has to say.
+// Adds what the line along z through the middle of a cell measures.
 static int measure_line(crt_prepared* part, int i, int j, measure* m) {
   enum { most = 32 };
   const double x = ((i + 0.5) / cells - 0.5) * width, y = ((j + 0.5) / cells - 0.5) * depth;
@@ -85,7 +85,7 @@ static int measure_line(crt_prepared* part, int i, int j, measure* m) {
   return 0;
 }
 
-// The greatest less the least of the lengths in a cell and the cells around it.
+// Returns the greatest less the least of the lengths in a cell and the cells around it.
 static double spread(int i, int j) {
   double least = INFINITY, greatest = 0;
   for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < cells; ++b) {

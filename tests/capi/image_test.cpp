@@ -1,4 +1,4 @@
-// Images: in and out of memory and files.
+// These tests move images in and out of memory and files.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes away.
+/// A Scratch is a folder that is removed with it.
 class Scratch {
  public:
   Scratch() : path_(fs::temp_directory_path() / ("crt-capi-" + process())) {
@@ -92,7 +92,7 @@ TEST_CASE("8-bit pixels come back as they were") {
   std::vector<std::uint8_t> back(bytes.size());
   REQUIRE(crt_image_to_rgba8(image.get(), back.data(), 0) == CRT_OK);
   CHECK(back == bytes);
-  // Rows of the caller's with room between them keep what is there.
+  // Rows of the caller's with gaps between them keep what is in the gaps.
   std::vector<std::uint8_t> wide(16 * 70, 0xaa);
   REQUIRE(crt_image_to_rgba8(image.get(), wide.data(), 70) == CRT_OK);
   CHECK(std::memcmp(&wide[70], &bytes[64], 64) == 0);
@@ -191,7 +191,7 @@ TEST_CASE("an image lends what it was asked to tell beside the colours, by name"
   CHECK(crt_image_channel(image.get(), "id") == nullptr);
   CHECK(crt_image_channel_uint(image.get(), "Z") == nullptr);
 
-  // What a ray through the same place hits. The camera is the default one.
+  // This is what a ray through the same place hits. The camera is the default one.
   const float* const depth = crt_image_channel(image.get(), "Z");
   const std::uint32_t* const id = crt_image_channel_uint(image.get(), "id");
   const double half_height = std::tan(std::acos(-1.0) / 6);

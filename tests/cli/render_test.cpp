@@ -21,7 +21,7 @@ bool is_png(const std::string& content) {
   return content.starts_with("\x89PNG\r\n\x1a\n");
 }
 
-/// The sides of a PNG, from its header chunk.
+/// Returns the sides of a PNG, from its header chunk.
 std::pair<int, int> png_size(const std::string& content) {
   const auto number_at = [&](std::size_t at) {
     int number = 0;

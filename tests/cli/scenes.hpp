@@ -1,11 +1,12 @@
-// Scripts that the tests of the command run.
+// The tests of the command run these scripts.
 #pragma once
 
 #include <string>
 
 namespace crt::test {
 
-/// A ball before the camera, 16 x 12 pixels; prints t and n (3), and n is the ball's height.
+/// This script shows a ball before the camera, in 16 x 12 pixels. It prints t and n (3), and n is
+/// the ball's height.
 inline const std::string ball_script = R"(n = 3
 print("t is " + t)
 print("n is " + n)
@@ -21,7 +22,8 @@ Scene {
 }
 )";
 
-/// A picture that is done at once at t = 0, and takes minutes afterwards: to be interrupted.
+/// This picture is done at once at t = 0, and takes minutes afterwards, so that it can be
+/// interrupted.
 inline const std::string endless_script = R"(side = t < 0.5 ? 4 : 8000
 Settings {
   width -> side
@@ -34,7 +36,7 @@ Scene {
 }
 )";
 
-/// Rays that go to and fro between mirrors: a pass takes seconds, though its pixels are few.
+/// These rays go to and fro between mirrors. A pass takes seconds, though its pixels are few.
 inline const std::string mirrors_script = R"(m = Material {
   color -> rgb(1, 1, 1)
   reflectivity -> 1.0

@@ -1,4 +1,4 @@
-// crt trade: what it writes, what it refuses, and that it ends in order.
+// These tests check what crt trade writes, what it refuses, and that it ends in order.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -15,7 +15,7 @@ bool holds(const std::string& text, const std::string& piece) {
   return text.find(piece) != std::string::npos;
 }
 
-/// The numbers in one column of a CSV file, by the options of each line.
+/// Returns the number in one column of a CSV file, in the line with these options.
 double number_of(const std::string& csv, const std::string& options, int column) {
   std::istringstream lines(csv);
   for (std::string line; std::getline(lines, line);) {

@@ -1,4 +1,4 @@
-// What `crt trade` tells: texts, tables and drawings.
+// These tests check what `crt trade` reports: texts, tables and drawings.
 #include "cli/trade_report.hpp"
 
 #include <doctest/doctest.h>
