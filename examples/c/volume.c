@@ -1,19 +1,19 @@
-// Volume, mass and centre of mass of a part, from what a grid of parallel rays passes of it. The
-// part is a steel plate, 100 x 60 x 12 mm, with four drilled holes and a hemispherical pocket, so
-// that the closed form can tell whether the result is within the error that is stated: else the
+// Computes volume, mass and centre of mass of a part, from what a grid of parallel rays passes of
+// it. The part is a steel plate, 100 x 60 x 12 mm, with four drilled holes and a hemispherical
+// pocket, so that a closed form shows whether the result is within the stated error. Else the
 // program fails.
 //
-// Method. The cells of the grid tile the plate. L(x, y), the length of material along z, is
-// measured at the middle of each and stands for all of it (the midpoint rule). Crossings are exact
-// but for rounding, so errors come from the plane. A cell that an outline passes has another L
-// beyond it. An outline that misses a cell's middle leaves at most half of the cell beyond it, and
-// the middle of one of the eight cells around is there too: so the cell errs by at most half its
-// area times the spread (greatest less least) of L over these nine. Where no outline passes, a cell
-// errs by its area times a 24th of L's second differences, which is less than that again. The
-// stated error is the sum over all cells. It wants outlines that are no finer than the grid: three
-// cells apart, with radii of four cells or more (so curved, they may leave a little more than half,
-// but the cells beside the outline, which count as well, more than make up for it). As errors
-// cancel, it is far too careful.
+// The method is this. The cells of the grid tile the plate. L(x, y), the length of material along
+// z, is measured at the middle of each and stands for all of it (the midpoint rule). Crossings are
+// exact but for rounding, so errors come from the plane. A cell that a contour crosses has another
+// L beyond it. A contour that misses a cell's middle leaves at most half of the cell beyond it, and
+// the middle of one of the eight cells around is there too. So the cell errs by at most half its
+// area times the spread (greatest less least) of L over these nine. Where no contour crosses, a
+// cell errs by its area times a 24th of L's second differences, which is less than that again. The
+// stated error is the sum over all cells. It needs contours that are no finer than the grid: three
+// cells apart, with radii of four cells or more. So curved, they may leave a little more than half,
+// but the cells beside the contour, which count as well, more than make up for it. As errors
+// cancel, the stated error is far larger than the true one.
 #include <crt/crt.h>
 #include <float.h>
 #include <math.h>

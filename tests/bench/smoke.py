@@ -3,7 +3,7 @@
     smoke.py CRT LIBRARY FOLDER [BENCH_HONESTY]
 
 Checks the script of each (but the large ones), and renders one of each kind, tiny. Measures error
-against time, tiny, where there is POV-Ray, and honesty, if its program is told.
+against time, tiny, where there is POV-Ray, and honesty, if its program is given.
 """
 
 import dataclasses

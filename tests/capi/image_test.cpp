@@ -49,7 +49,8 @@ BufferHandle encoded(const crt_image* image, const char* format) {
 
 }  // namespace
 
-TEST_CASE("how many pixels of a file are not finite is told, and where the first is") {
+TEST_CASE(
+    "the number of pixels of a file that are not finite is reported, and the place of the first") {
   std::string file = "PF\n2 1\n-1.0\n";
   const float values[] = {1, 1, 1, 0, NAN, INFINITY};
   file.append(reinterpret_cast<const char*>(values), sizeof values);

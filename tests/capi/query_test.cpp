@@ -133,7 +133,7 @@ TEST_CASE("a hit tells place, normal, entity and side; a miss nothing but infini
   CHECK(hits[4].t == doctest::Approx(-7));
 }
 
-TEST_CASE("crossings are told however little room there is for them") {
+TEST_CASE("crossings are counted however small the array for them is") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
   // The ray passes the block with the hole, in at the hole's bottom and out at the back, and the

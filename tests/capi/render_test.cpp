@@ -342,7 +342,7 @@ TEST_CASE("a seed of the options takes the place of the scene's") {
   CHECK(settings.seed == 5);
 }
 
-TEST_CASE("a target error is kept, told of, and met again by the number of passes") {
+TEST_CASE("a target error is kept, reported, and met again by the number of passes") {
   const SceneHandle scene = small_scene();
   crt_settings settings;
   settings.struct_size = sizeof settings;

@@ -154,7 +154,7 @@ TEST_CASE_FIXTURE(Fixture, "where standard error is no terminal, progress is pla
                      [](char c) { return c == '\r' || c == '\033'; }));
 }
 
-TEST_CASE_FIXTURE(Fixture, "what is told to closed standard streams gets into no file") {
+TEST_CASE_FIXTURE(Fixture, "what is written to closed standard streams gets into no file") {
   run_crt(folder, {"render", "ball.crt", "--reproducible", "-o", "heard.png"});
   CHECK(run_crt_unheard(folder, {"render", "ball.crt", "--reproducible", "-o", "unheard.png"}) ==
         0);

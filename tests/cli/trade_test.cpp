@@ -58,7 +58,7 @@ TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to
   CHECK(folder.read("ball-trade.svg").starts_with("<svg "));
 }
 
-TEST_CASE("crt trade measures the part that it is told to") {
+TEST_CASE("crt trade measures the given part") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
   const Outcome run =

@@ -1,5 +1,5 @@
-// Faces that coincide render without a speckle, from all sides: as if what wins there stood out by
-// a hair.
+// Faces that coincide render without a speckle, from all sides, as if the winner stood out by a
+// hair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,8 @@ namespace {
 
 constexpr double hair = 1e-6;
 
-/// Two ways to write what must look alike: with faces that coincide, and with a hair between them.
+/// A Pair writes twice what must look alike: with faces that coincide, and with a hair between
+/// them.
 struct Pair {
   std::string name;
   std::vector<Entity> coincident;
@@ -119,8 +120,8 @@ std::vector<Pair> flush_pairs() {
            {ring(0.25 + hair, red) ^ behind({1, 0, 0}, 0.3, red), ring(0.25, green)}}};
 }
 
-/// The picture that a camera from somewhere takes; `side` numbers the places, the first 6 along an
-/// axis.
+/// Returns the picture of a camera from one of several places. `side` numbers them, the first 6
+/// along an axis.
 Image taken(std::vector<Entity> entities, const Transform& placed, int side, Precision precision) {
   Scene scene = dark_scene();
   scene.background = SolidBackground{{0.1, 0.1, 0.3}};

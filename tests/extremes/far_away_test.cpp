@@ -8,7 +8,7 @@ using namespace crt::test;
 
 namespace {
 
-/// Where the scene is put: its coordinates, all multiples of 2^-20, are doubles there too.
+/// The scene is put here. Its coordinates, all multiples of 2^-20, are doubles there too.
 constexpr double far = 0x1p32;
 constexpr double coordinate_step = 0x1p-20;
 

@@ -1,4 +1,4 @@
-// Which files a script may reach, and which it may not.
+// These tests check which files a script may reach, and which it may not.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using crt::ErrorCode;
 using crt::ScriptOptions;
 
-/// A folder of its own for each test, gone with it.
+/// A Folder is one test's own, and is removed with it.
 class Folder {
  public:
   Folder() {
@@ -66,7 +66,7 @@ ScriptOptions with_resources(const Folder& folder) {
   return options;
 }
 
-/// A folder with a script beside it, one below it, one in the resources and one outside.
+/// Fills a folder with a script beside it, one below it, one in the resources and one outside.
 void fill(const Folder& folder) {
   fs::create_directories(folder.path() / "work");
   folder.write("work/beside.crt", "where = \"beside\"\n");
@@ -189,7 +189,7 @@ TEST_CASE("imports are looked for from the script that imports, and run once") {
   CHECK(result.printed == std::vector<std::string>{"one", "two", "three", "beside"});
 }
 
-TEST_CASE("a script that imports itself is told so") {
+TEST_CASE("a script that imports itself is an error") {
   const Folder folder;
   fill(folder);
   folder.write("work/scene.crt", "");
@@ -258,7 +258,7 @@ Settings {
   CHECK(panorama->angle == 1.5);
   CHECK(panorama->projection == crt::PanoramaProjection::cylindrical);
   CHECK(panorama->image->width() == 2);
-  // The cache of the run is gone: what is left is the scene's.
+  // The cache of the run is gone, and only the scene holds the picture.
   CHECK(panorama->image.use_count() == 1);
 }
 

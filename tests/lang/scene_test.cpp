@@ -1,4 +1,4 @@
-// What arrives in the Scene: values, units and defaults.
+// These tests check what arrives in the Scene: values, units and defaults.
 #include <doctest/doctest.h>
 
 #include <numbers>

@@ -1,5 +1,5 @@
-// Nested transforms in the exact tier against the product without rounding, of the very doubles
-// given.
+// These tests compare nested transforms in the exact tier with the product without rounding, of the
+// very doubles given.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ using namespace crt::test;
 
 namespace {
 
-/// One transform after the other: on the entity itself, or on what it is a part of, the innermost
-/// first.
+/// Applies one transform after the other: on the entity itself, or on what it is a part of, the
+/// innermost first.
 Entity nested(const Primitive& primitive, const std::vector<Transform>& transforms,
               bool in_unions) {
   Entity entity(primitive);
@@ -75,7 +75,7 @@ struct Count {
   std::size_t wrong = 0;
 };
 
-/// Compares along one ray.
+/// Compares both along one ray.
 void compare(const Primitive& primitive, const std::vector<Transform>& transforms,
              PreparedTree& scene, const Vec3& origin, const Vec3& direction, Count& count) {
   const TrueLine truth = true_crossings({.primitive = primitive,

@@ -51,7 +51,7 @@ case $kind in
     run_program ./program
     ;;
   subdirectory)
-    # Building all of CRT once more would take too long to be told that it still does.
+    # Building all of CRT once more would take too long.
     cmake -S "$consumers/subdirectory" -B . -DCRT_SOURCE="$SOURCE" \
       -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
       >configure.log 2>&1 || fail "$(cat configure.log)"

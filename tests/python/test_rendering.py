@@ -98,10 +98,10 @@ class Rendering(unittest.TestCase):
 
 class Callbacks(unittest.TestCase):
     def test_progress_goes_from_0_to_1(self):
-        told = []
-        small_scene(100).render(progress=told.append)
-        self.assertEqual((told[0], told[-1]), (0, 1))
-        self.assertEqual(told, sorted(told))
+        shares = []
+        small_scene(100).render(progress=shares.append)
+        self.assertEqual((shares[0], shares[-1]), (0, 1))
+        self.assertEqual(shares, sorted(shares))
 
     def test_what_progress_raises_cancels_and_comes_out(self):
         calls = []

@@ -79,9 +79,9 @@ class Threads(unittest.TestCase):
         prepared = small_scene(100).prepare()
 
         def render():
-            told = []
-            prepared.render(progress=told.append)
-            return told[0], told[-1]
+            shares = []
+            prepared.render(progress=shares.append)
+            return shares[0], shares[-1]
 
         self.assertEqual(at_once(render, render, render), [(0, 1)] * 3)
 

@@ -1,5 +1,4 @@
-// Many things at one place: in the picture they are what they are once, or what they are one by
-// one.
+// Many things at one place look as one does, or as they do one by one.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -93,8 +92,7 @@ TEST_CASE("a picture whose rays take too many steps is an error, at any number o
 TEST_CASE(
     "light through tens of thousands of absorbing solids that overlap costs no square of their "
     "number") {
-  // Each is left in the order in which they are entered; what was kept before were lists of all,
-  // for each.
+  // Each ball is left in the order in which they are entered.
   std::vector<Entity> balls;
   const SharedMaterial clear =
       Material{.color = grey(1), .transparency = 1, .absorption = {1e-6, 1e-6, 1e-6}};
@@ -113,7 +111,7 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
   for (int trial = 0; trial < 3000; ++trial) {
     const auto count = std::uint32_t{1} + random() % (trial % 10 == 0 ? 60 : 8);
     std::vector<RayHit> crossings;
-    std::vector<double> beyond(count, 0);  // where a solid is left that is not left on the way
+    std::vector<double> beyond(count, 0);  // where a solid is left that is not left before
     std::vector<std::uint32_t> around;
     const auto any_t = [&] { return static_cast<double>(random() % 40); };
     for (std::uint32_t object = 0; object < count; ++object) {

@@ -71,5 +71,5 @@ class PovRay:
                      timeout, picture.parent)
         found = TRACE_TIME.search(output)
         if found is None:
-            raise Failed(f"povray told no trace time: {output[-2000:]}")
+            raise Failed(f"povray printed no trace time: {output[-2000:]}")
         return float(found.group(1))

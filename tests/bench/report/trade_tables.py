@@ -21,7 +21,7 @@ def classes_of(results: dict) -> dict[str, dict]:
     return povray_results(results, "honesty/")
 
 
-def told(need: Need) -> str:
+def text_of(need: Need) -> str:
     return need.bound + rounded(need.value)
 
 
@@ -32,7 +32,7 @@ def inverse(bound: str) -> str:
 # ---- each scene ---------------------------------------------------------------------------------
 
 
-def told_error(result: dict, row: dict, error: str) -> str:
+def text_of_error(result: dict, row: dict, error: str) -> str:
     return rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)")
 
 
@@ -49,7 +49,7 @@ def scene_table(name: str, result: dict) -> str:
              f" (POV-Ray); they differ by"
              f" {pair(result['apart'])}.", ""]
     rows = [[row["family"], f"`{row['name']}`", rounded(row["seconds"]), rounded(row["samples"]),
-             *(told_error(result, row, error) for error in ERRORS)]
+             *(text_of_error(result, row, error) for error in ERRORS)]
             for row in sorted(result["rows"], key=lambda row: row["family"])]
     return "\n".join(lines) + "\n" + table(
         ["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows
@@ -78,7 +78,7 @@ def samples_cell(result: dict, row: dict) -> str:
 def saving_cell(result: dict, row: dict) -> str:
     """How many times as many samples it takes for the same RMSE / for the same 99.9 % error."""
     both = [saved(result, row, error) for error in ERRORS]
-    return " / ".join("?" if one is None else told(one) for one in both)
+    return " / ".join("?" if one is None else text_of(one) for one in both)
 
 
 def cells_by_setting(result: dict, cell) -> list[str]:
@@ -131,7 +131,8 @@ def contest_row(result: dict, row: dict) -> tuple[list[str], list[float]]:
         ratio = row["seconds"] / need.value
         ratios.append(ratio)
         cells += [
-            told_error(result, row, error), told(need), f"**{inverse(need.bound)}{rounded(ratio)}**"
+            text_of_error(result, row, error), text_of(need),
+            f"**{inverse(need.bound)}{rounded(ratio)}**"
         ]
     return cells, ratios
 

@@ -50,8 +50,7 @@ def need(rows: list[dict], cost: str, error: str, wanted: float) -> Need:
 
 
 def least(needs: list[Need]) -> Need:
-    """Of several families the one that takes least; what no family reaches is told by the
-    dearest."""
+    """Returns the need of the family that takes least. What no family reaches is the dearest's."""
     reached = [one for one in needs if one.bound != ">"]
     return (
         min(reached, key=lambda one: one.value) if reached

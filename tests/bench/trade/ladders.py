@@ -7,7 +7,7 @@ STEP = 1 / 255  # of an 8-bit picture
 GRID, ADAPTIVE, LOW_START = "CRT, grid", "CRT, target error", "CRT, target error, minsamples 4"
 ONE_RAY, PLAIN, RECURSIVE = "POV-Ray -A", "POV-Ray +AM1", "POV-Ray +AM2"
 LENS, LENS_BY_VARIANCE = "POV-Ray, blur_samples", "POV-Ray, variance"
-NAMED = "+A0.1 +AM2 +R4"  # what others' accuracy is told by
+NAMED = "+A0.1 +AM2 +R4"  # the setting that represents others' accuracy
 
 # What POV-Ray's lens takes if nothing else is said.
 DEFAULT_VARIANCE = 1 / 128

@@ -86,7 +86,7 @@ class PovRay:
                       "-D", "-V"], None, picture.parent)
         seconds, shot = TRACE_CPU.search(output), SHOT.search(output)
         if seconds is None or shot is None:
-            raise Failed(f"povray told no times: {output[-2000:]}")
+            raise Failed(f"povray printed no times: {output[-2000:]}")
         steps = pictures.read_ppm(picture).astype(float) * (errors.FULL / 65535)
         samples = (int(shot[1]) + int(shot[2])) / self.size.pixels
         return Rendered(steps, float(seconds[1]), samples)

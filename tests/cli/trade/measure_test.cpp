@@ -27,7 +27,7 @@ using Places = std::vector<std::size_t>;
 
 }  // namespace
 
-TEST_CASE("a difference is told in 8-bit steps of what a display shows") {
+TEST_CASE("a difference is measured in 8-bit steps of what a display shows") {
   const PictureError same = displayed_difference(plain(5, 4, 0.3), plain(5, 4, 0.3));
   CHECK(same.rmse == 0);
   CHECK(same.p999 == 0);
