@@ -139,13 +139,14 @@ check_subjects() {
 }
 
 # These words say nothing to a reader who knows the field. docs/glossary.md has the field's words.
+# The gallery's scripts may have lamps in their pictures.
 banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verdict 'judges?'
   'lamps?' 'eye rays?' 'eye-rays?' FirstBalls BallSearch Spine CsgSketch RayBundle small_things
   leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed)
 check_words() {
   lines_with "\b($(IFS='|' && echo "${banned_words[*]}"))\b" \
     'src/*' 'include/*' 'tests/*' 'docs/*.md' 'README.md' 'CONTRIBUTING.md' |
-    without "$recorded|^docs/design/|^tests/house/check\.sh:|\.abi:" | cut -c 1-160
+    without "$recorded|^docs/(design/|gallery\.md:)|^tests/house/check\.sh:|\.abi:" | cut -c 1-160
 }
 
 # A documentation comment is a sentence with a subject and a verb. Such a beginning shows that it
