@@ -1,5 +1,5 @@
-"""A golf ball on its tee: many things placed by a formula. Writes golf.png, or the file that is
-named."""
+"""Renders a golf ball on its tee: many things placed by a formula. Writes golf.png, or the file
+that is named."""
 
 import math
 import sys
@@ -12,7 +12,7 @@ import crt
 
 
 def fibonacci_sphere(count: int) -> NDArray[Any]:
-    """Points spread evenly over the unit sphere: each a golden angle further round, a step further
+    """Spreads points evenly over the unit sphere: each a golden angle further round, a step further
     down."""
     index = np.arange(count)
     height = 1 - (2 * index + 1) / count

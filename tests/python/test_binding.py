@@ -13,7 +13,7 @@ HEADER = re.sub(r"/\*.*?\*/", "", (SOURCE / "include/crt/crt.h").read_text(), fl
 
 
 def letter_of(declaration: str) -> str:
-    """What stands for a C type in _library's tables."""
+    """Returns what stands for a C type in _library's tables."""
     if "*" in declaration or "_fn " in declaration:
         return "p"
     words = declaration.replace("const", "").split()
@@ -29,7 +29,7 @@ def letter_of(declaration: str) -> str:
 
 
 def functions() -> dict[str, tuple[str, list[str]]]:
-    """Of each function of crt.h what it returns and its parameters, as declared."""
+    """Returns what each function of crt.h returns and its parameters, as declared."""
     found = re.findall(r"CRT_API (\w[\w ]*?\*?) ?(crt_\w+)\(([^)]*)\);", HEADER)
     return {
         name: (

@@ -1,4 +1,4 @@
-"""Entities: where they are, and what operators make of them."""
+"""These tests check where entities are, and what operators make of them."""
 
 import unittest
 

@@ -1,4 +1,4 @@
-"""Ray queries on arrays in place."""
+"""These tests ask ray queries on arrays in place."""
 
 import math
 import unittest
@@ -12,7 +12,7 @@ prepared = prepared_shell()
 
 
 def expected_t(rays: np.ndarray) -> np.ndarray:
-    """Where a ray along z from z = -5 meets the unit ball."""
+    """Returns where a ray along z from z = -5 meets the unit ball."""
     rest = 1 - rays["origin"][..., 0] ** 2
     return np.where(rest > 0, 5 - np.sqrt(np.maximum(rest, 0)), INFINITY)
 

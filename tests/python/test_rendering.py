@@ -1,4 +1,4 @@
-"""Pictures, callbacks, jobs and images."""
+"""These tests check pictures, callbacks, jobs and images."""
 
 import gc
 import os

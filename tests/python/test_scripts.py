@@ -1,4 +1,4 @@
-"""Scenes from scripts."""
+"""These tests make scenes from scripts."""
 
 import os
 import pathlib

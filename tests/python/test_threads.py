@@ -1,4 +1,4 @@
-"""Several threads at once: the library runs without Python's lock."""
+"""These tests use several threads at once, as the library runs without Python's lock."""
 
 import concurrent.futures
 import threading
@@ -11,7 +11,7 @@ import crt
 
 
 def at_once(*functions):
-    """Runs all of them together; gives their results."""
+    """Runs all of them together, and returns their results."""
     barrier = threading.Barrier(len(functions))
 
     def run(function):

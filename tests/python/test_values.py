@@ -1,4 +1,4 @@
-"""Materials, lights, cameras, backgrounds and settings."""
+"""These tests check materials, lights, cameras, backgrounds and settings."""
 
 import math
 import unittest

@@ -1,4 +1,4 @@
-"""CRT for Python: solids, scenes, pictures and ray queries by libcrt and NumPy.
+"""This package is CRT for Python: solids, scenes, pictures and ray queries by libcrt and NumPy.
 
     import crt
 

@@ -1,4 +1,4 @@
-"""Python functions that the library calls."""
+"""The library calls Python functions through this module."""
 
 import contextlib
 import ctypes
@@ -27,8 +27,8 @@ class Guard:
         self._thread_inside: int | None = None
 
     def call(self, function: Callable[..., int | None], *arguments: Any) -> int:
-        """What a callback returns: the function's result, or STOP if it or one before it has
-        raised."""
+        """Returns what a callback returns: the function's result, or STOP if it or one before it
+        has raised."""
         if self.exception is None:
             self._thread_inside = threading.get_ident()
             try:
@@ -40,12 +40,12 @@ class Guard:
         return STOP
 
     def is_inside(self) -> bool:
-        """Whether this thread is within a call()."""
+        """Says whether this thread is within a call()."""
         return self._thread_inside == threading.get_ident()
 
     @contextlib.contextmanager
     def raising(self) -> Iterator[None]:
-        """Around a call of the library: raises what a callback raised, in place of the error that
+        """Wraps a call of the library. It raises what a callback raised, in place of the error that
         it caused.
 
         Ctrl-C cancels, if a callback looks here now and then. It is noted by a handler of our own,

@@ -1,4 +1,4 @@
-"""Structs of crt.h that may grow, declared by annotations.
+"""The structs of crt.h that may grow are declared by annotations.
 
     @growable("crt_camera")
     class Camera(Struct):
@@ -32,14 +32,14 @@ Class = TypeVar("Class", bound="type[Struct]")
 
 
 def vector(numbers: Sequence[float]) -> Any:
-    """Three numbers as C has them."""
+    """Returns three numbers as C has them."""
     x, y, z = numbers
     return (ctypes.c_double * 3)(x, y, z)
 
 
 class Struct(ctypes.Structure):
-    """Keyword arguments change fields; the others keep what the library's crt_*_init() has put
-    there."""
+    """A Struct takes keyword arguments that change fields. The others keep what the library's
+    crt_*_init() has put there."""
 
     _name: ClassVar[str]
     _kinds: ClassVar[dict[str, Any]]
@@ -58,7 +58,7 @@ class Struct(ctypes.Structure):
 
     @classmethod
     def of_type(cls: type[Self], kind: int, /, **fields: Any) -> Self:
-        """One of the types that the struct has a list of, with the defaults of that type."""
+        """Makes one of the types that the struct has a list of, with the defaults of that type."""
         self = cls()
         getattr(library, f"{cls._name}_init_type")(ctypes.byref(self), ctypes.sizeof(self), kind)
         self.set(**fields)
@@ -66,8 +66,8 @@ class Struct(ctypes.Structure):
 
     @classmethod
     def _filled_by(cls: type[Self], function: str, *arguments: Any) -> Self:
-        """What a function of the library writes into its last argument, with texts of Python's
-        own."""
+        """Returns what a function of the library writes into its last argument, with texts of
+        Python's own."""
         self = cls()
         getattr(library, function)(*arguments, ctypes.byref(self))
         for name, kind in cls._kinds.items():
@@ -107,8 +107,8 @@ class Struct(ctypes.Structure):
 
 
 def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
-    """Makes fields of a class's annotations. `name` is the struct's; `has_init`: there is a
-    crt_*_init()."""
+    """Makes fields of a class's annotations. `name` is the struct's, and `has_init` says that there
+    is a crt_*_init()."""
 
     def finish(cls: Class) -> Class:
         notes = {
@@ -126,7 +126,7 @@ def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
 
 
 def require_type(value: Any, name: str, argument: str) -> None:
-    """Refuses what is not of this type of crt.h: the library could only take it for one."""
+    """Refuses what is not of this type of crt.h, as the library could only take it for one."""
     if getattr(value, "_name", None) != name:
         raise TypeError(
             f"{argument} must be a {name.removeprefix('crt_')}, not a {type(value).__name__}"
@@ -134,7 +134,7 @@ def require_type(value: Any, name: str, argument: str) -> None:
 
 
 def reference(value: Struct, name: str) -> Any:
-    """The address of a struct as an argument."""
+    """Returns the address of a struct as an argument."""
     require_type(value, name, name.removeprefix("crt_"))
     return ctypes.byref(value)
 
@@ -155,7 +155,7 @@ def _to_c(kind: Any, value: Any) -> Any:
 
 
 def _address(value: Any) -> int | None:
-    """Where a Struct, an array of ctypes or what is behind a handle begins."""
+    """Returns where a Struct, an array of ctypes or what is behind a handle begins."""
     if isinstance(value, Handle):
         return value._handle._as_parameter_
     if isinstance(value, (ctypes.Structure, ctypes.Array)):

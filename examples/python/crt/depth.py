@@ -1,4 +1,4 @@
-"""Depth maps by ray queries:  python -m crt.depth SCENE.crt -o depth.png
+"""This program makes depth maps by ray queries: python -m crt.depth SCENE.crt -o depth.png
 
 Each pixel of a script's picture gets how far along the view the nearest surface is. An .exr or .hdr
 file holds the depth itself, in scene units; others a grey, from white for the nearest to dark for
@@ -17,14 +17,15 @@ import crt
 
 
 def depth_map(scene: crt.Scene) -> NDArray[Any]:
-    """height x width depths of the scene as its camera sees it; infinite where nothing is."""
+    """Returns height x width depths of the scene as its camera sees it, infinite where nothing
+    is."""
     settings = scene.settings
     rays = crt.camera_rays(scene.camera, settings.width, settings.height)
     return scene.prepare().intersect(rays)["t"]
 
 
 def to_grey(depths: NDArray[Any], nearest: float, farthest: float) -> NDArray[Any]:
-    """8-bit RGBA: 1 / depth between those of the nearest and the farthest."""
+    """Returns 8-bit RGBA: 1 / depth between those of the nearest and the farthest."""
     darkest = 0.08
     span = 1 / nearest - 1 / farthest
     closeness = (
