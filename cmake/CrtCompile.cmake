@@ -1,4 +1,4 @@
-# How every target of the project is compiled: the interface target crt_compile.
+# The interface target crt_compile says how every target of the project is compiled.
 add_library(crt_compile INTERFACE)
 target_compile_features(crt_compile INTERFACE cxx_std_20)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -36,7 +36,8 @@ if(CRT_COVERAGE)
   target_link_options(crt_compile INTERFACE --coverage)
 endif()
 
-# A cache of compiled objects where there is one; never where the caller has chosen a launcher.
+# Compiled objects are cached where there is a cache, but not where the caller has chosen a
+# launcher.
 if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(CCACHE ccache)
   if(CCACHE)

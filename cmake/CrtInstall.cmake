@@ -1,8 +1,8 @@
-# What is installed, by component:
+# These files are installed, by component:
 #   runtime      libcrt.so.1 and the module for image files
 #   development  headers, the link libcrt.so, static libraries, the CMake package crt and crt.pc
-#   command      the command crt
-# Nothing of it names an absolute place that it needs: an installed tree may be moved.
+#   command      the command crt None of them names an absolute path that it needs, so an installed
+#   tree may be moved.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crt)
@@ -17,7 +17,7 @@ set_target_properties(crt_image_files PROPERTIES EXPORT_NAME image_files)
 install(EXPORT crt_static NAMESPACE crt:: FILE crtStaticTargets.cmake
   DESTINATION ${package_dir} COMPONENT development)
 if(CMAKE_STRIP)
-  # `--strip` (and CPack) cares for programs and shared libraries alone.
+  # `--strip` (and CPack) strips programs and shared libraries alone.
   install(CODE "
     if(CMAKE_INSTALL_DO_STRIP)
       file(GLOB archives

@@ -1,5 +1,5 @@
-# Debian packages, by CPack: libcrt1, libcrt-dev and crt, a component each (see CrtInstall.cmake).
-# `./dev package` makes them of the release build, whose prefix is /usr.
+# CPack makes the Debian packages libcrt1, libcrt-dev and crt, a component each (see
+# CrtInstall.cmake). `./dev package` makes them of the release build, whose prefix is /usr.
 set(runtime_package libcrt${PROJECT_VERSION_MAJOR})
 
 set(CPACK_GENERATOR DEB)
@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# What every description ends with.
+# Every description ends with this.
 set(about "CRT renders solids that are described by their equations (spheres, boxes,
 cylinders, cones, tori and half-spaces, added, subtracted and intersected)
 without cutting them into triangles.")

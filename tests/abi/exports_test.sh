@@ -5,11 +5,11 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 need nm binutils
 
-# Functions crt_*@@CRT_1.0, and the version itself.
+# All symbols are functions crt_*@@CRT_1.0, and the version itself.
 nm -D --defined-only "$LIBRARY" | awk '{ print $2, $3 }' >symbols.txt
 ! grep -vxE 'T crt_[a-z0-9_]+@@CRT_1\.0|A CRT_1\.0' symbols.txt || fail "libcrt.so shows these too"
 
-# The header without comments and directives, each declaration on a line.
+# This is the header without comments and directives, each declaration on a line.
 sed '/^#/d' "$header" | "$CC" -E -P -x c - | tr '\n' ' ' | tr ';' '\n' >header.txt
 grep -oE 'CRT_API.*\bcrt_[a-z0-9_]+ ?\(' header.txt | grep -oE 'crt_[a-z0-9_]+ ?\($' | tr -d ' (' |
   sort >declared.txt

@@ -4,7 +4,7 @@
 # shellcheck source=tests/abi/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
-# Each @code{.c} ... @endcode, without the comment's asterisks, into 1.txt, 2.txt, ...
+# Writes each @code{.c} ... @endcode, without the comment's asterisks, into 1.txt, 2.txt, ...
 awk '/@endcode/ { out = "" }
      out != "" { sub(/^ \* ?/, ""); print > out }
      /@code\{\.c\}/ { out = ++count ".txt"; printf "" > out }' "$header"

@@ -11,7 +11,7 @@ strict=(-pedantic-errors -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-on
 compilations=0
 declare -A tried=()
 
-# compile_as SOURCE COMPILER STANDARD...: passes over a compiler that is not there or had its turn.
+# compile_as SOURCE COMPILER STANDARD... skips a compiler that is not installed or had its turn.
 compile_as() {
   local compiler standard
   compiler=$(command -v "$2") || return 0

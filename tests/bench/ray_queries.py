@@ -1,4 +1,4 @@
-"""What ray queries from Python cost beside the same from C:  ray_queries.py PROGRAM [SCENE.crt]
+"""Compares ray queries from Python with the same from C: ray_queries.py PROGRAM [SCENE.crt]
 
 PROGRAM is ray_queries.c, built with the libcrt that CRT_LIBRARY names. Both ask a million rays, by
 turns, so that what else the machine does falls on both.
@@ -20,7 +20,7 @@ SIDE, ROUNDS, REPETITIONS = 1000, 7, 3
 
 
 def grid(side: int) -> np.ndarray:
-    """The rays of ray_queries.c."""
+    """Returns the rays of ray_queries.c."""
     place = 8 * (np.arange(side) + 0.5) / side - 4
     rays = crt.rays((side, side))
     rays["origin"][..., 0] = place[None, :]

@@ -106,7 +106,7 @@ class Bench:
         )
 
     def own(self, name: str) -> dict:
-        """A program of ours that writes JSON to standard output and its progress to standard
+        """Runs a program of ours that writes JSON to standard output and its progress to standard
         error."""
         command = [self.bin / PROGRAMS[name], *(["--quick"] if self.options.quick else [])]
         return json.loads(
@@ -139,7 +139,7 @@ class Bench:
                 )}
 
     def programs(self, part: str) -> str:
-        """Tells one build of what the part measures from another."""
+        """Distinguishes one build of what the part measures from another."""
         digest = hashlib.sha256()
         if part.startswith(("povray", "threads/")):
             files = ["bin/crt"]
@@ -157,7 +157,7 @@ class Bench:
         return self.folder / "results" / (part.replace("/", "-") + ".json")
 
     def results(self) -> dict[str, dict]:
-        """Of the programs as they are now."""
+        """Returns the results of the programs as they are now."""
         return {part: json.loads(self.result_file(part).read_text())["result"]
                 for part in self.parts() if self.is_measured(part)}
 
@@ -169,7 +169,7 @@ class Bench:
         return file.exists() and json.loads(file.read_text())["programs"] == self.programs(part)
 
     def run(self) -> list[str]:
-        """The parts that failed."""
+        """Runs the parts, and returns those that failed."""
         failed = []
         (self.folder / "results").mkdir(parents=True, exist_ok=True)
         chosen = self.chosen()

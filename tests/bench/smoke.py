@@ -51,7 +51,7 @@ def check_catalogue(crt: pathlib.Path, folder: pathlib.Path) -> None:
 
 
 def check_trade(library: pathlib.Path, folder: pathlib.Path) -> dict:
-    """What is measured, in pictures of a few pixels."""
+    """Measures what is measured, in pictures of a few pixels."""
     plan = trade_measure.Plan(
         library=library, folder=folder, rounds=1, patience=1, quick=True, say=print, divisor=15
     )

@@ -174,7 +174,7 @@ TEST_CASE("an image takes other settings without changing its pixels") {
   CHECK(crt_image_pixels(brighter.get(), nullptr)[0] == 0.25f);
 }
 
-TEST_CASE("an image lends what it was asked to tell beside the colours, by name") {
+TEST_CASE("an image lends the channels that were asked for, by name") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
   crt_render_options options;
@@ -208,9 +208,9 @@ TEST_CASE("an image lends what it was asked to tell beside the colours, by name"
       const bool found = hit.t < infinity;
       hits += found ? 1 : 0;
       CHECK(id[pixel] == (found ? hit.entity_id : UINT32_MAX));
-      const double way = hit.t * std::sqrt(across * across + up * up + 1);
-      CHECK(
-          (found ? std::abs(double{depth[pixel]} - way) <= 1e-6 * way : depth[pixel] == infinity));
+      const double distance = hit.t * std::sqrt(across * across + up * up + 1);
+      CHECK((found ? std::abs(double{depth[pixel]} - distance) <= 1e-6 * distance
+                   : depth[pixel] == infinity));
     }
   }
   CHECK(hits > 100);

@@ -94,7 +94,7 @@ TEST_CASE("a wrong script tells where, with the line, and through whom") {
   CHECK(std::string(crt_diagnostics_json(ran.diagnostics.get())).front() == '[');
 }
 
-TEST_CASE("without room for diagnostics the message alone tells") {
+TEST_CASE("without a place for diagnostics the message alone says what is wrong") {
   crt_scene* scene = nullptr;
   CHECK(crt_scene_from_script("Scene { Spheer { } }", 20, "x.crt", nullptr, nullptr, &scene) ==
         CRT_ERROR_SCRIPT);

@@ -114,9 +114,9 @@ TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
   for (const double moved : {0.5, 1.0}) {
     for (const Entity& ball : balls) {
       const auto& sphere = std::get<Sphere>(std::get<Primitive>(ball.node().content));
-      const Vec3 way = moved * sphere.center;
-      const Entity begun = Sphere{.center = sphere.center - way, .radius = sphere.radius};
-      parts.push_back(begun.transformed({.translation = way}));
+      const Vec3 offset = moved * sphere.center;
+      const Entity begun = Sphere{.center = sphere.center - offset, .radius = sphere.radius};
+      parts.push_back(begun.transformed({.translation = offset}));
     }
   }
   std::vector<Entity> entities{csg_union(parts)};

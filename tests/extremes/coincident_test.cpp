@@ -19,7 +19,7 @@ constexpr double hair = 1e-6;
 struct Pair {
   std::string name;
   std::vector<Entity> coincident;
-  std::vector<Entity> apart;
+  std::vector<Entity> separate;
 };
 
 Material paint(double r, double g, double b) {
@@ -153,11 +153,11 @@ std::vector<Transform> placements() {
 
 void check_pairs(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
-    const std::vector<Entity>& apart =
-        pair.apart.empty() ? std::vector<Entity>{pair.coincident.front()} : pair.apart;
+    const std::vector<Entity>& separate =
+        pair.separate.empty() ? std::vector<Entity>{pair.coincident.front()} : pair.separate;
     for (const Transform& placed : placements()) {
       for (int side = 0; side < 14; ++side) {
-        const Image reference = taken(apart, placed, side, Precision::standard);
+        const Image reference = taken(separate, placed, side, Precision::standard);
         for (const Precision precision : {Precision::standard, Precision::exact}) {
           CAPTURE(pair.name);
           CAPTURE(side);

@@ -30,9 +30,9 @@ class HairTracer {
     const Vec3 start = hit->position + hair_ * normal;
     double light = 0;
     for (const Light& light_source : scene_.lights) {
-      const Vec3 way = std::get<PointLight>(light_source).origin - hit->position;
-      const double cosine = glm::dot(way, normal) / glm::length(way);
-      if (cosine <= 0 || queries_.occluded({.origin = start, .direction = way, .t_max = 1}))
+      const Vec3 offset = std::get<PointLight>(light_source).origin - hit->position;
+      const double cosine = glm::dot(offset, normal) / glm::length(offset);
+      if (cosine <= 0 || queries_.occluded({.origin = start, .direction = offset, .t_max = 1}))
         continue;
       light += paint.color.r * (1 - paint.reflectivity) * cosine;
     }

@@ -80,9 +80,9 @@ TEST_CASE(
         double x = 0;
         double weight = 1;
         double index = 1;
-        std::vector<Layer> way = layers;
-        if (!upwards) std::reverse(way.begin(), way.end());
-        for (const Layer& layer : way) {
+        std::vector<Layer> path = layers;
+        if (!upwards) std::reverse(path.begin(), path.end());
+        for (const Layer& layer : path) {
           weight *= 1 - reflectance(index, layer.index, sine / index);
           index = layer.index;
           x += layer.thickness * std::tan(std::asin(sine / index));

@@ -109,20 +109,20 @@ TEST_CASE("no path leads out of the directories unless the caller allows it") {
   const Folder folder;
   fill(folder);
   ScriptOptions options = with_resources(folder);
-  const std::vector<std::string> ways = {"../outside.crt", "sub/../../outside.crt",
-                                         "lib/../../outside.crt", "/../outside.crt",
-                                         "/lib/../../outside.crt"};
-  for (const std::string& way : ways) {
-    CAPTURE(way);
-    CHECK(refused(run_in(folder, "import \"" + way + "\"", options), "outside"));
+  const std::vector<std::string> paths = {"../outside.crt", "sub/../../outside.crt",
+                                          "lib/../../outside.crt", "/../outside.crt",
+                                          "/lib/../../outside.crt"};
+  for (const std::string& outside_path : paths) {
+    CAPTURE(outside_path);
+    CHECK(refused(run_in(folder, "import \"" + outside_path + "\"", options), "outside"));
   }
   CHECK(refused(
       run_in(folder, "import \"" + (folder.path() / "outside.crt").string() + "\"", options),
       "there is no file"));
   options.allow_outside_files = true;
-  for (const std::string& way : ways) {
-    CAPTURE(way);
-    CHECK(run_in(folder, "import \"" + way + "\"" + then_print, options).printed ==
+  for (const std::string& outside_path : paths) {
+    CAPTURE(outside_path);
+    CHECK(run_in(folder, "import \"" + outside_path + "\"" + then_print, options).printed ==
           std::vector<std::string>{"outside"});
   }
   CHECK(refused(run_in(folder, "import \"/etc/passwd\"", options), "there is no file"));

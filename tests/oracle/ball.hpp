@@ -171,8 +171,8 @@ class Ball {
   }
   /// Returns a ball that holds both.
   friend Ball hull(const Ball& a, const Ball& b) {
-    const Ball way = b - a;
-    return a.widened(way.size() + way.radius_ + b.radius_);
+    const Ball offset = b - a;
+    return a.widened(offset.size() + offset.radius_ + b.radius_);
   }
   double value() const { return part_[0]; }
   double radius() const { return radius_; }

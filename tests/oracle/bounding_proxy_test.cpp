@@ -126,9 +126,10 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
     const double off = random.sign() * random.power_of_ten(-12, -1) * torus.tube();
     const Vec3 place = grazes ? torus.point(radial, turn) + off * normal
                               : torus.proxy().place + torus.size() * random.in_cube();
-    const double way = random.power_of_ten(-2, random.integer(0, 7) == 0 ? 6 : 2) * torus.size();
-    const Vec3 origin = place - way * direction;
-    const double end = random.integer(0, 1) == 0 ? 0x1p100 : random.uniform(0, 2) * way;
+    const double distance =
+        random.power_of_ten(-2, random.integer(0, 7) == 0 ? 6 : 2) * torus.size();
+    const Vec3 origin = place - distance * direction;
+    const double end = random.integer(0, 1) == 0 ? 0x1p100 : random.uniform(0, 2) * distance;
 
     const FilterLine<double> line = filter_line(origin, direction, end);
     const Decision<bool> decision = test_torus(torus.proxy(), torus.axis(), line, end);

@@ -64,18 +64,18 @@ struct ExactLine {
 
   void move_to(double t) {
     shift = t;
-    way = Number(t) * direction;
+    offset = Number(t) * direction;
   }
   /// Returns the point at x = 0, relative to another.
   NumberVec<Number> from(const Vec3& position) const {
-    return (origin - exactly<Number>(position)) + way;
+    return (origin - exactly<Number>(position)) + offset;
   }
-  NumberVec<Number> at(const Number& x) const { return (origin + way) + x * direction; }
+  NumberVec<Number> at(const Number& x) const { return (origin + offset) + x * direction; }
 
   NumberVec<Number> origin;  ///< at t = 0
   NumberVec<Number> direction;
   double shift = 0;
-  NumberVec<Number> way;  ///< from there to x = 0
+  NumberVec<Number> offset;  ///< from there to x = 0
 
  private:
   void enter(const Transform& to_world) {

@@ -4,7 +4,7 @@
 //
 // Sums of two doubles with a bound on their error do for most lines, sums of three for nearly all
 // others, and MPFR for the rest: signs, tangencies, and roots that coincide are decided. Two roots
-// that 4096 bits cannot tell apart are taken as one.
+// that 4096 bits cannot distinguish are taken as one.
 #pragma once
 
 #include <cmath>

@@ -43,23 +43,23 @@ Transform random_transform(SolidMaker& make) {
 
 Primitive random_primitive(SolidMaker& make) {
   const Vec3 place{make.real(-2, 2), make.real(-2, 2), make.real(-2, 2)};
-  const Vec3 way{make.real(0.5, 2), make.real(-2, 2), make.real(-2, 2)};
+  const Vec3 extent{make.real(0.5, 2), make.real(-2, 2), make.real(-2, 2)};
   switch (make.integer(0, 5)) {
     case 0:
       return Sphere{.center = place, .radius = make.real(0.5, 2)};
     case 1:
       return Box{.corner_a = place, .corner_b = place + Vec3(1, 2, make.real(0.5, 2))};
     case 2:
-      return Cylinder{.from = place, .to = place + way, .radius = make.real(0.2, 1)};
+      return Cylinder{.from = place, .to = place + extent, .radius = make.real(0.2, 1)};
     case 3:
       return Cone{.from = place,
-                  .to = place + way,
+                  .to = place + extent,
                   .radius = make.real(0.2, 1),
                   .radius2 = make.real(0, 1)};
     case 4:
-      return Torus{.center = place, .axis = way, .radius = 1, .thickness = make.real(0.1, 0.6)};
+      return Torus{.center = place, .axis = extent, .radius = 1, .thickness = make.real(0.1, 0.6)};
     default:
-      return Plane{.normal = way, .position = place};
+      return Plane{.normal = extent, .position = place};
   }
 }
 

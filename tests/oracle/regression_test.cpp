@@ -150,7 +150,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a cylinder's cap may be taken for its side where the rounding of t does not tell them apart") {
+    "a cylinder's cap may be taken for its side where the rounding of t does not distinguish "
+    "them") {
   const Cylinder cylinder{
       .from = {0x1.4bce3ea3b8262p-12, 0x1.99e8bf6b2eb07p-12, -0x1.7c26bea915e2fp-12},
       .to = {0x1.4bce3ea3b8262p-12, 0x1.6c8e9f9455c1ep-3, -0x1.7c26bea915e2fp-12},

@@ -97,7 +97,7 @@ Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, con
   constexpr int most_widenings = 12;
   constexpr double widening = 8;
   if (p[0].is_zero() && from.certain_sign() < 0 && to.certain_sign() > 0) return Number(0.0);
-  constexpr int most_bits = 900;  // of what is left of the way, as long as doubles hold it
+  constexpr int most_bits = 900;  // of the remaining distance, as long as doubles hold it
   const double shortest =
       std::ldexp((to - from).largest_size(), -std::min(Number::precision(), most_bits));
   Number low = from;

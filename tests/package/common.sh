@@ -1,4 +1,4 @@
-# What the tests of installing and packaging share. They get, from CTest, in the environment:
+# The tests of installing and packaging share this. They get these from CTest, in the environment:
 #   BUILD, SOURCE  CRT's build tree and source
 #   WORK           a folder for what they make
 #   CC, CXX        the compilers that CRT was built with

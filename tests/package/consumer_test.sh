@@ -11,7 +11,7 @@ rm -rf "$build"
 mkdir -p "$build"
 cd "$build"
 
-# with_cmake PROJECT TREE [ARGUMENT...]
+# with_cmake PROJECT TREE [ARGUMENT...] builds a consumer by CMake.
 with_cmake() {
   cmake -S "$consumers/$1" -B . -DCMAKE_PREFIX_PATH="$2" \
     -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
@@ -21,7 +21,7 @@ with_cmake() {
   run_program ./program
 }
 
-# with_pkg_config TREE [FLAG...]: a plain compiler, C99 to the letter.
+# with_pkg_config TREE [FLAG...] builds one by a plain compiler, as strict C99.
 with_pkg_config() {
   need pkg-config pkg-config
   export PKG_CONFIG_PATH=$1/$LIBDIR/pkgconfig
@@ -30,7 +30,7 @@ with_pkg_config() {
     $(pkg-config --cflags --libs "${@:2}" crt)
 }
 
-# A machine that has libcrt-dev and none of what the C++ libraries need.
+# This stands for a machine that has libcrt-dev and none of what the C++ libraries need.
 without_dependencies=()
 for package in glm fmt TBB embree OpenImageIO Threads; do
   without_dependencies+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")

@@ -14,14 +14,14 @@ cd "$work"
 cpack --config "$BUILD/CPackConfig.cmake" -B . >cpack.log 2>&1 || fail "$(cat cpack.log)"
 rm -r _CPack_Packages
 
-# package NAME: its file, of which there is one.
+# package NAME prints its file, of which there is one.
 package() {
   local files=("$1"_[0-9]*.deb)
   [[ ${#files[@]} -eq 1 && -f ${files[0]} ]] || fail "not one file of the package $1"
   echo "${files[0]}"
 }
 
-# expect_field PACKAGE FIELD REGEX...: the field must have all of them.
+# expect_field PACKAGE FIELD REGEX... checks that the field has all of them.
 expect_field() {
   local regex value
   value=$(dpkg-deb -f "$(package "$1")" "$2")
@@ -30,7 +30,8 @@ expect_field() {
   done
 }
 
-# expect_files PACKAGE REGEX...: each of its files must match one, and each must match some file.
+# expect_files PACKAGE REGEX... checks that each of its files matches one, and each matches some
+# file.
 expect_files() {
   local files regex
   files=$(dpkg-deb --fsys-tarfile "$(package "$1")" | tar -t | grep -v '/$')

@@ -9,13 +9,13 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 
-# Each piece of code into a file of its own, named for its number and language.
+# Writes each piece of code into a file of its own, named for its number and language.
 awk '/^```/ && out != "" { out = ""; next }
      /^```/ { out = sprintf("%02d.%s", ++count, substr($0, 4)); next }
      out != "" { print > out }' "$SOURCE/docs/installing.md"
 module=$(grep -l 'TARGET_FILE:crt::image_files' ./*.cmake) || fail "nothing brings the module along"
 
-# prepare FOLDER: a folder with the consumers' sources under the names that the document uses.
+# prepare FOLDER makes a folder with the consumers' sources under the names that the document uses.
 prepare() {
   mkdir "$work/$1"
   cd "$work/$1"

@@ -1,12 +1,12 @@
 #!/usr/bin/env bash
-# Installs CRT, moves the tree, and looks at what is in it. The consumers use the moved tree.
+# Installs CRT, moves the tree, and checks what is in it. The consumers use the moved tree.
 # shellcheck source=tests/package/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 rm -rf "$WORK"
 mkdir -p "$WORK"
 
-# install_to PREFIX [ARGUMENT...]
+# install_to PREFIX [ARGUMENT...] installs the build.
 install_to() {
   local prefix=$1
   shift
@@ -14,7 +14,7 @@ install_to() {
     fail "$(cat "$WORK/install.log")"
 }
 
-# files_in FOLDER: all files and links, by name.
+# files_in FOLDER prints all files and links, by name.
 files_in() {
   (cd "$1" && find . ! -type d | sort)
 }
@@ -25,7 +25,7 @@ mv "$WORK/first" "$moved"
 DESTDIR=$WORK/staged install_to /opt/crt
 diff -r "$moved" "$WORK/staged/opt/crt" || fail "what is installed depends on the prefix"
 
-# The copyright files are of packages, which are made of components one by one.
+# The copyright files belong to packages, which are made of components one by one.
 for component in runtime development command; do
   install_to "$WORK/component/$component" --component $component
   files_in "$WORK/component/$component"
@@ -33,7 +33,7 @@ done | grep -v '/copyright$' | sort >"$WORK/components.txt"
 diff "$WORK/components.txt" <(files_in "$moved") ||
   fail "the components are not a partition of the whole"
 
-# expect COMPONENT FILE...
+# expect COMPONENT FILE... checks that the component has the files.
 expect() {
   local file folder=$WORK/component/$1
   shift
@@ -62,12 +62,12 @@ done
 [[ $BUILD_TYPE == *Deb* ]] || ! grep -rlF -e "$BUILD/" -e "$SOURCE/" "$moved" ||
   fail "they name folders of this build"
 
-# The command finds its module from where it is.
+# The command finds its module relative to itself.
 cd "$WORK"
 echo 'Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }' >sphere.crt
 env -i "$moved/bin/crt" render sphere.crt -o sphere.png --width 64 --height 48 --quiet
 expect_png sphere.png
 
-# What a build with BUILD_SHARED_LIBS=OFF installs.
+# This is what a build with BUILD_SHARED_LIBS=OFF installs.
 cp -a "$moved" "$static_only"
 rm "$static_only/$LIBDIR"/libcrt.so* "$static_only/$LIBDIR"/cmake/crt/crtShared*.cmake

@@ -173,14 +173,14 @@ TEST_CASE("a transformed ray meets a transformed entity where the plain ones mee
   }
 }
 
-TEST_CASE("a union whose parts keep apart is several objects, one whose parts touch is one") {
+TEST_CASE("a union whose parts are disjoint is several objects, one whose parts touch is one") {
   std::vector<Entity> row;
   for (int i = 0; i < 50; ++i) row.emplace_back(Sphere{.center = {3.0 * i, 0, 0}, .radius = 1});
-  const PreparedData apart(scene_of({csg_union(row)}));
+  const PreparedData disjoint(scene_of({csg_union(row)}));
   RayWorkspace work;
-  CHECK(apart.intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
+  CHECK(disjoint.intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
   CHECK(work.intersection_tests == 1);
-  CHECK_FALSE(apart.features().csg);
+  CHECK_FALSE(disjoint.features().csg);
 
   const PreparedData touching(scene_of({Entity(Sphere{}) + Sphere{.center = {2, 0, 0}}}));
   CHECK(touching.features().csg);

@@ -90,8 +90,8 @@ TEST_CASE("mirrors cost reflection rays, glass refraction rays and media") {
 }
 
 TEST_CASE(
-    "what surrounds the camera is looked up once a picture, or for each ray where they start "
-    "apart") {
+    "what surrounds the camera is looked up once a picture, or for each ray where their starts "
+    "differ") {
   Scene scene = small_scene(glass(1.5));
   CHECK(stats_of(scene).media_lookups == 1);
   scene.camera.projection = Projection::spherical;

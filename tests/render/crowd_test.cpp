@@ -106,7 +106,7 @@ TEST_CASE(
   CHECK(image.stats().shadow_rays > 0);
 }
 
-TEST_CASE("the media on a way are those that lists of them give, however solids overlap") {
+TEST_CASE("the media along a ray are those that lists of them give, however solids overlap") {
   std::mt19937 random(18);
   for (int trial = 0; trial < 3000; ++trial) {
     const auto count = std::uint32_t{1} + random() % (trial % 10 == 0 ? 60 : 8);
@@ -154,23 +154,23 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
       const std::vector<double>& beyond_;
     };
     const Line line(beyond);
-    MediaAlongRay way;
-    way.begin(crossings, line);
-    for (const std::uint32_t object : around) way.surround({object, 0});
+    MediaAlongRay along;
+    along.begin(crossings, line);
+    for (const std::uint32_t object : around) along.surround({object, 0});
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const Medium medium{crossings[i].object, static_cast<std::uint32_t>(i)};
       if (crossings[i].entering) {
         list = entered_in_order(lists, list, medium,
                                 [&](std::uint32_t object) { return exit_after(i + 1, object); });
-        way.enter(medium, i + 1);
+        along.enter(medium, i + 1);
       } else {
         list = lists.left(list, medium.object);
-        way.leave(medium.object);
+        along.leave(medium.object);
       }
-      REQUIRE(way.empty() == (list == MediaLists::empty));
-      if (way.empty()) continue;
-      REQUIRE(way.innermost().object == lists.innermost(list).object);
-      REQUIRE(way.innermost().material == lists.innermost(list).material);
+      REQUIRE(along.empty() == (list == MediaLists::empty));
+      if (along.empty()) continue;
+      REQUIRE(along.innermost().object == lists.innermost(list).object);
+      REQUIRE(along.innermost().material == lists.innermost(list).material);
     }
   }
 }

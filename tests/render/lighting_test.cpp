@@ -44,9 +44,9 @@ TEST_CASE("a lit sphere has the ambient, diffuse and specular light of the formu
       const Vec3 view = glm::normalize(point - eye);
       const Vec3 to_light = light.origin - point;
       const Vec3 l = glm::normalize(to_light);
-      const double way =
+      const double distance =
           glm::length(to_light) + (model == FalloffModel::path ? glm::length(point - eye) : 0);
-      const double intensity = 60 / (way * way);
+      const double intensity = 60 / (distance * distance);
       const double cosine = std::max(0.0, glm::dot(l, normal));
       const Vec3 reflected = 2 * glm::dot(l, normal) * normal - l;
       const double highlight =
@@ -116,7 +116,7 @@ TEST_CASE("the inside of an opaque solid is lit by a light inside") {
   check_color(seen(scene, {0, 0, 0.5}, {0, 0, 1}), 1, 1, 1);
 }
 
-TEST_CASE("light is tinted at each crossing of its way, and absorbed by the length inside") {
+TEST_CASE("light is tinted at each crossing of its path, and absorbed by the length inside") {
   const Material stained{
       .color = Color{1, 0.5, 0.25}, .transparency = 0.8, .absorption = {0.1, 0.2, 0.4}};
   Scene scene = dark_scene();
@@ -176,8 +176,7 @@ TEST_CASE("the gaps of a pattern let light through") {
   check_color(seen(scene, {1.5, 0.5, -3}, {1.5, 0.5, 5}), 1, 1, 1);
 }
 
-TEST_CASE(
-    "a bump tilts the normal by the slope of its height, also on an entity that is stretched") {
+TEST_CASE("a bump tilts the normal by the slope of its height, also on an entity that is scaled") {
   // The bump's height is 0.2 (0.5 + 0.5 cos(2 pi x)) in the entity's space.
   const Material bumpy{
       .color = grey(1), .bump = Gradient{.direction = {1, 0, 0}}, .bump_height = 0.2};

@@ -143,7 +143,7 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
   }
 }
 
-TEST_CASE("what a way through a medium leaves of light is right at all lengths") {
+TEST_CASE("what a path through a medium leaves of light is right at all lengths") {
   const auto left = [](const Color& absorption, double length) {
     TexturePool textures(1);
     const PreparedMaterial medium(Material{.absorption = absorption}, textures);

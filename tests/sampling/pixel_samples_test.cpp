@@ -262,14 +262,14 @@ TEST_CASE("what steps show may be added together") {
                      0.1 * static_cast<double>(i)};
   };
   for (const std::int64_t end : {8, 16, 32, 64}) {
-    PixelSamples apart;
+    PixelSamples separate;
     PixelSamples together;
     SeenSamples seen(together, sample_at(0).identity);
     for (std::int64_t count = 0; count < end; count += samples_of_next_step(count)) {
-      add_step(apart, count, sample_at);
+      add_step(separate, count, sample_at);
       add_sum(together, count, sample_at, seen);
     }
     together.add_seen(seen, true);
-    CHECK(apart.stored() == together.stored());
+    CHECK(separate.stored() == together.stored());
   }
 }

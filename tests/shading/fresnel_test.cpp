@@ -134,7 +134,7 @@ TEST_CASE("total internal reflection begins at the critical angle") {
   CHECK(total.direction == Vec3(0));
 }
 
-TEST_CASE("light takes the same way back, and the same share of it is reflected") {
+TEST_CASE("light takes the same path back, and the same share of it is reflected") {
   for (const double n1 : indices) {
     for (const double n2 : indices) {
       for (int step = 1; step < 90; ++step) {

@@ -76,7 +76,7 @@ TEST_CASE(
   CHECK(sample.intensity == 1);
 }
 
-TEST_CASE("falloff divides by the square of the way: to the light, or over the whole path") {
+TEST_CASE("falloff divides by the square of the distance: to the light, or over the whole path") {
   const crt::PointLight light{.origin = {0, 5, 0}, .falloff = 50};
   CHECK(sampled(light, {0, 0, 0}, 15, FalloffModel::light).intensity == 2);
   CHECK(sampled(light, {0, 0, 0}, 15, FalloffModel::path).intensity == 0.125);

@@ -1,4 +1,4 @@
-"""The scenes that CRT and POV-Ray both render, by name."""
+"""CRT and POV-Ray both render these scenes, by name."""
 
 import math
 
@@ -20,7 +20,7 @@ FRONT = Camera(position=(1, 2, -11), pointing=(0, 0, 0))
 
 
 def spheres(count: int) -> Scene:
-    """As many spheres in the same space; their share of it stays the same."""
+    """Makes so many spheres in the same space, of which their share stays the same."""
     centers = Stream(1).points(count, (-4, -3, -4), (4, 3, 4))
     balls = Spheres(centers, 1.4 / count ** (1 / 3), SHINY)
     return Scene(f"{count} spheres over a plane", (balls, Plane(-4, FLOOR)), STUDIO)
@@ -34,7 +34,7 @@ def rows_and_columns(count: int) -> tuple[int, int]:
 
 
 def cells(count: int, width: float, height: float) -> tuple[np.ndarray, float]:
-    """The centres of a grid in the plane z = 0, and the shorter side of a cell."""
+    """Returns the centres of a grid in the plane z = 0, and the shorter side of a cell."""
     columns, rows = rows_and_columns(count)
     x = width * ((np.arange(columns) + 0.5) / columns - 0.5)
     y = height * ((np.arange(rows) + 0.5) / rows - 0.5)
@@ -49,8 +49,8 @@ def plate(count: int) -> Scene:
 
 
 def tunnel(count: int) -> Scene:
-    """Each ray in the middle passes all holes: they overlap, and the narrow places are 0.8 of their
-    radius wide."""
+    """Makes a row of holes. Each ray in the middle passes all of them: they overlap, and the narrow
+    places are 0.8 of their radius wide."""
     radius, step = 1.2, 0.72 * 2
     centers = np.array([(0, 0, step * i) for i in range(count)])
     block = Box((-2.003, -1.503, 0), (2.003, 1.503, step * (count - 1)), WOOD)
@@ -115,7 +115,7 @@ def tori(count: int) -> Scene:
 
 
 def glass() -> Scene:
-    """No ambient light: in POV-Ray glass has no share of it, in CRT it has."""
+    """Has no ambient light: in POV-Ray glass has no share of it, in CRT it has."""
     crystal = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refractive_index=1.5)
     stream = Stream(13)
     balls = tuple(
@@ -143,8 +143,8 @@ def antialiased() -> Scene:
 
 
 def nested(levels: int) -> Scene:
-    """A plate to which balls are added and from which balls are cut, by turns, each level a place
-    further."""
+    """Makes a plate to which balls are added and from which balls are cut, by turns, each level a
+    place further."""
     centers, side = cells(levels, 8, 6)
     parts = tuple(
         Sphere(tuple(center), 0.45 * side, SHINY if level % 2 == 0 else HOLE)
@@ -157,7 +157,7 @@ def powers(first: int, last: int) -> list[tuple[int, str]]:
     return [(10**k, f"1e{k}") for k in range(first, last + 1)]
 
 
-# Each scene by its name, made when asked for: a million spheres take a while.
+# Lists each scene by its name. It is made when asked for, as a million spheres take a while.
 SCENES = {
     **{f"spheres-{name}": (lambda n=n: spheres(n)) for n, name in powers(2, 6)},
     **{f"plate-{name}": (lambda n=n: plate(n)) for n, name in powers(1, 4)},
@@ -175,5 +175,5 @@ SCENES = {
 }
 QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4",
          "mirror-room", "tori-300", "glass", "depth-of-field", "antialiased", "nested-50")
-# Those that POV-Ray is asked for with its other tree as well.
+# POV-Ray renders these with its other tree as well.
 BSP = ("spheres-1e4", "spheres-1e6", "lenses-1e4", "plate-1e3")

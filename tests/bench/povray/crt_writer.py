@@ -1,4 +1,4 @@
-"""Scenes in CRT's language."""
+"""Writes scenes in CRT's language."""
 
 import math
 from typing import TextIO
@@ -24,13 +24,12 @@ def color(values) -> str:
 
 
 def rows(centers: np.ndarray, call: str) -> str:
-    """A call for each centre, a line each."""
+    """Returns a call for each centre, a line each."""
     return "\n".join(f"{call}({x:.5f}, {y:.5f}, {z:.5f})" for x, y, z in centers.tolist())
 
 
 class Writer:
-    """Names are given to materials and to bodies that an expression needs; all go before the
-    Scene."""
+    """Gives names to materials and to bodies that an expression needs. All go before the Scene."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -106,7 +105,7 @@ class Writer:
         return self.materials[material]
 
     def emitted(self, thing) -> str:
-        """Statements that emit the thing."""
+        """Returns statements that emit the thing."""
         if isinstance(thing, Spheres):
             ball = self.define("ball", (
                 f"Macro (x, y, z)"
@@ -124,7 +123,7 @@ class Writer:
         return self.value(thing)
 
     def value(self, thing) -> str:
-        """An expression for the thing."""
+        """Returns an expression for the thing."""
         if isinstance(thing, (Spheres, Lenses)):
             calls = self.emitted(thing)
             return self.define("group", f"Macro () {{\n{calls}\n}}") + "()"

@@ -21,7 +21,7 @@ LONGEST_PROBE = 120.0  # seconds
 
 @dataclass(frozen=True)
 class Plan:
-    """How to measure."""
+    """A Plan says how to measure."""
 
     crt: pathlib.Path
     folder: pathlib.Path
@@ -50,8 +50,8 @@ def write_scripts(scene: Scene, name: str, plan: Plan) -> tuple[Crt, PovRay]:
 
 
 def fitting_divisor(program: Crt | PovRay, picture: pathlib.Path, plan: Plan) -> int:
-    """By what the picture's sides must be divided so that one thread does not take too long; 1 if
-    it can be whole."""
+    """Returns by what the picture's sides must be divided so that one thread does not take too
+    long. It is 1 if the picture can be whole."""
     divisor = FIRST_DIVISOR
     while True:
         try:
@@ -85,7 +85,7 @@ def measure(name: str, scene: Scene, plan: Plan) -> dict:
     crt_divisor = fitting_divisor(crt, crt_picture, plan)
     pov_divisor = fitting_divisor(pov, pov_picture, plan)
 
-    # At the smaller of both sizes they are compared.
+    # They are compared at the smaller of both sizes.
     common = plan.size.divided(max(crt_divisor, pov_divisor))
     crt.trace(common, max(plan.threads), crt_picture)
     pov.trace(common, max(plan.threads), pov_picture)

@@ -1,4 +1,4 @@
-"""Scenes in POV-Ray's language, such that its formulas give what CRT's do."""
+"""Writes scenes in POV-Ray's language, such that its formulas give what CRT's do."""
 
 import math
 from typing import TextIO
@@ -8,9 +8,10 @@ from .model import (
     Spheres, Torus, Union,
 )
 
-# Of POV-Ray's `aperture` to the radius of its lens; found by the size of a spot out of focus.
+# The ratio of POV-Ray's `aperture` to the radius of its lens was found by the size of a spot out of
+# focus.
 APERTURE_FOR_RADIUS = 4.0
-# Of shapes that POV-Ray has not got, by the area of a circle around them.
+# The areas of shapes that POV-Ray lacks are relative to that of a circle around them.
 AREAS = {"circle": 1, "hexagon": 3 * math.sqrt(3) / (2 * math.pi)}
 
 
@@ -82,8 +83,8 @@ background {{ rgb {vector(scene.background)} }}
                 f" direction z * {number(length)} look_at {vector(camera.pointing)}{lens} }}")
 
     def material(self, material: Material) -> str:
-        """CRT's ambient light is not tinted by the surface: here it is divided by the colour to
-        that end."""
+        """Writes a material. CRT's ambient light is not tinted by the surface, so it is divided by
+        the colour here."""
         if material in self.materials:
             return self.materials[material]
         ambient = [0, 0, 0]

@@ -1,4 +1,4 @@
-"""Runs crt and povray and tells how long each of them traced."""
+"""Runs crt and povray and reports how long each of them traced."""
 
 import json
 import pathlib
@@ -10,7 +10,7 @@ TRACE_TIME = re.compile(r"Trace Time:.*?\(([\d.]+) seconds\)")
 
 
 class Failed(Exception):
-    """A program ended with an error."""
+    """Is raised where a program ended with an error."""
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class Size:
 
 
 def run(command: list, timeout: float | None, folder: pathlib.Path) -> str:
-    """What it prints; TimeoutExpired passes."""
+    """Returns what it prints. TimeoutExpired passes."""
     done = subprocess.run(list(map(str, command)), capture_output=True, text=True, timeout=timeout,
                           cwd=folder, errors="replace")
     if done.returncode != 0:

@@ -11,7 +11,7 @@ from .model import Scene
 
 @dataclasses.dataclass(frozen=True)
 class Round:
-    """Seconds of tracing."""
+    """A Round holds seconds of tracing."""
 
     alone: float
     at_once: float  # of the processes the slowest
@@ -19,10 +19,10 @@ class Round:
 
 
 def measure(name: str, scene: Scene, plan: Plan) -> dict:
-    """One thread alone, one in each of several processes at once, and all threads in one process,
-    by turns. What two processes lose to one another (memory, caches) two threads cannot gain. The
-    fastest of each counts: it does the same each time, and all that makes it longer is what else
-    the host does."""
+    """Runs one thread alone, one in each of several processes at once, and all threads in one
+    process, by turns. What two processes lose to one another (memory, caches) two threads cannot
+    gain. The fastest of each counts: it does the same each time, and only the rest of the host
+    makes it longer."""
     crt, _ = write_scripts(scene, name, plan)
     threads = max(plan.threads)
     pictures = [plan.folder / f"{name}-threads-{i}.ppm" for i in range(threads)]

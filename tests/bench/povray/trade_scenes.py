@@ -1,5 +1,5 @@
-"""Scenes for accuracy against time, by name: each is hard for samplers of its own kind, or not
-hard at all."""
+"""Makes scenes for accuracy against time, by name. Each is hard for samplers for a reason of its
+own, or not hard at all."""
 
 from .catalogue import FLOOR, HOLE, SHINY, STUDIO, TILES, WOOD, mirror_room, spheres
 from .model import (
@@ -17,7 +17,7 @@ def height_of(name: str) -> int:
 
 
 def camera_of_pixels(name: str) -> Camera:
-    """A pixel of the full picture is a unit."""
+    """Returns a camera for which a pixel of the full picture is a unit."""
     return Camera(
         position=(0, 0, -500), pointing=(0, 0, 0), orthographic_height=height_of(name),
         focal_distance=1,
@@ -29,7 +29,7 @@ CRYSTAL = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refracti
 
 
 def cad() -> Scene:
-    """Looked at along z, so that all straight edges are parallel to the pixels' sides."""
+    """Looks along z, so that all straight edges are parallel to the pixels' sides."""
     drills = tuple(
         Cylinder((-2.71 + 1.093 * i, 1.207 - 1.211 * j, -1),
                  (-2.71 + 1.093 * i, 1.207 - 1.211 * j, 2),
@@ -51,8 +51,8 @@ def cad() -> Scene:
 
 
 def wires() -> Scene:
-    """Cylinders 0.1 to 0.8 pixels wide, needles that end in less, and balls that cover 3 to 60 % of
-    a pixel."""
+    """Makes cylinders 0.1 to 0.8 pixels wide, needles that end in less, and balls that cover 3 to
+    60 % of a pixel."""
     stream = Stream(17)
 
     def ends() -> tuple:
@@ -84,7 +84,7 @@ def silhouettes() -> Scene:
 
 
 def glass_rows() -> Scene:
-    """No ambient light: in POV-Ray glass has no share of it, in CRT it has."""
+    """Has no ambient light: in POV-Ray glass has no share of it, in CRT it has."""
     stream = Stream(23)
     balls = tuple(
         Sphere((1.9 * column - 2.85, 0.1, 2.1 * row - 3), stream.between(0.75, 0.95), CRYSTAL)
@@ -116,7 +116,7 @@ def hard() -> Scene:
 
 
 def scale() -> Scene:
-    """On a ball of radius 1e6 stand some of radius 1000, 100, 10 and 1."""
+    """Puts some balls of radius 1000, 100, 10 and 1 on a ball of radius 1e6."""
     stream = Stream(29)
     things = [Sphere((0, -1e6, 0), 1e6, FLOOR)]
     for size, far in ((1000, 6000), (100, 900), (10, 120), (1, 22)):

@@ -1,4 +1,4 @@
-"""What the measurements were made on."""
+"""Describes what the measurements were made on."""
 
 import os
 import pathlib

@@ -1,4 +1,4 @@
-"""Puts tables into the pages of docs/, each between its own markers; the rest of a page is written
+"""Puts tables into the pages of docs/, each between its own markers. The rest of a page is written
 by hand."""
 
 import pathlib
@@ -9,7 +9,7 @@ from . import plots, tables, trade_plots, trade_tables
 
 
 def wrapped(text: str) -> str:
-    """Breaks lines of prose that are longer than a page of docs/ has them; rows of tables and
+    """Breaks lines of prose that are longer than a page of docs/ has them. Rows of tables and
     headings stay whole."""
     def lines_of(line: str) -> str:
         if len(line) <= 100 or line.startswith(("|", "#", "![")):
@@ -33,7 +33,7 @@ def with_plot(caption: str, file: str, table: str) -> str:
 
 
 def fill(path: pathlib.Path, texts: dict[str, str]) -> None:
-    """Texts that are not empty."""
+    """Puts in the texts that are not empty."""
     page = path.read_text()
     for name, text in texts.items():
         if text:

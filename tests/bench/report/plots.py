@@ -1,4 +1,4 @@
-"""Plots as SVG."""
+"""Draws plots as SVG."""
 
 import math
 import statistics
@@ -54,7 +54,7 @@ def power(exponent: int) -> str:
 
 
 def ratio_bars(results: dict) -> str:
-    """How many times as long POV-Ray takes, a bar for each number of threads."""
+    """Draws how many times as long POV-Ray takes, a bar for each number of threads."""
     scenes = tables.povray_results(results)
     threads = list(next(iter(scenes.values()))["threads"])
     bar, gap, left, top, wide = 12, 8, 120, 44, 560
@@ -92,7 +92,7 @@ def ratio_bars(results: dict) -> str:
 
 
 def cost_curves(results: dict) -> str:
-    """Nanoseconds a ray against N, both logarithmic."""
+    """Draws nanoseconds a ray against N, both logarithmic."""
     curves = tables.curves_by_name(results)
     points = {name: [(n, statistics.median(point["nanoseconds"]))
                      for n, point in sorted(rows.items())]

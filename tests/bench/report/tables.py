@@ -1,8 +1,8 @@
-"""Markdown tables."""
+"""Writes Markdown tables."""
 
 import statistics
 
-# What our queries are held against: the best that double precision gets from Embree on such rays.
+# Our queries are compared with these: the best that double precision gets from Embree on such rays.
 YARDSTICKS = {
     "coherent": "Embree, double callback, packets of 16",
     "scattered": "Embree, double callback, one by one",
@@ -121,7 +121,7 @@ def threads_table(results: dict) -> str:
 
 
 def embree_columns(rows: list[dict]) -> dict[tuple, dict[str, dict]]:
-    """What was measured, by (spheres, flow) and then by name."""
+    """Returns what was measured, by (spheres, flow) and then by name."""
     columns: dict[tuple, dict[str, dict]] = {}
     for row in rows:
         columns.setdefault((row["spheres"], row["flow"]), {})[row["name"]] = row

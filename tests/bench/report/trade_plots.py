@@ -1,4 +1,4 @@
-"""Plots of accuracy as SVG: small panels side by side, both axes logarithmic."""
+"""Draws plots of accuracy as SVG: small panels side by side, both axes logarithmic."""
 
 import math
 from dataclasses import dataclass
@@ -85,7 +85,7 @@ def drawn(title: str, axes: str, panels: list[Panel]) -> str:
 
 
 def error_against_time(results: dict, error: str) -> str:
-    """Of each scene with pixels that are not flat."""
+    """Draws each scene with pixels that are not flat."""
     panels = []
     for name, result in trade_tables.scenes_of(results).items():
         if name == "flat":

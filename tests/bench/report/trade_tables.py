@@ -1,4 +1,4 @@
-"""Tables of accuracy against time, and of claimed against achieved errors."""
+"""Writes tables of accuracy against time, and of claimed against achieved errors."""
 
 import statistics
 
@@ -64,7 +64,8 @@ def scene_tables(results: dict) -> str:
 
 
 def saved(result: dict, row: dict, error: str) -> Need | None:
-    """How many times as many samples the grid needs for the error of an adaptive setting."""
+    """Returns how many times as many samples the grid needs for the error of an adaptive
+    setting."""
     if not curves.is_sensible(result, row, error):
         return None
     grid = curves.need(curves.family(result, ladders.GRID), "samples", error, row[error])
@@ -76,7 +77,8 @@ def samples_cell(result: dict, row: dict) -> str:
 
 
 def saving_cell(result: dict, row: dict) -> str:
-    """How many times as many samples it takes for the same RMSE / for the same 99.9 % error."""
+    """Returns how many times as many samples it takes for the same RMSE / for the same 99.9 %
+    error."""
     both = [saved(result, row, error) for error in ERRORS]
     return " / ".join("?" if one is None else text_of(one) for one in both)
 

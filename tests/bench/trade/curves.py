@@ -1,4 +1,4 @@
-"""What a family of settings takes for an accuracy, between its settings by straight lines in
+"""Says what a family of settings takes for an accuracy, between its settings by straight lines in
 logarithms."""
 
 import math
@@ -28,7 +28,7 @@ def is_sensible(result: dict, row: dict, error: str) -> bool:
 
 
 def front(rows: list[dict], cost: str, error: str) -> list[tuple[float, float]]:
-    """(cost, error) of those that nothing cheaper beats, the cheapest first."""
+    """Returns (cost, error) of those that nothing cheaper beats, the cheapest first."""
     points: list[tuple[float, float]] = []
     for row in sorted(rows, key=lambda row: (row[cost], row[error])):
         if not points or row[error] < points[-1][1]:

@@ -1,5 +1,5 @@
-"""Parts of the scenes for each class of pixels, and the program that holds claims against the truth
-there."""
+"""Lists parts of the scenes for each class of pixels, and runs the program that compares claims
+with the truth there."""
 
 import json
 import pathlib

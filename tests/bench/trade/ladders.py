@@ -1,4 +1,4 @@
-"""The settings that are tried, from the fastest to the slowest of each family."""
+"""Lists the settings that are tried, from the fastest to the slowest of each family."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ ONE_RAY, PLAIN, RECURSIVE = "POV-Ray -A", "POV-Ray +AM1", "POV-Ray +AM2"
 LENS, LENS_BY_VARIANCE = "POV-Ray, blur_samples", "POV-Ray, variance"
 NAMED = "+A0.1 +AM2 +R4"  # the setting that represents others' accuracy
 
-# What POV-Ray's lens takes if nothing else is said.
+# POV-Ray's lens takes these by default.
 DEFAULT_VARIANCE = 1 / 128
 
 
@@ -44,7 +44,7 @@ def crt_adaptive(family: str, least_samples: int, steps: tuple[float, ...]) -> l
 
 
 def antialiasing(family: str, method: int, settings: tuple) -> list[Rung]:
-    """Of thresholds and depths; jitter is on, as it is if nothing is said."""
+    """Makes rungs of thresholds and depths. Jitter is on, which is the default."""
     rungs = []
     for threshold, depth in settings:
         options = (f"+A{threshold}", f"+AM{method}", f"+R{depth}")
@@ -85,7 +85,7 @@ def povray(with_lens: bool) -> list[Rung]:
 
 
 def all_rungs(with_lens: bool, quick: bool) -> list[Rung]:
-    """CRT's and POV-Ray's by turns."""
+    """Returns CRT's and POV-Ray's by turns."""
     own = [*crt_grid(with_lens), *crt_adaptive(ADAPTIVE, 16, (8, 4, 2, 1, 0.5, 0.25)),
            *crt_adaptive(LOW_START, 4, (64, 32, 16, 8, 4))]
     others = povray(with_lens)

@@ -1,4 +1,4 @@
-"""Measures a scene: errors and times of all settings, and what is to be known of its pixels."""
+"""Measures a scene: errors and times of all settings, and what there is to know of its pixels."""
 
 import dataclasses
 import os
@@ -42,7 +42,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Contest:
-    """A scene written for both programs."""
+    """A Contest is a scene written for both programs."""
 
     name: str
     scene: Scene
@@ -75,7 +75,7 @@ def contest(name: str, plan: Plan) -> Contest:
 
 @dataclass
 class Measured:
-    """What a setting takes and gives."""
+    """Measured is what a setting takes and gives."""
 
     seconds: list[float] = dataclasses.field(default_factory=list)
     error: errors.PictureError = errors.PictureError(0, 0)
@@ -88,8 +88,8 @@ class Measured:
 
 
 def hard_share(match: Contest) -> float:
-    """Of the pixels, by the rays that go through them: of the truth, not of what a renderer thinks
-    of it."""
+    """Returns the share of hard pixels by the rays that go through them: by the truth, not by what
+    a renderer estimates."""
     side, size = RAYS_TO_JUDGE, match.crt.size
     rays = Size(side * size.width, side * size.height)
     image, _ = match.crt.image(
@@ -137,9 +137,9 @@ def overhead(match: Contest) -> list[dict]:
 
 
 def overhead_at(match: Contest, count: int) -> dict:
-    """Passes with as many samples in every pixel as the grid, by turns with it. The fastest of each
-    counts: both do the same each time, and all that makes it longer is what else the machine
-    does."""
+    """Compares passes with as many samples in every pixel as the grid, by turns with it. The
+    fastest of each counts: both do the same each time, and only the rest of the machine makes it
+    longer."""
     side = round(count**0.5)
     passes = {"targeterror": 1e-6, "minsamples": count, "maxsamples": count}
     seconds: dict[str, list[float]] = {"grid": [], "passes": []}
@@ -151,8 +151,8 @@ def overhead_at(match: Contest, count: int) -> dict:
 
 
 def vanished(match: Contest) -> dict:
-    """Whether anything in front of the background is missing from adaptive pictures that covers
-    enough of a pixel."""
+    """Counts what in front of the background is missing from adaptive pictures and covers enough of
+    a pixel."""
     glow = Material(color=(1, 1, 1), diffuse=0)
     things = tuple(dataclasses.replace(thing, material=glow) for thing in match.scene.things)
     bare = dataclasses.replace(match.scene, things=things, background=(0, 0, 0), ambient=1)

@@ -1,4 +1,4 @@
-"""Renders with CRT's library in this process, and with povray; tells pictures and the processor's
+"""Renders with CRT's library in this process, and with povray. Returns pictures and the processor's
 time."""
 
 import os
@@ -31,7 +31,7 @@ class Rendered:
 
 
 def binding(library: pathlib.Path) -> Any:
-    """CRT's Python package on top of this library."""
+    """Returns CRT's Python package on top of this library."""
     os.environ["CRT_LIBRARY"] = str(library)
     package = str(SOURCE / "examples/python")
     if package not in sys.path:
@@ -59,7 +59,7 @@ class Crt:
     def image(
         self, settings: dict, seed: int = 1, threads: int = 0, size: Size | None = None
     ) -> tuple[Any, float]:
-        """A picture and the seconds it took."""
+        """Returns a picture and the seconds it took."""
         prepared = self.prepared(settings, size)
         begin = time.process_time()
         image = prepared.render(threads=threads, seed=seed)
@@ -77,7 +77,7 @@ class PovRay:
     size: Size
 
     def render(self, options: tuple[str, ...], threads: int = 1, enlarged: int = 1) -> Rendered:
-        """`enlarged`: the picture is so many times as wide and high."""
+        """Renders. `enlarged` says how many times as wide and high the picture is."""
         picture = self.script.with_suffix(".ppm")
         output = run(["povray", f"+I{self.script.name}", f"+O{picture.name}", "+FP16",
                       f"File_Gamma={errors.GAMMA}",

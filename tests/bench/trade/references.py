@@ -1,5 +1,5 @@
-"""What each program's pictures converge to, each in two independent halves that tell how uncertain
-it is."""
+"""Renders what each program's pictures converge to, each in two independent halves that show how
+uncertain it is."""
 
 from dataclasses import dataclass
 
@@ -29,7 +29,7 @@ class Reference:
 
 
 def of_halves(halves: list[np.ndarray]) -> Reference:
-    """Of linear light."""
+    """Returns the mean of two halves, in linear light."""
     mean = errors.shown(sum(halves) / len(halves))
     apart = errors.difference(*(errors.shown(half) for half in halves))
     return Reference(mean, errors.PictureError(apart.rmse / 2, apart.p999 / 2))

@@ -132,9 +132,9 @@ TEST_CASE("a copy of the library is a second instance beside the first") {
   {
     const Library first(CRT_LIBRARY);
     const Library second(copy.string());
-    const bool apart = first.find<decltype(crt_version)>("crt_version") !=
-                       second.find<decltype(crt_version)>("crt_version");
-    CHECK(apart);
+    const bool distinct = first.find<decltype(crt_version)>("crt_version") !=
+                          second.find<decltype(crt_version)>("crt_version");
+    CHECK(distinct);
     CHECK(use(first) == use(second));
     // A message in one copy does not appear in the other.
     crt_entity* none = nullptr;

@@ -212,7 +212,7 @@ TEST_CASE("putting a scene together and copying it") {
   crt_light_init(&light, sizeof light);
   crt_settings settings;
   crt_settings_init(&settings, sizeof settings);
-  settings.title = "a title that is too long for the room that short texts have";
+  settings.title = "a title that is too long for the buffer that short texts have";
   check_every_failure([&] {
     return made_and_released<SceneHandle>([&](crt_scene** out) {
       crt_status status = crt_scene_create(out);
@@ -293,7 +293,7 @@ TEST_CASE("asking rays") {
 TEST_CASE("running scripts, good and bad") {
   const std::string good =
       "f = Macro (n) { Sphere { center -> vec3(n, 0, 0) radius -> 1 } }\nl = [1, 2.5, \"three\"]\n"
-      "Settings { title -> \"a title that is too long for the room that short texts have\" }\n"
+      "Settings { title -> \"a title that is too long for the buffer that short texts have\" }\n"
       "Scene { for (i in range(3)) { f(i) } Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, "
       "1) } }\n";
   const std::string bad = "f = Macro (n) { g(n) }\nScene { f(2) }\n";

@@ -89,7 +89,7 @@ TEST_CASE("the mean of two pictures is that of their light") {
 }
 
 TEST_CASE(
-    "bands lie in the picture, apart, as wide as it is, with about the pixels that were asked "
+    "bands lie in the picture, disjoint, as wide as it is, with about the pixels that were asked "
     "for") {
   for (const int width : {1, 7, 640, 1920}) {
     for (const int height : {1, 23, 24, 100, 480, 1080, 65536}) {
