@@ -2,8 +2,8 @@
 
 They are of every example and every scene that the benchmarks render, in both tiers, and of a
 million random queries. A change that only moves code leaves all of them as they are: record
-before, record after, and compare the two texts. They hold for one machine and its libraries (the C library's elementary
-functions are among them).
+before, record after, and compare the two texts. They hold for one machine and its libraries (the C
+library's elementary functions are among them).
 """
 
 import hashlib

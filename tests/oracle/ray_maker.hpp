@@ -23,8 +23,8 @@ enum class RayKind : std::uint8_t {
   on_surface,      ///< from a point on the surface, as near as doubles have it
   near_parallel,   ///< 10^-16 to 0.1 off parallel to a face or an axis
   along_ruling,    ///< of cylinders and cones: 10^-16 to 0.1 off a straight line of the side
-  extreme_length,  ///< any of these, its direction scaled or its components up to a factor of
-                   ///< 10^280 apart
+  extreme_length,  ///< any of these, its direction scaled or its components made to differ by
+                   ///< up to 10^280
 };
 inline constexpr std::size_t ray_kinds = 8;
 std::string_view name_of(RayKind kind);
