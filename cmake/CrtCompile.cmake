@@ -1,4 +1,4 @@
-# How every target of the project is compiled: the interface target crt_compile.
+# The interface target crt_compile says how every target of the project is compiled.
 add_library(crt_compile INTERFACE)
 target_compile_features(crt_compile INTERFACE cxx_std_20)
 set(CMAKE_CXX_EXTENSIONS OFF)
@@ -26,7 +26,8 @@ if(CRT_SANITIZE)
     -fsanitize=${CRT_SANITIZE} -fno-sanitize-recover=all -fno-omit-frame-pointer -g)
   target_link_options(crt_compile INTERFACE -fsanitize=${CRT_SANITIZE})
   if(CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
-    # What sanitizers add hides from GCC 12 that an empty std::optional's content is never looked at.
+    # With what sanitizers add, GCC 12 does not see that an empty std::optional's content is never
+    # read.
     target_compile_options(crt_compile INTERFACE -Wno-maybe-uninitialized)
   endif()
 endif()
@@ -35,7 +36,8 @@ if(CRT_COVERAGE)
   target_link_options(crt_compile INTERFACE --coverage)
 endif()
 
-# A cache of compiled objects where there is one; never where the caller has chosen a launcher.
+# Compiled objects are cached where there is a cache, but not where the caller has chosen a
+# launcher.
 if(PROJECT_IS_TOP_LEVEL AND NOT DEFINED CMAKE_CXX_COMPILER_LAUNCHER)
   find_program(CCACHE ccache)
   if(CCACHE)

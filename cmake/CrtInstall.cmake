@@ -1,8 +1,8 @@
-# What is installed, by component:
+# These files are installed, by component:
 #   runtime      libcrt.so.1 and the module for image files
 #   development  headers, the link libcrt.so, static libraries, the CMake package crt and crt.pc
-#   command      the command crt
-# Nothing of it names an absolute place that it needs: an installed tree may be moved.
+#   command      the command crt None of them names an absolute path that it needs, so an installed
+#   tree may be moved.
 include(CMakePackageConfigHelpers)
 
 set(package_dir ${CMAKE_INSTALL_LIBDIR}/cmake/crt)
@@ -17,11 +17,13 @@ set_target_properties(crt_image_files PROPERTIES EXPORT_NAME image_files)
 install(EXPORT crt_static NAMESPACE crt:: FILE crtStaticTargets.cmake
   DESTINATION ${package_dir} COMPONENT development)
 if(CMAKE_STRIP)
-  # `--strip` (and CPack) cares for programs and shared libraries alone.
+  # `--strip` (and CPack) strips programs and shared libraries alone.
   install(CODE "
     if(CMAKE_INSTALL_DO_STRIP)
-      file(GLOB archives \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libcrt*.a\")
-      execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \${archives} COMMAND_ERROR_IS_FATAL ANY)
+      file(GLOB archives
+        \"\$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${CMAKE_INSTALL_LIBDIR}/libcrt*.a\")
+      execute_process(COMMAND \"${CMAKE_STRIP}\" --strip-debug \${archives}
+        COMMAND_ERROR_IS_FATAL ANY)
     endif()" COMPONENT development)
 endif()
 
@@ -35,14 +37,17 @@ endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/crt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT development FILES_MATCHING PATTERN *.h PATTERN *.hpp)
 
-configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/crtConfig.cmake.in ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
+configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/crtConfig.cmake.in
+  ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
   INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
-write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/crtConfigVersion.cmake COMPATIBILITY SameMajorVersion)
-install(FILES ${PROJECT_BINARY_DIR}/package/crtConfig.cmake ${PROJECT_BINARY_DIR}/package/crtConfigVersion.cmake
+write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/crtConfigVersion.cmake
+  COMPATIBILITY SameMajorVersion)
+install(FILES ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
+  ${PROJECT_BINARY_DIR}/package/crtConfigVersion.cmake
   DESTINATION ${package_dir} COMPONENT development)
 
-# crt.pc. What libcrt.a needs beside it is all in Libs.private: a Requires.private would make a program that
-# links libcrt.so ask for the development packages of fmt and TBB.
+# This makes crt.pc. What libcrt.a needs beside it is all in Libs.private: a Requires.private would
+# make a program that links libcrt.so ask for the development packages of fmt and TBB.
 set(pc_prefix ${CMAKE_INSTALL_PREFIX})
 if(NOT IS_ABSOLUTE ${CMAKE_INSTALL_LIBDIR})
   file(RELATIVE_PATH up /${CMAKE_INSTALL_LIBDIR}/pkgconfig /)
@@ -52,12 +57,15 @@ set(pc_directories)
 foreach(library embree TBB::tbb fmt::fmt)
   get_target_property(file ${library} LOCATION)
   get_filename_component(directory ${file} DIRECTORY)
-  if(NOT directory IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES AND NOT "-L${directory}" IN_LIST pc_directories)
+  if(NOT directory IN_LIST CMAKE_CXX_IMPLICIT_LINK_DIRECTORIES
+      AND NOT "-L${directory}" IN_LIST pc_directories)
     list(APPEND pc_directories -L${directory})
   endif()
 endforeach()
 list(JOIN pc_directories " " pc_directories)
-set(pc_private "-lcrt_lang -lcrt_core ${pc_directories} -lembree${embree_VERSION_MAJOR} -ltbb -lfmt -lstdc++ -lm -ldl -pthread")
+string(CONCAT pc_private
+  "-lcrt_lang -lcrt_core ${pc_directories} -lembree${embree_VERSION_MAJOR} -ltbb -lfmt"
+  " -lstdc++ -lm -ldl -pthread")
 string(REPLACE "  " " " pc_private "${pc_private}")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/crt.pc.in ${PROJECT_BINARY_DIR}/package/crt.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc

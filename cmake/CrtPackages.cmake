@@ -1,5 +1,5 @@
-# Debian packages, by CPack: libcrt1, libcrt-dev and crt, a component each (see CrtInstall.cmake).
-# `./dev package` makes them of the release build, whose prefix is /usr.
+# CPack makes the Debian packages libcrt1, libcrt-dev and crt, a component each (see
+# CrtInstall.cmake). `./dev package` makes them of the release build, whose prefix is /usr.
 set(runtime_package libcrt${PROJECT_VERSION_MAJOR})
 
 set(CPACK_GENERATOR DEB)
@@ -25,7 +25,7 @@ set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
 set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS_POLICY ">=")
 set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 
-# What every description ends with.
+# Every description ends with this.
 set(about "CRT renders solids that are described by their equations (spheres, boxes,
 cylinders, cones, tori and half-spaces, added, subtracted and intersected)
 without cutting them into triangles.")
@@ -35,7 +35,8 @@ set(CPACK_DEBIAN_RUNTIME_PACKAGE_SECTION libs)
 set(CPACK_COMPONENT_RUNTIME_DESCRIPTION "ray tracer of analytic solids: library with a C interface
 ${about}
 .
-This package has libcrt.so.${PROJECT_VERSION_MAJOR}, which programs use, and its module for image files.")
+This package has libcrt.so.${PROJECT_VERSION_MAJOR}, which programs use, and its
+module for image files.")
 
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcrt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
@@ -54,7 +55,7 @@ ${about}
 This package has the command crt, which renders scenes written in CRT's own
 small language to image files.")
 
-# What Debian wants to know of the licence, in each package, and only there.
+# Each Debian package has a file with its licence. Only Debian wants it.
 file(WRITE ${PROJECT_BINARY_DIR}/package/copyright
 "Format: https://www.debian.org/doc/packaging-manuals/copyright-format/1.0/
 Upstream-Name: crt

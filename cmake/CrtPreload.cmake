@@ -1,5 +1,6 @@
-# crt_get_preload(out): what LD_PRELOAD must name for a program that is not built with the sanitizers of CRT_SANITIZE but
-# loads a libcrt that is; empty without sanitizers. Their runtime must come first, and find the C++ library there.
+# crt_get_preload(out) returns what LD_PRELOAD must name for a program that is not built with the
+# sanitizers of CRT_SANITIZE but loads a libcrt that is. It is empty without sanitizers. Their
+# runtime must come first, and find the C++ library there.
 function(crt_get_preload out)
   set(paths)
   if(CRT_SANITIZE MATCHES "address")

@@ -1,6 +1,6 @@
-# Runs PROGRAM with ARGUMENTS in an empty FOLDER. It must end with STATUS (0 unless told), write what the regular
-# expressions EXPECT ask for, in this order, to its output or its errors, and leave PICTURES there, which
-# CHECK_PICTURE looks at. Lists have bars between their items.
+# Runs PROGRAM with ARGUMENTS in an empty FOLDER. It must end with STATUS (0 by default) and
+# write what the regular expressions EXPECT ask for, in this order, to its output or its errors. It
+# must leave PICTURES there, which CHECK_PICTURE checks. Lists have bars between their items.
 file(REMOVE_RECURSE ${FOLDER})
 file(MAKE_DIRECTORY ${FOLDER})
 string(REPLACE "|" ";" arguments "${ARGUMENTS}")
@@ -19,7 +19,8 @@ endif()
 
 string(REPLACE "|" ";" pictures "${PICTURES}")
 foreach(picture ${pictures})
-  execute_process(COMMAND ${CHECK_PICTURE} ${picture} WORKING_DIRECTORY ${FOLDER} RESULT_VARIABLE status)
+  execute_process(COMMAND ${CHECK_PICTURE} ${picture} WORKING_DIRECTORY ${FOLDER}
+    RESULT_VARIABLE status)
   if(NOT status EQUAL 0)
     message(FATAL_ERROR "${FOLDER}/${picture} is not the picture that ${PROGRAM} should have left")
   endif()

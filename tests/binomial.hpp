@@ -1,4 +1,4 @@
-// What a count of successes says of the share that they have in the long run.
+// A count of successes bounds the share that they have in the long run.
 #pragma once
 
 #include <cmath>
@@ -6,8 +6,8 @@
 
 namespace crt::test {
 
-/// The lower end of the two-sided 95 % interval for the share of successes. Source: Clopper and
-/// Pearson, The use of confidence or fiducial limits illustrated in the case of the binomial,
+/// Returns the lower end of the two-sided 95 % interval for the share of successes. Source: Clopper
+/// and Pearson, The use of confidence or fiducial limits illustrated in the case of the binomial,
 /// Biometrika 26(4), 1934.
 inline double clopper_pearson_low(std::int64_t successes, std::int64_t trials) {
   if (successes == 0) return 0;

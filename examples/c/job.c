@@ -1,5 +1,6 @@
-// Renders in the background: starts a job, looks at its progress from time to time, saves what is
-// there half-way to half.png, and waits for the rest, job.png. `job cancel` stops half-way instead.
+// Renders in the background: it starts a job, looks at its progress from time to time, saves what
+// is there half-way to half.png, and waits for the rest, job.png. `job cancel` stops half-way
+// instead.
 #define _POSIX_C_SOURCE 199309L  // nanosleep
 #include <crt/crt.h>
 #include <stdio.h>
@@ -44,7 +45,7 @@ static int prepare(crt_prepared** out) {
   return failed;
 }
 
-// Returns when at least so much is done, or the job has ended otherwise; `done` gets how much.
+// Returns when at least so much is done, or the job has ended otherwise. `done` gets how much.
 static int wait_until(crt_job* job, double fraction, double* done) {
   const struct timespec a_moment = {0, 20 * 1000 * 1000};
   for (;;) {
@@ -68,7 +69,7 @@ static int save_result(crt_job* job, const char* path) {
   return failed;
 }
 
-// The job may have come to its end by itself before it was cancelled.
+// Cancels the job, which may have come to its end by itself before.
 static int cancel(crt_job* job) {
   if (crt_job_cancel(job)) return 1;
   const crt_status status = crt_job_wait(job, NULL);

@@ -1,13 +1,13 @@
-// Asks rays what they meet, without rendering: draws a hollow ball, cut open, with a ring around it
-// in letters on the terminal, then lists every crossing of one ray.
+// Asks rays what they meet, without rendering: it draws a hollow ball, cut open, with a ring around
+// it in letters on the terminal, then lists every crossing of one ray.
 #include <crt/crt.h>
 #include <math.h>
 #include <stdio.h>
 
 enum { columns = 72, rows = 28, ray_count = columns * rows };
 
-// What the program knows of one letter. CRT reads the rays and writes the hits where they are, in
-// here: it is told how many bytes lie between one and the next.
+// A letter is what the program knows of one character. CRT reads the rays and writes the hits in
+// place: it gets the number of bytes from one letter to the next.
 typedef struct letter {
   crt_ray view;
   crt_hit hit;
@@ -41,7 +41,7 @@ static int make_scene(crt_prepared** out) {
   return failed;
 }
 
-// Parallel rays, a letter being twice as high as it is wide.
+// Makes parallel rays, where a letter is twice as high as it is wide.
 static void aim(letter* letters) {
   const double width = 3.6, letter_width = width / columns;
   for (int i = 0; i < ray_count; ++i) {
@@ -59,7 +59,8 @@ static void aim(letter* letters) {
   }
 }
 
-// From each hit a ray to the light; it begins a little off the surface, so as not to meet that.
+// Makes a ray from each hit to the light. It begins a little off the surface, so as not to meet
+// that.
 static void aim_at_light(letter* letters) {
   const double gap = 1e-6;
   for (int i = 0; i < ray_count; ++i) {

@@ -33,7 +33,8 @@ static int upright_cylinder(double x, double z, double radius, double bottom, do
   return crt_cylinder_create(from, to, radius, out);
 }
 
-// A plate and a hub, less a bore, a groove, the quarter towards the camera, and holes for bolts.
+// Makes a plate and a hub, less a bore, a groove, the quarter towards the camera, and holes for
+// bolts.
 static int make_flange(crt_entity** out) {
   const double foot[3] = {0, 0.45, 0}, neck[3] = {0, 1.8, 0}, up[3] = {0, 1, 0};
   const double below[3] = {0, -1, 0}, beyond[3] = {3, 3, -3};
@@ -49,9 +50,8 @@ static int make_flange(crt_entity** out) {
     const double angle = (i + 0.5) * 2 * pi / hole_count;
     failed = upright_cylinder(1.62 * cos(angle), 1.62 * sin(angle), 0.17, -1, 3, &cutters[3 + i]);
   }
-  failed =
-      failed || crt_difference_create(body, cutters, cutter_count, out) ||
-      paint(out, 0.13, 0.17, 0.24, 0.25);  // steel, but for the cut, which has its paint already
+  failed = failed || crt_difference_create(body, cutters, cutter_count, out) ||
+           paint(out, 0.13, 0.17, 0.24, 0.25);  // steel, but for the cut, which has its own paint
 
   for (int i = 0; i < cutter_count; ++i) crt_entity_release(cutters[i]);
   for (int i = 0; i < 2; ++i) crt_entity_release(solids[i]);

@@ -51,7 +51,7 @@ static int take_variables(char** arguments, int count, const char** names,
   return 0;
 }
 
-// crt_diagnostics_text() would give all of this in one piece.
+// Prints the diagnostics. crt_diagnostics_text() would give all of this in one piece.
 static void tell(const crt_diagnostics* diagnostics) {
   for (size_t i = 0; i < crt_diagnostics_count(diagnostics); ++i) {
     crt_diagnostic d;
@@ -64,7 +64,7 @@ static void tell(const crt_diagnostics* diagnostics) {
   }
 }
 
-// The script in `path`, or the flower if that is NULL.
+// Runs the script in `path`, or the flower if that is NULL.
 static int run(const char* path, const crt_script_options* options, crt_scene** out) {
   crt_diagnostics* diagnostics = NULL;
   const int failed =

@@ -1,19 +1,19 @@
-// Volume, mass and centre of mass of a part, from what a grid of parallel rays passes of it. The
-// part is a steel plate, 100 x 60 x 12 mm, with four drilled holes and a hemispherical pocket, so
-// that the closed form can tell whether the result is within the error that is stated: else the
+// Computes volume, mass and centre of mass of a part, from what a grid of parallel rays passes of
+// it. The part is a steel plate, 100 x 60 x 12 mm, with four drilled holes and a hemispherical
+// pocket, so that a closed form shows whether the result is within the stated error. Else the
 // program fails.
 //
-// Method. The cells of the grid tile the plate. L(x, y), the length of material along z, is
-// measured at the middle of each and stands for all of it (the midpoint rule). Crossings are exact
-// but for rounding, so errors come from the plane. A cell that an outline passes has another L
-// beyond it. An outline that misses a cell's middle leaves at most half of the cell beyond it, and
-// the middle of one of the eight cells around is there too: so the cell errs by at most half its
-// area times the spread (greatest less least) of L over these nine. Where no outline passes, a cell
-// errs by its area times a 24th of L's second differences, which is less than that again. The
-// stated error is the sum over all cells. It wants outlines that are no finer than the grid: three
-// cells apart, with radii of four cells or more (so curved, they may leave a little more than half,
-// but the cells beside the outline, which count as well, more than make up for it). As errors
-// cancel, it is far too careful.
+// The method is this. The cells of the grid tile the plate. L(x, y), the length of material along
+// z, is measured at the middle of each and stands for all of it (the midpoint rule). Crossings are
+// exact but for rounding, so errors come from the plane. A cell that a contour crosses has another
+// L beyond it. A contour that misses a cell's middle leaves at most half of the cell beyond it, and
+// the middle of one of the eight cells around is there too. So the cell errs by at most half its
+// area times the spread (greatest less least) of L over these nine. Where no contour crosses, a
+// cell errs by its area times a 24th of L's second differences, which is less than that again. The
+// stated error is the sum over all cells. It needs contours that are no finer than the grid: three
+// cells apart, with radii of four cells or more. So curved, they may leave a little more than half,
+// but the cells beside the contour, which count as well, more than make up for it. As errors
+// cancel, the stated error is far larger than the true one.
 #include <crt/crt.h>
 #include <float.h>
 #include <math.h>
@@ -32,7 +32,7 @@ typedef struct measure {
   double moment[3];  // the integrals of x, y and z over the part
 } measure;
 
-// The plate's upper side is at z = 0, with its middle at x = y = 0.
+// Makes the plate, whose upper side is at z = 0, with its middle at x = y = 0.
 static int make_part(crt_prepared** out) {
   const double corner[3] = {-width / 2, -depth / 2, -height},
                opposite[3] = {width / 2, depth / 2, 0};
@@ -65,7 +65,7 @@ static measure closed_form(void) {
   return m;
 }
 
-// Adds what the line along z through the middle of a cell has to say.
+// Adds what the line along z through the middle of a cell measures.
 static int measure_line(crt_prepared* part, int i, int j, measure* m) {
   enum { most = 32 };
   const double x = ((i + 0.5) / cells - 0.5) * width, y = ((j + 0.5) / cells - 0.5) * depth;
@@ -85,7 +85,7 @@ static int measure_line(crt_prepared* part, int i, int j, measure* m) {
   return 0;
 }
 
-// The greatest less the least of the lengths in a cell and the cells around it.
+// Returns the greatest less the least of the lengths in a cell and the cells around it.
 static double spread(int i, int j) {
   double least = INFINITY, greatest = 0;
   for (int b = j > 0 ? j - 1 : 0; b <= j + 1 && b < cells; ++b) {

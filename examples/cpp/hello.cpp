@@ -1,4 +1,4 @@
-// A ball with a corner cut out, on a floor: the smallest program that makes a picture.
+// This is the smallest program that makes a picture: a ball with a corner cut out, on a floor.
 #include <crt/crt.hpp>
 #include <iostream>
 

@@ -1,5 +1,5 @@
-# Builds SOURCE with libcrt from the folder LIBRARIES, and runs it as example_test.cmake does all examples. PRELOAD: see
-# CrtPreload.cmake.
+# Builds SOURCE with libcrt from the folder LIBRARIES, and runs it as example_test.cmake does all
+# examples. CrtPreload.cmake explains PRELOAD.
 find_program(RUSTC rustc PATHS /usr/bin NO_DEFAULT_PATH)
 find_program(RUSTC rustc)
 if(NOT RUSTC)

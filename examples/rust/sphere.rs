@@ -1,11 +1,12 @@
-// A ball with a corner cut out, from Rust: no crates, only what of crt.h it needs. Writes sphere.png.
+// Writes sphere.png, a ball with a corner cut out, from Rust. It uses no crates, and declares only
+// what it needs of crt.h.
 //
 //     rustc -O sphere.rs -L FOLDER_OF_LIBCRT && ./sphere
 use std::ffi::{c_void, CStr, CString};
 use std::os::raw::{c_char, c_int};
 use std::{fmt, mem, ptr};
 
-// ---- crt.h, as far as it is used ----------------------------------------------------------------------
+// ---- crt.h, as far as it is used ---------------------------------------------------------------
 
 #[repr(C)]
 struct Light {
@@ -42,7 +43,12 @@ extern "C" {
     fn crt_error_message() -> *const c_char;
     fn crt_sphere_create(center: *const f64, radius: f64, out: *mut Pointer) -> c_int;
     fn crt_box_create(corner_a: *const f64, corner_b: *const f64, out: *mut Pointer) -> c_int;
-    fn crt_difference_create(from: Pointer, cutters: *const Pointer, count: usize, out: *mut Pointer) -> c_int;
+    fn crt_difference_create(
+        from: Pointer,
+        cutters: *const Pointer,
+        count: usize,
+        out: *mut Pointer,
+    ) -> c_int;
     fn crt_entity_release(entity: Pointer);
     fn crt_light_init(light: *mut Light, struct_size: usize) -> c_int;
     fn crt_camera_init(camera: *mut Camera, struct_size: usize) -> c_int;
@@ -58,7 +64,7 @@ extern "C" {
     fn crt_image_release(image: Pointer);
 }
 
-// ---- Rust's ways --------------------------------------------------------------------------------------
+// ---- errors and handles in Rust ----------------------------------------------------------------
 
 #[derive(Debug)]
 struct Error(String);
@@ -79,14 +85,14 @@ fn check(status: c_int) -> Result<(), Error> {
     Err(Error(message.to_string_lossy().into_owned()))
 }
 
-/// One reference to something of the library, dropped with this.
+/// A Handle is one reference to something of the library, dropped with this.
 struct Handle {
     pointer: Pointer,
     release: unsafe extern "C" fn(Pointer),
 }
 
 impl Handle {
-    /// What `create` puts into its argument.
+    /// Takes what `create` puts into its argument.
     fn new(
         release: unsafe extern "C" fn(Pointer),
         create: impl FnOnce(&mut Pointer) -> c_int,
@@ -104,7 +110,9 @@ impl Drop for Handle {
 }
 
 fn sphere(center: [f64; 3], radius: f64) -> Result<Handle, Error> {
-    Handle::new(crt_entity_release, |out| unsafe { crt_sphere_create(center.as_ptr(), radius, out) })
+    Handle::new(crt_entity_release, |out| unsafe {
+        crt_sphere_create(center.as_ptr(), radius, out)
+    })
 }
 
 fn cuboid(a: [f64; 3], b: [f64; 3]) -> Result<Handle, Error> {
@@ -112,7 +120,9 @@ fn cuboid(a: [f64; 3], b: [f64; 3]) -> Result<Handle, Error> {
 }
 
 fn difference(from: &Handle, cutter: &Handle) -> Result<Handle, Error> {
-    Handle::new(crt_entity_release, |out| unsafe { crt_difference_create(from.pointer, &cutter.pointer, 1, out) })
+    Handle::new(crt_entity_release, |out| unsafe {
+        crt_difference_create(from.pointer, &cutter.pointer, 1, out)
+    })
 }
 
 fn main() -> Result<(), Box<dyn std::error::Error>> {
@@ -133,13 +143,17 @@ fn main() -> Result<(), Box<dyn std::error::Error>> {
         check(crt_scene_set_camera(scene.pointer, &camera))?;
     }
 
-    let prepared = Handle::new(crt_prepared_release, |out| unsafe { crt_scene_prepare(scene.pointer, out) })?;
-    let image = Handle::new(crt_image_release, |out| unsafe { crt_render(prepared.pointer, ptr::null(), out) })?;
+    let prepared = Handle::new(crt_prepared_release, |out| unsafe {
+        crt_scene_prepare(scene.pointer, out)
+    })?;
+    let image = Handle::new(crt_image_release, |out| unsafe {
+        crt_render(prepared.pointer, ptr::null(), out)
+    })?;
     let path = CString::new("sphere.png")?;
     check(unsafe { crt_image_write(image.pointer, path.as_ptr()) })?;
     println!("sphere.png is there");
 
-    // An error, to see what one looks like.
+    // This shows what an error looks like.
     if let Err(error) = sphere([0.0; 3], -1.0) {
         println!("a wrong sphere: {}", error);
     }

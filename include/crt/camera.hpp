@@ -5,12 +5,14 @@
 
 namespace crt {
 
+/// Says how a camera maps directions to the picture.
 enum class Projection { pinhole, spherical, cylindrical, orthographic };
 
-/// Shapes of the lens opening; sampled uniformly in area, but for the gaussian. In units of the
-/// lens's radius: the polygons have their corners at distance 1, one of them at the top (square:
-/// its sides are aligned with the picture); `uniform` is the whole square from -1 to 1; `gaussian`
-/// has a standard deviation of 1/2 and ends at 2; `line` is horizontal, from -1 to 1.
+/// Lists the shapes of the lens opening. All but the gaussian are sampled uniformly in area.
+/// Lengths are in units of the lens's radius. The polygons have their corners at distance 1, one of
+/// them at the top, but the sides of the square are aligned with the picture. `uniform` is the
+/// whole square from -1 to 1. `gaussian` has a standard deviation of 1/2 and ends at 2. `line` is
+/// horizontal, from -1 to 1.
 enum class ApertureShape {
   circle,
   uniform,
@@ -23,25 +25,26 @@ enum class ApertureShape {
   line
 };
 
-/// Where the picture is seen from.
+/// A Camera says where the picture is seen from.
 struct Camera {
   Vec3 position{0, 0, -1};
-  /// The point looked at; must not be `position`.
+  /// This is the point looked at. It must not be `position`.
   Vec3 pointing{0, 0, 0};
-  /// Vertical field of view in radians: in (0, pi) for pinhole and orthographic, in (0, pi] of
-  /// latitude for spherical, in (0, pi) for cylindrical.
+  /// This is the vertical field of view in radians: in (0, pi) for pinhole and orthographic, in (0,
+  /// pi] of latitude for spherical, in (0, pi) for cylindrical.
   double fov = std::numbers::pi / 3;
-  /// Turns the camera about its direction, in radians; positive tips the picture's top to the
-  /// right. At 0 the top is towards y; looking straight up or down (within 1e-9 radians) it is
-  /// towards z.
+  /// Turns the camera about its direction, in radians. Positive values tip the picture's top to the
+  /// right. At 0 the top is towards y. If the camera looks straight up or down (within 1e-9
+  /// radians), the top is towards z.
   double roll = 0;
   Projection projection = Projection::pinhole;
-  /// Radius of the lens in thousandths of a scene unit (>= 0); 0 is a pinhole: all is sharp.
+  /// This is the radius of the lens in thousandths of a scene unit (>= 0). 0 is a pinhole: all is
+  /// sharp.
   double aperture = 0;
-  /// Distance along the view direction to the plane that is in focus (> 0); spherical and
-  /// cylindrical cameras, which see all around, are in focus at this distance along each ray. For
-  /// an orthographic camera also where the image plane has the size that `fov` gives it; its rays
-  /// start in the plane through `position`.
+  /// This is the distance along the view direction to the plane that is in focus (> 0). Spherical
+  /// and cylindrical cameras see all around, and are in focus at this distance along each ray. For
+  /// an orthographic camera it is also where the image plane has the size that `fov` gives it. Its
+  /// rays start in the plane through `position`.
   double focal_distance = 1;
   ApertureShape aperture_shape = ApertureShape::circle;
 };

@@ -1,31 +1,33 @@
 /**
  * @file
- * The C interface of CRT: solids, scenes, pictures and ray queries for programs in any language.
+ * This header is the C interface of CRT: solids, scenes, pictures and ray queries for programs in
+ * any language.
  *
- * Rules that hold for every function
+ * These rules hold for every function:
  *
- * - **Status.** What can fail returns a crt_status and writes its result through its last
- * parameter, which it leaves untouched on failure. crt_error_message() then tells the calling
- * thread what was wrong. Nothing throws, ends the process or prints. NULL where something is
- * required, an unknown value of an enumeration and a number that is not finite are
- * CRT_ERROR_INVALID_ARGUMENT. Any function may return CRT_ERROR_OUT_OF_MEMORY and
- * CRT_ERROR_INTERNAL (a fault of CRT).
- * - **Handles** (crt_entity, crt_scene, ...) are counted: what a function hands out is one
- * reference, yours to release; `*_retain` adds one and returns its argument; `*_release` drops one,
- * from any thread; both take NULL. What goes into a container is held by it, so the order of
- * releasing does not matter.
- * - **Structs** that may grow begin with `struct_size`. Have their `crt_*_init(&s, sizeof s)` fill
- * in the defaults, then change what you like. Fields beyond the size that you pass have their
- * default.
- * - **Threads.** Each group says who may call it: any thread; one thread at a time (a scene that
- *   is being put together); shared (what is immutable: any number of threads at once).
- * - **Conventions.** Left-handed space: x to the right, y up, z into the screen. Vectors are
- * double[3]. Colours are double[3], linear RGB. Transforms are double[12], the three rows of a 3x4
- * affine matrix (linear part, then translation). Angles are radians. Texts are UTF-8, ended by 0
- * unless there is a length. Coordinates and sizes lie between 1e-100 and 1e100; what has no size is
- * crt_empty_create().
+ * - **Status.** A function that can fail returns a crt_status. It writes its result through its
+ *   last parameter, which it leaves untouched on failure. crt_error_message() then says to the
+ *   calling thread what was wrong. Nothing throws, ends the process or prints.
+ *   CRT_ERROR_INVALID_ARGUMENT is returned for NULL where something is required, for an unknown
+ *   value of an enumeration and for a number that is not finite. Any function may return
+ *   CRT_ERROR_OUT_OF_MEMORY and CRT_ERROR_INTERNAL (a fault of CRT).
+ * - **Handles** (crt_entity, crt_scene, ...) are counted. A function that hands out a handle gives
+ *   one reference, which the caller must release. `*_retain` adds a reference and returns its
+ *   argument. `*_release` drops one, from any thread. Both take NULL. A container holds what goes
+ *   into it, so the order of releasing does not matter.
+ * - **Structs** that may grow begin with `struct_size`. Call their `crt_*_init(&s, sizeof s)` to
+ *   fill in the defaults, then change what you like. Fields beyond the size that you pass have
+ *   their defaults.
+ * - **Threads.** Each group of functions says who may call it. "Any thread" has no restriction.
+ *   "One at a time" is for a scene that is being put together: only one thread may use it at any
+ *   moment. "Shared" is for what is immutable: any number of threads may use it at once.
+ * - **Conventions.** Space is left-handed: x to the right, y up, z into the screen. Vectors are
+ *   double[3]. Colours are double[3], linear RGB. Transforms are double[12], the three rows of a
+ *   3x4 affine matrix (linear part, then translation). Angles are radians. Texts are UTF-8 and end
+ *   with a 0 byte unless a length is passed. Coordinates and sizes lie between 1e-100 and 1e100 in
+ *   magnitude. crt_empty_create() makes what has no size.
  *
- * A sphere in 20 lines:
+ * This program renders a sphere in 20 lines:
  * @code{.c}
  * #include <crt/crt.h>
  * #include <stdio.h>
@@ -58,7 +60,7 @@
 #include <stddef.h>
 #include <stdint.h>
 
-/** Marks what the library offers. */
+/** Marks a symbol that the library exports. */
 #if defined(__GNUC__)
 #define CRT_API __attribute__((visibility("default")))
 #else
@@ -75,15 +77,17 @@ extern "C" {
  * Threads: Any thread.
  * @{ */
 
-/** The version of this header. A program runs with the library of this or any later minor version.
+/**
+ * This is the version of this header. A program runs with the library of this or any later minor
+ * version.
  */
 #define CRT_VERSION_MAJOR 1
-/** Grows with every release that adds something. */
+/** This number grows with every release that adds something. */
 #define CRT_VERSION_MINOR 0
-/** Grows with every other release. */
+/** This number grows with every other release. */
 #define CRT_VERSION_PATCH 0
 
-/** What became of a call. Later versions may add values. */
+/** Says how a call ended. Later versions may add values. */
 typedef enum crt_status {
   CRT_OK = 0,
   CRT_ERROR_INVALID_ARGUMENT, /**< a value that is NULL, not finite, out of its range or unknown */
@@ -96,22 +100,26 @@ typedef enum crt_status {
   CRT_ERROR_INTERNAL /**< a fault of CRT: please report it */
 } crt_status;
 
-/** The version of the library: major << 16 | minor << 8 | patch. */
+/** Returns the version of the library: major << 16 | minor << 8 | patch. */
 CRT_API uint32_t crt_version(void);
 
 /**
- * What went wrong in the calling thread's last call that failed; "" if none has. The text is valid
- * until that thread's next failing call. Long messages are cut at 2000 bytes or so.
+ * Returns what went wrong in the calling thread's last call that failed, or "" if none has failed.
+ * The text is valid until that thread's next failing call. Long messages are cut at about 2000
+ * bytes.
  */
 CRT_API const char* crt_error_message(void);
 
-/** A name for a status: "ok", "invalid argument", ... "unknown" for a number that is none. */
+/**
+ * Returns a name for a status, such as "ok" or "invalid argument". It is "unknown" for a number
+ * that is no status.
+ */
 CRT_API const char* crt_status_string(crt_status status);
 
 /**
- * The number with which a callback stopped the call of this thread that returned
- * CRT_ERROR_CANCELLED last; 0 if that was crt_job_cancel() or there was none. For jobs: after
- * crt_job_wait().
+ * Returns the number with which a callback stopped the last call of this thread that returned
+ * CRT_ERROR_CANCELLED. It is 0 if crt_job_cancel() stopped it or if there was no such call. For a
+ * job, ask after crt_job_wait().
  */
 CRT_API int32_t crt_cancel_value(void);
 
@@ -120,39 +128,42 @@ CRT_API int32_t crt_cancel_value(void);
 /* ---- handles -------------------------------------------------------------------------------- */
 
 /** @defgroup handles Handles
- * Retaining and releasing: any thread.
+ * Threads: Any thread may retain and release.
  * @{ */
 
-/** Something in a scene: a primitive, or several combined. Immutable. */
+/** A crt_entity is something in a scene: a primitive, or several combined. It is immutable. */
 typedef struct crt_entity crt_entity;
-/** The description of a picture, which you put together. */
+/** A crt_scene is the description of a picture, which you put together. */
 typedef struct crt_scene crt_scene;
-/** A scene made ready for rays. Immutable. */
+/** A crt_prepared is a scene made ready for rays. It is immutable. */
 typedef struct crt_prepared crt_prepared;
-/** A render under way. */
+/** A crt_job is a render that runs on threads of its own. */
 typedef struct crt_job crt_job;
-/** A picture. Immutable. */
+/** A crt_image is a picture. It is immutable. */
 typedef struct crt_image crt_image;
-/** Bytes that the library made. Immutable. */
+/** A crt_buffer holds bytes that the library made. It is immutable. */
 typedef struct crt_buffer crt_buffer;
-/** What there is to say about a script. Immutable. */
+/** A crt_diagnostics is a list of messages about a script. It is immutable. */
 typedef struct crt_diagnostics crt_diagnostics;
 
 /** Adds a reference to an entity and returns it. */
 CRT_API crt_entity* crt_entity_retain(crt_entity* entity);
 /** Drops a reference to an entity. */
 CRT_API void crt_entity_release(crt_entity* entity);
-/** Adds a reference to a scene and returns it: the same scene, not a copy. */
+/** Adds a reference to a scene and returns it. It is the same scene, not a copy. */
 CRT_API crt_scene* crt_scene_retain(crt_scene* scene);
 /** Drops a reference to a scene. */
 CRT_API void crt_scene_release(crt_scene* scene);
 /** Adds a reference to a prepared scene and returns it. */
 CRT_API crt_prepared* crt_prepared_retain(crt_prepared* prepared);
-/** Drops a reference to a prepared scene; jobs that render it hold their own. */
+/** Drops a reference to a prepared scene. Jobs that render it hold their own. */
 CRT_API void crt_prepared_release(crt_prepared* prepared);
 /** Adds a reference to a job and returns it. */
 CRT_API crt_job* crt_job_retain(crt_job* job);
-/** Dropping the last reference to a job that still runs cancels it and waits for its threads. */
+/**
+ * Drops a reference to a job. Dropping the last reference to a job that still runs cancels it and
+ * waits for its threads.
+ */
 CRT_API void crt_job_release(crt_job* job);
 /** Adds a reference to an image and returns it. */
 CRT_API crt_image* crt_image_retain(crt_image* image);
@@ -172,9 +183,9 @@ CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
 /* ---- plain values --------------------------------------------------------------------------- */
 
 /** @defgroup values Materials, lights, cameras, backgrounds, settings
- * Plain structs in your memory; what a function takes of them it copies (images are retained).
- * `crt_*_init` fill in the defaults, never beyond `struct_size` bytes; a size that does not hold
- * `struct_size` itself is an error. Threads: Any thread.
+ * These are plain structs in your memory. A function copies what it takes of them, and retains
+ * images. `crt_*_init` fill in the defaults, never beyond `struct_size` bytes. A size that does not
+ * hold `struct_size` itself is an error. Threads: Any thread.
  *
  * @code{.c}
  * crt_material glass;
@@ -185,7 +196,7 @@ CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
  * @endcode
  * @{ */
 
-/** Kinds of patterns. */
+/** Lists the kinds of patterns. */
 typedef enum crt_pattern_type {
   CRT_PATTERN_CHECKER = 0, /**< cubes whose edges are `scale` long */
   CRT_PATTERN_STRIPES,  /**< bands of equal width across `direction`, one of each colour in `scale`
@@ -197,8 +208,10 @@ typedef enum crt_pattern_type {
   CRT_PATTERN_IMAGE     /**< `image` laid over the surface by its (u, v) */
 } crt_pattern_type;
 
-/** Colours that vary over a surface or through space. Lives in the space of the entity that wears
- * it. */
+/**
+ * Describes colours that vary over a surface or through space. A pattern lives in the space of the
+ * entity that wears it.
+ */
 typedef struct crt_pattern {
   uint32_t struct_size;
   int32_t type;      /**< a crt_pattern_type */
@@ -217,7 +230,7 @@ typedef struct crt_pattern {
   double repeat_v;
 } crt_pattern;
 
-/** What a surface is made of. */
+/** Describes what a surface is made of. */
 typedef struct crt_material {
   uint32_t struct_size;
   int32_t reserved; /**< 0 */
@@ -235,7 +248,7 @@ typedef struct crt_material {
   double bump_height;      /**< scene units; default 0.1 */
 } crt_material;
 
-/** Kinds of lights. All cast shadows. */
+/** Lists the kinds of lights. All cast shadows. */
 typedef enum crt_light_type {
   CRT_LIGHT_POINT = 0, /**< shines from `origin` in all directions */
   CRT_LIGHT_PARALLEL,  /**< shines along `origin` to `pointing` everywhere, like a sun */
@@ -243,23 +256,24 @@ typedef enum crt_light_type {
   CRT_LIGHT_CYLINDER   /**< parallel rays that fill a cylinder from `origin` towards `pointing` */
 } crt_light_type;
 
-/** A light. */
+/** Describes a light. */
 typedef struct crt_light {
   uint32_t struct_size;
-  int32_t type;     /**< a crt_light_type; default CRT_LIGHT_POINT */
-  double origin[3]; /**< default 0 */
-  double
-      pointing[3]; /**< default 0; a point light has none, others need one that is not `origin` */
-  double color[3]; /**< linear RGB, >= 0, may pass 1; default 1 */
-  double angle;    /**< spot: full angle of the cone, in (0, 2 pi]; default pi / 3 */
-  double
-      penumbra;   /**< spot: how far it fades inwards, radians of the half angle; default pi / 36 */
-  double radius;  /**< cylinder: > 0; default 1 */
-  double falloff; /**< 0 (default) or less: distance does not matter; else it is falloff / D^2 */
-  double ambient; /**< share of the colour that every point gets, >= 0; default 0 */
+  int32_t type;       /**< a crt_light_type; default CRT_LIGHT_POINT */
+  double origin[3];   /**< default 0 */
+  double pointing[3]; /**< default 0; a point light ignores it, others need a point other than
+                         `origin` */
+  double color[3];    /**< linear RGB, >= 0, may pass 1; default 1 */
+  double angle;       /**< spot: full angle of the cone, in (0, 2 pi]; default pi / 3 */
+  double penumbra; /**< spot: width of its soft edge inwards, radians of the half angle; default pi
+                      / 36 */
+  double radius;   /**< cylinder: > 0; default 1 */
+  double falloff;  /**< 0 (default) or less: distance does not matter; else the light fades as
+                      falloff / D^2 */
+  double ambient;  /**< share of the colour that every point gets, >= 0; default 0 */
 } crt_light;
 
-/** How a camera maps directions to the picture. */
+/** Says how a camera maps directions to the picture. */
 typedef enum crt_projection {
   CRT_PROJECTION_PINHOLE = 0,
   CRT_PROJECTION_SPHERICAL,
@@ -267,7 +281,7 @@ typedef enum crt_projection {
   CRT_PROJECTION_ORTHOGRAPHIC
 } crt_projection;
 
-/** Shapes of the lens opening. */
+/** Lists the shapes of the lens opening. */
 typedef enum crt_aperture_shape {
   CRT_APERTURE_CIRCLE = 0,
   CRT_APERTURE_UNIFORM, /**< the whole square around the circle */
@@ -280,7 +294,7 @@ typedef enum crt_aperture_shape {
   CRT_APERTURE_LINE
 } crt_aperture_shape;
 
-/** Where the picture is seen from. */
+/** Describes where the picture is seen from. */
 typedef struct crt_camera {
   uint32_t struct_size;
   int32_t projection; /**< a crt_projection; default CRT_PROJECTION_PINHOLE */
@@ -295,16 +309,17 @@ typedef struct crt_camera {
   int32_t reserved;       /**< 0 */
 } crt_camera;
 
-/** Kinds of backgrounds. */
+/** Lists the kinds of backgrounds. */
 typedef enum crt_background_type {
   CRT_BACKGROUND_SOLID = 0,   /**< `color` in every direction */
   CRT_BACKGROUND_GRADIENT,    /**< from `horizon` (level) to `sky` (straight up and down) */
   CRT_BACKGROUND_SPHERICAL,   /**< `image` all around, equirectangular */
   CRT_BACKGROUND_CYLINDRICAL, /**< `image` all around on a cylinder */
-  CRT_BACKGROUND_EQUAL_AREA /**< `image` all around; down goes (1 - y) / 2 of the unit direction */
+  CRT_BACKGROUND_EQUAL_AREA   /**< `image` all around; the height from the top is (1 - y) / 2 of the
+                                 unit direction */
 } crt_background_type;
 
-/** What a ray that hits nothing sees. */
+/** Describes what a ray that hits nothing sees. */
 typedef struct crt_background {
   uint32_t struct_size;
   int32_t type;    /**< a crt_background_type; default CRT_BACKGROUND_SOLID */
@@ -318,26 +333,27 @@ typedef struct crt_background {
   double angle;           /**< turns the image about y, radians */
 } crt_background;
 
-/** What a pixel is the mean of. */
+/** Says what a pixel is the mean of. */
 typedef enum crt_pixel_filter {
-  CRT_FILTER_BOX = 0,        /**< its square, every place alike */
+  CRT_FILTER_BOX = 0,        /**< its square, with equal weights */
   CRT_FILTER_BLACKMAN_HARRIS /**< a bell around its middle */
 } crt_pixel_filter;
 
-/** What the distance D in a light's falloff / D^2 is. */
+/** Says what the distance D in a light's falloff / D^2 is. */
 typedef enum crt_falloff_model {
-  CRT_FALLOFF_PATH = 0, /**< D is the whole way from the camera over all bounces to the light */
-  CRT_FALLOFF_LIGHT     /**< D is the way from the lit point to the light */
+  CRT_FALLOFF_PATH =
+      0, /**< D is the length of the path from the camera over all bounces to the light */
+  CRT_FALLOFF_LIGHT /**< D is the distance from the lit point to the light */
 } crt_falloff_model;
 
-/** How close a call the geometry settles. Both answer the same question. */
+/** Says how close calls of the geometry are decided. Both values answer the same question. */
 typedef enum crt_precision {
-  CRT_PRECISION_STANDARD = 0, /**< right at a silhouette the last bit is left to rounding */
+  CRT_PRECISION_STANDARD = 0, /**< right at a silhouette, rounding decides the last bit */
   CRT_PRECISION_EXACT /**< hits and their order are right, t within 0.51 ulp (tori: 1); nested
-                           transforms are their product without rounding, of up to 1024 bits */
+                         transforms are multiplied without rounding, in up to 1024 bits */
 } crt_precision;
 
-/** How a scene is rendered. */
+/** Says how a scene is rendered. */
 typedef struct crt_settings {
   uint32_t struct_size;
   int32_t width;         /**< pixels, in [1, 65536]; default 640; width * height is at most 2^27 */
@@ -347,8 +363,9 @@ typedef struct crt_settings {
       dof_samples; /**< points of the lens for each of them, in [1, 65536]; default 1: no lens */
   int32_t recursion_depth; /**< bounces after the camera's ray, in [0, 256]; default 3 */
   double gamma;            /**< 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1 */
-  double min_weight;     /**< rays that matter less to every channel are dropped; default 1/1024 */
-  int32_t falloff_model; /**< a crt_falloff_model; default CRT_FALLOFF_PATH */
+  double min_weight;       /**< rays with a smaller share of the pixel in every channel are dropped;
+                              default 1/1024 */
+  int32_t falloff_model;   /**< a crt_falloff_model; default CRT_FALLOFF_PATH */
   int32_t show_clip; /**< not 0: pixels with a channel above 1 are red in 8-bit files; default 0 */
   uint64_t seed;     /**< of the random numbers; default 0 */
   const char* title; /**< this and the next go into the files; NULL (default) for none */
@@ -357,40 +374,44 @@ typedef struct crt_settings {
   const char* notes;
   int32_t precision; /**< a crt_precision; default CRT_PRECISION_STANDARD */
   int32_t reserved;  /**< must be 0 */
-  /** Above 0: a pixel gets samples until it is this near the truth, in 95 of 100 cases; 1/255 is a
-   * step of 8 bits; in [0, 1]; default 0 */
+  /** Above 0, a pixel gets samples until it is this near the truth in 95 of 100 cases. 1/255 is a
+   * step of 8 bits. In [0, 1]; default 0. */
   double target_error;
-  /** above 0: the seconds that tracing may take; it stops at the end of a pass, the first of which
-   * takes what it takes, so that there is a picture; in [0, 1e6]; default 0 */
+  /** Above 0, these are the seconds that tracing may take. It stops at the end of a pass. The first
+   * pass is always completed, so that there is a picture. In [0, 1e6]; default 0. */
   double time_budget;
   double filter_width; /**< pixels across, of filters other than the box; in [1, 16]; default 3 */
-  int32_t
-      min_samples; /**< of a pixel, with one of these two: a power of 2 in [4, 65536]; default 16 */
-  int32_t max_samples; /**< likewise; default 1024 */
+  int32_t min_samples; /**< of a pixel, with a target error or a time budget: a power of 2 in [4,
+                          65536]; default 16 */
+  int32_t max_samples; /**< of a pixel, also a power of 2 in [4, 65536]; default 1024 */
   int32_t filter;      /**< a crt_pixel_filter; default CRT_FILTER_BOX */
   int32_t reserved_2;  /**< must be 0 */
-  /** 0 (default), or 2015: the picture is formed as the program of that year formed it: lens,
-   * panoramas, places of the grid's samples, levels of 8-bit files; see docs/compat.md */
+  /** 0 is the default. With 2015 the picture is formed as the program of that year formed it: lens,
+   * panoramas, places of the grid's samples, levels of 8-bit files. See docs/compat.md. */
   int32_t compat;
   int32_t reserved_3; /**< must be 0 */
 } crt_settings;
 
-/** As a checker, with all values that other types need at sensible defaults too. */
+/** Fills in a checker. The values that other types need get sensible defaults too. */
 CRT_API crt_status crt_pattern_init(crt_pattern* pattern, size_t struct_size);
-/** The defaults of a crt_pattern_type: those of wood are brown. */
+/** Fills in the defaults of a crt_pattern_type. Those of wood are brown. */
 CRT_API crt_status crt_pattern_init_type(crt_pattern* pattern, size_t struct_size, int32_t type);
-/** A matt grey. */
+/** Fills in a matt grey. */
 CRT_API crt_status crt_material_init(crt_material* material, size_t struct_size);
-/** A white point light at the origin. */
+/** Fills in a white point light at the origin. */
 CRT_API crt_status crt_light_init(crt_light* light, size_t struct_size);
-/** The defaults of a crt_light_type: all but the point light shine from (0, 1, 0) down to the
- * origin. */
+/**
+ * Fills in the defaults of a crt_light_type. All but the point light shine from (0, 1, 0) down to
+ * the origin.
+ */
 CRT_API crt_status crt_light_init_type(crt_light* light, size_t struct_size, int32_t type);
-/** At (0, 0, -1), looking at the origin, 60 degrees high. */
+/**
+ * Fills in a camera at (0, 0, -1) that looks at the origin, with a field of view 60 degrees high.
+ */
 CRT_API crt_status crt_camera_init(crt_camera* camera, size_t struct_size);
-/** White. */
+/** Fills in a white background. */
 CRT_API crt_status crt_background_init(crt_background* background, size_t struct_size);
-/** 640 x 480, one ray a pixel. */
+/** Fills in the default settings: 640 x 480 pixels, one ray a pixel. */
 CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size);
 
 /** @} */
@@ -398,8 +419,8 @@ CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size)
 /* ---- entities ------------------------------------------------------------------------------- */
 
 /** @defgroup entities Entities
- * Made, combined and placed: each function makes a new entity, which never changes. Combining and
- * placing are cheap and share their parts. Threads: Shared.
+ * Entities are made, combined and placed. Each function makes a new entity, which never changes.
+ * Combining and placing are cheap and share their parts. Threads: Shared.
  *
  * @code{.c}
  * crt_entity *cutters[] = {hole_a, hole_b};
@@ -407,36 +428,49 @@ CRT_API crt_status crt_settings_init(crt_settings* settings, size_t struct_size)
  * @endcode
  * @{ */
 
-/** A solid ball of `radius` > 0. */
+/** Makes a solid sphere of `radius` > 0. */
 CRT_API crt_status crt_sphere_create(const double center[3], double radius, crt_entity** out);
-/** An axis-parallel box between any two opposite corners, which must differ by at least 1e-100 in
- * every coordinate. */
+/**
+ * Makes an axis-parallel box between any two opposite corners, which must differ by at least 1e-100
+ * in every coordinate.
+ */
 CRT_API crt_status crt_box_create(const double corner_a[3], const double corner_b[3],
                                   crt_entity** out);
-/** The half-space behind a plane: `normal` (any length but 0) points out of the solid. */
+/** Makes the half-space behind a plane. `normal` (any length but 0) points out of the solid. */
 CRT_API crt_status crt_plane_create(const double normal[3], const double position[3],
                                     crt_entity** out);
-/** A surface: the half of a plane on the `direction` side of the line through `position` across it.
+/**
+ * Makes a surface: the half of a plane on the `direction` side of the line through `position`
+ * across it.
  */
 CRT_API crt_status crt_half_plane_create(const double normal[3], const double position[3],
                                          const double direction[3], crt_entity** out);
-/** A solid cylinder of `radius` > 0 between the centres of its two caps, at least 1e-100 apart. */
+/**
+ * Makes a solid cylinder of `radius` > 0 between the centres of its two caps, at least 1e-100
+ * apart.
+ */
 CRT_API crt_status crt_cylinder_create(const double from[3], const double to[3], double radius,
                                        crt_entity** out);
-/** A cone or frustum: `radius` at `from`, `radius2` (0 or more) at `to`, at least 1e-100 apart. */
+/**
+ * Makes a cone or frustum with `radius` at `from` and `radius2` (0 or more) at `to`. The two points
+ * are at least 1e-100 apart.
+ */
 CRT_API crt_status crt_cone_create(const double from[3], const double to[3], double radius,
                                    double radius2, crt_entity** out);
-/** All points within `thickness` of the circle of `radius` about `center` across `axis`. */
+/**
+ * Makes a torus: all points within `thickness` of the circle of `radius` about `center` across
+ * `axis`.
+ */
 CRT_API crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
                                     double thickness, crt_entity** out);
-/** A surface: a flat disc. */
+/** Makes a surface: a flat disc. */
 CRT_API crt_status crt_disc_create(const double center[3], const double normal[3], double radius,
                                    crt_entity** out);
-/** A surface: a triangle, which must have an area; its normal is along (b - a) x (c - a). */
+/** Makes a surface: a triangle, which must have an area. Its normal is along (b - a) x (c - a). */
 CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3],
                                        crt_entity** out);
 /**
- * A surface of triangles. Triangles without an area are left out (an error if all are).
+ * Makes a surface of triangles. Triangles without an area are left out; it is an error if all are.
  * @param positions       3 * vertex_count numbers
  * @param indices         3 * triangle_count numbers, each below vertex_count
  */
@@ -444,36 +478,45 @@ CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count,
                                    const uint32_t* indices, size_t triangle_count,
                                    crt_entity** out);
 
-/** Nothing: the solid without a point, such as what is left of a sphere whose radius shrinks to 0.
- * No ray meets it; in combinations it is what the empty set is, and no transform, material or id
- * changes it. */
+/**
+ * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No
+ * ray meets it. In combinations it behaves as the empty set. No transform, material or id changes
+ * it.
+ */
 CRT_API crt_status crt_empty_create(crt_entity** out);
 
-/** What is in any of the parts (at least one), which may be surfaces too. */
+/** Makes the union: what is in any of the parts (at least one), which may be surfaces too. */
 CRT_API crt_status crt_union_create(crt_entity* const* parts, size_t count, crt_entity** out);
-/** What is in all of the parts: at least one, all solids. */
+/**
+ * Makes the intersection: what is in all of the parts. There is at least one, and all are solids.
+ */
 CRT_API crt_status crt_intersection_create(crt_entity* const* parts, size_t count,
                                            crt_entity** out);
-/** What is in `from` and in none of the cutters (none is fine); all solids. A cut has its cutter's
- * material.
+/**
+ * Makes the difference: what is in `from` and in none of the cutters. All are solids, and there may
+ * be no cutters. A cut has its cutter's material.
  */
 CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cutters, size_t count,
                                          crt_entity** out);
 
-/** The entity moved by an affine map with an inverse, after whatever moved it before. */
+/** Makes the entity moved by an affine map with an inverse, after whatever moved it before. */
 CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12],
                                              crt_entity** out);
-/** The entity with a material on every part that has none of its own. */
+/** Makes the entity with a material on every part that has none of its own. */
 CRT_API crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material,
                                             crt_entity** out);
-/** The entity under a number that hits report; without one that is its place in the scene. The
- * outermost holds. */
+/**
+ * Makes the entity under a number that hits report. An entity without one reports its place in the
+ * scene. The outermost number holds.
+ */
 CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out);
 
-/** 1 if the entity has an inside, 0 if a part of it is a mere surface (or it is NULL). */
+/** Returns 1 if the entity has an inside, and 0 if a part of it is a mere surface or it is NULL. */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
-/** Of how many primitives it is made, a part that occurs twice counted twice; 0 for NULL and for
- * the empty one. */
+/**
+ * Returns the number of primitives the entity is made of. A part that occurs twice is counted
+ * twice. It is 0 for NULL and for the empty entity.
+ */
 CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 
 /** @} */
@@ -481,76 +524,81 @@ CRT_API uint64_t crt_entity_primitive_count(const crt_entity* entity);
 /* ---- scenes --------------------------------------------------------------------------------- */
 
 /** @defgroup scenes Scenes
- * A scene needs nothing to be prepared: without a camera it has the default one. Threads: one at a
+ * A scene needs nothing to be prepared: without a camera it has the default one. Threads: One at a
  * time for each scene. What was prepared does not change with the scene.
  * @{ */
 
-/** An empty scene with the default camera, background and settings. */
+/** Makes an empty scene with the default camera, background and settings. */
 CRT_API crt_status crt_scene_create(crt_scene** out);
-/** Another scene with the same content. */
+/** Makes another scene with the same content. */
 CRT_API crt_status crt_scene_copy(const crt_scene* scene, crt_scene** out);
 
-/** Adds an entity behind those that are there: its place, from 0, is the id that hits report of it.
- */
+/** Adds an entity after those in the scene. Its place, from 0, is the id that its hits report. */
 CRT_API crt_status crt_scene_add_entity(crt_scene* scene, crt_entity* entity);
-/** Adds a light; errors name the field that is out of range. */
+/** Adds a light. Errors name the field that is out of range. */
 CRT_API crt_status crt_scene_add_light(crt_scene* scene, const crt_light* light);
-/** Takes the place of the camera that is there; errors name the field that is out of range. */
+/** Replaces the camera. Errors name the field that is out of range. */
 CRT_API crt_status crt_scene_set_camera(crt_scene* scene, const crt_camera* camera);
-/** Takes the place of the background that is there; its image is retained. */
+/** Replaces the background, and retains its image. */
 CRT_API crt_status crt_scene_set_background(crt_scene* scene, const crt_background* background);
-/** Takes the place of all settings that are there; the texts are copied. */
+/** Replaces all settings, and copies the texts. */
 CRT_API crt_status crt_scene_set_settings(crt_scene* scene, const crt_settings* settings);
-/** Takes all entities out. */
+/** Takes out all entities. */
 CRT_API crt_status crt_scene_clear_entities(crt_scene* scene);
-/** Takes all lights out. */
+/** Takes out all lights. */
 CRT_API crt_status crt_scene_clear_lights(crt_scene* scene);
 
-/** How many entities there are; 0 for NULL. */
+/** Returns the number of entities; 0 for NULL. */
 CRT_API size_t crt_scene_entity_count(const crt_scene* scene);
-/** How many lights there are; 0 for NULL. */
+/** Returns the number of lights; 0 for NULL. */
 CRT_API size_t crt_scene_light_count(const crt_scene* scene);
-/** The entity at a place from 0, as a reference of yours. */
+/** Gives the entity at a place from 0, as a reference that you must release. */
 CRT_API crt_status crt_scene_get_entity(const crt_scene* scene, size_t index, crt_entity** out);
-/** The light at a place from 0. This and the next three fill in as much of the struct as its
- * `struct_size` (which must be set) holds. */
+/**
+ * Gives the light at a place from 0. This and the next three functions fill in as much of the
+ * struct as its `struct_size` (which must be set) holds.
+ */
 CRT_API crt_status crt_scene_get_light(const crt_scene* scene, size_t index, crt_light* light);
-/** The camera; see crt_scene_get_light(). */
+/** Gives the camera; see crt_scene_get_light(). */
 CRT_API crt_status crt_scene_get_camera(const crt_scene* scene, crt_camera* camera);
-/** The image belongs to the scene: retain it to keep it. */
+/** Gives the background. Its image belongs to the scene: retain it to keep it. */
 CRT_API crt_status crt_scene_get_background(const crt_scene* scene, crt_background* background);
-/** The texts are valid until the scene changes. */
+/** Gives the settings. Their texts are valid until the scene changes. */
 CRT_API crt_status crt_scene_get_settings(const crt_scene* scene, crt_settings* settings);
 
-/** Checks the scene, which stays as it is, and builds what rays need. While what was prepared of
- * the same scene before is still there and no entity has come, gone or changed place since, that is
- * not built again: a new camera, light, background or setting (other than the precision) costs next
- * to nothing. */
+/**
+ * Checks the scene, which stays as it is, and builds what rays need. That is not built again while
+ * an earlier prepared form of the same scene still exists and no entity has come, gone or changed
+ * place since. Then a new camera, light, background or setting (other than the precision) costs
+ * next to nothing.
+ */
 CRT_API crt_status crt_scene_prepare(crt_scene* scene, crt_prepared** out);
 
-/** Asked now and then while something takes long (of a script every few thousand steps); a return
- * value other than 0 cancels it. */
+/**
+ * Is called now and then while something takes long (for a script every few thousand steps). A
+ * return value other than 0 cancels it.
+ */
 typedef int (*crt_poll_fn)(void* user);
 
-/** What preparing may be asked beyond the scene. All 0 is the default. */
+/** Says what preparing may be asked beyond the scene. All 0 is the default. */
 typedef struct crt_prepare_options {
   uint32_t struct_size;
   uint32_t reserved; /**< 0 */
-  /** NULL, or what may cancel: within 0.1 s in scenes of up to a million primitives, with
-   * CRT_ERROR_CANCELLED. May be called on any of the threads that work. */
+  /** NULL, or a callback that may cancel. Preparing then ends with CRT_ERROR_CANCELLED, within 0.1
+   * s in scenes of up to a million primitives. Any of the threads that work may call it. */
   crt_poll_fn poll;
   void* poll_user;
-  /** The most primitives that the scene may have; with more preparing it ends with CRT_ERROR_LIMIT
-   * before it takes any memory. 0: as many as the memory of the machine (or container) may be
-   * enough for, at 1350 bytes each and 2700 in the exact tier, which is what the greedy ones take:
-   * spheres by themselves take 600. More than 33554432 there can never be. */
+  /** This is the most primitives that the scene may have. With more, preparing ends with
+   * CRT_ERROR_LIMIT before it takes any memory. 0 means as many as the memory of the machine (or
+   * container) may be enough for. It counts 1350 bytes for each, or 2700 in the exact tier, as the
+   * largest primitives take; lone spheres take 600. There can never be more than 33554432. */
   uint64_t max_primitives;
 } crt_prepare_options;
 
-/** The defaults, which are all 0. */
+/** Fills in the defaults, which are all 0. */
 CRT_API crt_status crt_prepare_options_init(crt_prepare_options* options, size_t struct_size);
 
-/** crt_scene_prepare() with options; NULL: the defaults. */
+/** Prepares as crt_scene_prepare() does, with options. NULL stands for the defaults. */
 CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_options* options,
                                           crt_prepared** out);
 
@@ -559,7 +607,7 @@ CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_op
 /* ---- scripts -------------------------------------------------------------------------------- */
 
 /** @defgroup scripts Scripts
- * Scenes from the CRT language. Threads: Any thread.
+ * These functions make scenes from scripts in the CRT language. Threads: Any thread.
  *
  * @code{.c}
  * crt_diagnostics *diagnostics = NULL;
@@ -569,32 +617,36 @@ CRT_API crt_status crt_scene_prepare_with(crt_scene* scene, const crt_prepare_op
  * @endcode
  * @{ */
 
-/** Takes what a file holds; see crt_open_file_fn. */
+/** A crt_file_content takes what a file holds; see crt_open_file_fn. */
 typedef struct crt_file_content crt_file_content;
 
-/** What a crt_open_file_fn returns; any other number cancels the script. */
+/** These are the values that a crt_open_file_fn returns. Any other number cancels the script. */
 enum {
   CRT_FILE_GIVEN = 0,    /**< the content was appended (an empty file: nothing) */
   CRT_FILE_NOT_GIVEN = 1 /**< the file system is to be asked */
 };
 
 /**
- * Asked for each file that a script imports or shows, before the file system is. Called from the
- * thread that runs the script.
+ * Is called for each file that a script imports or shows, before the file system is asked. The
+ * thread that runs the script calls it.
  * @param path  where the file would be: the script's directory or a resource directory, and its
- * name
+ *   name
  */
 typedef int (*crt_open_file_fn)(const char* path, crt_file_content* content, void* user);
-/** Appends to the content of a file. Inside a crt_open_file_fn only. */
+/** Appends to the content of a file. It may be called inside a crt_open_file_fn only. */
 CRT_API crt_status crt_file_content_append(crt_file_content* content, const void* bytes,
                                            size_t count);
 
-/** Gets a line that the script prints, without its end; a return value other than 0 cancels the
- * script. */
+/**
+ * Gets a line that the script prints, without its end. A return value other than 0 cancels the
+ * script.
+ */
 typedef int (*crt_print_fn)(const char* line, size_t length, void* user);
 
-/** What a script may see and use. All 0 is the default: files of its own directory, and the limits
- * below. */
+/**
+ * Says what a script may see and use. All 0 is the default: files of its own directory, and the
+ * limits below.
+ */
 typedef struct crt_script_options {
   uint32_t struct_size;
   int32_t allow_outside_files; /**< not 0: files outside its directory and the resource directories
@@ -628,7 +680,7 @@ typedef struct crt_script_options {
   int32_t reserved; /**< 0 */
 } crt_script_options;
 
-/** The defaults, which are all 0. */
+/** Fills in the defaults, which are all 0. */
 CRT_API crt_status crt_script_options_init(crt_script_options* options, size_t struct_size);
 
 /**
@@ -637,22 +689,25 @@ CRT_API crt_status crt_script_options_init(crt_script_options* options, size_t s
  * @param name         stands for the script in messages; its directory is where its files are
  * looked for
  * @param options      NULL for the defaults
- * @param diagnostics  NULL, or gets what there is to say, warnings too, whether the script failed
- * or not (it is left untouched only if the arguments are wrong or memory ran out)
+ * @param diagnostics  NULL, or gets all messages, warnings too, whether the script failed or not
+ * (it is left untouched only if the arguments are wrong or memory ran out)
  * @return CRT_ERROR_SCRIPT, or the status of the first error: CRT_ERROR_IO, CRT_ERROR_LIMIT,
  *         CRT_ERROR_CANCELLED, ...
  */
 CRT_API crt_status crt_scene_from_script(const char* text, size_t length, const char* name,
                                          const crt_script_options* options,
                                          crt_diagnostics** diagnostics, crt_scene** out);
-/** The same for a file. */
+/** Runs a script from a file, otherwise as crt_scene_from_script() does. */
 CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script_options* options,
                                               crt_diagnostics** diagnostics, crt_scene** out);
 
-/** How bad it is. */
+/** Says how bad a diagnostic is. */
 typedef enum crt_severity { CRT_SEVERITY_WARNING = 0, CRT_SEVERITY_ERROR } crt_severity;
 
-/** One thing to say. Lines and columns count from 1, columns in code points; 0: it has no place. */
+/**
+ * Holds one message about a script. Lines and columns count from 1, columns in code points. 0 means
+ * that the message has no place.
+ */
 typedef struct crt_diagnostic {
   uint32_t struct_size;
   int32_t severity; /**< a crt_severity */
@@ -666,7 +721,7 @@ typedef struct crt_diagnostic {
   uint64_t call_count;     /**< macro calls that led there */
 } crt_diagnostic;
 
-/** A macro call that led to an error. */
+/** Names a macro call that led to an error. */
 typedef struct crt_diagnostic_call {
   uint32_t struct_size;
   int32_t line; /**< where the macro was called */
@@ -676,19 +731,23 @@ typedef struct crt_diagnostic_call {
   const char* file;
 } crt_diagnostic_call;
 
-/* Texts belong to the handle. Threads: Shared. */
+/* The texts of diagnostics belong to the handle. Threads: Shared. */
 
-/** How many there are; 0 for NULL. */
+/** Returns the number of diagnostics; 0 for NULL. */
 CRT_API size_t crt_diagnostics_count(const crt_diagnostics* diagnostics);
-/** Fills in as much as `diagnostic->struct_size` (which must be set) holds. */
+/**
+ * Gives a diagnostic. It fills in as much as `diagnostic->struct_size` (which must be set) holds.
+ */
 CRT_API crt_status crt_diagnostics_get(const crt_diagnostics* diagnostics, size_t index,
                                        crt_diagnostic* diagnostic);
-/** A call that led to a diagnostic, innermost first; `call->struct_size` must be set. */
+/** Gives a call that led to a diagnostic, innermost first. `call->struct_size` must be set. */
 CRT_API crt_status crt_diagnostics_get_call(const crt_diagnostics* diagnostics, size_t index,
                                             size_t call_index, crt_diagnostic_call* call);
-/** All of them as a compiler would print them, with source lines and carets; "" for NULL. */
+/**
+ * Returns all of them as a compiler would print them, with source lines and carets; "" for NULL.
+ */
 CRT_API const char* crt_diagnostics_text(const crt_diagnostics* diagnostics);
-/** All of them as a JSON array of objects; "[]" for NULL. */
+/** Returns all of them as a JSON array of objects; "[]" for NULL. */
 CRT_API const char* crt_diagnostics_json(const crt_diagnostics* diagnostics);
 
 /** @} */
@@ -709,26 +768,29 @@ CRT_API const char* crt_diagnostics_json(const crt_diagnostics* diagnostics);
  * @{ */
 
 /**
- * Told how far a render is, now and then: first 0, never less than before, last 1. From one thread
- * at a time, which may be one of the render's own. A return value other than 0 cancels.
+ * Gets the share of a render that is done, now and then: first 0, never less than before, last 1.
+ * One thread at a time calls it, which may be one of the render's own. A return value other than 0
+ * cancels.
  */
 typedef int (*crt_progress_fn)(double fraction, void* user);
 
-/** How much a line of the log matters. */
+/** Says how much a line of the log matters. */
 typedef enum crt_log_level { CRT_LOG_INFO = 0, CRT_LOG_WARNING } crt_log_level;
 
-/** Gets what there is to tell of a render. From the thread that called crt_render(), or the job's
- * own. */
+/**
+ * Gets the messages of a render. The thread that called crt_render() calls it, or the job's own.
+ */
 typedef void (*crt_log_fn)(int32_t level, const char* message, void* user);
 
 /**
- * Bits of crt_render_options.aovs: what a render may tell of each pixel beside its colour, as
- * channels of the image (see crt_image_channel()). Distance and entity are those of one ray,
- * through the middles of the pixel and of the lens; normal and albedo are means over the pixel's
- * samples. What is told is what camera rays meet first, be it glass or a mirror.
+ * These are the bits of crt_render_options.aovs. They say what a render reports of each pixel
+ * beside its colour, as channels of the image (see crt_image_channel()). Distance and entity are
+ * those of one ray, through the middles of the pixel and of the lens. Normal and albedo are means
+ * over the pixel's samples. All describe what camera rays meet first, be it glass or a mirror.
  */
 enum {
-  CRT_AOV_DEPTH = 1, /**< "Z": the way along the ray from the eye; INFINITY where nothing is */
+  CRT_AOV_DEPTH =
+      1, /**< "Z": the distance along the ray from the camera; INFINITY where nothing is */
   CRT_AOV_NORMAL =
       2, /**< "N.X", "N.Y", "N.Z": in the world, turned to the viewer; 0 where nothing is */
   CRT_AOV_ID =
@@ -740,8 +802,10 @@ enum {
                              crt_render_stats; 1 for the plain grid */
 };
 
-/** What a render may be asked beyond the scene. All 0 is the default: the whole picture on all
- * cores. */
+/**
+ * Says what a render may be asked beyond the scene. All 0 is the default: the whole picture on all
+ * cores.
+ */
 typedef struct crt_render_options {
   uint32_t struct_size;
   int32_t threads;  /**< at most; 0: what the calling TBB arena has; 1: none is started */
@@ -758,54 +822,61 @@ typedef struct crt_render_options {
   int32_t
       passes; /**< above 0: renders so many (crt_render_stats.passes), whatever the time budget */
   uint32_t aovs; /**< bits CRT_AOV_*: what the image gets beside its colours, which stay the same */
-  /** NULL, or the file that keeps what is there of a picture which is rendered by passes (target
-   * error, time budget, number of passes): the next render with the same checkpoint goes on from
-   * it, be it in another process, to the same picture as without the break. Written within the
-   * first ten seconds, then every few seconds, and at the end, also when the render is cancelled or
-   * fails; whole or not at all, and never removed. If writing fails `log` is told, and the render
-   * goes on. A time budget counts from the break on. A checkpoint of another picture is
-   * CRT_ERROR_INVALID_ARGUMENT; that it is of this one is told by the settings and by the light of
-   * up to 1024 samples. Read by the call. */
+  /** NULL, or the path of the file that keeps an unfinished picture which is rendered by passes
+   * (target error, time budget, number of passes). The next render with the same checkpoint
+   * continues from it, be it in another process, to the same picture as without the break. The file
+   * is written within the first ten seconds, then every few seconds, and at the end, also when the
+   * render is cancelled or fails. It is written whole or not at all, and never removed. If writing
+   * fails, `log` gets a message and the render continues. A time budget counts from the break on. A
+   * checkpoint of another picture is CRT_ERROR_INVALID_ARGUMENT. The settings and the light of up
+   * to 1024 samples show which picture it is of. The call reads this text before it returns. */
   const char* checkpoint;
-  /** The most things that a single ray may be tested against: objects, and primitives of CSG
-   * objects, whose boxes it passes; looked at after every 1024 of them. A ray that takes more ends
-   * the render with CRT_ERROR_LIMIT. 0: 4194304, about a second's work; a ray through an ordinary
-   * scene takes some hundred.
+  /** This is the most things that a single ray may be tested against: objects, and primitives of
+   * CSG objects, whose boxes it passes. It is checked after every 1024 of them. A ray that takes
+   * more ends the render with CRT_ERROR_LIMIT. 0 means 4194304, about a second's work; a ray
+   * through an ordinary scene takes some hundred.
    */
   uint64_t max_ray_steps;
 } crt_render_options;
 
-/** The defaults, which are all 0. */
+/** Fills in the defaults, which are all 0. */
 CRT_API crt_status crt_render_options_init(crt_render_options* options, size_t struct_size);
 
-/** Renders, and returns when done. `options` NULL: the defaults. */
+/** Renders, and returns when done. `options` NULL stands for the defaults. */
 CRT_API crt_status crt_render(crt_prepared* prepared, const crt_render_options* options,
                               crt_image** out);
 
 /**
- * Starts to render on a thread of the job's own, which counts as one of `threads`; 0 means as many
- * as the TBB arena of the calling thread has. The callbacks must be good to call until the job has
- * ended.
+ * Starts to render on a thread of the job's own, which counts as one of `threads`. 0 threads means
+ * as many as the TBB arena of the calling thread has. The callbacks must be good to call until the
+ * job has ended.
  */
 CRT_API crt_status crt_render_start(crt_prepared* prepared, const crt_render_options* options,
                                     crt_job** out);
-/** How much is done, from 0 to 1. */
+/** Gives the share that is done, from 0 to 1. */
 CRT_API crt_status crt_job_progress(crt_job* job, double* fraction);
-/** 1 if it has ended, in one way or another: done, cancelled or failed. Else 0, also for NULL. */
+/**
+ * Returns 1 if the job has ended: it is done, was cancelled or failed. Else it returns 0, also for
+ * NULL.
+ */
 CRT_API int32_t crt_job_is_finished(const crt_job* job);
-/** The image so far; what is not yet rendered is transparent black. Also after the end, however it
- * came. */
+/**
+ * Gives the image so far, in which pixels that are not yet rendered are transparent black. It may
+ * be called after the end too, even if the job was cancelled or failed.
+ */
 CRT_API crt_status crt_job_snapshot(crt_job* job, crt_image** out);
-/** Asks the job to stop, which it does within a few tiles, and returns at once. Harmless after its
- * end. */
+/**
+ * Asks the job to stop, which it does within a few tiles, and returns at once. After the job's end
+ * it has no effect.
+ */
 CRT_API crt_status crt_job_cancel(crt_job* job);
 /**
- * Waits for the end and gives the image, again for each call (`out` NULL: only waits), or what went
- * wrong. Not from the job's own callbacks: CRT_ERROR_INVALID_ARGUMENT.
+ * Waits for the end and gives the image, at each call, or returns what went wrong. With `out` NULL
+ * it only waits. The job's own callbacks must not call it: they get CRT_ERROR_INVALID_ARGUMENT.
  */
 CRT_API crt_status crt_job_wait(crt_job* job, crt_image** out);
 
-/** What a render did. Counts do not depend on the number of threads. */
+/** Says what a render did. Counts do not depend on the number of threads. */
 typedef struct crt_render_stats {
   uint32_t struct_size;
   int32_t threads; /**< that were allowed to work on it */
@@ -824,29 +895,30 @@ typedef struct crt_render_stats {
   uint64_t media_changes;
   uint64_t pattern_lookups;
   uint64_t lens_samples;
-  double prepare_seconds; /**< by the clock on the wall, as the next */
+  double prepare_seconds; /**< wall-clock time, as is the next */
   double trace_seconds;
-  uint64_t escalations; /**< questions of CRT_PRECISION_EXACT that only exact arithmetic answered */
-  /* Bytes that the prepared scene keeps; what it shares with its entities and images is not
-   * counted. */
+  uint64_t escalations; /**< decisions of CRT_PRECISION_EXACT that took exact arithmetic */
+  /* These are the bytes that the prepared scene keeps. What it shares with its entities and images
+   * is not counted. */
   uint64_t primitive_bytes; /**< primitives in their places, and which of their faces coincide */
-  uint64_t csg_bytes;       /**< how they are combined, and a tree of boxes for each CSG object */
-  uint64_t tree_bytes;      /**< the tree of boxes over all objects */
-  uint64_t material_bytes;  /**< materials, and pictures that had to be taken to linear light */
-  uint64_t samples_min;     /**< of a pixel */
+  uint64_t
+      csg_bytes; /**< how they are combined, and a bounding volume hierarchy for each CSG object */
+  uint64_t tree_bytes;     /**< the bounding volume hierarchy over all objects */
+  uint64_t material_bytes; /**< materials, and pictures that were converted to linear light */
+  uint64_t samples_min;    /**< of a pixel */
   double samples_mean;
   uint64_t samples_max;
   int32_t passes;   /**< that were rendered; 0 without target error and time budget */
   int32_t reserved; /**< 0 */
-  /* How far pixels are from the truth in 95 of 100 cases, on a display, where 1/255 is a step of 8
-   * bits; 0 where that is not known, without passes. */
+  /* These say how far pixels are from the truth in 95 of 100 cases, on a display, where 1/255 is a
+   * step of 8 bits. They are 0 where that is not known, without passes. */
   double half_width_rms; /**< the root of the mean square */
   double half_width_95;  /**< what 95 of 100 pixels are within */
   double half_width_max;
   uint64_t pixels_unresolved; /**< their half-width is above the target error */
-  double unseen_share;        /**< of a pixel: what covers more has been seen in 95 of 100 cases */
-  double cutoff_mean; /**< what cutting off paths may have taken from a pixel, as if all light were
-                         white */
+  double unseen_share; /**< share of a pixel: what covers more has been seen in 95 of 100 cases */
+  double cutoff_mean;  /**< light that a pixel may have lost by cutting off paths, if all light were
+                          white */
   double cutoff_max;
 } crt_render_stats;
 
@@ -855,7 +927,7 @@ typedef struct crt_render_stats {
 /* ---- images --------------------------------------------------------------------------------- */
 
 /** @defgroup images Images
- * Rows from the top; RGBA floats, linear, alpha premultiplied. Threads: Shared.
+ * Images have rows from the top, of linear RGBA floats with premultiplied alpha. Threads: Shared.
  *
  * @code{.c}
  * size_t stride = 0;
@@ -864,52 +936,67 @@ typedef struct crt_render_stats {
  * @endcode
  * @{ */
 
-/** From pixels of yours: 4 floats each, rows `row_stride` bytes apart (0: without gaps). Must be
- * finite. */
+/**
+ * Makes an image from your pixels: 4 floats each, rows `row_stride` bytes apart (0: without gaps).
+ * All must be finite.
+ */
 CRT_API crt_status crt_image_create(uint32_t width, uint32_t height, const float* pixels,
                                     size_t row_stride, crt_image** out);
-/** From 8-bit RGBA with straight alpha, as displays want them: where it serves in a scene, its
- * gamma undoes the scene's. */
+/**
+ * Makes an image from 8-bit RGBA with straight alpha, as displays want it. Where the image serves
+ * in a scene, its gamma undoes the scene's.
+ */
 CRT_API crt_status crt_image_from_rgba8(uint32_t width, uint32_t height, const uint8_t* pixels,
                                         size_t row_stride, crt_image** out);
-/** Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file; its content tells which. */
+/** Reads a PNG, JPEG, EXR, HDR, TIFF, BMP, PNM, PFM or WebP file. Its content decides which it is.
+ */
 CRT_API crt_status crt_image_read(const char* path, crt_image** out);
-/** The same from a file's bytes; `name` (or NULL) is for messages. */
+/**
+ * Reads an image from a file's bytes, otherwise as crt_image_read() does. `name` (or NULL) is for
+ * messages.
+ */
 CRT_API crt_status crt_image_decode(const void* bytes, size_t count, const char* name,
                                     crt_image** out);
 /**
- * How many pixels of the file that an image was read from had values which are no finite numbers
- * (NaN, infinities): they count as 0. The place of the first, row by row from the top left, goes to
- * *x and *y if there is one (either may be NULL). A render of a scene with such an image warns
- * through its log, too. 0 for all other images.
+ * Returns how many pixels of the file that an image was read from had values which are no finite
+ * numbers (NaN, infinities). Such values count as 0. The place of the first, row by row from the
+ * top left, goes to *x and *y if there is one (either may be NULL). A render of a scene with such
+ * an image warns through its log, too. The result is 0 for all other images.
  */
 CRT_API uint64_t crt_image_not_finite(const crt_image* image, uint32_t* x, uint32_t* y);
 
-/** Pixels across; 0 for NULL. */
+/** Returns the number of pixels across; 0 for NULL. */
 CRT_API uint32_t crt_image_width(const crt_image* image);
-/** Pixels down; 0 for NULL. */
+/** Returns the number of pixels down; 0 for NULL. */
 CRT_API uint32_t crt_image_height(const crt_image* image);
 /**
- * The pixels, which belong to the image; NULL for NULL.
+ * Returns the pixels, which belong to the image; NULL for NULL.
  * @param row_stride  gets the bytes from row to row; may be NULL
  */
 CRT_API const float* crt_image_pixels(const crt_image* image, size_t* row_stride);
-/** How many channels there are beside the colours: see crt_render_options.aovs. 0 for NULL. */
+/**
+ * Returns how many channels there are beside the colours (see crt_render_options.aovs); 0 for NULL.
+ */
 CRT_API size_t crt_image_channel_count(const crt_image* image);
-/** The name of one of them, which belongs to the image; NULL beyond the last one. */
+/** Returns the name of a channel, which belongs to the image; NULL beyond the last one. */
 CRT_API const char* crt_image_channel_name(const crt_image* image, size_t index);
-/** The numbers of the channel of this name: width * height, without gaps, which belong to the
- * image. NULL if there is no such channel of floats. */
+/**
+ * Returns the numbers of the channel of this name: width * height, without gaps, which belong to
+ * the image. It is NULL if there is no such channel of floats.
+ */
 CRT_API const float* crt_image_channel(const crt_image* image, const char* name);
-/** The same of a channel of whole numbers, such as "id". */
+/**
+ * Returns the numbers of a channel of whole numbers, such as "id", otherwise as crt_image_channel()
+ * does.
+ */
 CRT_API const uint32_t* crt_image_channel_uint(const crt_image* image, const char* name);
 /**
- * The 8-bit RGBA that a file gets: gamma applied, alpha straight.
+ * Writes the 8-bit RGBA that a file gets, with gamma applied and straight alpha, into `pixels`.
  * @param row_stride  bytes from row to row of yours; 0: without gaps
  */
 CRT_API crt_status crt_image_to_rgba8(const crt_image* image, uint8_t* pixels, size_t row_stride);
 
-/** How to write a file. */
+/** Says how to write a file. */
 typedef struct crt_write_options {
   uint32_t struct_size;
   int32_t reproducible; /**< not 0: leaves out what changes from run to run (the render time) */
@@ -917,39 +1004,47 @@ typedef struct crt_write_options {
       colors_only; /**< not 0: leaves out all channels beside the colours, which only exr holds */
 } crt_write_options;
 
-/** The defaults, which are all 0. */
+/** Fills in the defaults, which are all 0. */
 CRT_API crt_status crt_write_options_init(crt_write_options* options, size_t struct_size);
 
 /**
- * Writes a file; its ending tells the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr
+ * Writes a file whose ending decides the format: png, tif, jpg, bmp and ppm get 8-bit integers, exr
  * and hdr linear floats. An image with channels beside the colours goes into exr only (else
- * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all: it is written under another name in
- * the same folder, and then takes the place, the permissions and where possible the owner of a
+ * CRT_ERROR_UNSUPPORTED). The file appears whole or not at all. It is written under another name in
+ * the same folder. Then it takes the place, the permissions and where possible the owner of a
  * regular file that is there (other hard links of which stay as they were). Symbolic links are
- * followed. What is no regular file (a device, a named pipe, /dev/fd/N) is written to as it is, and
- * so is a regular file that may be written in a folder that takes no other. A pipe whose reader has
+ * followed. What is no regular file (a device, a named pipe, /dev/fd/N) is written to as it is. So
+ * is a regular file that may be written in a folder that takes no other. A pipe whose reader has
  * gone is CRT_ERROR_IO, without a signal.
  */
 CRT_API crt_status crt_image_write(const crt_image* image, const char* path);
-/** The same with options; NULL for the defaults. */
+/** Writes a file as crt_image_write() does, with options; NULL stands for the defaults. */
 CRT_API crt_status crt_image_write_with(const crt_image* image, const char* path,
                                         const crt_write_options* options);
-/** The bytes of such a file. `format` is its ending ("png", "exr", ...); `options` may be NULL. */
+/**
+ * Gives the bytes of such a file. `format` is its ending ("png", "exr", ...). `options` may be
+ * NULL.
+ */
 CRT_API crt_status crt_image_encode(const crt_image* image, const char* format,
                                     const crt_write_options* options, crt_buffer** out);
-/** The bytes, which belong to the buffer; NULL for NULL. */
+/** Returns the bytes, which belong to the buffer; NULL for NULL. */
 CRT_API const void* crt_buffer_data(const crt_buffer* buffer);
-/** How many bytes there are; 0 for NULL. */
+/** Returns the number of bytes; 0 for NULL. */
 CRT_API size_t crt_buffer_size(const crt_buffer* buffer);
 
-/** What rendering it took; `stats->struct_size` must be set. All 0 for an image that was not
- * rendered. */
+/**
+ * Gives what rendering the image took. `stats->struct_size` must be set. All is 0 for an image that
+ * was not rendered.
+ */
 CRT_API crt_status crt_image_stats(const crt_image* image, crt_render_stats* stats);
-/** The settings that it was rendered with; `settings->struct_size` must be set; texts belong to the
- * image. */
+/**
+ * Gives the settings that the image was rendered with. `settings->struct_size` must be set. The
+ * texts belong to the image.
+ */
 CRT_API crt_status crt_image_settings(const crt_image* image, crt_settings* settings);
-/** The same pixels with other settings: gamma and show_clip act when it is written, the texts go
- * into files.
+/**
+ * Makes an image of the same pixels with other settings. Gamma and show_clip act when it is
+ * written, and the texts go into files.
  */
 CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_settings* settings,
                                            crt_image** out);
@@ -959,20 +1054,21 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
 /* ---- ray queries ---------------------------------------------------------------------------- */
 
 /** @defgroup queries Ray queries
- * What a program asks of the geometry without making a picture; the same crossings that pictures
- * see. Many rays are asked on several threads: what the calling TBB arena has. Threads: Shared.
+ * Ray queries ask about the geometry without making a picture, and report the same crossings that
+ * pictures see. Many rays at once are split among the threads of the calling TBB arena. Threads:
+ * Shared.
  *
- * A surface at the start of a ray, for all four queries: with CRT_PRECISION_STANDARD it counts as
- * behind the ray unless it is ahead of t_min by more than rounding may be off there. Of a lone
- * primitive that is at most 32 u times the sum of its size and the largest coordinate of the start
- * (u = 2^-53), measured across the surface; a ray that is flat to it passes what is farther along
- * it accordingly. So a ray from a point that was computed to be on a surface does not meet that
- * surface there again, and what is nearer than that is not seen. What is behind the start is never
- * told as ahead of it. With CRT_PRECISION_EXACT the origin is taken for the point that its doubles
- * say: a surface is met if t_min < t holds for the exact t, rounded to a double, and not otherwise,
- * so that a ray from a point which rounding has put just below a surface meets it at once.
+ * All four queries treat a surface at the start of a ray alike. With CRT_PRECISION_STANDARD it
+ * counts as behind the ray unless it is ahead of t_min by more than the rounding error there. For a
+ * lone primitive that error is at most 32 u times the sum of its size and the largest coordinate of
+ * the start (u = 2^-53). It is measured across the surface; along a ray at a grazing angle the
+ * distance is correspondingly longer. So a ray from a point that was computed to be on a surface
+ * does not meet that surface there again, and what is nearer than that is not seen. What is behind
+ * the start is never reported as ahead of it. With CRT_PRECISION_EXACT the origin is taken for the
+ * point that its doubles say. A surface is met exactly if t_min < t holds for the exact t, rounded
+ * to a double. So a ray from a point which rounding has put just below a surface meets it at once.
  *
- * Strides are in bytes, so that rays and hits may lie inside larger structs of yours; 0 means one
+ * Strides are in bytes, so that rays and hits may lie inside larger structs of yours. 0 means one
  * after the other. Any alignment will do, and hits may take the place of their own rays.
  *
  * @code{.c}
@@ -984,10 +1080,10 @@ CRT_API crt_status crt_image_with_settings(const crt_image* image, const crt_set
  * @{ */
 
 /**
- * The points origin + t * direction with t_min < t < t_max. The direction may have any length but 0
- * (if its components are more than 2^1022 apart, the smaller ones count for as many digits as
- * doubles have at 2^-1022 of the largest). A hit whose place is beyond the largest double is none.
- * t_min may be -INFINITY, t_max INFINITY. The layout is fixed for ever: 64 bytes.
+ * A ray is the points origin + t * direction with t_min < t < t_max. The direction may have any
+ * length but 0. If its components are more than 2^1022 apart, the smaller ones keep only the digits
+ * that doubles have at 2^-1022 of the largest. A hit whose place is beyond the largest double does
+ * not count. t_min may be -INFINITY, t_max INFINITY. The layout is fixed for ever: 64 bytes.
  */
 typedef struct crt_ray {
   double origin[3];
@@ -996,48 +1092,54 @@ typedef struct crt_ray {
   double t_max;
 } crt_ray;
 
-/** Bits of crt_hit.flags. */
+/** These are the bits of crt_hit.flags. */
 enum {
   CRT_HIT_ENTERING = 1, /**< the ray goes into the solid, or through a surface against its normal */
   CRT_HIT_BACKFACE = 2  /**< the ray comes from the side that the normal points away from */
 };
 
-/** Where a ray meets a surface. A miss has t = INFINITY and 0 elsewhere. The layout is fixed for
- * ever: 56 bytes. */
+/**
+ * A hit is where a ray meets a surface. A miss has t = INFINITY and 0 elsewhere. The layout is
+ * fixed for ever: 56 bytes.
+ */
 typedef struct crt_hit {
   double t;           /**< in units of |direction| */
-  double normal[3];   /**< unit length, out of the solid; of a surface as its maker turned it */
+  double normal[3];   /**< unit length, out of the solid; for a surface the side its maker chose */
   double u, v;        /**< as each primitive defines them */
   uint32_t entity_id; /**< of crt_entity_with_id(), or the entity's place in the scene */
   uint32_t flags;     /**< CRT_HIT_* */
 } crt_hit;
 
-/** The nearest hit of each ray; what is at its start counts as is said above. In this and the other
- * queries a ray that would be tested against more than 4194304 things (see
- * crt_render_options.max_ray_steps) is CRT_ERROR_LIMIT. If any ray is wrong, none is asked, and the
- * message names its index. */
+/**
+ * Finds the nearest hit of each ray. A surface at its start counts as is said above. In this and
+ * the other queries a ray that would be tested against more than 4194304 things (see
+ * crt_render_options.max_ray_steps) is CRT_ERROR_LIMIT. If any ray is invalid, no ray is traced,
+ * and the message names its index.
+ */
 CRT_API crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
                                  size_t count, crt_hit* hits, size_t hit_stride);
 /**
- * How far the nearest hit of each ray is, and of which entity: the same as crt_intersect() tells,
- * also of what is at its start, in less time, as nobody asks what the surface is like there. If any
- * ray is wrong, nothing is written, and the message names its index.
+ * Finds how far the nearest hit of each ray is, and of which entity. Both are as crt_intersect()
+ * reports them, also for a surface at the start. It takes less time, as normals, u and v are not
+ * computed. If any ray is invalid, nothing is written, and the message names its index.
  * @param distances   gets `count` numbers, in units of |direction|; INFINITY for a miss
- * @param entity_ids  gets as many, 0 for a miss; NULL if nobody asks
+ * @param entity_ids  gets as many, 0 for a miss; may be NULL
  */
 CRT_API crt_status crt_distances(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
                                  size_t count, double* distances, uint32_t* entity_ids);
-/** For each ray, 1 if it hits anything at all (transparent or not), else 0, into `count` bytes;
- * what is at its start counts as for crt_intersect(). If any ray is wrong, nothing is written, and
- * the message names its index. */
+/**
+ * Writes for each ray 1 if it hits anything at all (transparent or not), else 0, into `count`
+ * bytes. A surface at its start counts as for crt_intersect(). If any ray is invalid, nothing is
+ * written, and the message names its index.
+ */
 CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
                                 size_t count, uint8_t* occluded);
 /**
- * Every crossing along a ray in order: of each entity, the solid intervals that CSG leaves. What is
- * at its start counts as for crt_intersect().
- * @param hits      room for `capacity`; NULL if that is 0
+ * Finds every crossing along a ray in order: of each entity, the solid intervals that CSG leaves. A
+ * surface at its start counts as for crt_intersect().
+ * @param hits      an array of `capacity` hits; NULL if that is 0
  * @param count     gets how many there are, which may be more than `capacity`; only so many are
- * written
+ *   written
  */
 CRT_API crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hits,
                                  size_t capacity, size_t* count);

@@ -1,4 +1,4 @@
-// Everything of the C++ API but scripts (crt/script.hpp, library crt::lang).
+// This header includes all of the C++ API but scripts (crt/script.hpp, library crt::lang).
 #pragma once
 
 #include <crt/background.hpp>

@@ -14,85 +14,91 @@ namespace crt {
 class Entity;
 struct EntityNode;
 
-/// One of the primitives' structs: Sphere, Box, ...
+/// Holds for each of the primitives' structs: Sphere, Box, ...
 template <class Shape>
 concept PrimitiveShape = !std::same_as<Shape, Primitive> && !std::same_as<Shape, Entity> &&
                          std::constructible_from<Primitive, Shape>;
 
-/// Something in a scene: a primitive, or several combined by constructive solid geometry, placed by
-/// transforms. An immutable value: copies share, and any thread may use it. Combining and placing
-/// are O(1) and give new entities.
+/// An Entity is something in a scene: a primitive, or several combined by constructive solid
+/// geometry, placed by transforms. It is an immutable value: copies share, and any thread may use
+/// it. Combining and placing are O(1) and give new entities.
 class Entity {
  public:
-  /// Takes any primitive; throws Error (invalid_argument) naming the field that is out of range.
+  /// Takes any primitive. Throws Error (invalid_argument) naming the field that is out of range.
   Entity(Primitive primitive);  // NOLINT(google-explicit-constructor): a primitive is an entity
 
-  /// The same for a primitive as it stands in the code: Sphere{...}.
+  /// Takes a primitive as it stands in the code, such as Sphere{...}. It throws as the constructor
+  /// above.
   template <PrimitiveShape Shape>
   Entity(Shape shape)  // NOLINT(google-explicit-constructor): Sphere{...} + Box{...} is to read as
                        // it does
       : Entity(Primitive(std::move(shape))) {}
 
-  /// Internal: takes a node of the tree.
+  /// Takes a node of the tree. This is internal.
   explicit Entity(std::shared_ptr<const EntityNode> node) : node_(std::move(node)) {}
 
-  /// This entity moved by `transform`, after whatever moved it before. A transform that flattens
-  /// space (no inverse) or has a number that is not finite is an error.
+  /// Returns this entity moved by `transform`, after whatever moved it before. Throws Error
+  /// (invalid_argument) for a transform that flattens space (no inverse) or has a number that is
+  /// not finite.
   Entity transformed(const Transform& transform) const;
 
-  /// This entity with `material` on every part that has no material of its own.
+  /// Returns this entity with `material` on every part that has no material of its own.
   Entity with_material(SharedMaterial material) const;
 
-  /// This entity under a number of the caller's choice, reported in hits. Without one it is the
-  /// entity's place in Scene::entities. The outermost id holds.
+  /// Returns this entity under a number of the caller's choice, which hits report. Without one,
+  /// hits report the entity's place in Scene::entities. The outermost id holds.
   Entity with_id(std::uint32_t id) const;
 
-  /// Whether it has an inside: false if any part of it is a mere surface (Disc, Triangle,
-  /// HalfPlane).
+  /// Says whether it has an inside. It has none if any part of it is a mere surface (Disc,
+  /// Triangle, HalfPlane).
   bool is_solid() const;
 
-  /// Whether there is nothing of it: see empty_entity().
+  /// Says whether it has no points at all: see empty_entity().
   bool is_empty() const;
 
-  /// How many primitives it is made of, a part that occurs twice counted twice (saturating).
+  /// Returns how many primitives it is made of. A part that occurs twice is counted twice. The
+  /// count saturates.
   std::uint64_t primitive_count() const;
 
-  /// Internal: the tree of what was combined and placed.
+  /// Returns the tree of what was combined and placed. This is internal.
   const EntityNode& node() const { return *node_; }
-  /// Internal: the same, to hold on to.
+  /// Returns the same tree, as a pointer that can be kept. This is internal.
   const std::shared_ptr<const EntityNode>& shared_node() const { return node_; }
 
  private:
   std::shared_ptr<const EntityNode> node_;
 };
 
-/// Union: what is in either. Parts keep their materials. Surfaces may take part in it.
+/// Returns the union: what is in either. Parts keep their materials. Surfaces may take part in it.
 Entity operator+(const Entity& a, const Entity& b);
 
-/// Difference: what is in `a` and not in `b`; the cut has b's material. Both must be solids.
+/// Returns the difference: what is in `a` and not in `b`. The cut has b's material. Both must be
+/// solids.
 Entity operator-(const Entity& a, const Entity& b);
 
-/// Intersection: what is in both. Both must be solids. (C++ gives ^ a low precedence: bracket it.)
+/// Returns the intersection: what is in both. Both must be solids. (C++ gives ^ a low precedence,
+/// so put it in brackets.)
 Entity operator^(const Entity& a, const Entity& b);
 
-/// Unions, intersections and differences of many; at least one part each.
+/// Returns the union of all parts, of which there is at least one.
 Entity csg_union(std::span<const Entity> parts);
+/// Returns the intersection of all parts, of which there is at least one.
 Entity csg_intersection(std::span<const Entity> parts);
-/// `from` without any of the cutters (there may be none).
+/// Returns `from` without any of the cutters. There may be no cutters.
 Entity csg_difference(const Entity& from, std::span<const Entity> cutters);
 
-/// Nothing: the solid without a point, what is left of a sphere whose radius shrinks to 0. No ray
-/// meets it. Combined it is what the empty set is: `a + nothing` and `a - nothing` are `a`, `a ^
-/// nothing` and `nothing - a` are nothing; moving it or giving it a material or an id changes
-/// nothing.
+/// Returns the solid without a point, which is what is left of a sphere whose radius shrinks to 0.
+/// No ray meets it. In combinations it behaves as the empty set: `a + nothing` and `a - nothing`
+/// are `a`, `a ^ nothing` and `nothing - a` are nothing. Moving it or giving it a material or an id
+/// changes nothing.
 Entity empty_entity();
 
-/// The corners of a triangle of a mesh, by their places in the list of positions.
+/// Names the corners of a triangle of a mesh by their places in the list of positions.
 using TriangleIndices = std::array<std::uint32_t, 3>;
 
-/// A surface of many triangles with shared corners: a union of Triangle. Triangles without an area
-/// are left out; throws Error (invalid_argument) if that leaves none, for an index that is out of
-/// range, and as Triangle does.
+/// Makes a surface of many triangles with shared corners: a union of Triangle. Triangles without an
+/// area are left out. Throws Error (invalid_argument) if that leaves none, for an index that is out
+/// of range, and as Triangle does.
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles);
 
 }  // namespace crt

@@ -6,7 +6,7 @@
 
 namespace crt {
 
-/// What kind of thing went wrong; the C ABI's status codes are the same list.
+/// Says what kind of thing went wrong. The C ABI's status codes are the same list.
 enum class ErrorCode {
   invalid_argument,  ///< a value out of its range, of the wrong kind, or not finite
   script,            ///< a CRT script is wrong
@@ -18,20 +18,21 @@ enum class ErrorCode {
   internal,  ///< a bug in CRT
 };
 
-/// A name for the code, such as "invalid argument".
+/// Returns a name for the code, such as "invalid argument".
 const char* to_string(ErrorCode code) noexcept;
 
-/// Every failure of the library is thrown as this.
+/// Error is what every failure of the library is thrown as.
 class Error : public std::runtime_error {
  public:
-  /// `argument` names the field or parameter that is wrong ("radius"), empty where there is none.
+  /// `argument` names the field or parameter that is wrong ("radius"). It is empty where there is
+  /// none.
   Error(ErrorCode code, const std::string& message, std::string argument = {})
       : std::runtime_error(message), code_(code), argument_(std::move(argument)) {}
 
-  /// What kind of failure it is.
+  /// Returns what kind of failure it is.
   ErrorCode code() const noexcept { return code_; }
 
-  /// The field that is wrong, by its C++ name; empty where the error is not about one.
+  /// Returns the C++ name of the field that is wrong. It is empty where the error is not about one.
   const std::string& argument() const noexcept { return argument_; }
 
  private:

@@ -1,4 +1,5 @@
-// Writing files as the library does: what goes beside a picture can go the same way.
+// Functions that write files as the library does, for programs that write something beside a
+// picture.
 #pragma once
 
 #include <cstddef>
@@ -8,33 +9,32 @@
 
 namespace crt {
 
-/// Makes a file hold `content`, all of it or none. This is how Image::write() and checkpoints are
-/// written, too:
+/// Makes a file hold `content`, all of it or none. Image::write() and checkpoints use it, too.
 ///
 /// A regular file is replaced at once by a new one that was written under another name in the same
 /// folder. On failure the old one stays. The new one gets the old one's permissions, and its owner
-/// and group where the system lets us; what has not been there before gets those that the process
-/// gives (its umask). Other hard links of the old file keep what is in it. A file that may not be
+/// and group where the system allows that. A file that was not there gets those that the process
+/// gives (its umask). Other hard links of the old file keep its content. A file that may not be
 /// written is not replaced.
 ///
-/// Where the folder takes no new file, or none in this one's place (a folder that may only be read,
-/// a file that is mounted), a file that may be written is written in place: then a failure leaves a
-/// part of it.
+/// The folder may take no new file, or none in this one's place (a folder that may only be read, a
+/// file that is mounted). A file there that may be written is written in place. Then a failure
+/// leaves a part of it.
 ///
-/// Symbolic links are followed: what they lead to is replaced or made, and they stay.
+/// Symbolic links are followed. What they lead to is replaced or made, and the links stay.
 ///
-/// What is no regular file (a device, a named pipe) is written to as it is, and so is a descriptor
-/// of the process by its name (/dev/stdout, /dev/fd/3). Opening a pipe waits for a reader. A pipe
+/// What is no regular file (a device, a named pipe) is written to as it is. So is a descriptor of
+/// the process by its name (/dev/stdout, /dev/fd/3). Opening a pipe waits for a reader. A pipe
 /// whose reader has gone is an error and no signal.
 ///
-/// Throws Error (io). From any thread.
+/// Throws Error (io). Any thread may call it.
 void write_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
-/// The same for text.
+/// Makes a file hold a text, otherwise as the function above.
 void write_file(const std::filesystem::path& path, std::string_view content);
 
-/// Finds out, before there is anything to write, whether write_file() can begin: throws Error (io)
-/// where there is no folder, or neither it nor the file may be written. Changes nothing.
+/// Finds out, before there is anything to write, whether write_file() can begin. Throws Error (io)
+/// where there is no folder, or neither it nor the file may be written. It changes nothing.
 void check_writable(const std::filesystem::path& path);
 
 }  // namespace crt

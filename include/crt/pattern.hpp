@@ -1,4 +1,4 @@
-// Patterns: colours that vary over a surface or through space.
+// Patterns are colours that vary over a surface or through space.
 #pragma once
 
 #include <crt/color.hpp>
@@ -9,11 +9,11 @@
 
 namespace crt {
 
-// Patterns live in the space of the entity that wears them: they move, turn and stretch with it.
-// `scale` is the size of one period in scene units (> 0), `offset` moves the pattern. Colours are
-// as those of materials.
+// Patterns live in the space of the entity that wears them: they move, turn and scale with it.
+// `scale` is the size of one period in scene units (> 0), and `offset` moves the pattern. Colours
+// have the range of those of materials.
 
-/// A checkerboard of cubes whose edges are `scale` long.
+/// A Checker is a checkerboard of cubes whose edges are `scale` long.
 struct Checker {
   Color color_a = {1, 1, 1};
   Color color_b = {0, 0, 0};
@@ -21,7 +21,8 @@ struct Checker {
   Vec3 offset{0, 0, 0};
 };
 
-/// Bands of equal width across `direction`; a period (`scale`) holds one of each colour.
+/// Stripes are bands of equal width across `direction`. A period (`scale`) holds one of each
+/// colour.
 struct Stripes {
   Color color_a = {1, 1, 1};
   Color color_b = {0, 0, 0};
@@ -30,7 +31,7 @@ struct Stripes {
   Vec3 offset{0, 0, 0};
 };
 
-/// A smooth change from color_a to color_b and back along `direction` within `scale`.
+/// A Gradient changes smoothly from color_a to color_b and back along `direction` within `scale`.
 struct Gradient {
   Color color_a = {1, 1, 1};
   Color color_b = {0, 0, 0};
@@ -39,7 +40,8 @@ struct Gradient {
   Vec3 offset{0, 0, 0};
 };
 
-/// Clouds: gradient noise summed over `octaves` (1 to 16), each half as large and half as strong.
+/// Noise looks like clouds: it is gradient noise summed over `octaves` (1 to 16), each half as
+/// large and half as strong.
 struct Noise {
   Color color_a = {1, 1, 1};
   Color color_b = {0, 0, 0};
@@ -48,7 +50,8 @@ struct Noise {
   Vec3 offset{0, 0, 0};
 };
 
-/// Veins: a wave along `direction` whose phase is shifted by noise of the strength `turbulence`.
+/// Marble has veins: a wave along `direction` whose phase is shifted by noise of the strength
+/// `turbulence`.
 struct Marble {
   Color color_a = {1, 1, 1};
   Color color_b = {0, 0, 0};
@@ -59,7 +62,7 @@ struct Marble {
   Vec3 offset{0, 0, 0};
 };
 
-/// Growth rings: a wave in the distance from the line through `offset` along `direction`.
+/// Wood has growth rings: a wave in the distance from the line through `offset` along `direction`.
 struct Wood {
   Color color_a = {0.6, 0.4, 0.2};
   Color color_b = {0.3, 0.15, 0.05};
@@ -70,14 +73,15 @@ struct Wood {
   Vec3 offset{0, 0, 0};
 };
 
-/// A picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v` times,
-/// bilinear; u = 0 is its left edge, v = 0 its lower one.
+/// An ImageMap is a picture laid over the surface by its (u, v), repeated `repeat_u` by `repeat_v`
+/// times, with bilinear interpolation. u = 0 is its left edge, v = 0 its lower one.
 struct ImageMap {
   std::shared_ptr<const Image> image{};
   double repeat_u = 1;
   double repeat_v = 1;
 };
 
+/// A Pattern is any of the patterns.
 using Pattern = std::variant<Checker, Stripes, Gradient, Noise, Marble, Wood, ImageMap>;
 
 }  // namespace crt

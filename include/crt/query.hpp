@@ -1,18 +1,18 @@
-// Ray queries: what a program asks of the geometry without making a picture: the same crossings
-// that pictures see. All functions are safe from any number of threads at once. They throw Error:
+// Ray queries ask about the geometry without making a picture, and report the same crossings that
+// pictures see. All functions are safe from any number of threads at once. They throw Error:
 // invalid_argument for a ray with a number that is not finite (t_min and t_max may be infinite) or
 // without a direction, limit for one that would be tested against more than 4194304 things (see
 // RenderOptions::max_ray_steps), out_of_memory.
 //
-// A surface at the start of a ray, all queries alike: with Precision::standard it counts as behind
-// the ray unless it is ahead of t_min by more than rounding may be off there. Of a lone primitive
-// that is at most 32 u times the sum of its size and the largest coordinate of the start (u =
-// 2^-53), measured across the surface; a ray that is flat to it passes what is farther along it
-// accordingly. So a ray from a point that was computed to be on a surface does not meet that
-// surface there again, and what is nearer than that is not seen. What is behind the start is never
-// told as ahead of it. With Precision::exact the origin is taken for the point that its doubles
-// say: a surface is met if t_min < t holds for the exact t, rounded to a double, and not otherwise,
-// so that a ray from a point which rounding has put just below a surface meets it at once.
+// All queries treat a surface at the start of a ray alike. With Precision::standard it counts as
+// behind the ray unless it is ahead of t_min by more than the rounding error there. For a lone
+// primitive that error is at most 32 u times the sum of its size and the largest coordinate of the
+// start (u = 2^-53). It is measured across the surface; along a ray at a grazing angle the distance
+// is correspondingly longer. So a ray from a point that was computed to be on a surface does not
+// meet that surface there again, and what is nearer than that is not seen. What is behind the start
+// is never reported as ahead of it. With Precision::exact the origin is taken for the point that
+// its doubles say. A surface is met exactly if t_min < t holds for the exact t, rounded to a
+// double. So a ray from a point which rounding has put just below a surface meets it at once.
 #pragma once
 
 #include <crt/prepared_scene.hpp>
@@ -27,10 +27,10 @@
 
 namespace crt {
 
-/// The points origin + t * direction with t_min < t < t_max; t is in units of the direction's
-/// length, which may be any but 0. Of a direction whose components are more than 2^1022 apart the
-/// smaller ones count for as many digits as doubles have at 2^-1022 of the largest. A hit whose
-/// place is beyond the largest double is none.
+/// A Ray is the points origin + t * direction with t_min < t < t_max. t is in units of the
+/// direction's length, which may be any but 0. If the direction's components are more than 2^1022
+/// apart, the smaller ones keep only the digits that doubles have at 2^-1022 of the largest. A hit
+/// whose place is beyond the largest double does not count.
 struct Ray {
   Vec3 origin{0, 0, 0};
   Vec3 direction{0, 0, 1};
@@ -38,87 +38,88 @@ struct Ray {
   double t_max = std::numeric_limits<double>::infinity();
 };
 
-/// Where a ray meets a surface.
+/// A Hit is where a ray meets a surface.
 struct Hit {
   double t = 0;
   Vec3 position{0, 0, 0};
-  Vec3 normal{0, 1, 0};  ///< unit length, out of the solid; for a surface as its maker turned it
+  Vec3 normal{0, 1, 0};  ///< unit length, out of the solid; for a surface the side its maker chose
   double u = 0;
   double v = 0;
   std::uint32_t entity_id = 0;
   bool entering = false;  ///< into the solid; for a surface: against its normal
 };
 
-/// From which side a surface is met.
+/// Says from which side a surface is met.
 enum class HitSide : std::uint32_t {
   none,      ///< there is no hit
   entering,  ///< into the solid; for a surface: against its normal
   leaving,
 };
 
-/// A hit as an array of many holds it: 56 bytes, without its position, which is origin + t *
-/// direction.
+/// A PlainHit is a hit as an array of many holds it: 56 bytes, without its position, which is
+/// origin + t * direction.
 struct PlainHit {
   double t = std::numeric_limits<double>::infinity();  ///< infinity: nothing is hit, and all that
                                                        ///< follows is 0
-  Vec3 normal{0, 0, 0};                                ///< these as in Hit
+  Vec3 normal{0, 0, 0};                                ///< this and the next three are as in Hit
   double u = 0;
   double v = 0;
   std::uint32_t entity_id = 0;
   HitSide side = HitSide::none;
 };
 
-/// The nearest hit.
+/// Finds the nearest hit. It is empty if the ray hits nothing.
 std::optional<Hit> intersect(const PreparedScene& scene, const Ray& ray);
 
-/// Whether anything at all is hit, transparent or not.
+/// Asks whether any surface blocks the ray, transparent or not.
 bool occluded(const PreparedScene& scene, const Ray& ray);
 
-/// Every crossing along the ray in order: per entity, the solid intervals that CSG leaves.
+/// Finds every crossing along the ray in order: per entity, the solid intervals that CSG leaves.
 std::vector<Hit> crossings(const PreparedScene& scene, const Ray& ray);
 
 /// Throws Error (invalid_argument) for a ray that no query takes.
 void validate(const Ray& ray);
 
-/// Of several rays the index of the first one that validate() takes exception to; their number if
-/// there is none.
+/// Returns the index of the first of several rays that validate() rejects, or their number if there
+/// is none.
 std::size_t first_invalid(std::span<const Ray> rays);
 
-/// The same questions for many rays one after the other, with memory that it keeps between them:
-/// cheaper than the functions above. For one thread at a time.
+/// A RayQueries object answers many rays one after the other, with memory that it keeps between
+/// them. That is cheaper than the functions above. One thread at a time may use it.
 class RayQueries {
  public:
-  /// Shares the scene; throws Error (out_of_memory).
+  /// Shares the scene. Throws Error (out_of_memory).
   explicit RayQueries(const PreparedScene& scene);
   ~RayQueries();
-  /// What was moved from is good for nothing but being assigned to or destroyed, as in the next.
+  /// Takes over the memory. What was moved from is good for nothing but being assigned to or
+  /// destroyed.
   RayQueries(RayQueries&&) noexcept;
-  /// Lets go of what is here.
+  /// Takes over the memory, and releases what was here.
   RayQueries& operator=(RayQueries&&) noexcept;
 
-  /// The nearest hit.
+  /// Finds the nearest hit. It is empty if the ray hits nothing.
   std::optional<Hit> intersect(const Ray& ray);
-  /// Whether anything at all is hit.
+  /// Asks whether any surface blocks the ray.
   bool occluded(const Ray& ray);
 
-  /// The same for each of several rays, into as many places. Rays that go nearly the same way and
-  /// follow one another, such as those through neighbouring pixels, are answered together, and
-  /// faster than one by one; the answers are the same. Throws Error (invalid_argument) also where
-  /// there are fewer places than rays.
+  /// Finds the nearest hit of each of several rays, and writes them into as many places. Rays that
+  /// follow one another in nearly the same direction, such as those through neighbouring pixels,
+  /// are answered together, and faster than one by one. The answers are the same. Throws Error
+  /// (invalid_argument) also where there are fewer places than rays.
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
-  /// The same, as plain numbers.
+  /// Finds the nearest hits of several rays, as plain numbers.
   void intersect(std::span<const Ray> rays, std::span<PlainHit> hits);
-  /// Whether anything at all is hit, likewise for each of several rays.
+  /// Asks for each of several rays whether any surface blocks it.
   void occluded(std::span<const Ray> rays, std::span<bool> occluded);
 
-  /// How far the nearest hits are, in units of |direction|, and of which entities, which is all
-  /// that a depth map or a laser scanner has to know: t and entity_id as a PlainHit has them, in
-  /// less time, as nobody asks what the surface is like there. Several rays as above. `entity_ids`
-  /// may be empty: then nobody asks for them.
+  /// Finds how far the nearest hits of several rays are, in units of |direction|, and of which
+  /// entities. A depth map or a laser scanner has to know no more. t and entity_id are as a
+  /// PlainHit has them. It takes less time, as normals, u and v are not computed. `entity_ids` may
+  /// be empty if they are not needed.
   void distances(std::span<const Ray> rays, std::span<double> distances,
                  std::span<std::uint32_t> entity_ids = {});
 
-  /// Every crossing in order, in place of what `out` holds.
+  /// Finds every crossing in order, and replaces what `out` holds.
   void crossings(const Ray& ray, std::vector<Hit>& out);
 
  private:
@@ -126,12 +127,12 @@ class RayQueries {
   std::unique_ptr<State> state_;
 };
 
-/// Work on the rays first ... last - 1 of a batch.
+/// Works on the rays first ... last - 1 of a batch.
 using RayBatchWork = std::function<void(RayQueries& queries, std::size_t first, std::size_t last)>;
 
-/// Splits `count` rays into pieces and calls `work` for each, on up to `threads` threads (0: what
-/// the calling TBB arena has; 1 starts none), this one among them. Small batches stay on this
-/// thread. What `work` throws comes out.
+/// Splits `count` rays into pieces and calls `work` for each, on up to `threads` threads, the
+/// calling one among them. 0 threads means what the calling TBB arena has; 1 starts none. Small
+/// batches stay on the calling thread. What `work` throws comes out.
 void query_in_parallel(const PreparedScene& scene, std::size_t count, const RayBatchWork& work,
                        int threads = 0);
 

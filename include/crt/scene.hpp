@@ -9,8 +9,9 @@
 
 namespace crt {
 
-/// The description of a picture: plain values, freely edited, without cost. Nothing is computed
-/// until `prepare`, and editing a scene never touches what was prepared from it.
+/// A Scene is the description of a picture: plain values, which can be edited freely without cost.
+/// Nothing is computed until `prepare`, and editing a scene never touches what was prepared from
+/// it.
 struct Scene {
   std::vector<Entity> entities{};
   std::vector<Light> lights{};

@@ -1,5 +1,5 @@
-// Running scripts of the CRT language: text in, a Scene or diagnostics out. A script can do nothing
-// that this C++ API cannot.
+// This header runs scripts of the CRT language: text in, a Scene or diagnostics out. A script can
+// do nothing that this C++ API cannot.
 #pragma once
 
 #include <crt/error.hpp>
@@ -16,7 +16,8 @@
 
 namespace crt {
 
-/// A place in a script. Lines and columns count from 1; columns count code points, tabs as one.
+/// A SourcePlace is a place in a script. Lines and columns count from 1. Columns count code points,
+/// tabs as one.
 struct SourcePlace {
   std::string file{};
   int line = 0;
@@ -26,27 +27,30 @@ struct SourcePlace {
   friend bool operator==(const SourcePlace&, const SourcePlace&) = default;
 };
 
+/// Says how bad a diagnostic is.
 enum class Severity { warning, error };
 
-/// Something to tell about a script.
+/// A Diagnostic is one message about a script.
 struct Diagnostic {
   Severity severity = Severity::error;
   ErrorCode code = ErrorCode::script;
   std::string message{};  ///< one line, with what was expected and a suggestion where there is one
   SourcePlace place{};
   std::string source_line{};  ///< the text of that line, without its end
-  /// For an error inside macros: where each was called, innermost first.
+  /// Lists, for an error inside macros, where each was called, innermost first.
   std::vector<std::pair<std::string, SourcePlace>> calls{};
 };
 
-/// "scene.crt:3:5: error: ..." with the source line and a caret under it, then the calls; ends in a
-/// newline.
+/// Returns "scene.crt:3:5: error: ..." with the source line and a caret under it, then the calls.
+/// It ends in a newline.
 std::string format_diagnostic(const Diagnostic& diagnostic);
 
-/// A JSON array of objects: severity, code, message, file, line, column, length, source, calls.
+/// Returns a JSON array of objects with severity, code, message, file, line, column, length, source
+/// and calls.
 std::string diagnostics_to_json(const std::vector<Diagnostic>& diagnostics);
 
-/// What a script may use up; passing one is an ordinary error (ErrorCode::limit) at its place.
+/// Says what a script may use up. Passing a limit is an ordinary error (ErrorCode::limit) at its
+/// place.
 struct ScriptLimits {
   std::uint64_t steps = 20'000'000;  ///< expressions evaluated; making an entity counts as 16 more
   std::uint64_t entities = 10'000'000;  ///< made or put into the scene
@@ -59,47 +63,49 @@ struct ScriptLimits {
   std::size_t errors = 20;              ///< reported before giving up
 };
 
-/// What a script may see and use; the defaults let it read files in its own directory alone.
+/// Says what a script may see and use. The defaults let it read files in its own directory alone.
 struct ScriptOptions {
-  /// Where images and imports are looked for after the script's own directory; a path with a
+  /// Images and imports are looked for in these after the script's own directory. A path with a
   /// leading '/' is looked for in these alone.
   std::vector<std::filesystem::path> resource_directories{};
   /// Lets paths leave those directories.
   bool allow_outside_files = false;
-  /// The frame of an animation, the constant `t`.
+  /// This is the frame of an animation, the constant `t`.
   double t = 0;
-  /// Top-level variables set from outside, as script expressions ("n", "18"): what the script
-  /// assigns to them at the top level is ignored.
+  /// These are top-level variables set from outside, as script expressions ("n", "18"). What the
+  /// script assigns to them at the top level is ignored.
   std::vector<std::pair<std::string, std::string>> variables{};
-  /// Attributes of Settings that win over the script's, as script expressions ("gamma", "2.2").
+  /// These are attributes of Settings that win over the script's, as script expressions ("gamma",
+  /// "2.2").
   std::vector<std::pair<std::string, std::string>> settings{};
-  /// 0: as the script's Settings say. 2015: the script is one of that year, see docs/compat.md; the
-  /// scene's Settings::compat then says so.
+  /// 0 leaves it to the script's Settings. 2015 means that the script is one of that year, see
+  /// docs/compat.md. The scene's Settings::compat then says so.
   int compat = 0;
   ScriptLimits limits{};
-  /// Gets what `print` prints, a line at a time without its end. From the calling thread.
+  /// Gets what `print` prints, a line at a time without its end. The thread that runs the script
+  /// calls it.
   std::function<void(std::string_view)> print{};
-  /// Asked for each file (its resolved path) before the file system is; nothing means: read it from
-  /// there.
+  /// Is asked for each file (its resolved path) before the file system is. Returning nothing means
+  /// that the file is read from the file system.
   std::function<std::optional<std::vector<std::byte>>(const std::filesystem::path&)> open_file{};
-  /// Asked every few thousand steps; returning false ends the script with ErrorCode::cancelled.
+  /// Is called every few thousand steps. Returning false ends the script with ErrorCode::cancelled.
   std::function<bool()> go_on{};
 };
 
-/// What running a script gave.
+/// A ScriptResult is what running a script gave.
 struct ScriptResult {
-  /// Present if there was no error.
+  /// The scene is present if there was no error.
   std::optional<Scene> scene{};
   std::vector<Diagnostic> diagnostics{};
 };
 
-/// Runs a script. `name` stands for it in messages and its directory is where its files are looked
-/// for. Never throws for what a script does, errors are in the result; what a callback throws comes
-/// out.
+/// Runs a script. `name` stands for it in messages, and its files are looked for in the directory
+/// of `name`. It never throws for what a script does: errors are in the result. What a callback
+/// throws comes out.
 ScriptResult run_script(std::string_view text, const std::string& name,
                         const ScriptOptions& options = {});
 
-/// The same for a file; a missing one is a diagnostic with ErrorCode::io.
+/// Runs the script in a file. A missing file is a diagnostic with ErrorCode::io.
 ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOptions& options = {});
 
 }  // namespace crt

@@ -5,73 +5,75 @@
 
 namespace crt {
 
-/// What the distance D in a light's falloff / D^2 is.
+/// Says what the distance D in a light's falloff / D^2 is.
 enum class FalloffModel {
-  path,   ///< the whole way from the camera over all bounces to the light (the thesis's rule)
+  path,   ///< the path from the camera over all bounces to the light (the thesis's rule)
   light,  ///< from the lit point to the light
 };
 
-/// How close a call the geometry settles: see docs/numerics.md. Both answer the same question.
+/// Says how close calls of the geometry are decided: see docs/numerics.md. Both values answer the
+/// same question.
 enum class Precision {
-  standard,  ///< t within some roundings; the last bit is left to rounding right at a silhouette
+  standard,  ///< t within some roundings; right at a silhouette, rounding decides the last bit
   exact,     ///< hits and their order are right, t within 0.51 ulp (tori: 1); transforms are not
              ///< rounded
 };
 
-/// What a pixel is the mean of.
+/// Says what a pixel is the mean of.
 enum class PixelFilter {
-  box,              ///< its square, every place alike
+  box,              ///< its square, with equal weights
   blackman_harris,  ///< a bell around its middle, Settings::filter_width pixels wide
 };
 
-/// What Settings::compat can be beside 0.
+/// This is the one value of Settings::compat beside 0.
 inline constexpr int compat_2015 = 2015;
 
-/// How a scene is rendered; everything that is neither geometry, light nor camera.
+/// Settings say how a scene is rendered: everything that is neither geometry, light nor camera.
 struct Settings {
-  // What the picture's file says of it.
+  // These texts go into the picture's file.
   std::string title{};
   std::string author{};
   std::string date{};
   std::string notes{};
 
-  /// Size in pixels: each in [1, 65536], together at most 2^27.
+  /// The size is in pixels: each in [1, 65536], together at most 2^27.
   int width = 640;
   int height = 480;
-  /// 8- and 16-bit files store clamp(c)^(1/gamma); in [0.1, 10].
+  /// Files of 8 and 16 bits store clamp(c)^(1/gamma). It is in [0.1, 10].
   double gamma = 1;
-  /// n x n rays a pixel, in [1, 64]; of no effect with a target error or a time budget.
+  /// There are n x n rays a pixel, with n in [1, 64]. It has no effect with a target error or a
+  /// time budget.
   int supersampling = 1;
-  /// Points of the lens for each of them, in [1, 65536]; 1 means no lens. With a target error or a
-  /// time budget there are as many as samples, if this is more than 1.
+  /// This is the number of points of the lens for each of these rays, in [1, 65536]; 1 means no
+  /// lens. If it is more than 1, a target error or a time budget takes as many as samples.
   int dof_samples = 1;
-  /// Above 0, each pixel gets samples until it is this near the truth: half of the width of the
-  /// interval that holds it in 95 of 100 cases, in what a display shows, where 1/255 is a step of 8
-  /// bits. In [0, 1].
+  /// Above 0, each pixel gets samples until it is this near the truth. That is half of the width of
+  /// the interval that holds it in 95 of 100 cases, in what a display shows, where 1/255 is a step
+  /// of 8 bits. It is in [0, 1].
   double target_error = 0;
-  /// Above 0, the seconds that tracing may take: it stops at the end of a pass, the first of which
-  /// takes what it takes, so that there is a picture. In [0, 1e6].
+  /// Above 0, these are the seconds that tracing may take. It stops at the end of a pass. The first
+  /// pass is always completed, so that there is a picture. It is in [0, 1e6].
   double time_budget = 0;
-  /// With one of them: how many samples a pixel gets at least and at most; powers of 2 in [4,
-  /// 65536].
+  /// With a target error or a time budget, this is the least number of samples of a pixel, and
+  /// max_samples the greatest. Both are powers of 2 in [4, 65536].
   int min_samples = 16;
   int max_samples = 1024;
   PixelFilter filter = PixelFilter::box;
-  /// Pixels across, of filters other than the box; in [1, 16].
+  /// This is the width in pixels of filters other than the box, in [1, 16].
   double filter_width = 3;
-  /// Bounces followed after the camera's ray, in [0, 256].
+  /// This is the number of bounces followed after the camera's ray, in [0, 256].
   int recursion_depth = 3;
-  /// A ray whose share of the pixel is below this in every channel is not traced; in [0, 1].
+  /// A ray whose share of the pixel is below this in every channel is not traced. It is in [0, 1].
   double min_weight = 1.0 / 1024;
   FalloffModel falloff_model = FalloffModel::path;
   /// Marks pixels with a channel above 1 in red.
   bool show_clip = false;
-  /// Of the random numbers: another seed, another noise.
+  /// This is the seed of the random numbers. Another seed gives other noise.
   std::uint64_t seed = 0;
   Precision precision = Precision::standard;
-  /// 0, or compat_2015: the picture is formed as the program of that year formed it, see
-  /// docs/compat.md. That is about the lens, panoramas, the places of the grid's samples and the
-  /// levels of 8-bit files.
+  /// 0 is the default. With compat_2015 the picture is formed as the program of that year formed
+  /// it, see docs/compat.md. That concerns the lens, panoramas, the places of the grid's samples
+  /// and the levels of 8-bit files.
   int compat = 0;
 };
 

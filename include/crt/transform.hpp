@@ -4,10 +4,10 @@
 
 namespace crt {
 
-/// An affine map p -> linear * p + translation. Nested transforms of an entity are not multiplied
-/// here but once, with more than double precision, when the scene is prepared.
+/// A Transform is an affine map p -> linear * p + translation. Nested transforms of an entity are
+/// not multiplied here but once, with more than double precision, when the scene is prepared.
 struct Transform {
-  /// The rows of the linear part.
+  /// These are the rows of the linear part.
   Vec3 row_x{1, 0, 0};
   Vec3 row_y{0, 1, 0};
   Vec3 row_z{0, 0, 1};
@@ -19,11 +19,11 @@ struct Transform {
 /// Moves by `offset` (scene units).
 Transform translate(const Vec3& offset);
 
-/// Scales about the origin by the same factor in all directions; a negative one mirrors, 0 is an
-/// error.
+/// Scales about the origin by the same factor in all directions. A negative one mirrors, and 0 is
+/// an error.
 Transform scale(double factor);
 
-/// Scales about the origin by a factor an axis; a negative one mirrors, 0 is an error.
+/// Scales about the origin by a factor an axis. A negative one mirrors, and 0 is an error.
 Transform scale(const Vec3& factors);
 
 /// Rotates about x, then y, then z by the given *degrees*, left-handed: +90 about z takes x to y,

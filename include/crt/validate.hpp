@@ -1,5 +1,5 @@
-// Checks of descriptions. Preparing a scene makes them all; a program that takes values from
-// elsewhere may make them earlier, to tell the user where a wrong one stands.
+// These functions check descriptions. Preparing a scene makes all checks. A program that takes
+// values from elsewhere may make them earlier, to say where a wrong one stands.
 #pragma once
 
 #include <crt/background.hpp>

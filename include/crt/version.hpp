@@ -2,7 +2,7 @@
 
 namespace crt {
 
-/// "1.0.0": major, minor, patch.
+/// Returns the version, such as "1.0.0": major, minor, patch.
 const char* version() noexcept;
 
 }  // namespace crt

@@ -1,4 +1,4 @@
-// Entities of the C interface.
+// This file implements the entities of the C interface.
 #include <cmath>
 #include <span>
 #include <vector>
@@ -19,7 +19,7 @@ crt_status create(crt_entity** out, const Make& make) {
   });
 }
 
-/// The entities behind `count` handles.
+/// Returns the entities behind `count` handles.
 std::vector<Entity> to_entities(crt_entity* const* handles, std::size_t count,
                                 const char* argument) {
   std::vector<Entity> entities;
@@ -33,7 +33,7 @@ std::vector<Entity> to_entities(crt_entity* const* handles, std::size_t count,
   return entities;
 }
 
-/// From the rows of a 3x4 matrix.
+/// Makes a transform from the rows of a 3x4 matrix.
 Transform to_transform(const double* affine) {
   require(affine, "affine");
   const std::span<const double, 12> m(affine, 12);

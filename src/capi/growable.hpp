@@ -1,6 +1,7 @@
-// Structs that grow from version to version. A program and the library may have been built with
-// different versions of a struct: `struct_size` says where the program's ends, and nothing beyond
-// it is read or written. A field that it cuts in two counts as not there.
+// These functions read and write structs that grow from version to version. A program and the
+// library may have been built with different versions of a struct: `struct_size` says where the
+// program's ends, and nothing beyond it is read or written. A field that it cuts in two counts as
+// missing.
 #pragma once
 
 #include <cstddef>
@@ -12,16 +13,17 @@
 
 namespace crt::capi {
 
-/// Where each field of a struct ends, in order. Of every growable struct: see structs.cpp.
+/// Lists where each field of a struct ends, in order. structs.cpp defines it for every growable
+/// struct.
 template <class Struct>
 std::span<const std::size_t> field_ends();
 
-/// The values that a struct has if its owner says nothing.
+/// Holds the values that a struct has if its owner sets none.
 template <class Struct>
 Struct defaults();
 
 inline constexpr std::size_t size_field = sizeof(std::uint32_t);
-/// No struct will ever be larger than this; a larger size is a mistake.
+/// No struct will ever be larger than this. A larger size is a mistake.
 inline constexpr std::size_t largest_struct = 1 << 16;
 
 inline void require_struct_size(std::size_t size, const char* argument) {
@@ -30,7 +32,7 @@ inline void require_struct_size(std::size_t size, const char* argument) {
     reject(argument, "has a struct_size that cannot be");
 }
 
-/// Up to where both sides know the struct.
+/// Returns the number of bytes of the struct that both sides know.
 template <class Struct>
 std::size_t known_size(std::size_t size) {
   std::size_t known = size_field;
@@ -49,7 +51,7 @@ std::size_t given_size(const Struct* given, const char* argument) {
   return size;
 }
 
-/// What the caller gave, with defaults where it ends.
+/// Returns what the caller gave, with defaults for the fields beyond its end.
 template <class Struct>
 Struct taken(const Struct* given, const char* argument) {
   const std::size_t known = known_size<Struct>(given_size(given, argument));
@@ -58,13 +60,13 @@ Struct taken(const Struct* given, const char* argument) {
   return result;
 }
 
-/// The same for options, where NULL stands for the defaults.
+/// Returns what the caller gave as options, where NULL stands for the defaults.
 template <class Struct>
 Struct taken_or_default(const Struct* given, const char* argument) {
   return given == nullptr ? defaults<Struct>() : taken(given, argument);
 }
 
-/// Writes all fields but the size into the caller's struct, as far as that goes.
+/// Writes all fields but the size into the caller's struct, up to its end.
 template <class Struct>
 void fill_in(Struct* out, const char* argument, const Struct& values) {
   const std::size_t known = known_size<Struct>(given_size(out, argument));
@@ -72,7 +74,8 @@ void fill_in(Struct* out, const char* argument, const Struct& values) {
               reinterpret_cast<const char*>(&values) + size_field, known - size_field);
 }
 
-/// What the crt_*_init functions do: the values, 0 for what only the caller knows, and the size.
+/// Does what the crt_*_init functions do: it writes the values, 0 for what only the caller knows,
+/// and the size.
 template <class Struct>
 void initialise(Struct* out, std::size_t size, const Struct& values) {
   require(out, "the struct");

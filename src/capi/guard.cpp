@@ -9,8 +9,8 @@ namespace crt::capi {
 
 namespace {
 
-/// What a thread is told of its last failure. Without a destructor, so that a thread which has met
-/// the library does not keep it from being unloaded.
+/// Holds what a thread can ask about its last failure. It has no destructor, so that a thread which
+/// has called the library does not keep it from being unloaded.
 struct LastFailure {
   std::array<char, 2048> message;
   int cancel_value;
@@ -21,7 +21,7 @@ LastFailure& last_failure() noexcept {
   return failure;
 }
 
-/// Keeps as much of a message as there is room for, and no half character of UTF-8 at its end.
+/// Keeps as much of a message as fits, and no half character of UTF-8 at its end.
 void keep_message(const char* text) noexcept {
   std::array<char, 2048>& message = last_failure().message;
   std::size_t length = std::strlen(text);

@@ -1,4 +1,4 @@
-// The border that no exception crosses: every function of the C interface runs inside guarded().
+// No exception leaves the C interface: each of its functions runs inside guarded().
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace crt::capi {
 
-/// Thrown out of a callback of a script that returned `value` to cancel it.
+/// Is thrown when a callback of a script returned `value` to cancel it.
 struct CancelledByCallback {
   int value;
 };
@@ -18,13 +18,13 @@ struct CancelledByCallback {
 /// crt_error_message().
 crt_status status_of_exception() noexcept;
 
-/// The ABI's number for a kind of error.
+/// Returns the ABI's number for a kind of error.
 crt_status to_status(ErrorCode code) noexcept;
 
-/// Keeps what crt_cancel_value() tells this thread.
+/// Keeps what crt_cancel_value() returns to this thread.
 void set_cancel_value(int value) noexcept;
 
-/// Runs the body of a function of the interface; what it throws becomes the status.
+/// Runs the body of a function of the interface, and turns what it throws into the status.
 template <class Body>
 crt_status guarded(const Body& body) noexcept {
   try {
@@ -35,7 +35,7 @@ crt_status guarded(const Body& body) noexcept {
   }
 }
 
-/// Throws the error of an argument.
+/// Throws the error of a wrong argument.
 [[noreturn]] void reject(const std::string& argument, const std::string& complaint);
 
 /// Refuses NULL.

@@ -1,4 +1,4 @@
-// Retaining and releasing.
+// This file implements retaining and releasing.
 #include "capi/handles.hpp"
 
 using crt::capi::release;

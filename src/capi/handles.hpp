@@ -1,5 +1,4 @@
-// What is behind the handles of the C interface: a value of the C++ interface and a count of
-// references.
+// Each handle of the C interface is a value of the C++ interface and a count of references.
 #pragma once
 
 #include <atomic>
@@ -42,11 +41,12 @@ struct Release {
   }
 };
 
-/// A reference that the library holds itself.
+/// A Held is a reference that the library holds itself.
 template <class Handle>
 using Reference = std::unique_ptr<Handle, Release>;
 
-/// The number with which a progress callback stopped a render; callbacks come from any thread.
+/// Holds the number with which a progress callback stopped a render. Any thread may call the
+/// callback.
 using CancelValue = std::shared_ptr<std::atomic<int>>;
 
 }  // namespace crt::capi
@@ -65,9 +65,10 @@ struct crt_image : crt::capi::Counted {
 
 struct crt_scene : crt::capi::Counted {
   crt::Scene value;
-  /// What was prepared last, for what of it can be used again while somebody still has it.
+  /// Points to what was prepared last, so that parts of it can be used again while a handle still
+  /// exists.
   std::weak_ptr<const crt::core::PreparedData> prepared;
-  /// What crt_scene_get_background() has lent of the background's picture.
+  /// Holds the handle that crt_scene_get_background() has lent of the background's picture.
   mutable crt::capi::Reference<crt_image> lent_background;
 };
 

@@ -1,4 +1,4 @@
-// Images of the C interface.
+// This file implements the images of the C interface.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ int to_side(std::uint32_t pixels, const char* argument) {
   return static_cast<int>(pixels);
 }
 
-/// From row to row of the caller's pixels, checked.
+/// Returns the checked distance from row to row of the caller's pixels, in bytes.
 std::size_t stride_or_default(std::size_t stride, std::size_t row_bytes, std::size_t rows) {
   if (stride == 0) return row_bytes;
   if (stride < row_bytes)

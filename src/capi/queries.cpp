@@ -1,4 +1,5 @@
-// Ray queries of the C interface: rays and hits stay in the caller's memory.
+// This file implements the ray queries of the C interface. Rays and hits stay in the caller's
+// memory.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -16,7 +17,7 @@
 #include "capi/structs.hpp"
 #include "crt/query.hpp"
 
-// Frozen for ever: programs and arrays of numbers are laid out like this.
+// The layout is frozen for ever: programs and arrays of numbers depend on it.
 static_assert(sizeof(crt_ray) == 64 && alignof(crt_ray) == alignof(double));
 static_assert(offsetof(crt_ray, origin) == 0 && offsetof(crt_ray, direction) == 24);
 static_assert(offsetof(crt_ray, t_min) == 48 && offsetof(crt_ray, t_max) == 56);
@@ -24,7 +25,7 @@ static_assert(sizeof(crt_hit) == 56 && alignof(crt_hit) == alignof(double));
 static_assert(offsetof(crt_hit, t) == 0 && offsetof(crt_hit, normal) == 8);
 static_assert(offsetof(crt_hit, u) == 32 && offsetof(crt_hit, v) == 40);
 static_assert(offsetof(crt_hit, entity_id) == 48 && offsetof(crt_hit, flags) == 52);
-// So that rays and hits can be copied as a whole.
+// The C and C++ structs have equal layouts, so that rays and hits can be copied as a whole.
 static_assert(sizeof(crt::Ray) == sizeof(crt_ray) && std::is_trivially_copyable_v<crt::Ray>);
 static_assert(std::is_standard_layout_v<crt::Ray> && sizeof(crt::Vec3) == sizeof(crt_ray::origin));
 static_assert(offsetof(crt::Ray, origin) == offsetof(crt_ray, origin));
@@ -47,11 +48,11 @@ namespace crt::capi {
 
 namespace {
 
-/// Where each of many structs begins in memory of the caller, which need not be aligned.
+/// Knows where each of many structs begins in memory of the caller, which need not be aligned.
 template <class Byte>
 class Places {
  public:
-  /// `stride` 0: one after the other. Throws for memory that cannot be.
+  /// A `stride` of 0 means one after the other. Throws for memory that cannot exist.
   Places(Byte* first, std::size_t stride, std::size_t size, std::size_t count, const char* argument)
       : first_(first), stride_(stride == 0 ? size : stride) {
     if (count > 0) require(first, argument);
@@ -65,7 +66,7 @@ class Places {
 
   Byte* operator[](std::size_t index) const { return first_ + index * stride_; }
 
-  /// Whether they are an array of a T as large as they are.
+  /// Says whether they form an array of T without gaps, aligned as T must be.
   template <class T>
   bool are_array_of() const {
     return stride_ == sizeof(T) && reinterpret_cast<std::uintptr_t>(first_) % alignof(T) == 0;
@@ -82,7 +83,8 @@ Ray to_ray(const std::byte* place) {
   return ray;
 }
 
-/// Rays that are asked, and if need be copied out of the caller's memory, at a time.
+/// This is the number of rays that are asked at a time, and copied out of the caller's memory if
+/// need be.
 constexpr std::size_t piece_size = 512;
 
 class Rays {
@@ -108,7 +110,7 @@ class Rays {
     }
   }
 
-  /// Throws if any ray is wrong, of several the first.
+  /// Throws if any ray is invalid, and names the first of them.
   void validate_all(const PreparedScene& scene) const {
     std::atomic<std::size_t> first_wrong = count_;
     query_in_parallel(scene, count_, [&](RayQueries&, std::size_t first, std::size_t last) {
@@ -124,9 +126,9 @@ class Rays {
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
-  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been looked
-  /// at: its answers must wait until this returns without having thrown. So nobody goes through all
-  /// rays before.
+  /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been
+  /// checked. The caller may use the answers only after this returns without having thrown. This
+  /// saves a pass over all rays for the check.
   template <class Ask>
   void answer(const PreparedScene& scene, const Ask& ask) const {
     try {
@@ -137,7 +139,7 @@ class Rays {
             });
           });
     } catch (const Error&) {
-      validate_all(scene);  // which of them is the first
+      validate_all(scene);  // finds which of them is the first
       throw;
     }
   }

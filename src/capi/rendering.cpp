@@ -1,4 +1,4 @@
-// Rendering through the C interface, at once or as a job.
+// This file implements rendering through the C interface, at once or as a job.
 #include <string>
 
 #include "capi/structs.hpp"
@@ -54,7 +54,7 @@ CancelValue new_cancel_value() {
   return std::make_shared<std::atomic<int>>(0);
 }
 
-/// guarded() for what a progress callback may cancel.
+/// Does what guarded() does, for what a progress callback may cancel.
 template <class Body>
 crt_status guarded_render(const CancelValue& cancel_value, const Body& body) {
   const crt_status status = guarded(body);

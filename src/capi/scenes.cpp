@@ -1,4 +1,4 @@
-// Scenes of the C interface.
+// This file implements the scenes of the C interface.
 #include <fmt/format.h>
 
 #include <atomic>
@@ -15,7 +15,7 @@ void require_index(std::size_t index, std::size_t count) {
   if (index >= count) reject("index", fmt::format("is {}, but there are only {}", index, count));
 }
 
-/// The handle of the background's picture, kept by the scene; NULL if it has none.
+/// Returns the handle of the background's picture, which the scene keeps, or NULL if it has none.
 const crt_image* lent_background(const crt_scene& scene) {
   const auto* panorama = std::get_if<PanoramaBackground>(&scene.value.background);
   if (panorama == nullptr || !panorama->image) return nullptr;

@@ -1,4 +1,4 @@
-// Scripts through the C interface, and what there is to say about them.
+// This file implements scripts through the C interface, and their diagnostics.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -36,7 +36,7 @@ std::vector<std::pair<std::string, std::string>> pairs(const char* const* names,
   return result;
 }
 
-/// 0 keeps what is there.
+/// Sets a limit, unless the value is 0.
 template <class Limit>
 void take_limit(Limit& limit, std::uint64_t given) {
   if (given != 0) limit = static_cast<Limit>(given);
@@ -97,13 +97,13 @@ ScriptOptions to_options(const crt_script_options* options) {
   return result;
 }
 
-/// What kind of error a script has. That a value in it is out of range is no wrong argument of the
-/// C caller's.
+/// Returns what kind of error a script has. A value in it that is out of range is no wrong argument
+/// of the C caller.
 ErrorCode script_code(ErrorCode code) {
   return code == ErrorCode::invalid_argument ? ErrorCode::script : code;
 }
 
-/// The text of the error that decided what became of the script, on one line.
+/// Returns the text of the error that decided the script's status, on one line.
 Error error_of(const std::vector<Diagnostic>& diagnostics) {
   const auto first = std::find_if(diagnostics.begin(), diagnostics.end(), [](const Diagnostic& d) {
     return d.severity == Severity::error;

@@ -1,4 +1,4 @@
-// Settings and statistics from C to C++ and back.
+// This file converts settings and statistics from C to C++ and back.
 #include "capi/structs.hpp"
 
 namespace crt::capi {

@@ -1,4 +1,4 @@
-// The growable structs of the interface: where their fields end, and their crt_*_init functions.
+// This file lists where the fields of the growable structs end, and has their crt_*_init functions.
 #include "capi/structs.hpp"
 
 // A field missing here would be read and written with the next one; the test of the layout finds
@@ -193,7 +193,7 @@ std::span<const std::size_t> field_ends<crt_write_options>() {
   return ends;
 }
 
-// Those whose defaults are all 0.
+// The defaults of these structs are all 0.
 template <>
 crt_script_options defaults<crt_script_options>() {
   return {};

@@ -1,4 +1,4 @@
-// Between the structs of the C interface and the values of the C++ one.
+// These functions convert between the structs of the C interface and the values of the C++ one.
 #pragma once
 
 #include "capi/growable.hpp"
@@ -12,28 +12,30 @@
 
 namespace crt::capi {
 
-/// Three numbers from the caller, checked to be there; whether they are good is for the C++
-/// interface to say.
+/// Returns three numbers from the caller, and throws for NULL. The C++ interface checks whether
+/// they are good.
 Vec3 to_vec3(const double* numbers, const char* argument);
 
-/// Throws: the argument has a value that `list`, an enumeration of crt.h, has not.
+/// Throws that the argument has a value which `list`, an enumeration of crt.h, has not.
 [[noreturn]] void reject_value(const char* argument, std::int32_t value, const char* list);
 
-/// An enumeration of C++ whose values have the numbers of the interface, 0 to `last`.
+/// Converts a number to an enumeration of C++ whose values have the numbers of the interface, 0 to
+/// `last`.
 template <class Enum>
 Enum to_enum(std::int32_t value, Enum last, const char* argument, const char* list) {
   if (value < 0 || value > static_cast<std::int32_t>(last)) reject_value(argument, value, list);
   return static_cast<Enum>(value);
 }
 
-// Each takes all that the caller's struct holds, NULL and unknown enumeration values refused.
+// Each takes all that the caller's struct holds, and throws for NULL and unknown enumeration
+// values.
 Material to_material(const crt_material* material);
 Light to_light(const crt_light* light);
 Camera to_camera(const crt_camera* camera);
 Background to_background(const crt_background* background);
 Settings to_settings(const crt_settings* settings);
 
-// And back. The texts stay where they are, in the settings.
+// These convert back. The texts stay where they are, in the settings.
 crt_light to_c(const Light& light);
 crt_camera to_c(const Camera& camera);
 /// `image` is the handle for the background's picture, if it has one.
@@ -41,7 +43,7 @@ crt_background to_c(const Background& background, const crt_image* image);
 crt_settings to_c(const Settings& settings);
 crt_render_stats to_c(const RenderStats& stats);
 
-/// The defaults of one type of pattern or light.
+/// Returns the defaults of one type of pattern or light.
 crt_pattern default_pattern(std::int32_t type);
 crt_light default_light(std::int32_t type);
 

@@ -1,5 +1,5 @@
-// Materials, lights, cameras and backgrounds from C to C++ and back. The defaults are those of the
-// C++ structs: they are converted, never written down again.
+// This file converts materials, lights, cameras and backgrounds from C to C++ and back. The
+// defaults are converted from the C++ structs, never written down a second time.
 #include <fmt/format.h>
 
 #include <type_traits>
@@ -34,7 +34,7 @@ std::shared_ptr<const Image> to_image(const crt_image* image, const char* argume
   return image->value;
 }
 
-/// The fields that nearly every pattern has.
+/// Converts the fields that nearly every pattern has.
 template <class Type>
 void take_colors(Type& pattern, const crt_pattern& given) {
   pattern.color_a = to_color(given.color_a, given.alpha_a);
@@ -77,7 +77,8 @@ Pattern to_pattern(const crt_pattern* pattern, const char* argument) {
   }
 }
 
-/// What this type of pattern starts with; what it has no use for keeps what is there.
+/// Writes the values that this type of pattern starts with. Fields that it does not use keep their
+/// values.
 template <class Type>
 void put_defaults(crt_pattern& out) {
   const Type pattern;
@@ -143,7 +144,7 @@ crt_pattern defaults<crt_pattern>() {
   return default_pattern(CRT_PATTERN_CHECKER);
 }
 
-/// Stands for a diffuse factor that follows from the others.
+/// This value stands for a diffuse factor that follows from the others.
 constexpr double automatic_diffuse = -1;
 
 template <>
@@ -190,7 +191,7 @@ Material to_material(const crt_material* material) {
 
 namespace {
 
-/// The fields of a light of C that this type of C++ has.
+/// Visits the fields of a light of C that this type of C++ has.
 template <class Type>
 Light light_of(const crt_light& given) {
   Type light;
@@ -230,7 +231,7 @@ constexpr std::int32_t light_type = std::is_same_v<Type, PointLight>      ? CRT_
 crt_light to_c(const Light& light) {
   crt_light out{};
   out.struct_size = sizeof out;
-  // What this type has no use for has its default all the same.
+  // Fields that this type does not use still have their defaults.
   put_light(out, SpotLight{});
   put_light(out, CylinderLight{});
   put_light(out, PointLight{});

@@ -7,7 +7,7 @@ namespace crt::cli {
 /// Renders a script's picture, or those of an animation.
 ExitCode run_render(const RenderRequest& request);
 
-/// Measures what accuracy a script's picture has for what time, by settings.
+/// Measures the accuracy and the time of a script's picture with different settings.
 ExitCode run_trade(const TradeRequest& request);
 
 /// Runs scripts for their diagnostics alone.

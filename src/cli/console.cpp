@@ -10,13 +10,13 @@ namespace crt::cli {
 
 void hold_standard_streams() {
   std::signal(SIGPIPE, SIG_IGN);
-  // open() takes the lowest number that is free. What is opened to be read alone takes no output.
+  // open() takes the lowest number that is free. A file that is opened for reading takes no output.
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     if (fcntl(stream, F_GETFD) == -1 && open("/dev/null", O_RDONLY) == -1) return;
   }
 }
 
-bool tell(std::FILE* stream, std::string_view text) {
+bool write_text(std::FILE* stream, std::string_view text) {
   const bool written = std::fwrite(text.data(), 1, text.size(), stream) == text.size();
   const int error = errno;
   const bool flushed = std::fflush(stream) == 0;

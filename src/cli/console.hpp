@@ -1,9 +1,8 @@
-// The standard streams.
+// These functions look after the standard streams.
 //
-// One that the caller has closed is not to hear anything, which is no reason to fail unless it was
-// asked for
-// (`--stats -`, `--help`). One that is there but does not take what it gets (a full disk, a pipe
-// whose reader has gone) is: the command ends with 3.
+// Nothing is written to a stream that the caller has closed. The command only fails for that if the
+// output was asked for (`--stats -`, `--help`). It ends with 3 where a stream is open but does not
+// take what it gets (a full disk, a pipe whose reader has gone).
 #pragma once
 
 #include <cstdio>
@@ -11,15 +10,16 @@
 
 namespace crt::cli {
 
-/// Puts something that takes nothing in the place of standard streams that the caller closed, so
-/// that no file that is opened later takes their place and gets what is meant for them; and lets a
-/// pipe without a reader be an error instead of the end of the process. Call first of all.
+/// Replaces standard streams that the caller closed by something that takes nothing. So no file
+/// that is opened later takes their numbers and gets what is meant for them. It also lets a pipe
+/// without a reader be an error instead of the end of the process. It must be called before
+/// anything else.
 void hold_standard_streams();
 
-/// Writes text and flushes it; says whether the stream took it. If not, errno tells why.
-bool tell(std::FILE* stream, std::string_view text);
+/// Writes text and flushes it, and says whether the stream took it. If not, errno says why.
+bool write_text(std::FILE* stream, std::string_view text);
 
-/// Whether a value of errno says that the caller has closed the stream.
+/// Says whether a value of errno means that the caller has closed the stream.
 bool is_closed(int error);
 
 }  // namespace crt::cli

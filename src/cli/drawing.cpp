@@ -12,7 +12,7 @@ namespace crt::cli {
 namespace {
 
 constexpr double font_size = 11;
-/// Of the lines that rings and letters consist of.
+/// This is the width of the lines that rings and letters consist of.
 constexpr double stroke_width = 1.2;
 constexpr Ink text_ink = {30, 30, 30};
 
@@ -83,7 +83,7 @@ class Painter {
     paint({center.x - reach, center.y - reach}, {center.x + reach, center.y + reach}, ink, inside);
   }
 
-  /// `inside`: how far a place is inside.
+  /// `inside` returns how far a place is inside, in pixels.
   template <class Inside>
   void paint(const Place& low, const Place& high, const Ink& ink, const Inside& inside) {
     const auto first = [&](double at) {

@@ -1,4 +1,4 @@
-// A drawing of lines, discs and texts, for a browser (SVG) or as a picture.
+// A drawing consists of lines, discs and texts, and becomes an SVG file or a picture.
 #pragma once
 
 #include <crt/image.hpp>
@@ -7,13 +7,13 @@
 
 namespace crt::cli {
 
-/// A place; x to the right, y down.
+/// A Place has x to the right and y down.
 struct Place {
   double x = 0;
   double y = 0;
 };
 
-/// Red, green and blue from 0 to 255, as displays want them.
+/// An Ink is red, green and blue from 0 to 255, as displays want them.
 struct Ink {
   int red = 0;
   int green = 0;
@@ -24,7 +24,7 @@ enum class Anchor { start, middle, end };
 
 class Drawing {
  public:
-  /// White.
+  /// Makes a white drawing.
   Drawing(double width, double height) : width_(width), height_(height) {}
 
   void line(const Place& from, const Place& to, const Ink& ink, double width = 1) {
@@ -33,14 +33,14 @@ class Drawing {
   void curve(const std::vector<Place>& places, const Ink& ink, double width);
   void disc(const Place& center, double radius, const Ink& ink);
   void ring(const Place& center, double radius, const Ink& ink);
-  /// `place` is on the line that the text stands on. Printable ASCII shows in pictures; the rest as
-  /// '?'.
+  /// Writes a text. `place` is on the line that it stands on. Pictures show printable ASCII, and
+  /// '?' for the rest.
   void text(const Place& place, const std::string& text, Anchor anchor = Anchor::start,
             bool upwards = false);
 
   std::string svg() const;
 
-  /// `scale` pixels for each unit. The picture is display_encoded().
+  /// Returns a picture with `scale` pixels for each unit. It is display_encoded().
   Image picture(double scale) const;
 
  private:

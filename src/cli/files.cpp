@@ -14,7 +14,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Where the number goes in a file's name: a piece to replace, and how many digits it asks for.
+/// Says where the number goes in a file's name: a piece to replace, and how many digits it asks
+/// for.
 struct NumberPlace {
   std::size_t position = std::string::npos;
   std::size_t length = 0;
@@ -40,7 +41,7 @@ NumberPlace find_hashes(const std::string& name) {
   return {first, end - first, static_cast<int>(end - first)};
 }
 
-/// A message about the file `name` as one about the file `better_name`.
+/// Makes a message about the file `name` one about the file `better_name`.
 std::string with_name(std::string message, const std::string& name,
                       const std::string& better_name) {
   const std::size_t position = message.find(name);

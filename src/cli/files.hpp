@@ -1,17 +1,17 @@
-// Names of the files that `crt render` writes, and whether it can.
+// These functions name the files that `crt render` writes, and check whether it can.
 #pragma once
 
 #include <filesystem>
 
 namespace crt::cli {
 
-/// The name of a frame's picture: a run of '#' or a "%04d" in the file's name becomes the number
-/// (with that many digits at least); where there is neither, _0001 goes before the ending.
+/// Returns the name of a frame's picture. A run of '#' or a "%04d" in the file's name becomes the
+/// number (with that many digits at least). Where there is neither, _0001 goes before the ending.
 std::filesystem::path frame_path(const std::filesystem::path& output, int frame);
 
 /// Finds out, before any work is done, whether this file can be written and its ending is a
-/// picture's, of one that holds other channels than colours if it has to. Throws Error (io,
-/// unsupported).
+/// picture's. If the picture has channels beside colours, the format must hold them. Throws Error
+/// (io, unsupported).
 void check_picture(const std::filesystem::path& picture, bool with_channels);
 
 }  // namespace crt::cli

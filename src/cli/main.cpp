@@ -1,4 +1,4 @@
-// The command `crt`: renders CRT scripts and checks them.
+// The command `crt` renders CRT scripts and checks them.
 #include <fmt/format.h>
 
 #include <cstdio>
@@ -26,13 +26,13 @@ int main(int argc, char** argv) try {
   hold_standard_streams();
   return static_cast<int>(std::visit(Run{}, parse_command_line(argc, argv)));
 } catch (const std::bad_alloc&) {
-  tell(stderr, "crt: error: not enough memory; try a smaller picture or a simpler scene\n");
+  write_text(stderr, "crt: error: not enough memory; try a smaller picture or a simpler scene\n");
   return static_cast<int>(ExitCode::internal);
 } catch (const std::exception& error) {
-  tell(stderr,
-       fmt::format(
-           "crt: error: {}\n"
-           "This should not happen: please report it with the script and the command line.\n",
-           error.what()));
+  write_text(stderr,
+             fmt::format(
+                 "crt: error: {}\n"
+                 "This should not happen: please report it with the script and the command line.\n",
+                 error.what()));
   return static_cast<int>(ExitCode::internal);
 }

@@ -10,7 +10,7 @@ namespace crt::cli {
 
 namespace {
 
-/// A string as a script writes it.
+/// Returns a string as a script writes it.
 std::string script_string(std::string_view text) {
   std::string quoted = "\"";
   for (const char c : text) {

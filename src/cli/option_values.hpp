@@ -1,4 +1,4 @@
-// The values of options: from the words of a command line to what they mean.
+// These functions turn the words of a command line into the values of options.
 #pragma once
 
 #include <charconv>
@@ -13,13 +13,13 @@
 
 namespace crt::cli {
 
-/// "--option needs ..., not '...'": how every complaint about an option's value reads.
+/// Every complaint about an option's value reads "--option needs ..., not '...'".
 class WrongValue : public std::runtime_error {
  public:
   WrongValue(std::string_view option, std::string_view needed, std::string_view value);
 };
 
-/// Whether all of a text is a number of this type, which it then becomes.
+/// Reads a number of this type, and says whether all of the text is one.
 template <class Number>
 bool parse_whole(std::string_view text, Number& value) {
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
@@ -27,7 +27,7 @@ bool parse_whole(std::string_view text, Number& value) {
 }
 bool parse_finite(std::string_view text, double& value);
 
-// The next throw WrongValue.
+// The next functions throw WrongValue.
 
 enum class SettingKind { integer, number, text, flag };
 
@@ -37,10 +37,10 @@ struct SettingOption {
   const char* help;
 };
 
-/// The settings of a script, by their names there.
+/// Lists the settings of a script, by their names there.
 std::span<const SettingOption> setting_options();
 
-/// The value of an option as a script expression.
+/// Returns the value of an option as a script expression.
 std::string setting_expression(const SettingOption& setting, const std::string& value);
 
 /// Takes "NAME=VALUE".
@@ -53,12 +53,12 @@ FrameRange parse_frames(const std::string& text);
 Region parse_region(const std::string& text);
 double parse_positive(const std::string& option, const std::string& text);
 int parse_threads(const std::string& text);
-/// A power of 2 that Settings::max_samples can be.
+/// Returns a power of 2 that Settings::max_samples can be.
 int parse_sample_count(const std::string& option, const std::string& text);
 
-/// "depth,normal,...".
+/// Returns "depth,normal,...".
 std::string all_aov_names();
-/// Adds those of a list to what is asked for.
+/// Adds the channels of a list to those that are asked for.
 void take_aovs(const std::string& list, Aovs& aovs);
 
 }  // namespace crt::cli

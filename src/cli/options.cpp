@@ -28,20 +28,21 @@ constexpr std::string_view main_footer = R"(Examples:
                                              sets variables of the script from outside
   crt render film.crt --frames 0-99 -o 'film_###.png'
                                              a picture for each t from 0 to 99
-  crt trade scene.crt --budget 10            tells which settings give most for ten seconds
-  crt check scene.crt                        tells what is wrong with a script, renders nothing
+  crt trade scene.crt --budget 10            shows which settings give most for ten seconds
+  crt check scene.crt                        reports what is wrong with a script, renders nothing
 
 'crt render --help' lists all options. Every setting of a script is an option, too.
 
 Ends with 0: all done; 1: the script is wrong; 2: the command line is wrong; 3: a file could not be
-read or written, or standard output did not take what was for it; 70: a bug in crt, or no memory left; 130: interrupted.)";
+read or written, or standard output did not take what was for it; 70: a bug in crt, or no memory
+left; 130: interrupted.)";
 
 constexpr std::string_view render_footer =
-    R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma applied),
-.exr and .hdr (linear light). Nothing is left behind under its name unless it is whole. A link is followed, and
-what is a device or a pipe is written to as it is.
-An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo, and of each
-pixel how many samples it has (samples) and how far it may be from the truth (error).
+    R"(The ending of the picture's name says its format: .png, .tif, .jpg and others (8 bits, gamma
+applied), .exr and .hdr (linear light). Nothing is left behind under its name unless it is whole. A
+link is followed, and what is a device or a pipe is written to as it is.
+An .exr file also holds what --aov asks for: depth (channel Z), normal (N.X, N.Y, N.Z), id, albedo,
+and of each pixel how many samples it has (samples) and how far it may be from the truth (error).
 
 Examples:
   crt render scene.crt -o draft.png --width 320 --height 240
@@ -51,16 +52,16 @@ Examples:
   crt render scene.crt --stats -                            what it took, as JSON)";
 
 constexpr std::string_view trade_footer =
-    R"(Renders the scene with a ladder of settings (supersampling 1 to 16, target errors, recursion depths, exact
-precision), compares each with a reference that is far more accurate, and writes a table (.csv) and a plot (.svg) of
-seconds against the error: its root mean square, and what 99.9 % of the pixels stay below, in steps of an 8-bit
-picture. By default it measures bands of the picture with about 30000 pixels together; all seconds are those that
-the whole picture would take.
+    R"(Renders the scene with a ladder of settings (supersampling 1 to 16, target errors, recursion
+depths, exact precision), compares each with a reference that is far more accurate, and writes a
+table (.csv) and a plot (.svg) of seconds against the error: its root mean square, and what 99.9 %
+of the pixels stay below, in steps of an 8-bit picture. By default it measures bands of the picture
+with about 30000 pixels together; all seconds are those that the whole picture would take.
 
 Examples:
-  crt trade scene.crt                           scene-trade.csv and scene-trade.svg
-  crt trade scene.crt --budget 10               and the most accurate setting for 10 seconds a picture
-  crt trade scene.crt --error 0.5 --png         and the fastest within half a step; the plot also as .png
+  crt trade scene.crt                      scene-trade.csv and scene-trade.svg
+  crt trade scene.crt --budget 10          and the most accurate setting for 10 seconds a picture
+  crt trade scene.crt --error 0.5 --png    and the fastest within half a step; the plot also as .png
   crt trade film.crt --time 12 --region 100,80,200,100 -o part)";
 
 void add_settings(CLI::App& command, ScriptOptions& script) {
@@ -144,9 +145,10 @@ void add_script_options(CLI::App& command, CommonRequest& request) {
             request.diagnostics =
                 value == "json" ? DiagnosticsFormat::json : DiagnosticsFormat::text;
           },
-          "how errors and warnings are told: as text, or all as one JSON array on standard error")
+          "how errors and warnings are written: as text, or all as one JSON array on standard "
+          "error")
       ->type_name("text|json");
-  command.add_flag("-q,--quiet", request.quiet, "tells errors and nothing else");
+  command.add_flag("-q,--quiet", request.quiet, "prints errors and nothing else");
 }
 
 void add_threads(CLI::App& command, int& threads) {
@@ -190,7 +192,7 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
               throw WrongValue("--passes", "a whole number, 0 for as many as it takes", value);
             }
           },
-          "stops after so many passes: with what --stats told, the same picture again")
+          "stops after so many passes: with the number that --stats gave, the same picture again")
       ->type_name("N");
   command
       .add_option_function<std::string>(
@@ -218,8 +220,7 @@ void add_render_options(CLI::App& command, RenderRequest& request) {
   command
       .add_option("--checkpoint", request.render.checkpoint,
                   "with --targeterror, --timebudget or --passes: keeps what is done there, also "
-                  "when interrupted, "
-                  "and goes on from it if it is there")
+                  "when interrupted, and continues from it if it is there")
       ->type_name("FILE")
       ->excludes(frames);
   command
@@ -299,7 +300,7 @@ ExitCode complain(const std::exception& error, const CLI::App& app, int argc,
   } else if (argc <= 1) {
     message = "say what to do, such as: crt render scene.crt";
   }
-  tell(stderr, fmt::format("crt: error: {}\nSee {} --help.\n", message, command));
+  write_text(stderr, fmt::format("crt: error: {}\nSee {} --help.\n", message, command));
   return ExitCode::usage;
 }
 
@@ -334,7 +335,7 @@ Request parse_command_line(int argc, const char* const* argv) {
 
   CheckRequest check_request;
   CLI::App* check = app.add_subcommand(
-      "check", "Runs scripts and tells their errors and warnings; renders nothing.");
+      "check", "Runs scripts and reports their errors and warnings; renders nothing.");
   check->add_option("scene", check_request.scenes, "the scripts")
       ->required()
       ->type_name("SCENE.crt");

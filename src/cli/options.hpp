@@ -1,5 +1,5 @@
-// What a command line of `crt` asks for. Parsing it is the business of options.cpp, the only source
-// that includes CLI11, and what values mean that of option_values.cpp.
+// A request holds what a command line of `crt` asks for. options.cpp parses it, and is the only
+// source that includes CLI11. option_values.cpp gives the values their meaning.
 #pragma once
 
 #include <crt/render.hpp>
@@ -12,7 +12,7 @@
 
 namespace crt::cli {
 
-/// How the process ends; the README and `crt --help` list these.
+/// Says how the process ends. The README and `crt --help` list these codes.
 enum class ExitCode {
   done = 0,
   script = 1,         ///< the script is wrong
@@ -24,13 +24,13 @@ enum class ExitCode {
 
 enum class DiagnosticsFormat { text, json };
 
-/// Frames first..last of an animation, both rendered.
+/// A FrameRange is the frames first..last of an animation, both rendered.
 struct FrameRange {
   int first = 0;
   int last = 0;
 };
 
-/// What both commands take.
+/// A CommonRequest holds what all commands take.
 struct CommonRequest {
   ScriptOptions script;
   DiagnosticsFormat diagnostics = DiagnosticsFormat::text;
@@ -43,7 +43,7 @@ struct RenderRequest : CommonRequest {
   std::optional<FrameRange> frames;
   RenderOptions render;
   std::uint64_t max_primitives = 0;  ///< see PrepareOptions
-  /// Where statistics go: a file, "-" for standard output, or nowhere.
+  /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
   bool reproducible = false;
 };
@@ -54,23 +54,24 @@ struct CheckRequest : CommonRequest {
 
 struct TradeRequest : CommonRequest {
   std::filesystem::path scene;
-  /// What is written: this with .csv, .svg, and .png if asked for.
+  /// The command writes this name with .csv and .svg, and with .png if asked for.
   std::filesystem::path output;
   bool png = false;
-  /// Measures this part only; else bands with about so many pixels together.
+  /// Measures this part only. Without it, bands with about `pixels` pixels together are measured.
   std::optional<Region> region;
   double pixels = 30000;
-  /// That one setting, or one of the references, may take for what is measured.
+  /// One setting, or one of the references, may take this many seconds for what is measured.
   double most_seconds = 10;
-  /// Of a pixel of the references: a power of 2.
+  /// A pixel of the references has this many samples, a power of 2.
   int reference_samples = 4096;
   int threads = 0;
-  // What the user wants to know.
+  // These are the user's questions.
   std::optional<double> budget;
   std::optional<double> error;
 };
 
-/// The request, or the code to end with (after help, a version or a complaint has been printed).
+/// A Request is what is asked for, or the code to end with (after help, a version or a complaint
+/// has been printed).
 using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);

@@ -24,8 +24,7 @@ constexpr milliseconds redraw_interval{100};
 /// Before this share is done, an estimate of the time left is worth nothing.
 constexpr double least_share_to_estimate = 0.02;
 constexpr std::string_view erase_line = "\r\033[K";
-/// What of a terminal's width the bar does not take: the name's ends, the percentage, the time
-/// left.
+/// These columns of a terminal are not for the bar: the name's ends, the percentage, the time left.
 constexpr int width_besides_bar = 32;
 constexpr int widest_bar = 40;
 
@@ -37,7 +36,7 @@ int terminal_width() {
 }
 
 std::string clock_text(double seconds) {
-  // More than this is no use to anyone, and fits a whole number.
+  // A longer time is of no use to anyone. This one fits a whole number.
   constexpr double a_thousand_hours = 3.6e6;
   const int whole = static_cast<int>(std::ceil(std::clamp(seconds, 0.0, a_thousand_hours)));
   const int hours = whole / 3600;
@@ -59,7 +58,7 @@ Progress::Progress(std::string name, ProgressStyle style) : name_(std::move(name
 
 Progress::~Progress() {
   if (!drawn_) return;
-  tell(stderr, erase_line);
+  write_text(stderr, erase_line);
 }
 
 void Progress::update(double share) {
@@ -72,20 +71,20 @@ void Progress::draw_bar(double share, Clock::time_point now) {
   if (drawn_ && now - last_drawn_ < redraw_interval) return;
   last_drawn_ = now;
   drawn_ = true;
-  const int room = terminal_width() - width_besides_bar - static_cast<int>(name_.size());
-  const int width = std::clamp(room, 0, widest_bar);
+  const int columns = terminal_width() - width_besides_bar - static_cast<int>(name_.size());
+  const int width = std::clamp(columns, 0, widest_bar);
   const int filled = static_cast<int>(share * width);
   const std::string bar =
       width == 0 ? "" : fmt::format(" [{:#<{}}{:.<{}}]", "", filled, "", width - filled);
-  tell(stderr, fmt::format("{}{}{} {:3.0f} %{}", erase_line, name_, bar, std::floor(100 * share),
-                           time_left(share, now)));
+  write_text(stderr, fmt::format("{}{}{} {:3.0f} %{}", erase_line, name_, bar,
+                                 std::floor(100 * share), time_left(share, now)));
 }
 
 void Progress::print_line(double share, Clock::time_point now) {
   const int tenth = static_cast<int>(10 * share);
   if (tenth <= last_tenth_) return;
   last_tenth_ = tenth;
-  tell(stderr, fmt::format("{}: {} %{}\n", name_, 10 * tenth, time_left(share, now)));
+  write_text(stderr, fmt::format("{}: {} %{}\n", name_, 10 * tenth, time_left(share, now)));
 }
 
 std::string Progress::time_left(double share, Clock::time_point now) const {

@@ -1,5 +1,5 @@
-// How far a render is, on standard error: a bar with the time left on a terminal, else a line
-// every tenth.
+// Progress shows on standard error how far a render is: a bar with the time left on a terminal,
+// else a line every tenth.
 #pragma once
 
 #include <chrono>
@@ -11,8 +11,8 @@ namespace crt::cli {
 
 enum class ProgressStyle { none, lines, bar };
 
-/// None if the user wants quiet or JSON; else a bar if standard error is a terminal that can redraw
-/// a line, or lines.
+/// Returns none if the user wants quiet or JSON. Else it is a bar if standard error is a terminal
+/// that can redraw a line, or lines.
 ProgressStyle progress_style(const CommonRequest& request);
 
 class Progress {
@@ -24,7 +24,7 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
-  /// Takes the share done, in [0, 1]; redraws if there is something new to see.
+  /// Takes the share done, in [0, 1], and redraws if that looks different.
   void update(double share);
 
  private:

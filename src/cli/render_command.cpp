@@ -48,7 +48,7 @@ class RenderJob {
   }
 
  private:
-  /// Whether the picture can be written; if not, the user is told before any work is done.
+  /// Says whether the picture can be written. If not, it reports that before any work is done.
   bool accept_output() {
     std::error_code unlike;
     if (fs::equivalent(request_.scene, request_.output, unlike)) {
@@ -82,7 +82,8 @@ class RenderJob {
     write_stats(to_json(reports_));
   }
 
-  /// One picture, from script to file. False if it came to nothing, which is then reported.
+  /// Renders one picture, from script to file. Returns false if that failed, which is then
+  /// reported.
   bool render_picture(double t, std::optional<int> frame) {
     const Stopwatch parse_watch;
     const std::optional<Scene> scene = run_scene(t);

@@ -31,7 +31,8 @@ ExitCode exit_code_of(ErrorCode code) {
   return ExitCode::internal;
 }
 
-/// Of two codes the one that says more: a script that is wrong matters more than a file it lacks.
+/// Returns the code that says more of two. A script that is wrong matters more than a file it
+/// lacks.
 ExitCode graver(ExitCode a, ExitCode b) {
   constexpr ExitCode by_gravity[] = {ExitCode::interrupted, ExitCode::internal, ExitCode::usage,
                                      ExitCode::script,      ExitCode::files,    ExitCode::done};
@@ -42,7 +43,7 @@ ExitCode graver(ExitCode a, ExitCode b) {
 }  // namespace
 
 void Reporter::add(const std::vector<Diagnostic>& diagnostics) {
-  // The first error is the cause of some that follow: a name is unknown since its file is missing.
+  // The first error can cause others: a name is unknown since its file is missing.
   const auto first_error =
       std::find_if(diagnostics.begin(), diagnostics.end(),
                    [](const Diagnostic& it) { return it.severity == Severity::error; });
@@ -77,14 +78,15 @@ void Reporter::note(const std::string& message) {
 }
 
 void Reporter::print(const std::string& text, IfClosed if_closed) {
-  if (tell(stdout, text) || (is_closed(errno) && if_closed == IfClosed::is_fine)) return;
+  if (write_text(stdout, text) || (is_closed(errno) && if_closed == IfClosed::is_fine)) return;
   add(ErrorCode::io,
       fmt::format("cannot write to standard output: {}", std::generic_category().message(errno)),
       ExitCode::files);
 }
 
 void Reporter::say(const std::string& text) {
-  if (!tell(stderr, text) && !is_closed(errno)) exit_code_ = graver(exit_code_, ExitCode::files);
+  if (!write_text(stderr, text) && !is_closed(errno))
+    exit_code_ = graver(exit_code_, ExitCode::files);
 }
 
 void Reporter::add_one(const Diagnostic& diagnostic, const std::string& text) {

@@ -1,4 +1,5 @@
-// Errors and warnings: told as text when they come, or collected into one JSON array.
+// The reporter writes errors and warnings as text when they come, or collects them into one JSON
+// array.
 #pragma once
 
 #include <crt/script.hpp>
@@ -15,29 +16,30 @@ class Reporter {
   explicit Reporter(const CommonRequest& request)
       : format_(request.diagnostics), quiet_(request.quiet) {}
 
-  /// What one run of a script gave. What was told before (for another frame) is not told again.
+  /// Adds what one run of a script gave. What was reported before (for another frame) is not
+  /// reported again.
   void add(const std::vector<Diagnostic>& diagnostics);
 
-  /// An error that has no place in a script; `exit_code` is what it means for the process.
+  /// Adds an error that has no place in a script. `exit_code` is what it means for the process.
   void add(ErrorCode code, const std::string& message, ExitCode exit_code);
   void add(const Error& error);
 
-  /// Whether a region is inside a picture; if not, that is told.
+  /// Says whether a region is inside a picture. If not, it reports an error.
   bool accept_region(const Region& region, const Settings& settings);
 
-  /// Something that went right, for the user to know: text on standard error.
+  /// Writes a note about something that went right, as text on standard error.
   void note(const std::string& message);
 
-  /// Text on standard error. What cannot be told anywhere shows in the exit code alone.
+  /// Writes text on standard error. If that fails, only the exit code shows it.
   void say(const std::string& text);
 
-  /// Text on standard output. Where that does not take it an error is added, or nothing happens if
-  /// the caller has closed it and that is fine.
+  /// Writes text on standard output. If that fails an error is added, unless the caller has closed
+  /// it and that is fine.
   enum class IfClosed { is_fine, fails };
   void print(const std::string& text, IfClosed if_closed = IfClosed::is_fine);
 
-  /// Prints the JSON array if that is the format. Gives the code to end with: that of the gravest
-  /// thing told.
+  /// Prints the JSON array if that is the format. Returns the code to end with: that of the gravest
+  /// thing reported.
   ExitCode finish();
 
  private:

@@ -10,7 +10,7 @@ namespace crt::cli {
 
 namespace {
 
-/// How many bytes the UTF-8 sequence at the start of `text` has; 0 if it is none.
+/// Returns how many bytes the UTF-8 sequence at the start of `text` has, or 0 if it is none.
 std::size_t utf8_length(std::string_view text) {
   const auto lead = static_cast<unsigned char>(text[0]);
   const std::size_t length = lead < 0x80   ? 1
@@ -24,14 +24,14 @@ std::size_t utf8_length(std::string_view text) {
     if ((static_cast<unsigned char>(text[i]) & 0xc0) != 0x80) return 0;
   }
   if (length < 3) return length;
-  // Overlong forms, surrogates, and what lies beyond U+10FFFF.
+  // Overlong forms, surrogates, and what lies beyond U+10FFFF are not valid.
   const auto second = static_cast<unsigned char>(text[1]);
   const bool wrong = (lead == 0xe0 && second < 0xa0) || (lead == 0xed && second >= 0xa0) ||
                      (lead == 0xf0 && second < 0x90) || (lead == 0xf4 && second >= 0x90);
   return wrong ? 0 : length;
 }
 
-/// A JSON string; bytes that are no UTF-8 (a path may have them) become U+FFFD.
+/// Returns a JSON string. Bytes that are no UTF-8 (a path may have them) become U+FFFD.
 std::string json_string(std::string_view text) {
   std::string result = "\"";
   while (!text.empty()) {

@@ -1,4 +1,4 @@
-// What a rendering did, as JSON for programs.
+// These functions write what a rendering did, as JSON for programs.
 #pragma once
 
 #include <crt/camera.hpp>
@@ -9,11 +9,11 @@
 
 namespace crt::cli {
 
-/// All that is told of one picture.
+/// Holds all that is reported of one picture.
 struct PictureReport {
   std::string script;
   std::string output;
-  /// Of an animation.
+  /// The number of the frame is for animations.
   std::optional<int> frame;
   std::optional<Region> region;
   Settings settings;
@@ -21,10 +21,10 @@ struct PictureReport {
   RenderStats stats;
 };
 
-/// A JSON object.
+/// Returns a JSON object.
 std::string to_json(const PictureReport& report);
 
-/// A JSON array of them.
+/// Returns a JSON array of such objects.
 std::string to_json(const std::vector<PictureReport>& reports);
 
 }  // namespace crt::cli

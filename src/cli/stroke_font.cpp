@@ -7,9 +7,9 @@ namespace crt::cli {
 
 namespace {
 
-/// A letter on a grid of its own: the strokes are divided by '|', their corners by blanks. A corner
-/// is two digits, x to the right from 0 and y upwards: 2 is the line that letters stand on, 6 the
-/// height of small ones, 8 that of capitals.
+/// A Glyph is a letter on a grid of its own. The strokes are divided by '|', their corners by
+/// blanks. A corner is two digits, x to the right from 0 and y upwards. 2 is the line that letters
+/// stand on, 6 the height of small ones, 8 that of capitals.
 struct Glyph {
   char letter;
   int width;
@@ -115,9 +115,9 @@ constexpr Glyph glyphs[] = {
 };
 
 constexpr int base_line = 2;
-/// From letter to letter, beside their widths.
+/// This is the distance from letter to letter, beside their widths.
 constexpr double gap = 1.6;
-/// Of the grid, for a line of height 1.
+/// The grid has this many rows for a line of height 1.
 constexpr double grid_rows = 11;
 
 const Glyph& glyph_of(char letter) {
@@ -127,7 +127,7 @@ const Glyph& glyph_of(char letter) {
   return found == std::end(glyphs) ? glyph_of('?') : *found;
 }
 
-/// Bytes that go on with a letter of UTF-8 are no letters of their own.
+/// Says whether a byte continues a letter of UTF-8. Such bytes are no letters of their own.
 bool is_continuation(char c) {
   return (static_cast<unsigned char>(c) & 0xc0) == 0x80;
 }

@@ -1,4 +1,4 @@
-// Letters of straight strokes, for the pictures of drawings.
+// This font has letters of straight strokes, for the pictures of drawings.
 #pragma once
 
 #include <string_view>
@@ -8,10 +8,10 @@
 
 namespace crt::cli {
 
-/// How wide a text is, in the units of `size`, the height of a line.
+/// Returns how wide a text is, in the units of `size`, the height of a line.
 double width_of_text(std::string_view text, double size);
 
-/// The strokes of a text that begins at (0, 0) on the line that it stands on.
+/// Returns the strokes of a text that begins at (0, 0) on the line that it stands on.
 std::vector<std::vector<Place>> strokes_of_text(std::string_view text, double size);
 
 }  // namespace crt::cli

@@ -22,12 +22,12 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What stands for the whole picture, rendered with one setting.
+/// Holds the parts that stand for the whole picture, rendered with one setting.
 struct RenderedParts {
   std::vector<Image> images;
   double seconds = 0;
-  double samples = 0;  ///< a pixel, in the mean
-  double cutoff = 0;   ///< likewise, in display units
+  double samples = 0;  ///< a pixel, on average
+  double cutoff = 0;   ///< a pixel, on average, in display units
   int threads = 0;
   bool bounces = false;  ///< there are mirrors or transparent things
 };
@@ -36,17 +36,17 @@ double pixels_of(const Region& region) {
   return double{1} * region.width * region.height;
 }
 
-/// Of the camera rays those that are for the part itself: adaptive rendering looks at its margin,
-/// too, which a whole picture has not got.
+/// Returns the share of the camera rays that is for the part itself. Adaptive rendering samples its
+/// margin, too, which a whole picture has not got.
 double share_within(const RenderStats& stats) {
   return stats.samples_mean * static_cast<double>(stats.pixels) /
          static_cast<double>(stats.camera_rays);
 }
 
-/// About how many samples a pixel of a reference gets, for planning.
+/// A pixel of a reference gets about this many samples. This is for planning.
 constexpr double expected_reference_samples = 400;
 
-/// Thrown where a setting takes longer than it may.
+/// Is thrown where a setting takes longer than it may.
 struct TooSlow : std::exception {};
 
 class Trade {
@@ -73,7 +73,7 @@ class Trade {
     return path;
   }
 
-  /// Whether there is a scene and a part of it to measure; what is wrong is told.
+  /// Says whether there is a scene and a part of it to measure. If not, it reports what is wrong.
   bool prepare_scene() {
     ScriptOptions options = request_.script;
     options.print = [this](std::string_view line) { reporter_.say(fmt::format("{}\n", line)); };
@@ -134,7 +134,7 @@ class Trade {
     const double all_pixels = double{1} * scene_.settings.width * scene_.settings.height;
     const double to_whole = all_pixels / measured_pixels_;
 
-    // One sample a pixel tells how long one takes, and whether depths matter.
+    // One sample a pixel shows how long one takes, and whether depths matter.
     plan(ladder_of(scene_, true));
     Settings single = scene_.settings;
     single.target_error = single.time_budget = 0;
@@ -177,8 +177,8 @@ class Trade {
     for (const Rung& rung : ladder) expected_work_ += rung.expected_samples;
   }
 
-  /// The mean of two renders that have no random number in common, with each other or with the
-  /// ladder.
+  /// Returns the mean of two renders that have no random number in common, with each other or with
+  /// the ladder.
   std::vector<Image> render_reference(TradeReport& report) {
     std::vector<RenderedParts> renders;
     for (const std::uint64_t further : {std::uint64_t{1}, std::uint64_t{2}}) {
@@ -204,8 +204,8 @@ class Trade {
     return means;
   }
 
-  /// What is over soon is rendered again: the fastest counts, as the machine may have had other
-  /// things to do.
+  /// Renders once, or again if it is fast. The fastest run counts, as the machine may have had
+  /// other things to do.
   std::optional<RenderedParts> render_often(const Rung& rung) {
     constexpr int most_renders = 3;
     const double long_enough = request_.most_seconds / 4;
@@ -225,7 +225,7 @@ class Trade {
     return best;
   }
 
-  /// Nothing if it is not done before the deadline.
+  /// Returns nothing if it is not done before the deadline.
   std::optional<RenderedParts> render_in_time(const Settings& settings) {
     try {
       return render_parts(settings);
@@ -241,7 +241,7 @@ class Trade {
     double share_before = 0;
     for (const Region& part : parts_) {
       const double share = pixels_of(part) / measured_pixels_;
-      // A time budget is for what is rendered as a whole.
+      // The time budget is shared among the parts.
       scene.settings.time_budget = share * settings.time_budget;
       const PreparedScene prepared = prepare(scene, *prepared_);
       Image image = render_part(prepared, part, share_before, share);
@@ -285,9 +285,9 @@ class Trade {
   double measured_pixels_ = 0;
   const InterruptScope* interrupt_ = nullptr;
   Progress* progress_ = nullptr;
-  /// When what is rendered is given up.
+  /// At this time what is rendered is given up.
   std::optional<Clock::time_point> deadline_;
-  // In samples a pixel, as expected.
+  // The expected work is in samples a pixel.
   double expected_work_ = 1;
   double work_done_ = 0;
   double work_of_this_ = 1;

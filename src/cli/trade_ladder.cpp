@@ -17,23 +17,23 @@ struct GridRung {
 
 constexpr GridRung grids[] = {{1, 1}, {2, 1}, {3, 1}, {4, 1}, {6, 1}, {8, 1}, {12, 1}, {16, 1}};
 
-/// With a lens its points are what counts most.
+/// With a lens its points count most.
 constexpr GridRung grids_with_lens[] = {{1, 4}, {1, 16}, {2, 16}, {2, 64}, {4, 64}};
 
-/// In 8-bit steps, with about how many samples a pixel they take.
+/// Holds a target error in 8-bit steps, and about how many samples a pixel it takes.
 struct TargetRung {
   double steps;
   double expected_samples;
 };
 constexpr TargetRung targets[] = {{8, 20}, {4, 25}, {2, 40}, {1, 60}, {0.5, 120}, {0.25, 250}};
 
-/// What depths and precisions are tried with: so good that one sees what they do.
+/// Depths and precisions are tried with this target, which is good enough to show what they do.
 constexpr TargetRung target_of_others = {1, 60};
 constexpr int depths[] = {0, 1, 2, 4, 8, 16};
 
 constexpr double steps_of_8_bits = 255;
 
-/// A target error with as many digits as the command line is told.
+/// Returns a target error with as many digits as the command line gets.
 double target_error(double steps) {
   constexpr double digits = 1e6;
   return std::round(digits * steps / steps_of_8_bits) / digits;
@@ -126,7 +126,7 @@ std::vector<Rung> ladder_of(const Scene& scene, bool with_depths) {
 }
 
 Settings reference_settings(const Settings& settings, int most_samples, std::uint64_t seed) {
-  // Finer than anything that the ladder asks for.
+  // This is finer than anything that the ladder asks for.
   constexpr double target_steps = 0.05;
   constexpr int least_samples = 64;
   constexpr int deep = 32;

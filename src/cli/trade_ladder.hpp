@@ -1,4 +1,4 @@
-// The settings that `crt trade` tries: a ladder of them for each way to spend time.
+// This file lists the settings that `crt trade` tries: a ladder of them for each way to spend time.
 #pragma once
 
 #include <crt/scene.hpp>
@@ -15,23 +15,23 @@ enum class Family {
   precision,  ///< the exact tier
 };
 
-/// What the plot and the table call it.
+/// Returns what the plot and the table call it.
 std::string name_of(Family family);
 
 struct Rung {
   Family family = Family::as_given;
-  /// What to add to the command line of `crt render`.
+  /// These options are added to the command line of `crt render`.
   std::string options;
   Settings settings;
-  /// About how many samples a pixel gets, for planning.
+  /// A pixel gets about this many samples. This is for planning.
   double expected_samples = 1;
 };
 
-/// The ladder of a scene, each family from the fastest to the slowest. Depths are tried if the
-/// cut-off does anything.
+/// Returns the ladder of a scene, each family from the fastest to the slowest. Depths are tried if
+/// the cut-off does anything.
 std::vector<Rung> ladder_of(const Scene& scene, bool with_depths);
 
-/// What the reference is rendered with: as many samples as it takes up to `most_samples`, paths
+/// Returns the settings of the reference: as many samples as needed up to `most_samples`, paths
 /// followed much further, hits that are right.
 Settings reference_settings(const Settings& settings, int most_samples, std::uint64_t seed);
 

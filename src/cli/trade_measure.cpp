@@ -15,7 +15,7 @@ double shown(float value, double exponent) {
   return exponent == 1 ? level : std::pow(level, exponent);
 }
 
-/// The value that `share` of them do not exceed.
+/// Returns the value that `share` of them do not exceed.
 double quantile(std::vector<double>& values, double share) {
   const double place = std::ceil(share * static_cast<double>(values.size())) - 1;
   const auto at = values.begin() + static_cast<std::ptrdiff_t>(std::max(place, 0.0));
@@ -23,7 +23,7 @@ double quantile(std::vector<double>& values, double share) {
   return *at;
 }
 
-/// Whether the one beats the other or is its equal.
+/// Says whether the first outcome beats the second or is its equal.
 bool is_no_worse(const Outcome& a, const Outcome& b) {
   return a.seconds <= b.seconds && a.error <= b.error;
 }
@@ -76,7 +76,7 @@ std::vector<Region> bands_of(int width, int height, double pixels) {
   if (count * band_height >= height) return {{0, 0, width, height}};
   std::vector<Region> bands;
   for (int i = 0; i < count; ++i) {
-    // Each in the middle of its share of the height.
+    // Each band is in the middle of its share of the height.
     const double middle = (i + 0.5) * height / count;
     const int top = static_cast<int>(middle - 0.5 * band_height);
     bands.push_back({0, std::clamp(top, 0, height - band_height), width, band_height});

@@ -1,5 +1,5 @@
-// What `crt trade` measures: how far a picture is from another as a viewer sees them, which part of
-// a picture stands for the whole, and which of several settings are worth their time.
+// These functions measure for `crt trade`: how far a picture is from another as a viewer sees them,
+// which part of a picture stands for the whole, and which of several settings are worth their time.
 #pragma once
 
 #include <crt/image.hpp>
@@ -11,42 +11,44 @@
 
 namespace crt::cli {
 
-/// In steps of an 8-bit picture, but not rounded to whole ones.
+/// A PictureError is in steps of an 8-bit picture, but not rounded to whole ones.
 struct PictureError {
   double rmse = 0;  ///< root of the mean square over all pixels and red, green and blue
   double p999 = 0;  ///< 99.9 % of the pixels have no channel that is farther off
 };
 
-/// How far two pictures of one size are apart, as displays show them: clamped to 0..1, after gamma,
-/// in front of black.
+/// Returns how far two pictures of one size differ, as displays show them: clamped to 0..1, after
+/// gamma, in front of black.
 PictureError displayed_difference(const Image& picture, const Image& reference);
 
-/// The same of pictures in several pieces.
+/// Returns how far two pictures in several pieces differ.
 PictureError displayed_difference(std::span<const Image> pictures,
                                   std::span<const Image> references);
 
-/// The mean of two pictures of one size, in linear light.
+/// Returns the mean of two pictures of one size, in linear light.
 Image mean_of(const Image& a, const Image& b);
 
-/// Parts of a picture as wide as it is that together have about as many pixels as asked for, spread
-/// evenly from top to bottom; all of it if that is not more. None is lower than least_band_height:
-/// adaptive rendering pays for a margin around each.
+/// Returns parts of a picture that are as wide as it is and spread evenly from top to bottom.
+/// Together they have about as many pixels as asked for. The result is the whole picture if that
+/// has no more. None is lower than least_band_height, as adaptive rendering pays for a margin
+/// around each.
 std::vector<Region> bands_of(int width, int height, double pixels);
 inline constexpr int least_band_height = 16;
 
-/// What a setting costs, and what it gives.
+/// An Outcome is what a setting costs, and what it gives.
 struct Outcome {
   double seconds = 0;
   double error = 0;
 };
 
-/// The places of those that no other beats in both; the fastest first. Of equal ones the first.
+/// Returns the places of those that no other beats in both, the fastest first. Among equal ones it
+/// takes the first.
 std::vector<std::size_t> pareto_front(std::span<const Outcome> outcomes);
 
-/// The most accurate one that takes no longer.
+/// Returns the most accurate one that takes no longer.
 std::optional<std::size_t> best_within_seconds(std::span<const Outcome> outcomes, double seconds);
 
-/// The fastest one that is no farther off.
+/// Returns the fastest one with no larger error.
 std::optional<std::size_t> fastest_within_error(std::span<const Outcome> outcomes, double error);
 
 }  // namespace crt::cli

@@ -1,4 +1,4 @@
-// The plot of `crt trade`: seconds against each of the two errors, both logarithmic.
+// The plot of `crt trade` shows seconds against each of the two errors, both logarithmic.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,26 +20,27 @@ struct FamilyInk {
   Family family;
   Ink ink;
 };
-/// What is drawn last is what the script says, as it may be one of the others, too.
+/// The script's own setting is drawn last, as it may be one of the others, too.
 constexpr FamilyInk family_inks[] = {{Family::grid, {31, 95, 168}},
                                      {Family::target, {192, 57, 43}},
                                      {Family::depth, {46, 139, 87}},
                                      {Family::precision, {142, 68, 173}},
                                      {Family::as_given, {30, 30, 30}}};
 
-/// Powers of ten from `low` to `high`.
+/// Decades are the powers of ten from `low` to `high`.
 struct Decades {
   int low = 0;
   int high = 1;
 
-  /// From 0 at the low end to 1 at the high one.
+  /// Returns 0 at the low end and 1 at the high one.
   double share(double value) const {
     const double least = std::pow(10.0, low);
     return (std::log10(std::max(value, least)) - low) / (high - low);
   }
 };
 
-/// Those that hold all values; what is too near 0 for a logarithm is at the low end.
+/// Returns the decades that hold all values. A value that is too near 0 for a logarithm is at the
+/// low end.
 Decades decades_of(const std::vector<double>& values) {
   constexpr double least = 1e-4;
   const auto [low, high] = std::minmax_element(values.begin(), values.end());
@@ -54,7 +55,7 @@ std::string power_of_ten(int exponent) {
   return fmt::format("{:g}", std::pow(10.0, exponent));
 }
 
-/// One error against seconds.
+/// A Panel shows one error against seconds.
 class Panel {
  public:
   static constexpr double width = 390;

@@ -45,7 +45,7 @@ std::string text_of_reference(const TradeReport& report) {
   return text;
 }
 
-/// "RMSE: ..., 0.42 steps in 3.1 s".
+/// Returns a line such as "RMSE: ..., 0.42 steps in 3.1 s".
 std::string text_of_choice(const TradeReport& report, const char* name,
                            double PictureError::*measure, const std::optional<std::size_t>& choice,
                            const std::string& if_none) {
@@ -86,7 +86,7 @@ std::string text_of_answers(const TradeReport& report, const TradeQuestion& ques
   return text;
 }
 
-/// A field of a CSV file (RFC 4180).
+/// Returns a field of a CSV file (RFC 4180).
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) result += c == '"' ? std::string("\"\"") : std::string(1, c);

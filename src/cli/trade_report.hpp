@@ -1,5 +1,5 @@
-// What `crt trade` tells of its measurements: a table to read, one for programs, a plot, and which
-// setting to take.
+// `crt trade` reports its measurements as a table to read, one for programs and a plot, and says
+// which setting to take.
 #pragma once
 
 #include <optional>
@@ -12,12 +12,12 @@
 
 namespace crt::cli {
 
-/// A rung as it was rendered.
+/// A MeasuredRung is a rung as it was rendered.
 struct MeasuredRung {
   Family family = Family::as_given;
   std::string options;
   double seconds = 0;  ///< of tracing the whole picture
-  double samples = 0;  ///< a pixel, in the mean
+  double samples = 0;  ///< a pixel, on average
   PictureError error;
 };
 
@@ -30,8 +30,8 @@ struct TradeReport {
   int threads = 0;
   std::vector<MeasuredRung> rungs;
   std::vector<std::string> left_out;  ///< options of rungs that would have taken too long
-  // Of the reference.
-  PictureError uncertainty;  ///< of every error that is told
+  // These are about the reference.
+  PictureError uncertainty;  ///< of every error that is reported
   double reference_samples = 0;
   int reference_most_samples = 0;
   int reference_depth = 0;
@@ -39,23 +39,24 @@ struct TradeReport {
       0;  ///< the bound on what even the reference cuts off, in 8-bit steps: mean of pixels
 };
 
-/// Time and error of each rung. Errors below twice the reference's uncertainty count as that:
-/// nobody can tell them apart.
+/// Returns time and error of each rung. Errors below twice the reference's uncertainty count as
+/// that, as they cannot be distinguished.
 std::vector<Outcome> outcomes_of(const TradeReport& report, double PictureError::*measure);
 
-/// What the user wants to know.
+/// A TradeQuestion is what the user asks.
 struct TradeQuestion {
   std::optional<double> seconds;
   std::optional<double> error;
 };
 
-/// How the reference was made, all rungs with a mark at those that no other beats, and the answers.
+/// Returns a text: how the reference was made, all rungs with a mark at those that no other beats,
+/// and the answers.
 std::string report_text(const TradeReport& report, const TradeQuestion& question);
 
-/// A line for each rung, after one of names.
+/// Returns a line for each rung, after one of names.
 std::string report_csv(const TradeReport& report);
 
-/// Seconds against both errors.
+/// Returns a plot of seconds against both errors.
 Drawing report_plot(const TradeReport& report);
 
 }  // namespace crt::cli

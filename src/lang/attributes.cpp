@@ -43,7 +43,7 @@ std::string in_small_letters(std::string text) {
   return text;
 }
 
-/// One of some words, in small letters or large ones.
+/// Reads one of some words, in small letters or large ones.
 template <class Enum, std::size_t count>
 void choose(const Given& given, const std::array<std::pair<std::string_view, Enum>, count>& choices,
             Enum& field) {
@@ -74,8 +74,8 @@ void convert_optional(const Given& given, Context& context, std::optional<Field>
 }  // namespace
 
 void convert(const Given& given, Context&, double& field) {
-  double room = 0;
-  const double* number = as_float(given.value, room);
+  double storage = 0;
+  const double* number = as_float(given.value, storage);
   if (!number) wrong_type(given);
   require_finite(given, *number);
   field = *number;

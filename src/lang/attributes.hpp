@@ -1,5 +1,5 @@
-// How the values of attributes become fields of the core's structs: one overload of convert() for
-// each type of field, which also says what the attribute takes.
+// convert() turns the values of attributes into fields of the core's structs. There is one overload
+// for each type of field, which also says what the attribute takes.
 #pragma once
 
 #include <memory>
@@ -50,7 +50,7 @@ void convert(const Given& given, Context& context, std::optional<PanoramaProject
 void convert(const Given& given, Context& context, std::optional<Camera>& field);
 void convert(const Given& given, Context& context, std::optional<Background>& field);
 
-/// What convert() takes for a field of this type.
+/// Names what convert() takes for a field of this type.
 constexpr std::string_view type_text(const double*) {
   return "Float";
 }

@@ -13,8 +13,8 @@ void Arguments::wrong_type(std::size_t i, std::string_view wanted) const {
 }
 
 double Arguments::number(std::size_t i) const {
-  double room = 0;
-  const double* number = as_float(values_[i], room);
+  double storage = 0;
+  const double* number = as_float(values_[i], storage);
   if (!number) wrong_type(i, "a number");
   return *number;
 }

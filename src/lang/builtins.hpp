@@ -1,4 +1,4 @@
-// The functions and constants that every script has.
+// Built-ins are the functions and constants that every script has.
 #pragma once
 
 #include <cstddef>
@@ -12,7 +12,8 @@
 
 namespace crt::lang {
 
-/// What a built-in was called with. The readers throw a Failure at the argument that is wrong.
+/// Arguments hold what a built-in was called with. The readers throw a Failure at the argument that
+/// is wrong.
 class Arguments {
  public:
   Arguments(Context& new_context, const Builtin& builtin, Span new_call,
@@ -45,17 +46,17 @@ class Arguments {
 
 struct Builtin {
   std::string_view name;
-  /// As the reference writes it: "clamp(x, low, high)".
+  /// The signature is as the reference writes it: "clamp(x, low, high)".
   std::string_view signature;
   std::size_t least_arguments = 0;
   std::size_t most_arguments = 0;
   Value (*function)(const Arguments&) = nullptr;
 };
 
-/// All of them.
+/// Returns all built-ins.
 std::span<const Builtin> builtins();
 
-// What the table is made of, by subject.
+// These return the parts of the table, by subject.
 std::span<const Builtin> number_builtins();
 std::span<const Builtin> vector_builtins();
 std::span<const Builtin> list_builtins();

@@ -1,4 +1,4 @@
-// Built-ins about lists and strings, and the one that talks: print.
+// This file has the built-ins about lists and strings, and print.
 #include <array>
 #include <cmath>
 #include <limits>
@@ -30,16 +30,16 @@ Value count_items(const Arguments& arguments) {
 Value integer_range(const Arguments& arguments, std::int64_t first, std::int64_t end,
                     std::int64_t step) {
   if (step == 0) refuse_step(arguments);
-  // Unsigned, since the way from one Integer to another can be longer than an Integer.
+  // The distance is unsigned, since that between two Integers can be larger than an Integer.
   const bool up = step > 0;
-  std::uint64_t way = 0;
+  std::uint64_t distance = 0;
   if (up ? end > first : end < first) {
-    way = up ? static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(first)
-             : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(end);
+    distance = up ? static_cast<std::uint64_t>(end) - static_cast<std::uint64_t>(first)
+                  : static_cast<std::uint64_t>(first) - static_cast<std::uint64_t>(end);
   }
   const std::uint64_t stride =
       up ? static_cast<std::uint64_t>(step) : 0 - static_cast<std::uint64_t>(step);
-  const std::uint64_t count = way / stride + (way % stride != 0 ? 1 : 0);
+  const std::uint64_t count = distance / stride + (distance % stride != 0 ? 1 : 0);
   arguments.context.check_list_size(arguments.call, count);
   std::vector<Value> items;
   items.reserve(count);
@@ -63,7 +63,7 @@ Value float_range(const Arguments& arguments, double first, double end, double s
   return arguments.context.make_list(arguments.call, std::move(items));
 }
 
-/// range(end), range(first, end), range(first, end, step): `end` is not part of it.
+/// Computes range(end), range(first, end) or range(first, end, step). `end` is not part of it.
 Value range(const Arguments& arguments) {
   const std::size_t count = arguments.size();
   if (arguments.all_integers()) {

@@ -1,4 +1,4 @@
-// Built-ins that compute numbers: trigonometry, powers, rounding, chance.
+// This file has the built-ins that compute numbers: trigonometry, powers, rounding, random numbers.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -59,7 +59,7 @@ double rounded(double x) {
   return std::round(x);
 }
 
-/// floor, ceil and round give Integers, so that they can count and index.
+/// Computes floor, ceil or round, which give Integers so that they can count and index.
 template <double (*function)(double)>
 Value to_integer(const Arguments& arguments) {
   if (std::holds_alternative<std::int64_t>(arguments[0])) return arguments[0];
@@ -87,7 +87,7 @@ Value power(const Arguments& arguments) {
   return std::pow(arguments.number(0), arguments.number(1));
 }
 
-/// The least or greatest: an Integer if all are Integers, else a Float.
+/// Returns the least or greatest argument: an Integer if all are Integers, else a Float.
 template <bool want_greatest>
 Value extreme(const Arguments& arguments) {
   const bool integers = arguments.all_integers();

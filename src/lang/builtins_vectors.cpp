@@ -1,4 +1,4 @@
-// Built-ins that make and measure Vec3s and Colors.
+// This file has the built-ins that make and measure Vec3s and Colors.
 #include <array>
 #include <cmath>
 

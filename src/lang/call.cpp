@@ -1,4 +1,4 @@
-// The interpreter's calls: of built-ins and of macros, as statements and as values.
+// This file has the interpreter's calls of built-ins and of macros, as statements and as values.
 #include <fmt/format.h>
 
 #include "lang/builtins.hpp"
@@ -9,7 +9,7 @@ namespace crt::lang {
 
 namespace {
 
-/// Takes what a call has put onto the stack of arguments off again.
+/// Removes what a call has put onto the stack of arguments.
 class ArgumentsGuard {
  public:
   explicit ArgumentsGuard(std::vector<Value>& arguments)
@@ -74,7 +74,7 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
       Arguments(context_, builtin, expression.span, guard.values(), call.arguments));
 }
 
-/// The scope of a call: the parameters bound to the arguments.
+/// Makes the scope of a call, with the parameters bound to the arguments.
 [[gnu::noinline]] std::shared_ptr<Scope> Interpreter::bind_arguments(const Expression& expression,
                                                                      const Call& call,
                                                                      const MacroValue& macro) {
@@ -113,7 +113,7 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
   }
 }
 
-/// A macro's call as a value: the group of what it emits.
+/// Evaluates a macro's call as a value: the group of what it emits.
 [[gnu::noinline]] Value Interpreter::group(const Expression& expression, const Call& call,
                                            const MacroValue& macro) {
   std::vector<Entity> parts;

@@ -57,7 +57,8 @@ class Checker {
   }
 
  private:
-  /// The number of the attribute that was most likely meant; that of all attributes if none was.
+  /// Reports an unknown attribute. Returns the index of the one that was most likely meant, or the
+  /// number of attributes if none was.
   std::size_t unknown_attribute(const ObjectType& type, Span span, std::string_view name) {
     std::vector<std::string_view> names;
     std::vector<std::string> listed;
@@ -80,7 +81,8 @@ class Checker {
   Reporter& reporter_;
 };
 
-/// Goes through the expressions that a statement evaluates itself, to any depth but that of macros.
+/// Visits the expressions that a statement evaluates itself, to any depth, but not the bodies of
+/// macros.
 class AssignedNames {
  public:
   explicit AssignedNames(std::set<Symbol>& names) : names_(names) {}

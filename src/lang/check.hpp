@@ -1,4 +1,4 @@
-// What can be known to be wrong with a tree before it runs: objects and attributes that do not
+// The check finds what is wrong with a tree before it runs: objects and attributes that do not
 // exist, blocks that are there twice.
 #pragma once
 
@@ -11,12 +11,12 @@
 namespace crt::lang {
 
 /// Finds the rows of all objects in the table, and reports each error. Throws GiveUp when the
-/// reporter has enough. `compat` is that of ScriptOptions: scripts of 2015 may give attributes that
-/// there are not, whose index is then the number of those that there are.
+/// reporter has enough. `compat` is that of ScriptOptions. Scripts of 2015 may give attributes that
+/// do not exist, whose index is then the number of those that do.
 void check(Script& script, int compat, const SymbolTable& symbols, Reporter& reporter);
 
-/// The names that a statement can assign in the scope that it stands in or one around it: those in
-/// the bodies of macros are left out.
+/// Collects the names that a statement can assign in its scope or one around it. Those in the
+/// bodies of macros are left out.
 void collect_assigned(const Statement& statement, std::set<Symbol>& names);
 void collect_assigned(const Block& block, std::set<Symbol>& names);
 

@@ -11,7 +11,7 @@ namespace {
 
 constexpr std::string_view attribute = "compat";
 
-/// Goes through the tokens of a script up to its Settings' `compat -> 2015`.
+/// Reads the tokens of a script up to its Settings' `compat -> 2015`.
 class CompatSearch {
  public:
   CompatSearch(const SourceMap& sources, const Source& source)
@@ -40,7 +40,8 @@ class CompatSearch {
     if (kind_ == Kind::S_INTEGER) number_ = token.value.as<std::int64_t>();
   }
 
-  /// Behind the opening brace of a block: whether it is there, between no other braces.
+  /// Called behind the opening brace of a block, it says whether the attribute is in the block, and
+  /// not in braces inside it.
   bool is_in_block() {
     for (int depth = 1; depth > 0 && kind_ != Kind::S_YYEOF;) {
       if (depth == 1 && kind_ == Kind::S_IDENTIFIER && is_attribute_) {
@@ -66,12 +67,12 @@ class CompatSearch {
 }  // namespace
 
 std::int64_t written_compat(const SourceMap& sources, const Source& source) {
-  // Most scripts know nothing of it.
+  // Most scripts do not have the attribute.
   if (source.text.find(attribute) == std::string::npos) return 0;
   try {
     return CompatSearch(sources, source).number();
   } catch (const GiveUp&) {
-    return 0;  // of what is wrong with the text the parser will tell
+    return 0;  // the parser will report what is wrong with the text
   }
 }
 

@@ -1,4 +1,4 @@
-// Scripts of 2015: what a text says of itself before it is parsed. See docs/compat.md.
+// This finds whether a text is a script of 2015, before it is parsed. See docs/compat.md.
 #pragma once
 
 #include <cstdint>
@@ -7,8 +7,8 @@
 
 namespace crt::lang {
 
-/// The whole number that a script's Settings give to `compat`; 0 if they give none. It decides
-/// which words are keywords, so that it is looked for among the tokens: an expression is not
+/// Returns the whole number that a script's Settings give to `compat`, or 0 if they give none. It
+/// decides which words are keywords, so it is looked for among the tokens. An expression is not
 /// evaluated.
 std::int64_t written_compat(const SourceMap& sources, const Source& source);
 

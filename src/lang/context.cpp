@@ -32,7 +32,7 @@ Context::Context(const ScriptOptions& new_options, SymbolTable& new_symbols, Sou
       files(new_options) {}
 
 std::string Context::where() const {
-  // An endless loop is the one that went round most often; among equals the outermost.
+  // An endless loop is the one with the most rounds, and among equals the outermost.
   const Activity* culprit = nullptr;
   for (const Activity& activity : activities_) {
     if (activity.is_loop && (!culprit || activity.rounds > culprit->rounds)) culprit = &activity;

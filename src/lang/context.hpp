@@ -1,4 +1,4 @@
-// What a running script uses up and reaches: its limits, memory, files, random numbers and log.
+// The context holds what a running script uses: its limits, memory, files, random numbers and log.
 #pragma once
 
 #include <cstddef>
@@ -24,7 +24,7 @@ constexpr std::size_t bytes_per_step = 64;
 /// An entity takes about as long to make as so many expressions to evaluate.
 constexpr std::size_t steps_per_entity = 16;
 
-/// Lists within lists; freeing them takes stack.
+/// Lists within lists are at most this deep, as freeing them takes stack.
 constexpr int deepest_list = 100;
 
 class Context {
@@ -35,13 +35,13 @@ class Context {
   Context& operator=(const Context&) = delete;
 
   const ScriptOptions& options;
-  /// The caller's, cut to what this implementation can bear.
+  /// These are the caller's limits, cut to what this implementation can bear.
   const ScriptLimits limits;
   SymbolTable& symbols;
   SourceMap& sources;
   Reporter& reporter;
   Files files;
-  /// Of the script that runs: that of the options, or else what its Settings say.
+  /// This is the value of the options, or else of the running script's Settings.
   int compat = 0;
   Random random;
   Random2015 random_2015;
@@ -53,9 +53,9 @@ class Context {
   }
   void spend(Span span, std::size_t steps);
 
-  /// Counts an entity made.
+  /// Counts an entity that was made.
   void count_made(Span span);
-  /// Counts primitives put into the scene.
+  /// Counts primitives that were put into the scene.
   void count_emitted(Span span, std::uint64_t primitives);
   /// Refuses an entity of more primitives than a scene may have.
   void check_size(Span span, const Entity& entity);
@@ -73,9 +73,9 @@ class Context {
   /// Throws a Failure for a limit, naming the loop or call that it was passed in.
   [[noreturn]] void pass_limit(Span span, const std::string& message) const;
 
-  /// A loop or macro call that runs now.
+  /// An Activity is a loop or macro call that runs now.
   struct Activity {
-    std::string_view name;  ///< of the macro, or "while" or "for"
+    std::string_view name;  ///< name of the macro, or "while" or "for"
     Span span;
     bool is_loop = false;
     std::uint64_t rounds = 0;
@@ -99,7 +99,8 @@ class Context {
   void count_round() { ++activities_.back().rounds; }
 
  private:
-  /// Ends the script if it has used up its steps or the caller wants it; else sets the next pause.
+  /// Ends the script if it has used up its steps or the caller wants it. Else it sets the next
+  /// pause.
   void pause(Span span);
   std::string where() const;
 

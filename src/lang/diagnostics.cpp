@@ -1,4 +1,4 @@
-// How diagnostics are written: for people, and as JSON for programs.
+// This file writes diagnostics for people, and as JSON for programs.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using lang::printable;
 /// Longer lines are shown in part, around the marked piece.
 constexpr std::size_t widest_line = 160;
 constexpr std::size_t shown_before_mark = 60;
-/// Calls shown before the rest is only counted.
+/// So many calls are shown, and the rest is only counted.
 constexpr std::size_t most_calls_shown = 10;
 
 std::string head(const Diagnostic& diagnostic) {
@@ -32,7 +32,7 @@ std::string head(const Diagnostic& diagnostic) {
                      message);
 }
 
-/// The bytes of `text` that hold the code points [first, first + count).
+/// Returns the bytes of `text` that hold the code points [first, first + count).
 std::string_view code_points(std::string_view text, std::size_t first, std::size_t count) {
   std::size_t begin = 0;
   while (first > 0 && begin < text.size()) decode_utf8(text, begin), --first;
@@ -41,7 +41,8 @@ std::string_view code_points(std::string_view text, std::size_t first, std::size
   return text.substr(begin, end - begin);
 }
 
-/// The source line, and below it a caret under the first marked column and tildes under the others.
+/// Returns the source line, and below it a caret under the first marked column and tildes under the
+/// others.
 std::string excerpt(const Diagnostic& diagnostic) {
   if (diagnostic.place.line == 0 || diagnostic.place.column < 1) return {};
   const std::string line = printable(diagnostic.source_line);

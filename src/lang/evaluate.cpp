@@ -1,5 +1,5 @@
-// The interpreter's expressions. Each kind has a function of its own that is not inlined: that
-// keeps the frame of evaluate(), of which there can be many on the stack, small.
+// This file has the interpreter's expressions. Each kind has a function of its own that is not
+// inlined. That keeps the frame of evaluate() small, of which there can be many on the stack.
 #include <fmt/format.h>
 
 #include <variant>
@@ -36,7 +36,7 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
   given.reserve(attributes.size());
   for (const AttributeSyntax& attribute : attributes) {
     Value value = evaluate(*attribute.value);
-    if (attribute.index == type.attributes.size()) continue;  // passed over, as the check has said
+    if (attribute.index == type.attributes.size()) continue;  // skipped, as the check has said
     given.push_back({.type = &type.attributes[attribute.index],
                      .name_span = attribute.name.span,
                      .value_span = attribute.value->span,
@@ -152,8 +152,9 @@ Transform transform_of(const Modifier& modifier, const Value& operand) {
         return rotate(*vector);
     }
   }
-  double room = 0;
-  const double* number = modifier.kind == ModifierKind::scale ? as_float(operand, room) : nullptr;
+  double storage = 0;
+  const double* number =
+      modifier.kind == ModifierKind::scale ? as_float(operand, storage) : nullptr;
   if (number) return scale(*number);
   const char* wanted = modifier.kind == ModifierKind::scale ? "a number or a Vec3" : "a Vec3";
   fail(modifier.operand->span, "'{}' takes {}, not {}", modifier_name(modifier.kind), wanted,
@@ -169,7 +170,7 @@ Transform transform_of(const Modifier& modifier, const Value& operand) {
     return entity.transformed(transform_of(modifier, operand));
   } catch (const Error& error) {
     std::string message = error.what();
-    // The core names the parameter of its function; in a script that is the modifier itself.
+    // The core names the parameter of its function, which in a script is the modifier itself.
     if (message.starts_with(error.argument()))
       message.replace(0, error.argument().size(),
                       fmt::format("'{}'", modifier_name(modifier.kind)));

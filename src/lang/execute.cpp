@@ -1,4 +1,4 @@
-// The interpreter's statements.
+// This file has the interpreter's statements.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,7 +25,7 @@ void Interpreter::attempt(const Statement& statement) {
     context_.reporter.error(failure);
     if (ends_script(failure)) throw GiveUp{};
   } catch (const Abandoned&) {
-    // Told already.
+    // The error is reported already.
   }
   mark_unknown(statement);
 }
@@ -54,7 +54,7 @@ void Interpreter::execute_in(const Block& block, std::shared_ptr<Scope> scope) {
   execute(block);
 }
 
-/// A scope for a body: the one of the round before, if no macro has taken hold of it.
+/// Returns a scope for a body: the one of the round before, unless a macro captured it.
 std::shared_ptr<Scope> Interpreter::fresh_scope(std::shared_ptr<Scope> used) {
   if (!used || used->is_captured()) return std::make_shared<Scope>(Scope::Kind::block, scope_);
   used->clear();
@@ -171,7 +171,7 @@ void Interpreter::emit_entity(const Entity& entity, Span span) {
   emission_.entities->push_back(entity);
 }
 
-/// Whether there was an entity among the items, or in the lists among them.
+/// Emits the items, and says whether there was an entity among them or in the lists among them.
 bool Interpreter::emit_items(const ListValue& list, Span span) {
   bool used = list.items.empty();
   for (const Value& item : list.items) {

@@ -1,6 +1,6 @@
-// Throwing a Failure with a formatted message. The formatting happens in a function of its own, so
-// that what throws keeps a small stack frame: the interpreter has many of them on the stack at
-// once.
+// These functions throw a Failure with a formatted message. The formatting happens in a function of
+// its own, so that the function that throws keeps a small stack frame. The interpreter has many of
+// them on the stack at once.
 #pragma once
 
 #include <fmt/format.h>

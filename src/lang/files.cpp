@@ -21,7 +21,7 @@ namespace {
   throw Failure{.span = span, .message = std::move(message), .code = ErrorCode::io};
 }
 
-/// Whether `path` is `directory` or lies below it, going by the names alone. Both are normal.
+/// Says whether `path` is `directory` or lies below it, by the names alone. Both are normal.
 bool lies_in(const fs::path& path, fs::path directory) {
   if (!directory.has_filename()) directory = directory.parent_path();  // "a/" is "a"
   if (directory.empty() || directory == ".")

@@ -1,4 +1,4 @@
-// The files that a script may reach: imports and images, in its own directory and those that the
+// A script may reach these files: imports and images, in its own directory and those that the
 // caller lists, and nowhere else.
 #pragma once
 
@@ -26,7 +26,7 @@ class Files {
     script_directory_ = directory;
   }
 
-  /// A file that was found, and its content where the caller's callback gave it.
+  /// Holds a file that was found, and its content where the caller's callback gave it.
   struct Found {
     std::filesystem::path shown;  ///< its path as messages have it
     std::filesystem::path path;   ///< free of symbolic links, so that a file has one
@@ -36,10 +36,11 @@ class Files {
   /// Looks for `name` as a script in `directory` writes it. Throws Failure (io) at `span`.
   Found find(const std::string& name, const std::filesystem::path& directory, Span span) const;
 
-  /// The text of a found file, of at most `most_bytes`.
+  /// Returns the text of a found file, of at most `most_bytes`.
   std::string read_text(Found found, std::size_t most_bytes, Span span) const;
 
-  /// An image, decoded once a run; what it has that is not finite is told then.
+  /// Returns an image, which is decoded once a run. A warning about values that are not finite
+  /// comes then.
   std::shared_ptr<const Image> image(const std::string& name,
                                      const std::filesystem::path& directory, Span span,
                                      Reporter& reporter);
@@ -55,7 +56,8 @@ class Files {
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
 };
 
-/// The whole of a regular file; nothing if it cannot be read or has more than `most_bytes`.
+/// Returns the whole of a regular file, or nothing if it cannot be read or has more than
+/// `most_bytes`.
 std::optional<std::string> read_regular_file(const std::filesystem::path& path,
                                              std::size_t most_bytes);
 

@@ -1,7 +1,7 @@
-/* The grammar of CRT scripts: rules 1 to 32 of its definition, in levels of precedence, with the
-   control statements and imports. Line ends mean nothing here; where they matter the lexer says so
-   by giving '(' and '[' another token. The tree is built by TreeBuilder; what can be wrong with a
-   tree that this grammar takes is found later, by check.cpp and the interpreter. */
+/* This is the grammar of CRT scripts: rules 1 to 32 of its definition, in levels of precedence,
+   with the control statements and imports. Line ends mean nothing here. Where they matter the lexer
+   says so by giving '(' and '[' another token. TreeBuilder builds the tree. check.cpp and the
+   interpreter find later what is wrong with a tree that this grammar takes. */
 %require "3.8"
 %skeleton "lalr1.cc"
 %define api.namespace {crt::lang}
@@ -41,7 +41,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 }
 }
 
-/* The first token says what the text is: it is not in the text. */
+/* The first token says what the text is, and is not in the text. */
 %token START_SCRIPT START_EXPRESSION
 %token END 0 "the end of the script"
 
@@ -51,30 +51,32 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %token <Symbol> IDENTIFIER "a name"
 %token <Symbol> OBJECT_NAME "an object's name"
 
-%token SETTINGS "Settings" SCENE "Scene" MACRO "Macro" SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
+%token SETTINGS "Settings" SCENE "Scene" MACRO "Macro"
+%token SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
 %token TRUE "true" FALSE "false" WHILE "while" IF "if" ELSE "else" FOR "for" IN "in" IMPORT "import"
 
 %token LEFT_BRACE "{" RIGHT_BRACE "}" RIGHT_PARENTHESIS ")" RIGHT_BRACKET "]"
 /* First on its line each of these two begins an expression and never continues one. */
 %token LEFT_PARENTHESIS "(" FIRST_PARENTHESIS "( first on its line"
 %token LEFT_BRACKET "[" FIRST_BRACKET "[ first on its line"
-/* A '<' before scale, translate or rotate. */
+/* This is a '<' before scale, translate or rotate. */
 %token MODIFIER_START "< before a modifier"
 
 %token PLUS "+" MINUS "-" STAR "*" SLASH "/" PERCENT "%" CARET "^" NOT "!"
 %token LESS "<" GREATER ">" LESS_EQUAL "<=" GREATER_EQUAL ">=" EQUAL "==" NOT_EQUAL "!="
 %token AND "&&" OR "||" QUESTION "?" COLON ":" ASSIGN "=" COMMA "," ARROW "->"
 
-/* There is no sign that ends a statement, so an expression goes on as long as it can: before a token
-   that could either continue it or begin the next one, going on has the higher precedence. */
+/* There is no sign that ends a statement, so an expression is as long as it can be. Before a token
+   that could either continue it or begin the next one, continuing has the higher precedence. */
 %precedence END_OF_EXPRESSION
 %precedence "+" "-" "(" "["
 
 %nterm <Block> statements script_statements block
 %nterm <Statement> statement script_statement while if for settings scene import
 %nterm <If> if_branches
-%nterm <Expression*> expression conditional disjunction conjunction comparison additive multiplicative
-%nterm <Expression*> unary postfix primary object macro list literal condition
+%nterm <Expression*> expression conditional disjunction conjunction comparison
+%nterm <Expression*> additive multiplicative unary postfix primary object macro list literal
+%nterm <Expression*> condition
 %nterm <std::vector<const Expression*>> expressions expressions_or_none items
 %nterm <std::vector<AttributeSyntax>> attributes
 %nterm <AttributeSyntax> attribute
@@ -82,12 +84,13 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %nterm <std::vector<Modifier>> modifiers
 %nterm <Modifier> modifier
 %nterm <BinaryOperator> comparison_operator additive_operator multiplicative_operator
-/* Stands after each opening of something that can hold itself, and lives as long as that is open. */
+/* This stands after each opening of something that can hold itself, and lives as long as that is
+   open. */
 %nterm <Nesting> nest
 
 %%
 
-/* A script (rule 1), or one expression from elsewhere. */
+/* The text is a script (rule 1), or one expression from elsewhere. */
 text:
     START_SCRIPT script_statements           { tree.finish($2); }
   | START_EXPRESSION expression              { tree.finish($2); }
@@ -101,7 +104,11 @@ script_statements:
   | script_statements script_statement       { $$ = tree.append($1, $2); }
   | script_statements error                  { $$ = $1; }
 
-script_statement: statement { $$ = $1; } | settings { $$ = $1; } | scene { $$ = $1; } | import { $$ = $1; }
+script_statement:
+    statement                                { $$ = $1; }
+  | settings                                 { $$ = $1; }
+  | scene                                    { $$ = $1; }
+  | import                                   { $$ = $1; }
 
 statements:
     %empty                                   { $$ = Block(); }
@@ -133,7 +140,8 @@ for: "for" open IDENTIFIER "in" expression ")" block
 
 if:
     if_branches                              { $$ = tree.statement(@$, $1); }
-  | if_branches "else" block                 { $$ = tree.statement(@$, tree.branch($1, nullptr, $3)); }
+  | if_branches "else" block
+                                   { $$ = tree.statement(@$, tree.branch($1, nullptr, $3)); }
 
 if_branches:
     "if" condition block                     { $$ = tree.branch(If(), $2, $3); }
@@ -152,11 +160,13 @@ conditional:
 
 disjunction:
     conjunction                              { $$ = $1; }
-  | disjunction "||" conjunction             { $$ = tree.logical(LogicalOperator::disjunction, $1, $3); }
+  | disjunction "||" conjunction
+                                   { $$ = tree.logical(LogicalOperator::disjunction, $1, $3); }
 
 conjunction:
     comparison                               { $$ = $1; }
-  | conjunction "&&" comparison              { $$ = tree.logical(LogicalOperator::conjunction, $1, $3); }
+  | conjunction "&&" comparison
+                                   { $$ = tree.logical(LogicalOperator::conjunction, $1, $3); }
 
 comparison:
     additive %prec END_OF_EXPRESSION         { $$ = $1; }
@@ -188,9 +198,12 @@ multiplicative_operator:
 
 unary:
     postfix %prec END_OF_EXPRESSION          { $$ = $1; }
-  | "+" nest unary                           { $$ = tree.expression(@$, Unary{UnaryOperator::plus, $3}); }
-  | "-" nest unary                           { $$ = tree.expression(@$, Unary{UnaryOperator::minus, $3}); }
-  | "!" nest unary                           { $$ = tree.expression(@$, Unary{UnaryOperator::negation, $3}); }
+  | "+" nest unary
+                                   { $$ = tree.expression(@$, Unary{UnaryOperator::plus, $3}); }
+  | "-" nest unary
+                                   { $$ = tree.expression(@$, Unary{UnaryOperator::minus, $3}); }
+  | "!" nest unary
+                                   { $$ = tree.expression(@$, Unary{UnaryOperator::negation, $3}); }
 
 postfix:
     primary                                  { $$ = $1; }
@@ -221,8 +234,8 @@ primary:
     open nest expression ")"                 { $$ = $3; }
   | literal                                  { $$ = $1; }
   | IDENTIFIER                               { $$ = tree.expression(@$, Name{$1});
-                                               /* Bison keeps silent for three tokens after an error;
-                                                  errors on the next line are to be told all the same. */
+                                               /* Bison reports nothing for three tokens after
+                                                  an error, but errors on the next line count. */
                                                if (tree.is_past_error(@1)) yyerrok; }
   | object                                   { $$ = $1; }
   | macro                                    { $$ = $1; }
@@ -239,12 +252,14 @@ list:
     "[" nest items "]"                       { $$ = tree.expression(@$, ListLiteral{$3}); }
   | "[ first on its line" nest items "]"     { $$ = tree.expression(@$, ListLiteral{$3}); }
 
-/* A comma after the last item is welcome: it keeps lists of a line an item tidy. */
+/* A comma may stand after the last item, so that lists with a line for each item look regular. */
 items:
     expressions_or_none                      { $$ = $1; }
   | expressions ","                          { $$ = $1; }
 
-object: OBJECT_NAME "{" nest attributes "}"  { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
+object:
+    OBJECT_NAME "{" nest attributes "}"
+                                   { $$ = tree.expression(@$, ObjectLiteral{{$1, @1}, $4}); }
 
 attributes:
     %empty                                   { }

@@ -12,7 +12,7 @@ namespace crt::lang {
 
 namespace {
 
-/// Of the C++ stack that a script may take, so that it fits on any thread's.
+/// A script may take so much of the C++ stack, so that it fits on any thread's.
 constexpr std::uintptr_t stack_budget_bytes = 1 << 20;
 
 std::uintptr_t stack_position() {
@@ -60,7 +60,7 @@ void Interpreter::unknown_name(Symbol name, Span span) const {
   fail(span, "unknown name '{}'{}", text, did_you_mean(text, names));
 }
 
-/// Called where a macro is made: all scopes that it can see stay.
+/// Keeps all scopes that a macro can see, where it is made.
 void Interpreter::capture_scopes(Span span) {
   constexpr std::size_t about_a_scope = 256;
   for (std::shared_ptr<Scope> scope = scope_; scope && !scope->is_captured();

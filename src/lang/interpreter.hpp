@@ -1,4 +1,5 @@
-// Runs a syntax tree: expressions to values, statements to variables and emitted entities.
+// The interpreter runs a syntax tree. Expressions give values, statements set variables and emit
+// entities.
 #pragma once
 
 #include <cstddef>
@@ -30,14 +31,14 @@ class Interpreter {
   /// Sets a top-level variable that the script's own assignments are not to change.
   void override_variable(Symbol name, Value value);
 
-  /// Runs a script's statements. Errors go to the reporter; throws GiveUp when it makes no sense to
-  /// go on. `script` must outlive the interpreter.
+  /// Runs a script's statements. Errors go to the reporter. Throws GiveUp when it makes no sense to
+  /// continue. `script` must outlive the interpreter.
   void run(const Script& script, bool is_import);
 
-  /// The value of an expression in the top-level scope. Throws a Failure.
+  /// Returns the value of an expression in the top-level scope. Throws a Failure.
   Value evaluate(const Expression& expression);
 
-  /// What `import` does is up to whoever knows about files.
+  /// Sets what `import` does, which needs access to files.
   void set_importer(std::function<void(const Import&)> importer) {
     importer_ = std::move(importer);
   }
@@ -48,7 +49,7 @@ class Interpreter {
   std::vector<Given>& settings() { return settings_; }
 
  private:
-  /// Where the entities of expression statements go.
+  /// An Emission takes the entities of expression statements.
   struct Emission {
     std::vector<Entity>* entities = nullptr;
     bool into_scene = false;
@@ -126,12 +127,12 @@ class Interpreter {
   std::shared_ptr<Scope> universe_;  ///< built-ins and constants
   std::shared_ptr<Scope> globals_;
   std::shared_ptr<Scope> scope_;  ///< the one that runs now
-  /// Scopes that macros were made in. They stay until the end, when they are emptied one by one:
-  /// so macros and scopes that hold one another are freed, and long chains of them without
-  /// recursion.
+  /// These are the scopes that macros were made in. They stay until the end, when they are emptied
+  /// one by one. So macros and scopes that hold one another are freed, and long chains of them
+  /// without recursion.
   std::vector<std::pair<std::shared_ptr<Scope>, Charge>> captured_;
   Emission emission_;
-  std::vector<Value> arguments_;  ///< of the built-ins that are being called
+  std::vector<Value> arguments_;  ///< arguments of the built-ins that are being called
   std::size_t call_depth_ = 0;
   std::set<Symbol> overridden_;
 
@@ -143,7 +144,7 @@ class Interpreter {
   std::function<void(const Import&)> importer_;
 };
 
-/// Thrown by an expression that uses a variable whose setting failed: that was already told.
+/// Is thrown by an expression that uses a variable whose setting failed. That was already reported.
 struct Abandoned {};
 
 }  // namespace crt::lang

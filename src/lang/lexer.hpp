@@ -1,4 +1,4 @@
-// Text to tokens.
+// The lexer turns text into tokens.
 #pragma once
 
 #include <cstdint>
@@ -14,26 +14,26 @@
 
 namespace crt::lang {
 
-/// Hands out the tokens of a source, one a call. Bytes that begin no token are reported and passed
-/// over, so the parser never sees them.
+/// A Lexer hands out the tokens of a source, one a call. Bytes that begin no token are reported and
+/// skipped, so the parser never sees them.
 class Lexer {
  public:
-  /// `compat` as in ScriptOptions: in scripts of 2015 the words that have become keywords since are
-  /// names wherever they cannot be meant as such.
+  /// `compat` is that of ScriptOptions. In scripts of 2015 the words that have become keywords
+  /// since are names wherever they cannot be keywords.
   Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter);
 
   Grammar::symbol_type next();
 
-  /// The text of a piece of this source.
+  /// Returns the text of a piece of this source.
   std::string_view text(Span span) const;
 
-  /// The place before everything.
+  /// Returns the place before everything.
   Span start() const { return {source_.base, source_.base}; }
 
-  /// Where the line ends that the span begins on.
+  /// Returns where the line ends that the span begins on.
   std::uint32_t line_end(Span span) const;
 
-  /// The brackets that are open now, outermost first.
+  /// Returns the brackets that are open now, outermost first.
   const std::vector<Span>& open_brackets() const { return open_brackets_; }
 
  private:
@@ -62,7 +62,7 @@ class Lexer {
   void not_utf8();
 
   void skip_comment();
-  /// Where the next token begins, past blanks, line ends and comments.
+  /// Returns where the next token begins, past blanks, line ends and comments.
   const Byte* next_token_start() const;
   bool modifier_follows() const;
   bool arrow_follows() const;
@@ -80,7 +80,7 @@ class Lexer {
   bool started_ = false;
   bool first_on_line_ = true;
   std::vector<Span> open_brackets_;
-  int for_tokens_ = 0;  ///< of `for (name`, so many came last
+  int for_tokens_ = 0;  ///< so many tokens of `for (name` came last
 };
 
 }  // namespace crt::lang

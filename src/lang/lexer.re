@@ -1,6 +1,6 @@
-// The lexer: re2c makes the automata of the blocks in special comments. The text ends in a NUL that
-// is not part of it (re2c's end-of-input rule `$` tells the two apart). Patterns match UTF-8; bytes
-// that are none fall to the rule `*`.
+// The lexer turns text into tokens. re2c makes the automata of the blocks in special comments. The
+// text ends in a NUL that is not part of it (re2c's end-of-input rule `$` distinguishes the two).
+// Patterns match UTF-8. Bytes that are none fall to the rule `*`.
 #include "lang/lexer.hpp"
 
 #include <algorithm>
@@ -16,7 +16,7 @@ namespace {
 
 using Token = Grammar::token;
 
-/// Of those that wait to be closed; the parser takes no more.
+/// So many brackets may wait to be closed. The parser takes no more.
 constexpr std::size_t most_open_brackets = 1000;
 constexpr std::size_t most_forgotten_brackets = 8;
 /// No name needs to be longer.
@@ -49,7 +49,8 @@ const unsigned char* bytes(const std::string& text) {
 
 }  // namespace
 
-Lexer::Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter)
+Lexer::Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols,
+             Reporter& reporter)
     : source_(source),
       symbols_(symbols),
       reporter_(reporter),
@@ -80,9 +81,10 @@ Grammar::symbol_type Lexer::next() {
   using Kind = Grammar::symbol_kind;
   Grammar::symbol_type token = scan();
   const auto kind = token.kind();
-  const bool goes_on = (for_tokens_ == 1 && (kind == Kind::S_LEFT_PARENTHESIS || kind == Kind::S_FIRST_PARENTHESIS)) ||
-                       (for_tokens_ == 2 && kind == Kind::S_IDENTIFIER);
-  for_tokens_ = goes_on ? for_tokens_ + 1 : (kind == Kind::S_FOR ? 1 : 0);
+  const bool opens = kind == Kind::S_LEFT_PARENTHESIS || kind == Kind::S_FIRST_PARENTHESIS;
+  const bool continues =
+      (for_tokens_ == 1 && opens) || (for_tokens_ == 2 && kind == Kind::S_IDENTIFIER);
+  for_tokens_ = continues ? for_tokens_ + 1 : (kind == Kind::S_FOR ? 1 : 0);
   return token;
 }
 
@@ -114,7 +116,7 @@ Grammar::symbol_type Lexer::scan() {
       "\r\n" | "\n" | "\r"     { first_on_line_ = true; continue; }
 
       [a-zA-Z] [A-Za-z0-9_]*   { return word(); }
-      // What is meant as a name, if with letters that names do not have.
+      // This is meant as a name, but has letters that names do not have.
       ([A-Za-z0-9_] | other_letter)* ([_] | other_letter) ([A-Za-z0-9_] | other_letter)*
                                { return wrong_word(); }
       digits                   { return whole_number(); }
@@ -124,7 +126,8 @@ Grammar::symbol_type Lexer::scan() {
       "'" [^'"\r\n]* "'"        { return single_quoted(); }
 
       "{"      { return opening(Token::LEFT_BRACE); }
-      "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS : Token::LEFT_PARENTHESIS); }
+      "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS
+                                               : Token::LEFT_PARENTHESIS); }
       "["      { return opening(first_on_line_ ? Token::FIRST_BRACKET : Token::LEFT_BRACKET); }
       "}"      { return closing(Token::RIGHT_BRACE, '{'); }
       ")"      { return closing(Token::RIGHT_PARENTHESIS, '('); }
@@ -150,7 +153,7 @@ Grammar::symbol_type Lexer::scan() {
       "="      { return sign(Token::ASSIGN); }
       ","      { return sign(Token::COMMA); }
 
-      // Last: of patterns that match the same text, the first wins.
+      // This is last, as the first of several patterns that match the same text wins.
       [^]      { unexpected_character(); continue; }
     */
   }
@@ -167,8 +170,8 @@ Grammar::symbol_type Lexer::opening(Token::token_kind_type kind) {
 }
 
 Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_bracket) {
-  // Brackets that were opened within this pair and never closed are forgotten with it; but of a
-  // closing bracket that has no partner no more is believed than a few.
+  // Brackets that were opened within this pair and never closed are forgotten with it. They are at
+  // most a few, as the closing bracket may have no partner.
   const std::size_t size = open_brackets_.size();
   for (std::size_t i = size; i > size - std::min(size, most_forgotten_brackets); --i) {
     if (text(open_brackets_[i - 1])[0] != opening_bracket) continue;
@@ -183,7 +186,8 @@ Grammar::symbol_type Lexer::word() {
   if (name.size() < token_text().size())
     reporter_.error(token_span(), "names have at most 255 letters, digits and '_'");
   const auto* keyword =
-      std::find_if(keywords.begin(), keywords.end(), [name](const Keyword& k) { return k.text == name; });
+      std::find_if(keywords.begin(), keywords.end(),
+                   [name](const Keyword& k) { return k.text == name; });
   // Before an arrow every word is the name of an attribute.
   const bool is_attribute = keyword != keywords.end() && arrow_follows();
   const bool is_keyword = keyword != keywords.end() && !is_attribute &&
@@ -191,16 +195,20 @@ Grammar::symbol_type Lexer::word() {
   if (is_keyword) return sign(keyword->kind);
   first_on_line_ = false;
   const bool lower_case = name[0] >= 'a' && name[0] <= 'z';
-  if (lower_case || is_attribute) return Grammar::make_IDENTIFIER(symbols_.intern(name), token_span());
+  if (lower_case || is_attribute)
+    return Grammar::make_IDENTIFIER(symbols_.intern(name), token_span());
   return Grammar::make_OBJECT_NAME(symbols_.intern(name), token_span());
 }
 
 Grammar::symbol_type Lexer::wrong_word() {
   const bool only_begins_wrong = std::all_of(token_, cursor_, is_word_byte);
-  reporter_.error(token_span(), only_begins_wrong ? "names begin with a letter"
-                                                  : "names consist of the letters a to z and A to Z, digits and '_'");
+  reporter_.error(token_span(),
+                  only_begins_wrong
+                      ? "names begin with a letter"
+                      : "names consist of the letters a to z and A to Z, digits and '_'");
   first_on_line_ = false;
-  return Grammar::make_IDENTIFIER(symbols_.intern(token_text().substr(0, longest_name)), token_span());
+  return Grammar::make_IDENTIFIER(symbols_.intern(token_text().substr(0, longest_name)),
+                                  token_span());
 }
 
 Grammar::symbol_type Lexer::single_quoted() {
@@ -210,7 +218,7 @@ Grammar::symbol_type Lexer::single_quoted() {
 }
 
 void Lexer::skip_comment() {
-  // What a comment holds is nobody's business, not even whether it is UTF-8.
+  // A comment may hold anything, and need not be UTF-8.
   while (cursor_ < limit_ && *cursor_ != '\n' && *cursor_ != '\r') ++cursor_;
 }
 
@@ -218,7 +226,9 @@ const Lexer::Byte* Lexer::next_token_start() const {
   const Byte* position = cursor_;
   for (;;) {
     const std::string_view blanks = " \t\v\f\r\n";
-    while (position < limit_ && blanks.find(static_cast<char>(*position)) != std::string_view::npos) ++position;
+    while (position < limit_ &&
+           blanks.find(static_cast<char>(*position)) != std::string_view::npos)
+      ++position;
     // The NUL behind the end lets one look a byte ahead.
     if (position == limit_ || position[0] != '-' || position[1] != '-') return position;
     while (position < limit_ && *position != '\n' && *position != '\r') ++position;
@@ -242,7 +252,8 @@ bool Lexer::arrow_follows() const {
   return position[0] == '-' && position[1] == '>';
 }
 
-/// Whether a word is a keyword in a script of 2015, when there were no control statements and no imports.
+/// Says whether a word is a keyword in a script of 2015, when there were no control statements and
+/// no imports.
 bool Lexer::is_keyword_of_2015(Token::token_kind_type kind) const {
   const Byte* const next = next_token_start();
   switch (kind) {
@@ -250,7 +261,8 @@ bool Lexer::is_keyword_of_2015(Token::token_kind_type kind) const {
     case Token::IF:
     case Token::FOR:
       // First on its line a '(' continues nothing.
-      return *next == '(' && std::none_of(cursor_, next, [](Byte c) { return c == '\n' || c == '\r'; });
+      return *next == '(' &&
+             std::none_of(cursor_, next, [](Byte c) { return c == '\n' || c == '\r'; });
     case Token::ELSE:
       return *next == '{' || next_word() == "if";
     case Token::IN: {

@@ -1,4 +1,4 @@
-// The part of the lexer that reads numbers and strings.
+// This part of the lexer reads numbers and strings.
 #include <charconv>
 #include <cstdint>
 #include <system_error>
@@ -94,7 +94,7 @@ void Lexer::escape(std::string& value) {
   const Byte* const start = cursor_++;  // the backslash
   const Byte letter = *cursor_;
   const bool line_ends = cursor_ == limit_ || letter == '\n' || letter == '\r';
-  // A character of several bytes stays, to be read as any other.
+  // A character of several bytes stays, and is read as any other.
   if (!line_ends && letter < 0x80) ++cursor_;
   switch (letter) {
     case '"':
@@ -114,12 +114,12 @@ void Lexer::escape(std::string& value) {
     default:
       break;
   }
-  if (line_ends) return;  // the string is not closed, which will be said
+  if (line_ends) return;  // the string is not closed, which is reported later
   reporter_.error({offset(start), offset(cursor_)},
                   R"(unknown escape; there are \" \' \\ \n \t \uXXXX)");
 }
 
-/// Four hexadecimal digits, if they are there.
+/// Reads four hexadecimal digits, if they are there.
 std::optional<std::uint32_t> Lexer::hexadecimal_unit() {
   constexpr int unit_digits = 4;
   if (limit_ - cursor_ < unit_digits) return std::nullopt;
@@ -131,7 +131,7 @@ std::optional<std::uint32_t> Lexer::hexadecimal_unit() {
   return unit;
 }
 
-/// \uXXXX, or two of them for a code point beyond U+FFFF (a surrogate pair, as in JSON).
+/// Reads \uXXXX, or two of them for a code point beyond U+FFFF (a surrogate pair, as in JSON).
 void Lexer::unicode_escape(std::string& value, const Byte* start) {
   const auto refuse = [&](const char* reason) {
     reporter_.error({offset(start), offset(cursor_)}, reason);

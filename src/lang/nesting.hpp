@@ -1,12 +1,12 @@
-// Counts what is open while a text is parsed.
+// This counts what is open while a text is parsed.
 #pragma once
 
 #include <utility>
 
 namespace crt::lang {
 
-/// One open bracket, block or prefix operator. It lives on the parser's own stack, so that the
-/// count stays right when a syntax error makes the parser drop what was open.
+/// A Nesting is one open bracket, block or prefix operator. It lives on the parser's own stack, so
+/// that the count stays right when a syntax error makes the parser drop what was open.
 class Nesting {
  public:
   Nesting() = default;

@@ -1,5 +1,5 @@
-// Primitives without a size: a sphere of radius 0, a flat box. Scripts may make them, as animations
-// do that begin with nothing; the core's shapes all have a size.
+// Some primitives have no size: a sphere of radius 0, a flat box. Scripts may make them, as
+// animations do that begin with nothing. The core's shapes all have a size.
 #pragma once
 
 #include <optional>
@@ -10,27 +10,28 @@
 
 namespace crt::lang {
 
-/// Why a primitive has no size.
+/// Says why a primitive has no size.
 struct NoSize {
-  std::string_view attribute;  ///< of the script's object, that is to blame
+  std::string_view attribute;  ///< the attribute of the script's object that is the cause
   std::string_view reason;     ///< what it does: "is 0"
 };
 
-/// Gives a length of 0 any other.
+/// Replaces a length of 0 by another length.
 inline std::optional<NoSize> size_given(double& length, std::string_view attribute) {
   if (length != 0) return std::nullopt;
   length = 1;
   return NoSize{attribute, "is 0"};
 }
 
-/// The same for two ends at one place.
+/// Separates two ends at one place.
 inline std::optional<NoSize> size_given(const Vec3& from, Vec3& to) {
   if (from != to) return std::nullopt;
   to = from == Vec3(0) ? Vec3(1) : Vec3(0);
   return NoSize{"to", "is the same point as 'from'"};
 }
 
-// If the primitive has no size these give it one, so that all else about it can be checked as ever.
+// If the primitive has no size these give it one, so that all else about it can be checked as
+// usual.
 
 template <class Shape>
 std::optional<NoSize> give_size(Shape&) {
@@ -65,7 +66,7 @@ inline std::optional<NoSize> give_size(Cylinder& cylinder) {
 inline std::optional<NoSize> give_size(Cone& cone) {
   const auto height = size_given(cone.from, cone.to);
   if (cone.radius == 0 && cone.radius2 > 0) {
-    // Its tip is where others have their base.
+    // Its tip is where other cones have their base.
     std::swap(cone.from, cone.to);
     std::swap(cone.radius, cone.radius2);
   }

@@ -1,4 +1,4 @@
-// The words that the rows of the object table are written in.
+// The rows of the object table are written with these functions.
 #pragma once
 
 #include <string_view>
@@ -28,7 +28,7 @@ AttributeType required(std::string_view name, Field Object::*field) {
   return attribute(name, field, "");
 }
 
-/// An angle that a script gives in degrees and the core takes in radians.
+/// Makes an attribute for an angle that a script gives in degrees and the core takes in radians.
 template <class Object>
 AttributeType degrees(std::string_view name, double Object::*field, std::string_view default_text,
                       std::string_view rule) {
@@ -43,14 +43,15 @@ AttributeType degrees(std::string_view name, double Object::*field, std::string_
   return type;
 }
 
-/// The struct with the attributes of a script; all others have the defaults of the struct.
+/// Returns the struct with the attributes of a script. All other fields have the defaults of the
+/// struct.
 template <class Object>
 Object assemble(const ObjectSite& site, Object object = {}) {
   for (const Given& given : site.attributes) given.type->assign(&object, given, site.context);
   return object;
 }
 
-/// What an object is that gives no attributes.
+/// Returns the struct of an object that gives no attributes.
 template <class Object>
 Object initial(const Context&) {
   return {};
@@ -66,8 +67,8 @@ inline Camera initial<Camera>(const Context& context) {
   return camera;
 }
 
-/// A row whose `finish` makes a value of the filled struct; what the core refuses is blamed on the
-/// attribute.
+/// Makes a row whose `finish` makes a value of the filled struct. An error of the core becomes one
+/// at the attribute.
 template <class Object>
 ObjectType object(std::string_view name, std::vector<AttributeType> attributes,
                   Value (*finish)(Object, const ObjectSite&)) {

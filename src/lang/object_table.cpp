@@ -1,6 +1,6 @@
-// The table of objects: attributes with their defaults, and what they become. The numbers behind
-// the defaults are those of the core's structs; the texts are for the reference, and a test keeps
-// both and docs/language.md together.
+// The table of objects lists attributes with their defaults, and what they become. The numbers
+// behind the defaults are those of the core's structs. The texts are for the reference, and a test
+// compares both with docs/language.md.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -104,7 +104,7 @@ Value finish_pattern(Kind kind, const ObjectSite&) {
   return pattern;
 }
 
-/// A pattern of two colours: these, what is its own, then its size and place.
+/// Makes the row of a pattern of two colours: these, its own attributes, then its size and place.
 template <class Kind>
 ObjectType two_colors(std::string_view name, std::string_view color_a, std::string_view color_b,
                       std::vector<AttributeType> own) {
@@ -145,7 +145,7 @@ std::vector<ObjectType> patterns() {
 // ---- camera, lights, background -----------------------------------------------------------------
 
 Value finish_camera(Camera camera, const ObjectSite&) {
-  // The projection comes from Settings, which checks the camera again; spherical allows the most.
+  // The projection comes from Settings, which checks the camera again. Spherical allows the most.
   Camera widest = camera;
   widest.projection = Projection::spherical;
   validate(widest);
@@ -207,7 +207,7 @@ std::vector<ObjectType> lights() {
   };
 }
 
-/// The three kinds of background in one: which it is shows in what is given.
+/// Holds the three kinds of background in one. The given attributes decide which it is.
 struct BackgroundFields {
   std::optional<Color> color;
   std::optional<Color> horizon;

@@ -7,7 +7,8 @@ namespace crt::lang {
 
 namespace {
 
-/// "cornerA" and "corner_a" are the same field: the script's name and the core's.
+/// Removes what differs between "cornerA" and "corner_a", the script's and the core's name of a
+/// field.
 std::string without_style(std::string_view name) {
   std::string result;
   for (const char c : name) {
@@ -20,7 +21,8 @@ bool is_name_byte(char c) {
   return (c >= 'a' && c <= 'z') || (c >= '0' && c <= '9') || c == '_';
 }
 
-/// "must differ from corner_a" names another field as C++ does: that is turned into 'cornerA'.
+/// Replaces the name of another field, as in "must differ from corner_a", by the script's name
+/// 'cornerA'.
 void name_other_field(std::string& message, std::span<const Given> attributes) {
   constexpr std::string_view introduction = "must differ from ";
   const std::size_t found = message.find(introduction);

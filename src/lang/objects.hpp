@@ -1,5 +1,5 @@
-// The objects of the language: one table, a row an object. Adding a primitive is adding a row in
-// object_table.cpp.
+// The objects of the language are one table with a row for each object. Adding a primitive is
+// adding a row in object_table.cpp.
 #pragma once
 
 #include <functional>
@@ -18,18 +18,18 @@ struct Given;
 struct AttributeType {
   std::string_view name;
   bool required = false;
-  /// What it takes, as the reference says it: "Float".
+  /// Names the type that it takes as the reference does: "Float".
   std::string_view type;
-  /// As the reference says it; empty for a required one.
+  /// The default is as the reference writes it, and empty for a required attribute.
   std::string_view default_text;
-  /// The range in the script's units, where the core's own message would tell it in others:
-  /// "must be ... degrees". Empty where it does not.
+  /// States the range in the script's units, where the core's own message has others: "must be ...
+  /// degrees". Elsewhere it is empty.
   std::string_view rule;
   /// Puts a value into the C++ struct that the object becomes. Throws a Failure at the value.
   std::function<void(void* object, const Given& given, Context& context)> assign;
 };
 
-/// An attribute with its value, as it stands in a script.
+/// Given is an attribute with its value, as it stands in a script.
 struct Given {
   const AttributeType* type = nullptr;
   Span name_span;
@@ -37,7 +37,8 @@ struct Given {
   Value value;
 };
 
-/// An object as it stands in a script. Each required attribute is there, and none is there twice.
+/// An ObjectSite is an object as it stands in a script. Each required attribute is there, and none
+/// is there twice.
 struct ObjectSite {
   Context& context;
   Span name_span;
@@ -51,15 +52,15 @@ struct ObjectType {
   std::function<Value(const ObjectSite&)> build;
 };
 
-/// The row of an object, or null.
+/// Returns the row of an object, or null.
 const ObjectType* find_object_type(std::string_view name);
 
 std::span<const ObjectType> object_types();
 
-/// The place of an attribute in a row; its attributes' number if it is not there.
+/// Returns the index of an attribute in a row, or the number of attributes if it is not there.
 std::size_t find_attribute(const ObjectType& type, std::string_view name);
 
-/// Turns what the core says of a value into a Failure at the attribute that it is about.
+/// Turns the core's error about a value into a Failure at the attribute that it is about.
 [[noreturn]] void blame(const Error& error, Span otherwise, std::span<const Given> attributes);
 
 }  // namespace crt::lang

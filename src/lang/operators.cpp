@@ -131,7 +131,7 @@ Value vectors(BinaryOperator op, Span span, const Vec3& a, const Vec3& b) {
   }
 }
 
-/// Arithmetic is for the three channels. Alpha stays the left colour's, but products multiply it.
+/// Computes with the three channels. Alpha stays the left colour's, but products multiply it.
 Value colors(BinaryOperator op, Span span, const Color& a, const Color& b) {
   switch (op) {
     case BinaryOperator::add:
@@ -161,18 +161,18 @@ Value divided(const Color& c, double divisor) {
   return Color{c.r / divisor, c.g / divisor, c.b / divisor, c.a};
 }
 
-/// Vec3 or Color with a number on either side.
+/// Computes with a Vec3 or Color and a number on either side.
 template <class Triple>
 bool scale_by_number(BinaryOperator op, const Value& left, const Value& right, Value& result) {
-  double room = 0;
+  double storage = 0;
   if (const auto* triple = std::get_if<Triple>(&left)) {
-    const double* number = as_float(right, room);
+    const double* number = as_float(right, storage);
     if (!number || (op != BinaryOperator::multiply && op != BinaryOperator::divide)) return false;
     result = op == BinaryOperator::multiply ? scaled(*triple, *number) : divided(*triple, *number);
     return true;
   }
   const auto* triple = std::get_if<Triple>(&right);
-  const double* number = triple ? as_float(left, room) : nullptr;
+  const double* number = triple ? as_float(left, storage) : nullptr;
   if (!number || op != BinaryOperator::multiply) return false;
   result = scaled(*triple, *number);
   return true;
@@ -249,7 +249,7 @@ Value with_strings(Context& context, BinaryOperator op, Span span, const Value& 
   wrong_types(op, span, left, right);
 }
 
-/// Everything but two numbers.
+/// Computes with all operands but two numbers.
 Value other_types(Context& context, BinaryOperator op, Span span, const Value& left,
                   const Value& right) {
   if (std::holds_alternative<String>(left) || std::holds_alternative<String>(right))

@@ -1,4 +1,4 @@
-// What the operators of table 2.1 do with values.
+// These functions are the operators of table 2.1.
 #pragma once
 
 #include "lang/context.hpp"
@@ -7,20 +7,20 @@
 
 namespace crt::lang {
 
-/// left op right. Errors stand at the operator.
+/// Computes left op right. Errors stand at the operator.
 Value binary(Context& context, BinaryOperator op, Span op_span, const Value& left,
              const Value& right);
 
-/// The operand's span is where errors stand.
+/// Computes op operand. Errors stand at the operand's span.
 Value unary(UnaryOperator op, Span span, const Value& operand);
 
-/// base[index]: an item of a list, a component of a Vec3 or Color, a character of a string.
+/// Returns base[index]: an item of a list, a component of a Vec3 or Color, a character of a string.
 Value item(Context& context, Span index_span, const Value& base, const Value& index);
 
-/// The value as `+` joins it to a string and `str` gives it.
+/// Returns the text of a value, as `+` joins it to a string and `str` gives it.
 std::string text_of(Context& context, Span span, const Value& value);
 
-/// `==`. Values of different types are not equal, numbers aside.
+/// Computes `==`. Values of different types are not equal, except numbers.
 bool equal(Context& context, Span span, const Value& left, const Value& right);
 
 }  // namespace crt::lang

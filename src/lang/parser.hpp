@@ -1,4 +1,4 @@
-// Text to tree.
+// The parser turns text into a tree.
 #pragma once
 
 #include <cstddef>
@@ -10,9 +10,9 @@
 
 namespace crt::lang {
 
-/// Parses a source. Errors go to the reporter, and with one the tree is not to be used. Throws
-/// GiveUp when the reporter has enough or a limit is passed. `memory_left` is what the tree may
-/// hold, `compat` is that of ScriptOptions.
+/// Parses a source. Errors go to the reporter, and after one the tree must not be used. Throws
+/// GiveUp when the reporter has enough or a limit is passed. `memory_left` is the number of bytes
+/// that the tree may hold, and `compat` is that of ScriptOptions.
 Script parse(const Source& source, TextKind kind, int compat, SymbolTable& symbols,
              Reporter& reporter, std::size_t& memory_left);
 

@@ -8,7 +8,7 @@ namespace crt::lang {
 
 namespace {
 
-/// SplitMix64's mixing of bits (its constants are David Stafford's variant 13).
+/// Mixes bits as SplitMix64 does. Its constants are David Stafford's variant 13.
 std::uint64_t mix(std::uint64_t z) {
   z = (z ^ (z >> 30)) * 0xBF58476D1CE4E5B9U;
   z = (z ^ (z >> 27)) * 0x94D049BB133111EBU;
@@ -17,7 +17,7 @@ std::uint64_t mix(std::uint64_t z) {
 
 constexpr std::uint64_t golden_gamma = 0x9E3779B97F4A7C15U;
 
-/// 6 t^5 - 15 t^4 + 10 t^3: its first and second derivatives are 0 at both ends.
+/// Returns 6 t^5 - 15 t^4 + 10 t^3, whose first and second derivatives are 0 at both ends.
 double fade(double t) {
   return t * t * t * (t * (t * 6 - 15) + 10);
 }
@@ -26,8 +26,8 @@ double mix_linear(double t, double a, double b) {
   return a + t * (b - a);
 }
 
-/// The dot product of (x, y, z) with the gradient of a lattice point: one of the 12 directions from
-/// a cube's centre to the middles of its edges.
+/// Returns the dot product of (x, y, z) with the gradient of a lattice point. That is one of the 12
+/// directions from a cube's centre to the middles of its edges.
 double slope(std::uint64_t hash, double x, double y, double z) {
   constexpr std::uint64_t directions = 12;
   constexpr std::array<std::array<int, 3>, directions> gradients = {{{1, 1, 0},
@@ -74,8 +74,7 @@ double Random2015::next_float() {
 }
 
 double gradient_noise(const Vec3& point) {
-  // Every double beyond this is whole, where the noise is 0; and up to here floor() fits an
-  // integer.
+  // Every double beyond this is whole, where the noise is 0. Up to here floor() fits an integer.
   constexpr double all_are_whole = 0x1p52;
   for (int axis = 0; axis < 3; ++axis) {
     if (!(std::abs(point[axis]) < all_are_whole)) return 0;

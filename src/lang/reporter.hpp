@@ -1,4 +1,4 @@
-// Collects what there is to tell about a script, and how an error travels up to it.
+// The reporter collects the diagnostics of a script. A Failure carries an error up to it.
 #pragma once
 
 #include <cstddef>
@@ -13,37 +13,39 @@
 
 namespace crt::lang {
 
-/// An error in a running script, on its way from where it happened to the statement that gives up.
+/// A Failure is an error in a running script, which is thrown from where it happened to the
+/// statement that gives up.
 struct Failure {
   Span span;
   std::string message;
   ErrorCode code = ErrorCode::script;
-  /// The macros it passed through: name and where each was called, innermost first.
+  /// Lists the macros it passed through: name and where each was called, innermost first.
   std::vector<std::pair<std::string, Span>> calls = {};
 
-  /// Passes out of a macro that was called at `call`.
+  /// Notes that the failure leaves a macro that was called at `call`.
   void add_call(std::string_view name, Span call);
 };
 
-/// Whether there is no going on after it: a limit was passed, or the caller wants no more.
+/// Says whether the script cannot continue after it: a limit was passed, or the caller wants no
+/// more.
 inline bool ends_script(const Failure& failure) {
   return failure.code == ErrorCode::limit || failure.code == ErrorCode::cancelled;
 }
 
-/// Thrown where going on makes no sense and everything that there is to say was said.
+/// Is thrown where continuing makes no sense and everything was reported.
 struct GiveUp {};
 
-/// The diagnostics of a run, in the order they come.
+/// A Reporter holds the diagnostics of a run, in the order they come.
 class Reporter {
  public:
   Reporter(const SourceMap& sources, std::size_t most_errors)
       : sources_(sources), most_errors_(most_errors) {}
 
-  /// Throws GiveUp when there are as many errors as the caller wants to see.
+  /// Adds an error. Throws GiveUp when there are as many errors as the caller wants to see.
   void error(const Failure& failure);
   void error(Span span, std::string message, ErrorCode code = ErrorCode::script);
 
-  /// Says it once a place, and not more often than errors would be.
+  /// Adds a warning once for a place, and at most as many as errors.
   void warning(Span span, std::string message);
 
   bool has_errors() const { return error_count_ > 0; }

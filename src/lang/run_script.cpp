@@ -1,4 +1,4 @@
-// The run of a script from its text to a Scene.
+// This file runs a script from its text to a Scene.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -44,7 +44,7 @@ class Session {
     interpreter_.set_importer([this](const Import& import) { run_import(import); });
   }
 
-  /// What run_script() does but for the last resort's catch clauses.
+  /// Does what run_script() does, without its last catch clauses.
   void run(std::string_view text, const std::string& name, ScriptResult& result);
 
   std::vector<Diagnostic>& diagnostics() { return reporter_.diagnostics(); }
@@ -73,13 +73,13 @@ class Session {
   std::vector<std::pair<fs::path, std::string>>
       running_;  ///< the script and the imports within one another
   std::set<fs::path> imported_;
-  std::set<Symbol> assigned_;  ///< at the top level of any script
+  std::set<Symbol> assigned_;  ///< names set at the top level of any script
   std::vector<std::pair<Symbol, Span>> variables_;
   std::vector<Given> overrides_;
 };
 
-/// Which year's script this is: that decides how it is read, and is known before. Of numbers that
-/// are none of the settings' check tells later.
+/// Returns which year's script this is. That decides how it is read, and is known before. The check
+/// of the settings reports a number that is no such year later.
 int Session::compat_of(const Source& source) {
   if (options_.compat != 0 && options_.compat != compat_2015)
     reporter_.error({}, fmt::format("ScriptOptions::compat must be 0 or {}", compat_2015),
@@ -97,7 +97,7 @@ int Session::compat_of(const Source& source) {
   return number == compat_2015 ? compat_2015 : 0;
 }
 
-/// Parses and checks a text; null after an error.
+/// Parses and checks a text. Returns null after an error.
 const Script* Session::load(const Source& source, TextKind kind) {
   Script& script = scripts_.emplace_back(
       parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
@@ -157,11 +157,12 @@ void Session::run_import(const Import& import) {
   const auto cycle = std::find_if(running_.begin(), running_.end(),
                                   [&](const auto& running) { return running.first == found.path; });
   if (cycle != running_.end()) {
-    std::string way;
+    std::string chain;
     for (auto script = cycle; script != running_.end(); ++script)
-      way += printable(script->second) + " imports ";
-    throw Failure{.span = span,
-                  .message = fmt::format("scripts import one another: {}{}", way, printable(name))};
+      chain += printable(script->second) + " imports ";
+    throw Failure{
+        .span = span,
+        .message = fmt::format("scripts import one another: {}{}", chain, printable(name))};
   }
   if (!imported_.insert(found.path).second) return;
   const std::size_t left =
@@ -169,7 +170,7 @@ void Session::run_import(const Import& import) {
   const Source& source =
       sources_.add(name, context_.files.read_text(found, left, span), found.shown.parent_path());
   const Script* script = load(source, TextKind::script);
-  // Without these definitions the rest would only give errors that are none.
+  // Without these definitions the rest would only give false errors.
   if (!script) throw GiveUp{};
   collect_assigned(script->statements, assigned_);
   running_.emplace_back(found.path, name);
@@ -180,7 +181,7 @@ void Session::run_import(const Import& import) {
 // ---- what is set from outside
 // ---------------------------------------------------------------------
 
-/// Evaluates the expression of an option such as <set n>. False after an error.
+/// Evaluates the expression of an option such as <set n>. Returns false after an error.
 bool Session::evaluate_override(std::string_view option,
                                 const std::pair<std::string, std::string>& setting, Given& given) {
   const auto& [name, text] = setting;
@@ -239,7 +240,8 @@ void Session::take_settings() {
   }
 }
 
-/// A variable that no script ever sets is a slip of whoever set it from outside.
+/// Reports variables that were set from outside and that no script ever sets, as these are
+/// mistakes.
 void Session::refuse_unknown_variables() {
   std::vector<std::string_view> names;
   for (const Symbol symbol : assigned_) names.push_back(symbols_.name(symbol));
@@ -282,7 +284,7 @@ ScriptResult run_script(std::string_view text, const std::string& name,
     try {
       session.run(text, name, result);
     } catch (const lang::GiveUp&) {
-      // All there is to say was said.
+      // Everything was reported already.
     }
     result.diagnostics = std::move(session.diagnostics());
   } catch (const std::bad_alloc&) {

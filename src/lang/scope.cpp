@@ -4,7 +4,7 @@ namespace crt::lang {
 
 namespace {
 
-/// Up to so many variables looking at each beats hashing.
+/// Up to so many variables a linear search beats hashing.
 constexpr std::size_t few = 12;
 
 }  // namespace

@@ -1,4 +1,4 @@
-// Variables: names bound to values, in scopes that lie in one another.
+// Variables are names bound to values, in scopes that lie in one another.
 #pragma once
 
 #include <memory>
@@ -20,11 +20,11 @@ class Scope {
 
   Scope(Kind kind, std::shared_ptr<Scope> parent) : kind_(kind), parent_(std::move(parent)) {}
 
-  /// The value of a name, from here outwards; null if there is none.
+  /// Returns the value of a name, from here outwards, or null if there is none.
   const Value* find(Symbol name) const;
 
-  /// The scope that an assignment to `name` changes: the nearest up to the border that has it, else
-  /// this.
+  /// Returns the scope that an assignment to `name` changes: the nearest up to the border that has
+  /// it, else this.
   Scope& target_of(Symbol name);
 
   /// Binds the name in this very scope.
@@ -35,7 +35,7 @@ class Scope {
   /// Forgets all names, for another round of a loop.
   void clear();
 
-  /// Whether a macro made here may still need it, so that it may not be used again.
+  /// Says whether a macro made here may still need it, so that it must not be used again.
   bool is_captured() const { return captured_; }
   void set_captured() { captured_ = true; }
 
@@ -50,7 +50,7 @@ class Scope {
   bool captured_ = false;
   std::shared_ptr<Scope> parent_;
   std::vector<std::pair<Symbol, Value>> variables_;
-  /// Places in variables_, once there are too many of them to look at each.
+  /// Maps names to places in variables_, once there are too many for a linear search.
   std::unique_ptr<std::unordered_map<Symbol, std::size_t>> index_;
 };
 

@@ -8,7 +8,7 @@ namespace crt::lang {
 
 namespace {
 
-/// What a Settings block can set: the settings themselves, and what else of the scene is not
+/// Holds what a Settings block can set: the settings themselves, and what else of the scene is not
 /// geometry.
 struct SettingsFields : Settings {
   std::optional<Projection> projection;
@@ -56,7 +56,8 @@ ObjectType make_settings_type() {
           .build = {}};
 }
 
-/// The options decide, or else what was read before anything ran: the script cannot compute it.
+/// Sets compat from the options, or else from what was read before anything ran, as the script
+/// cannot compute it.
 void settle_compat(const Context& context, const std::vector<Given>& attributes,
                    Settings& settings) {
   if (context.options.compat != 0) settings.compat = context.options.compat;
@@ -93,7 +94,7 @@ void apply_settings(Context& context, Span block, const std::vector<Given>& attr
   try {
     validate(scene.camera);
   } catch (const Error& error) {
-    // Alone the camera was right: what it lacks is agreement with the projection.
+    // The camera was right by itself, but does not fit the projection.
     Span span = block;
     for (const Given& given : attributes) {
       if (given.type->name == "camera") span = given.value_span;

@@ -1,4 +1,4 @@
-// The Settings block: its attributes, and what of the scene they set.
+// The Settings block has attributes that set a part of the scene.
 #pragma once
 
 #include <vector>
@@ -8,10 +8,10 @@
 
 namespace crt::lang {
 
-/// The row of Settings. It builds no value: see apply_settings().
+/// Returns the row of Settings. It builds no value: see apply_settings().
 const ObjectType& settings_type();
 
-/// Fills in what the attributes set, checked; `block` is where the Settings stand.
+/// Checks and fills in what the attributes set. `block` is where the Settings stand.
 void apply_settings(Context& context, Span block, const std::vector<Given>& attributes,
                     Scene& scene);
 

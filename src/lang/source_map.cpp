@@ -10,7 +10,7 @@ namespace crt::lang {
 
 namespace {
 
-/// Of a line that is kept for a message.
+/// A line that is kept for a message has at most this length.
 constexpr std::size_t longest_line_bytes = 4096;
 
 std::vector<std::uint32_t> find_lines(std::string_view text) {
@@ -24,7 +24,7 @@ std::vector<std::uint32_t> find_lines(std::string_view text) {
   return starts;
 }
 
-/// The number of the line, from 0, that holds the offset.
+/// Returns the number of the line, from 0, that holds the offset.
 std::size_t line_of(const Source& source, std::uint32_t offset) {
   const auto after = std::upper_bound(source.line_starts.begin(), source.line_starts.end(), offset);
   return static_cast<std::size_t>(after - source.line_starts.begin()) - 1;
@@ -49,7 +49,7 @@ const Source& SourceMap::add(std::string name, std::string text, std::filesystem
   source.directory = std::move(directory);
   source.base = next_base_;
   source.line_starts = find_lines(source.text);
-  // One more than the text is long: its end is a place too.
+  // The text takes one more than its length, as its end is a place too.
   next_base_ += static_cast<std::uint32_t>(source.text.size()) + 1;
   return source;
 }

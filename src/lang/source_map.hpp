@@ -1,5 +1,5 @@
-// The texts of a run: the script, its imports and the overrides. All of them share one row of
-// offsets, so that a place in any of them is a pair of numbers.
+// A SourceMap holds the texts of a run: the script, its imports and the overrides. All of them
+// share one range of offsets, so that a place in any of them is a pair of numbers.
 #pragma once
 
 #include <cstddef>
@@ -14,7 +14,7 @@
 
 namespace crt::lang {
 
-/// A piece of source text, [begin, end), in offsets of the SourceMap.
+/// A Span is a piece of source text, [begin, end), in offsets of the SourceMap.
 struct Span {
   std::uint32_t begin = 0;
   std::uint32_t end = 0;
@@ -22,11 +22,11 @@ struct Span {
   friend bool operator==(const Span&, const Span&) = default;
 };
 
-/// What a text is meant to be.
+/// Says what a text is meant to be.
 enum class TextKind { script, expression };
 
 struct Source {
-  std::string name;  ///< as messages call it
+  std::string name;  ///< its name in messages
   std::string text;  ///< std::string keeps a NUL behind its end, which the lexer relies on
   std::filesystem::path directory;  ///< where its files are looked for
   std::uint32_t base = 0;
@@ -35,22 +35,21 @@ struct Source {
 
 class SourceMap {
  public:
-  /// Offsets are 32 bits wide; what the limits allow is cut down to this.
+  /// Offsets are 32 bits wide. What the limits allow is cut down to this.
   static constexpr std::size_t most_bytes = std::size_t{1} << 30;
 
-  /// Takes a text in. The reference stays good.
+  /// Adds a text. The reference stays valid.
   const Source& add(std::string name, std::string text, std::filesystem::path directory = {});
 
-  /// Bytes of all texts together.
+  /// Returns the bytes of all texts together.
   std::size_t size() const { return next_base_; }
 
   SourcePlace place(Span span) const;
 
-  /// The line on which `span` begins, without its end; cut off where it is longer than anybody
-  /// reads.
+  /// Returns the line on which `span` begins, without its end. A very long line is cut off.
   std::string line_text(Span span) const;
 
-  /// The source that a place is in. There is at least one.
+  /// Returns the source that a place is in. There is at least one.
   const Source& source_of(Span span) const;
 
  private:

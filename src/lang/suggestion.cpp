@@ -8,15 +8,15 @@ namespace crt::lang {
 namespace {
 
 constexpr std::size_t longest_word = 64;
-/// A script may have millions of names; of so many the first will do.
+/// A script may have millions of names, of which only the first so many are tried.
 constexpr std::size_t most_candidates = 10'000;
 
 char lower(char c) {
   return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Edits between two words: a letter put in, left out, replaced, or two neighbours swapped (the
-/// "optimal string alignment" distance). Upper and lower case differ by nothing.
+/// Counts the edits between two words: a letter put in, left out, replaced, or two neighbours
+/// swapped (the "optimal string alignment" distance). Upper and lower case count as equal.
 std::size_t distance(std::string_view a, std::string_view b) {
   std::vector<std::size_t> before_last(b.size() + 1);
   std::vector<std::size_t> last(b.size() + 1);
@@ -42,7 +42,7 @@ std::size_t distance(std::string_view a, std::string_view b) {
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates) {
   if (word.size() > longest_word) return {};
   std::string_view best;
-  // A third of the letters may be wrong; of one or two letters only the case.
+  // A third of the letters may be wrong. In words of one or two letters only the case may be.
   std::size_t best_distance = word.size() / 3 + 1;
   for (std::size_t i = 0; i < std::min(candidates.size(), most_candidates); ++i) {
     const std::string_view candidate = candidates[i];

@@ -1,4 +1,4 @@
-// "Did you mean ...?"
+// These functions make messages such as "did you mean ...?"
 #pragma once
 
 #include <string>
@@ -7,14 +7,14 @@
 
 namespace crt::lang {
 
-/// The candidate that a typist most likely meant by `word`; empty if none is near. Ties go to the
-/// first.
+/// Returns the candidate that a typist most likely meant by `word`, or an empty text if none is
+/// near. Among equals it is the first.
 std::string_view nearest(std::string_view word, const std::vector<std::string_view>& candidates);
 
-/// "; did you mean 'radius'?", or nothing.
+/// Returns "; did you mean 'radius'?", or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
 
-/// "a", "a or b", "a, b or c".
+/// Returns "a", "a or b" or "a, b or c".
 std::string enumerate(const std::vector<std::string>& items, std::string_view last_joint = "or");
 
 }  // namespace crt::lang

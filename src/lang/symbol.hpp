@@ -1,4 +1,4 @@
-// Names as numbers: two names are equal if their symbols are.
+// A symbol is a name as a number: two names are equal if their symbols are.
 #pragma once
 
 #include <cstdint>
@@ -23,7 +23,7 @@ class SymbolTable {
   std::string_view name(Symbol symbol) const { return names_[static_cast<std::size_t>(symbol)]; }
 
  private:
-  std::deque<std::string> names_;  // a deque, so that the views in the map stay good
+  std::deque<std::string> names_;  // a deque, so that the views in the map stay valid
   std::unordered_map<std::string_view, Symbol> symbols_;
 };
 

@@ -1,6 +1,6 @@
-// The syntax tree. Expressions lie in one row, the Script's, and point at one another, so a tree of
-// any shape is freed without recursion. Chains of left-associative operators are one node with many
-// operands; what remains to nest is bounded by max_nesting.
+// This is the syntax tree. The expressions lie in one array of the Script and point at one another,
+// so a tree of any shape is freed without recursion. Chains of left-associative operators are one
+// node with many operands. max_nesting bounds the nesting that remains.
 #pragma once
 
 #include <algorithm>
@@ -20,16 +20,16 @@ struct Expression;
 struct Statement;
 struct ObjectType;
 
-/// Expressions, blocks and brackets within one another.
+/// Expressions, blocks and brackets nest at most this deep.
 constexpr int max_nesting = 200;
 
-/// Statements in braces.
+/// A Block is statements in braces.
 struct Block {
   std::vector<Statement> statements;
   int height = 0;
 };
 
-/// A name where it is written.
+/// A NamePlace is a name where it is written.
 struct NamePlace {
   Symbol symbol{};
   Span span;
@@ -37,50 +37,50 @@ struct NamePlace {
 
 // ---- expressions, by their rule numbers in the grammar --------------------------------------
 
-/// (23) A number, string or Boolean.
+/// A Literal is a number, string or Boolean (rule 23).
 struct Literal {
   Value value;
 };
 
-/// (24) A variable, constant, macro or built-in.
+/// A Name is that of a variable, constant, macro or built-in (rule 24).
 struct Name {
   Symbol symbol{};
 };
 
-/// (29) name -> value
+/// An AttributeSyntax is name -> value (rule 29).
 struct AttributeSyntax {
   NamePlace name;
   const Expression* value = nullptr;
-  /// Its number in the object's table of attributes; set by the check.
+  /// The check sets its index in the object's table of attributes.
   std::size_t index = 0;
 };
 
-/// (25) Name { attributes }
+/// An ObjectLiteral is Name { attributes } (rule 25).
 struct ObjectLiteral {
   NamePlace name;
   std::vector<AttributeSyntax> attributes;
-  /// Set by the check.
+  /// The check sets the type.
   const ObjectType* type = nullptr;
 };
 
-/// (26) Macro (parameters) { body }
+/// A MacroLiteral is Macro (parameters) { body } (rule 26).
 struct MacroLiteral {
   std::vector<NamePlace> parameters;
   Block body;
 };
 
-/// (8) [a, b, c]
+/// A ListLiteral is [a, b, c] (rule 8).
 struct ListLiteral {
   std::vector<const Expression*> items;
 };
 
-/// (9) base[index]
+/// An Index is base[index] (rule 9).
 struct Index {
   const Expression* base = nullptr;
   const Expression* index = nullptr;
 };
 
-/// (10) callee(arguments)
+/// A Call is callee(arguments) (rule 10).
 struct Call {
   const Expression* callee = nullptr;
   std::vector<const Expression*> arguments;
@@ -88,13 +88,13 @@ struct Call {
 
 enum class ModifierKind { scale, translate, rotate };
 
-/// (30) to (32)
+/// A Modifier is scale, translate or rotate with its operand (rules 30 to 32).
 struct Modifier {
   ModifierKind kind = ModifierKind::scale;
   const Expression* operand = nullptr;
 };
 
-/// (11) base <modifiers>
+/// Modified is base <modifiers> (rule 11).
 struct Modified {
   const Expression* base = nullptr;
   std::vector<Modifier> modifiers;
@@ -102,7 +102,7 @@ struct Modified {
 
 enum class UnaryOperator { plus, minus, negation };
 
-/// (12), (13)
+/// Unary is an operator before its operand (rules 12 and 13).
 struct Unary {
   UnaryOperator op = UnaryOperator::plus;
   const Expression* operand = nullptr;
@@ -129,7 +129,7 @@ struct ChainLink {
   const Expression* operand = nullptr;
 };
 
-/// (14) to (16) first op operand op operand ..., from the left.
+/// A Chain is first op operand op operand ..., from the left (rules 14 to 16).
 struct Chain {
   const Expression* first = nullptr;
   std::vector<ChainLink> links;
@@ -137,20 +137,20 @@ struct Chain {
 
 enum class LogicalOperator { conjunction, disjunction };
 
-/// (17), (18) a && b && c, or a || b || c.
+/// Logical is a && b && c, or a || b || c (rules 17 and 18).
 struct Logical {
   LogicalOperator op = LogicalOperator::conjunction;
   std::vector<const Expression*> operands;
 };
 
-/// (19) condition ? yes : no
+/// A Conditional is condition ? yes : no (rule 19).
 struct Conditional {
   const Expression* condition = nullptr;
   const Expression* yes = nullptr;
   const Expression* no = nullptr;
 };
 
-/// (20) name = value
+/// An Assignment is name = value (rule 20).
 struct Assignment {
   NamePlace name;
   const Expression* value = nullptr;
@@ -162,7 +162,7 @@ using ExpressionNode = std::variant<Literal, Name, ObjectLiteral, MacroLiteral, 
 struct Expression {
   Span span;
   ExpressionNode node;
-  /// Levels below it, blocks included; at most max_nesting.
+  /// Counts the levels below it, blocks included. It is at most max_nesting.
   int height = 0;
 };
 
@@ -178,7 +178,7 @@ struct While {
   Block body;
 };
 
-/// if, any number of else if, and else (whose condition is null).
+/// An If has one branch for if, any number for else if, and one for else (whose condition is null).
 struct If {
   struct Branch {
     const Expression* condition = nullptr;
@@ -215,11 +215,11 @@ struct Statement {
   int height = 0;
 };
 
-/// A parsed text.
+/// A Script is a parsed text.
 struct Script {
   std::deque<Expression> expressions;
   Block statements;
-  /// Of a text that is one expression.
+  /// This is set for a text that is one expression.
   const Expression* expression = nullptr;
 };
 

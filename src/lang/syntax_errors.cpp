@@ -1,4 +1,4 @@
-// Syntax errors in the words of a user.
+// This file puts syntax errors into the words of a user.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -107,8 +107,8 @@ std::string TreeBuilder::describe_found(Span place, const std::string& found) co
   return "'" + text + "'";
 }
 
-/// Whether `place` is on a later line than the last syntax error. What else is wrong on the same
-/// line mostly follows from the first error.
+/// Says whether `place` is on a later line than the last syntax error. Other errors on the same
+/// line mostly follow from the first.
 bool TreeBuilder::is_past_error(Span place) const {
   return !last_error_line_end_ || place.begin > *last_error_line_end_;
 }

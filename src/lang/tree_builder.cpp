@@ -94,8 +94,8 @@ int height_of_node(const Statement& statement) {
 }  // namespace
 
 void TreeBuilder::charge_source(std::size_t bytes) {
-  // What a byte of text costs at most besides the tree's nodes: different names, as short as can
-  // be.
+  // A byte of text costs at most this much memory besides the tree's nodes: with different names,
+  // as short as can be.
   constexpr std::size_t memory_of_a_byte = 24;
   charge(bytes * memory_of_a_byte, lexer_.start());
 }
@@ -134,8 +134,8 @@ Expression* TreeBuilder::expression(Span span, ExpressionNode node) {
 
 Expression* TreeBuilder::chain(Expression* left, BinaryOperator op, Span op_span,
                                const Expression* right) {
-  // A chain is worked off from the left whatever its operators are, so that a * b + c goes on where
-  // a * b ends; an operand on the right that binds tighter is a chain of its own.
+  // A chain is evaluated from the left whatever its operators are, so that a * b + c continues
+  // where a * b ends. An operand on the right that binds tighter is a chain of its own.
   const Span span{left->span.begin, right->span.end};
   if (!std::holds_alternative<Chain>(left->node)) left = expression(span, Chain{left, {}});
   charge(sizeof(ChainLink), span);
@@ -150,7 +150,7 @@ Expression* TreeBuilder::logical(LogicalOperator op, Expression* left, const Exp
   const Span span{left->span.begin, right->span.end};
   const auto* same = std::get_if<Logical>(&left->node);
   if (!same || same->op != op) left = expression(span, Logical{op, {left}});
-  charge(sizeof(right), span);  // NOLINT(bugprone-sizeof-expression): room for one pointer more
+  charge(sizeof(right), span);  // NOLINT(bugprone-sizeof-expression): the size of a pointer
   check_height(right->span, height_of(right));
   std::get<Logical>(left->node).operands.push_back(right);
   left->span = span;

@@ -1,5 +1,5 @@
-// What the grammar's actions do: builds the tree's nodes, bounds their nesting and number, and puts
-// syntax errors into words.
+// The grammar's actions call this. It builds the tree's nodes, bounds their nesting and number, and
+// puts syntax errors into words.
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@ namespace crt::lang {
 
 class TreeBuilder {
  public:
-  /// `memory_left` is what the tree may hold; it shrinks.
+  /// `memory_left` is the number of bytes that the tree may still hold. It shrinks.
   TreeBuilder(const Lexer& lexer, Reporter& reporter, std::size_t& memory_left)
       : lexer_(lexer), reporter_(reporter), memory_left_(memory_left) {}
 
   /// Pays for the names in a text of so many bytes.
   void charge_source(std::size_t bytes);
 
-  /// The finished tree.
+  /// Returns the finished tree.
   Script take() { return std::move(script_); }
 
-  // What follows is for the grammar.
+  // The following functions are for the grammar.
 
   /// Opens something that can hold itself, at `place`.
   Nesting enter(Span place);

@@ -12,7 +12,7 @@ namespace {
 constexpr char32_t replacement_character = 0xFFFD;
 constexpr char32_t delete_character = 0x7F;
 
-/// Lead bytes by the length of their sequence, with the payload bits of each.
+/// Returns the length of the sequence that a lead byte begins.
 int sequence_length(unsigned char lead) {
   if (lead < 0x80) return 1;
   if (lead >= 0xC2 && lead <= 0xDF) return 2;
@@ -75,8 +75,8 @@ void append_utf8(std::string& text, char32_t code_point) {
 std::size_t count_code_points(std::string_view text) {
   std::size_t count = 0;
   for (std::size_t position = 0; position < text.size(); ++count) {
-    // Eight bytes at a time as long as they are ASCII: lines can be long, and are counted again and
-    // again.
+    // This counts eight bytes at a time as long as they are ASCII. Lines can be long, and are
+    // counted again and again.
     for (; text.size() - position >= sizeof(std::uint64_t); position += sizeof(std::uint64_t)) {
       constexpr std::uint64_t high_bits = 0x8080808080808080U;
       std::uint64_t bytes = 0;

@@ -27,7 +27,7 @@ std::string type_with_article(const Value& value) {
 }
 
 std::string float_text(double number) {
-  // Which sign a NaN has is up to the machine.
+  // The sign of a NaN depends on the machine.
   return std::isnan(number) ? "nan" : fmt::format("{}", number);
 }
 

@@ -1,4 +1,4 @@
-// What a script computes with: immutable values, shared and not copied where they are large.
+// A script computes with immutable values, which are shared and not copied where they are large.
 #pragma once
 
 #include <cstddef>
@@ -25,11 +25,11 @@ struct StringValue;
 struct ListValue;
 struct MacroValue;
 
-/// What a call without a value gives, such as that of `print`.
+/// Nothing is what a call without a value gives, such as that of `print`.
 struct Nothing {};
 
-/// What a variable holds when the statement that should have set it failed; using it is no further
-/// error.
+/// Unknown is what a variable holds when the statement that should have set it failed. Using it is
+/// no further error.
 struct Unknown {};
 
 using String = std::shared_ptr<const StringValue>;
@@ -42,7 +42,7 @@ using Value = std::variant<Nothing, Unknown, std::int64_t, double, bool, Vec3, C
                            std::shared_ptr<const Pattern>, std::shared_ptr<const Light>,
                            std::shared_ptr<const Camera>, std::shared_ptr<const Background>>;
 
-/// Memory that a value holds, given back to where it is counted when the value goes.
+/// A Charge is memory that a value holds. It is given back to its counter when the value goes.
 class Charge {
  public:
   Charge() = default;
@@ -70,36 +70,37 @@ struct StringValue {
 
 struct ListValue {
   std::vector<Value> items;
-  /// Lists within lists: 1 for a flat one.
+  /// The depth counts lists within lists: 1 for a flat one.
   int depth = 1;
   Charge charge = {};
 };
 
-/// A macro and the scope that it was made in.
+/// A MacroValue is a macro and the scope that it was made in.
 struct MacroValue {
   const MacroLiteral* literal = nullptr;
   std::shared_ptr<Scope> scope;
 };
 
-/// "Integer", "Vec3", ...
+/// Returns "Integer", "Vec3", ...
 std::string_view type_name(const Value& value);
 
-/// The same with its article: "an Integer".
+/// Returns the name with its article: "an Integer".
 std::string type_with_article(const Value& value);
 
-/// "a" or "an", as the word wants it.
+/// Returns "a" or "an", as the word needs.
 std::string_view article(std::string_view word);
 
-/// A number as a Float; nothing else has one.
-inline const double* as_float(const Value& value, double& room) {
+/// Returns a number as a Float, or null for any other value. An Integer is converted into
+/// `storage`.
+inline const double* as_float(const Value& value, double& storage) {
   if (const auto* number = std::get_if<double>(&value)) return number;
   const auto* integer = std::get_if<std::int64_t>(&value);
   if (!integer) return nullptr;
-  room = static_cast<double>(*integer);
-  return &room;
+  storage = static_cast<double>(*integer);
+  return &storage;
 }
 
-/// A Float as text: the shortest that reads as the same number ("2" for 2.0).
+/// Returns a Float as text: the shortest that reads as the same number ("2" for 2.0).
 std::string float_text(double number);
 
 }  // namespace crt::lang

@@ -1,4 +1,4 @@
-// Looking into values: as text, for equality, and by index.
+// This file looks into values: as text, for equality, and by index.
 #include <fmt/format.h>
 
 #include <iterator>
@@ -48,7 +48,7 @@ class Writer {
                      : fmt::format("rgba({}, {})", channels, float_text(color.a)));
   }
 
-  /// Within a list a string stands in quotes, so that ["a, b"] and ["a", "b"] look different.
+  /// Writes a string, within a list in quotes, so that ["a, b"] and ["a", "b"] look different.
   void write_string(const std::string& text, bool quoted) {
     if (!quoted) return put(text);
     put("\"");
@@ -79,7 +79,7 @@ bool equal_lists(Context& context, Span span, const ListValue& a, const ListValu
   return true;
 }
 
-/// Of everything else two values are equal if they are one and the same.
+/// Any other two values are equal if they are one and the same.
 struct Identity {
   const void* operator()(const Nothing&) const { return nullptr; }
   const void* operator()(const Builtin* builtin) const { return builtin; }

@@ -1,4 +1,4 @@
-# What the tests of the interface share. They get, from CTest, in the environment:
+# The tests of the interface share this. They get these from CTest, in the environment:
 #   SOURCE    CRT's source
 #   LIBRARY   libcrt.so, as built
 #   WORK      a folder of the test's own
@@ -10,7 +10,7 @@ source "$SOURCE/tests/support/shell.sh"
 
 header=$SOURCE/include/crt/crt.h
 
-# exported_functions: the names, sorted.
+# exported_functions prints the names, sorted.
 exported_functions() {
   nm -D --defined-only "$LIBRARY" | awk '$2 == "T" { sub(/@.*/, "", $3); print $3 }' | sort
 }

@@ -1,16 +1,17 @@
 #!/usr/bin/env bash
-# crt.h compiles on its own, strictly, as each C and C++ that it is for, by each compiler that is there.
+# crt.h compiles on its own, strictly, as each C and C++ that it is for, by each installed compiler.
 # shellcheck source=tests/abi/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 printf '#include <crt/crt.h>\n#include <crt/crt.h>\nint main(void) { return CRT_OK; }\n' >alone.c
 cp alone.c alone.cpp
-strict=(-pedantic-errors -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only -I "$SOURCE/include")
+strict=(-pedantic-errors -Wall -Wextra -Wconversion -Wshadow -Werror -fsyntax-only
+  -I "$SOURCE/include")
 
 compilations=0
 declare -A tried=()
 
-# compile_as SOURCE COMPILER STANDARD...: passes over a compiler that is not there or had its turn.
+# compile_as SOURCE COMPILER STANDARD... skips a compiler that is not installed or had its turn.
 compile_as() {
   local compiler standard
   compiler=$(command -v "$2") || return 0

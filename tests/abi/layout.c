@@ -1,6 +1,6 @@
-// The layout of what crt.h declares, on every machine where pointers and size_t have 64 bits:
-// written down once, and never to change. A version that appends a field adds its line here and
-// corrects the size.
+// This is the layout of what crt.h declares, on every machine where pointers and size_t have 64
+// bits. It is written down once, and never changes. A version that appends a field adds its line
+// here and corrects the size.
 #include <crt/crt.h>
 #include <stdio.h>
 #include <string.h>
@@ -306,7 +306,7 @@ VALUE(CRT_AOV_ERROR, 32);
 VALUE(CRT_HIT_ENTERING, 1);
 VALUE(CRT_HIT_BACKFACE, 2);
 
-// The library must have the same opinion: where its defaults end up, in bytes.
+// The library must agree on where its defaults end, in bytes.
 static int failures = 0;
 
 static void expect_double(const char* what, const void* bytes, size_t place, double expected) {

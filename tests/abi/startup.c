@@ -1,4 +1,5 @@
-// What a program pays for libcrt before it renders: no thread, and no library for image files.
+// A program pays little for libcrt before it renders: no thread starts, and no library for image
+// files is loaded.
 #include <crt/crt.h>
 #include <dirent.h>
 #include <stdio.h>
@@ -6,7 +7,7 @@
 
 static int failures = 0;
 
-// 1 if a file of this name is mapped into the program.
+// Returns 1 if a file of this name is mapped into the program.
 static int is_mapped(const char* name) {
   char line[4096];
   int found = 0;

@@ -1,4 +1,4 @@
-// Writing files: what they replace, and what they leave as it is.
+// These tests write files, and check what is replaced and what stays as it is.
 #include <doctest/doctest.h>
 #include <fcntl.h>
 #include <sys/stat.h>
@@ -43,7 +43,7 @@ mode_t permissions_of(const fs::path& path) {
   return status_of(path).st_mode & all;
 }
 
-/// What write_file() and check_writable() say; "" if both go well.
+/// Returns the message of write_file() and check_writable(), or "" if both succeed.
 std::string failure(const fs::path& path) {
   std::string of_writing;
   std::string of_check;
@@ -63,7 +63,7 @@ std::string failure(const fs::path& path) {
   return of_writing;
 }
 
-/// Whether `works` says so in a process of a user who is not root, and with this umask.
+/// Says whether `works` returns true in a process of a user who is not root, and with this umask.
 bool as_common_user(const std::function<bool()>& works, mode_t mask = 022) {
   const pid_t child = fork();
   if (child == 0) {
@@ -83,7 +83,7 @@ bool as_common_user(const std::function<bool()>& works, mode_t mask = 022) {
   return WIFEXITED(status) && WEXITSTATUS(status) == 0;
 }
 
-/// Reads a pipe to its end on a thread of its own.
+/// A Reader reads a pipe to its end on a thread of its own.
 class Reader {
  public:
   explicit Reader(const fs::path& pipe) : thread_([this, pipe] { read_ = content_of(pipe); }) {}
@@ -106,7 +106,8 @@ TEST_CASE("a file is replaced at once, and nothing else is left") {
   write_file(folder / "a", "second, longer");
   CHECK(content_of(folder / "a") == "second, longer");
   std::array<char, 16> still{};
-  CHECK(read(old, still.data(), still.size()) == 5);  // who has the old one open sees it whole
+  CHECK(read(old, still.data(), still.size()) ==
+        5);  // a reader that has the old file open sees it whole
   close(old);
   CHECK(folder.entries() == 1);
 }
@@ -225,7 +226,7 @@ TEST_CASE("a device is written to and stays one") {
   const TemporaryDirectory folder;
   const fs::path null = folder / "null";
   const fs::path full = folder / "full";
-  // Never those of the machine: a fault here would replace them.
+  // This never uses the machine's own devices, which a fault here would replace.
   if (mknod(null.c_str(), S_IFCHR | 0666, makedev(1, 3)) != 0 ||
       mknod(full.c_str(), S_IFCHR | 0666, makedev(1, 7)) != 0) {
     MESSAGE("this user may make no devices");

@@ -10,7 +10,7 @@ namespace {
 
 constexpr unsigned no_id = RTC_INVALID_GEOMETRY_ID;
 
-/// Embree 3 takes a context, Embree 4 arguments that hold one.
+/// A Call holds what Embree 3 takes as a context, and Embree 4 as arguments that hold one.
 struct Call {
 #if RTC_VERSION_MAJOR >= 4
   RTCIntersectArguments intersect;
@@ -144,7 +144,7 @@ class BareEmbree::World {
     }
   }
 
-  /// Whether t is to be taken from our own ray, which has all its digits, and not from Embree's.
+  /// Says whether t comes from our own ray, which has all its digits, and not from Embree's.
   bool has_callbacks() const {
     return stand_ == Stand::double_callback || stand_ == Stand::float_callback;
   }
@@ -192,7 +192,7 @@ class BareEmbree::World {
     return geometry;
   }
 
-  /// One in each ball's middle, across the z axis, with corners on the ball.
+  /// Makes one triangle in each ball's middle, across the z axis, with corners on the ball.
   RTCGeometry triangles(std::span<const Ball> balls) {
     const RTCGeometry geometry = rtcNewGeometry(device_, RTC_GEOMETRY_TYPE_TRIANGLE);
     auto* vertices = static_cast<float*>(

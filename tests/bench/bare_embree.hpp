@@ -1,5 +1,4 @@
-// The least that one must write to ask Embree for spheres: what our own queries are measured
-// against.
+// This is the least code that asks Embree for spheres. Our own queries are measured against it.
 #pragma once
 
 #include <cstdint>
@@ -11,10 +10,10 @@
 
 namespace crt::bench {
 
-/// What stands for the spheres.
+/// Says what stands for the spheres.
 enum class Stand {
   double_callback,  ///< user geometry, the sphere's equation in double
-  float_callback,   ///< the same in float
+  float_callback,   ///< user geometry, the sphere's equation in float
   sphere_point,     ///< RTC_GEOMETRY_TYPE_SPHERE_POINT, Embree's own
   triangles,        ///< one triangle in each sphere's place
 };
@@ -33,12 +32,12 @@ class BareEmbree {
   BareEmbree(BareEmbree&&) noexcept;
   BareEmbree& operator=(BareEmbree&&) noexcept;
 
-  /// The nearest hit of each ray by rtcIntersect1, or by rtcIntersect16 for 16 at a time.
+  /// Finds the nearest hit of each ray by rtcIntersect1, or by rtcIntersect16 for 16 at a time.
   void intersect_one_by_one(std::span<const crt_ray> rays, Flow flow,
                             std::span<Answer> answers) const;
   void intersect_packets(std::span<const crt_ray> rays, Flow flow, std::span<Answer> answers) const;
 
-  /// Whether a ray hits anything, by rtcOccluded1 and rtcOccluded16.
+  /// Asks whether a ray hits anything, by rtcOccluded1 and rtcOccluded16.
   void occluded_one_by_one(std::span<const crt_ray> rays, Flow flow,
                            std::span<std::uint8_t> answers) const;
   void occluded_packets(std::span<const crt_ray> rays, Flow flow,

@@ -1,5 +1,5 @@
-// How the time of a ray grows with the scene, on one thread. Writes JSON: for each curve and N the
-// seconds that preparing took, and in each round those of following the rays.
+// Measures how the time of a ray grows with the scene, on one thread. Writes JSON: for each curve
+// and N the seconds that preparing took, and in each round those of following the rays.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,7 +22,7 @@ struct Curve {
   const char* about;
   std::function<Scene(int n)> scene;
   int largest;  ///< N
-  int side;     ///< of the picture, pixels
+  int side;     ///< of the picture, in pixels
 };
 
 constexpr int quick_largest = 10'000;
@@ -46,7 +46,8 @@ Scene sparse_union(int n) {
   return seen_from({3, 6, -11}, csg_union(balls));
 }
 
-/// The centres of n places in rows on the front of a plate of 8 x 8, and how wide a place is.
+/// Places are the centres of n places in rows on the front of a plate of 8 x 8, with the width of a
+/// place.
 struct Places {
   std::vector<Vec3> centers;
   double width;
@@ -71,8 +72,8 @@ Scene plate_of_holes(int n) {
   return seen_from({1, 2, -11}, csg_difference(plate, cutters));
 }
 
-/// Seen from the middle of n balls, all cut out of a box: a ray leaves all of them before it meets
-/// the box.
+/// Puts the camera into the middle of n balls, all cut out of a box. A ray leaves all of them
+/// before it meets the box.
 Scene nested_shells(int n) {
   std::vector<Entity> cutters;
   for (int i = 0; i < n; ++i) cutters.push_back(ball({0, 0, 0}, 1 + 2.0 * (i + 1) / n));
@@ -80,7 +81,7 @@ Scene nested_shells(int n) {
                    csg_difference(Box{.corner_a = Vec3(-4), .corner_b = Vec3(4)}, cutters));
 }
 
-/// Each ray passes all holes, which overlap, before it is out of them.
+/// Makes holes that overlap. Each ray passes all of them before it is outside.
 Scene holes_in_a_row(int n) {
   constexpr double step = 1.44;
   std::vector<Entity> cutters;
@@ -92,7 +93,7 @@ Scene holes_in_a_row(int n) {
   return scene;
 }
 
-/// Balls are added and cut out by turns, a level of nesting each.
+/// Adds balls and cuts them out by turns, with a level of nesting each.
 Scene alternating_depth(int n) {
   const Places balls = places(n);
   Entity body = plate;
@@ -149,7 +150,8 @@ std::vector<std::string> run(bool quick) {
           "{:18} N = {:8}: {:10.1f} ns a ray, {:8.1f} crossings; prepared in {:.3f} s\n",
           curve.name, n, median(point.nanoseconds), point.events, point.prepare_seconds);
       rows.push_back(fmt::format(
-          R"({{"curve": "{}", "about": "{}", "n": {}, "prepare_seconds": {}, "tests": {}, "events": {}, "nanoseconds": [{}]}})",
+          R"({{"curve": "{}", "about": "{}", "n": {}, "prepare_seconds": {}, "tests": {}, )"
+          R"("events": {}, "nanoseconds": [{}]}})",
           curve.name, curve.about, n, point.prepare_seconds, point.tests, point.events,
           fmt::join(point.nanoseconds, ", ")));
     }

@@ -1,5 +1,5 @@
-// What asking CRT for spheres costs beside bare Embree, on one thread, in turns. Writes JSON:
-// for each number of spheres and flow of rays the seconds of each contender in each round.
+// Compares CRT's queries for spheres with bare Embree's, on one thread, in turns. Writes JSON: for
+// each number of spheres and flow of rays the seconds of each contender in each round.
 #include <crt/crt.h>
 #include <fmt/format.h>
 #include <tbb/global_control.h>
@@ -52,12 +52,12 @@ PreparedInC prepared_in_c(const std::vector<Ball>& balls) {
   return {prepared, crt_prepared_release};
 }
 
-/// All that is asked for one number of spheres.
+/// A Comparison holds all that is asked for one number of spheres.
 class Comparison {
  public:
   Comparison(int count, int side) : side_(side), balls_(balls_in_a_box(count)) {}
 
-  /// Rows of JSON, one a contender.
+  /// Returns rows of JSON, one for each contender.
   std::vector<std::string> run(Flow flow, int rounds) {
     const std::vector<crt_ray> rays =
         flow == Flow::coherent ? camera_rays(side_) : scattered_rays(side_ * side_);
@@ -138,7 +138,7 @@ class Comparison {
     }
   }
 
-  /// Those that compute in double must find the same.
+  /// Checks that those that compute in double find the same.
   void check(const std::vector<Contender>& contenders, Flow flow) {
     const auto t_of = [&](std::string_view name, std::size_t ray) {
       if (name == "nearest: CRT, batch (C)") return hits_[ray].t;
@@ -159,7 +159,7 @@ class Comparison {
     for (const char* name : {"nearest: CRT, batch (C)", "nearest: CRT, distances (C)",
                              "nearest: Embree, double callback, one by one",
                              "nearest: Embree, double callback, packets of 16"}) {
-      // A ray that grazes a sphere may go either way.
+      // For a ray that grazes a sphere both answers are right.
       constexpr double grazing_share = 1e-4;
       const double found = sum(name);
       if (std::abs(found - expected) > grazing_share * expected) {

@@ -10,9 +10,9 @@ namespace crt::bench {
 namespace {
 
 constexpr double step = 1.0 / 255;
-/// By how much rays through a flat pixel may differ, in any channel.
+/// Rays through a flat pixel may differ by this much, in any channel.
 constexpr double most_of_flat = 2 * step;
-/// Rays in a row and in a column of a pixel that tell its class.
+/// So many rays in a row and in a column of a pixel decide its class.
 constexpr int rays_across = 32;
 constexpr std::uint64_t first_seed_of_truth = 1001;
 
@@ -29,14 +29,14 @@ double farthest(const Shown& a, const Shown& b) {
   return result;
 }
 
-/// The rays through a pixel, together.
+/// Rays holds the rays through a pixel, together.
 struct Rays {
   std::set<std::uint32_t> entities;
   Shown low{};
   Shown high{};
 };
 
-/// A part of the scene's picture in which each ray is a pixel.
+/// A RayPicture is a part of the scene's picture in which each ray is a pixel.
 class RayPicture {
  public:
   RayPicture(Scene scene, const Region& region) : gamma_(scene.settings.gamma) {
@@ -75,7 +75,7 @@ class RayPicture {
   Image image_;
 };
 
-/// A part of a picture and the pixels around it that are in the picture.
+/// Returns a part of a picture and the pixels around it that are in the picture.
 Region with_margin(const Region& region, const Settings& settings) {
   const int left = std::max(region.x - 1, 0);
   const int top = std::max(region.y - 1, 0);
@@ -83,7 +83,7 @@ Region with_margin(const Region& region, const Settings& settings) {
           std::min(region.y + region.height + 1, settings.height) - top};
 }
 
-/// Rays by pixel.
+/// A Neighbourhood holds rays by pixel.
 class Neighbourhood {
  public:
   Neighbourhood(const Scene& scene, const Region& region)
@@ -102,7 +102,7 @@ class Neighbourhood {
                     static_cast<std::size_t>(x)];
   }
 
-  /// Whether an entity is all that is seen in the pixel or in one beside it.
+  /// Says whether an entity is all that is seen in the pixel or in one beside it.
   bool fills_a_pixel(std::uint32_t entity, int x, int y) const {
     for (int j = y - 1; j <= y + 1; ++j) {
       for (int i = x - 1; i <= x + 1; ++i) {

@@ -1,5 +1,5 @@
-// Claimed half-widths against achieved errors in one class of pixels, of parts of several scenes.
-// Writes JSON.
+// Compares claimed half-widths with achieved errors in one class of pixels, of parts of several
+// scenes. Writes JSON.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -25,10 +25,10 @@ constexpr const char* usage =
     "SAMPLES, a power of 2, are those that the truth is made of, twice.";
 constexpr std::size_t arguments_of_part = 10;
 constexpr double steps_of_8_bits = 255;
-/// What the truth may be wrong by, and rounding.
+/// This much may come from the truth's own error and from rounding.
 constexpr double tolerance = 0.1 / steps_of_8_bits;
 constexpr double targets[] = {8, 4, 2};
-/// Claims are put together that differ by a factor of less than 2^(1/2).
+/// Claims that differ by a factor of less than 2^(1/2) share a bin.
 constexpr double bins_of_doubling = 2;
 
 using Arguments = std::vector<std::string>;
@@ -45,7 +45,7 @@ PixelClass class_named(const std::string& name) {
   return found->second;
 }
 
-/// The pixels of the class in the part of a scene that ten arguments tell.
+/// Returns the pixels of the class in the part of a scene that ten arguments give.
 TruePixels pixels_of_part(const Arguments& part, PixelClass wanted, int samples) {
   ScriptOptions options;
   options.limits.steps = 1'000'000'000;
@@ -62,7 +62,7 @@ TruePixels pixels_of_part(const Arguments& part, PixelClass wanted, int samples)
   return true_pixels(*result.scene, region, std::move(chosen), samples);
 }
 
-/// Errors of pixels that claim about the same.
+/// A Bin holds errors of pixels that claim about the same.
 struct Bin {
   std::vector<double> errors;
   double claims = 0;  ///< sum
@@ -90,7 +90,7 @@ std::string text_of_bin(Bin& bin) {
                      std::sqrt(squares / count) * steps_of_8_bits, within_95 * steps_of_8_bits);
 }
 
-/// How often each pixel was as near the truth as it said.
+/// Successes counts how often each pixel was as near the truth as it claimed.
 struct Successes {
   std::int64_t trials = 0;
   std::int64_t within = 0;
@@ -115,7 +115,8 @@ struct Successes {
 
   std::string text(double steps) const {
     return fmt::format(
-        R"({{"steps": {}, "pixels": {}, "trials": {}, "within": {}, "low": {}, "claimed": {}, "worst_pixel": {}}})",
+        R"({{"steps": {}, "pixels": {}, "trials": {}, "within": {}, "low": {}, "claimed": {}, )"
+        R"("worst_pixel": {}}})",
         steps, pixels, trials, within, test::clopper_pearson_low(within, trials),
         claims / static_cast<double>(std::max<std::int64_t>(trials, 1)) * steps_of_8_bits,
         worst_pixel);

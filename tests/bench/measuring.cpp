@@ -13,7 +13,7 @@ namespace crt::bench {
 
 namespace {
 
-/// Any other argument is an error.
+/// Says whether --quick is given. Any other argument is an error.
 bool wants_quick(int argc, char** argv) {
   if (argc == 1) return false;
   if (argc == 2 && std::string_view(argv[1]) == "--quick") return true;

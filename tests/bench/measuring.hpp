@@ -1,4 +1,4 @@
-// What the measuring programs share: the time taken, turns, medians, random numbers.
+// The measuring programs share this: the time taken, turns, medians, random numbers.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,8 @@
 
 namespace crt::bench {
 
-/// The processor's time that this program has had since it began. Unlike a clock it stands still
-/// while other programs run, which matters for what takes one thread.
+/// Returns the processor's time that this program has had since it began. Unlike a clock it stands
+/// still while other programs run, which matters for what takes one thread.
 double processor_seconds();
 
 template <class Call>
@@ -19,19 +19,20 @@ double processor_seconds_of(const Call& call) {
   return processor_seconds() - begin;
 }
 
-/// One of those that are compared, which does its work when called.
+/// A Contender is one of those that are compared. It does its work when called.
 struct Contender {
   std::string name;
   std::function<void()> work;
 };
 
-/// The processor's seconds of each contender in each round; in a round each has its turn, so that
-/// what else the machine does falls on all. A first round, to warm caches up, does not count.
+/// Returns the processor's seconds of each contender in each round. In a round each has its turn,
+/// so that other work of the machine affects all. A first round, which warms caches up, does not
+/// count.
 std::vector<std::vector<double>> take_turns(const std::vector<Contender>& contenders, int rounds);
 
 double median(std::vector<double> values);
 
-/// POV-Ray's rand, as in tests/bench/povray/stream.py.
+/// A Stream is POV-Ray's rand, as in tests/bench/povray/stream.py.
 class Stream {
  public:
   explicit Stream(std::uint32_t seed) : state_(seed) {}
@@ -41,10 +42,9 @@ class Stream {
   std::uint32_t state_;
 };
 
-/// What main() returns of a program that measures: it calls run(quick), where the command line may
-/// say
-/// --quick and nothing else, and writes the rows that come back to standard output, as JSON; errors
-/// to standard error.
+/// Does what main() of a measuring program does. It calls run(quick), where the command line may
+/// have --quick and nothing else. It writes the rows that come back to standard output, as JSON,
+/// and errors to standard error.
 int measured_main(int argc, char** argv,
                   const std::function<std::vector<std::string>(bool quick)>& run);
 

@@ -1,7 +1,7 @@
-// What a batch of ray queries costs through the C interface, against rendering the same rays: a
-// picture without lights, one ray a pixel, is nothing but its camera rays. Both take turns, so that
-// their ratio means something on a machine with other work; `ratio` is the median of queries /
-// render (the aim: at most 1.2).
+// Compares a batch of ray queries through the C interface with rendering the same rays: a picture
+// without lights, with one ray a pixel, consists of its camera rays alone. Both take turns, so that
+// their ratio means something on a machine with other work. `ratio` is the median of queries /
+// render (the aim is at most 1.2).
 #include <benchmark/benchmark.h>
 #include <crt/crt.h>
 
@@ -28,7 +28,7 @@ double seconds(const Call& call) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
 }
 
-/// Balls in a grid, or one plate with as many holes.
+/// Makes balls in a grid, or one plate with as many holes.
 crt_prepared* grid(bool holes) {
   constexpr int count = 10;
   std::vector<crt_entity*> balls;
@@ -66,7 +66,7 @@ crt_prepared* grid(bool holes) {
   return prepared;
 }
 
-/// The rays of the default camera through the pixels' centres.
+/// Returns the rays of the default camera through the pixels' centres.
 std::vector<crt_ray> camera_rays() {
   const double half = std::tan(std::acos(-1) / 6);
   std::vector<crt_ray> rays;

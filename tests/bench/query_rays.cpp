@@ -24,7 +24,7 @@ double length(const double (&v)[3]) {
   return std::sqrt(v[0] * v[0] + v[1] * v[1] + v[2] * v[2]);
 }
 
-/// Of a camera that looks at (0, 0, 0).
+/// Returns the axes of a camera that looks at (0, 0, 0).
 Axes camera_axes() {
   const double(&p)[3] = camera_position;
   const double distance = length(p);

@@ -1,7 +1,7 @@
-"""What ray queries from Python cost beside the same from C:  ray_queries.py PROGRAM [SCENE.crt]
+"""Compares ray queries from Python with the same from C: ray_queries.py PROGRAM [SCENE.crt]
 
-PROGRAM is ray_queries.c, built with the libcrt that CRT_LIBRARY names. Both ask a million rays, by turns, so that
-what else the machine does falls on both.
+PROGRAM is ray_queries.c, built with the libcrt that CRT_LIBRARY names. Both ask a million rays, by
+turns, so that what else the machine does falls on both.
 """
 
 import pathlib
@@ -20,7 +20,7 @@ SIDE, ROUNDS, REPETITIONS = 1000, 7, 3
 
 
 def grid(side: int) -> np.ndarray:
-    """The rays of ray_queries.c."""
+    """Returns the rays of ray_queries.c."""
     place = 8 * (np.arange(side) + 0.5) / side - 4
     rays = crt.rays((side, side))
     rays["origin"][..., 0] = place[None, :]
@@ -32,7 +32,12 @@ def grid(side: int) -> np.ndarray:
 
 def in_c(program: str, scene: pathlib.Path) -> float:
     command = [program, scene, str(SIDE), str(REPETITIONS)]
-    return min(map(float, subprocess.run(command, capture_output=True, check=True, text=True).stdout.split()))
+    return min(
+        map(
+            float,
+            subprocess.run(command, capture_output=True, check=True, text=True).stdout.split(),
+        )
+    )
 
 
 def in_python(prepared: crt.Prepared, rays: np.ndarray, hits: np.ndarray | None) -> float:
@@ -56,7 +61,10 @@ def main() -> None:
         for _ in range(ROUNDS)
     ]
     c, python, allocating = map(statistics.median, zip(*rounds))
-    print(f"{SIDE * SIDE} rays at {scene.name}, {np.isfinite(hits['t']).mean():.0%} of them hit something")
+    print(
+        f"{SIDE * SIDE} rays at {scene.name}, {np.isfinite(hits['t']).mean():.0%} of them hit"
+        f" something"
+    )
     print(f"C                          {c:.4f} s")
     print(f"Python, hits written again {python:.4f} s  {python / c:.3f} of C")
     print(f"Python, new hits           {allocating:.4f} s  {allocating / c:.3f} of C")

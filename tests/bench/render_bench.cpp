@@ -1,4 +1,4 @@
-// How many rays a second a whole render follows, on one thread and on all.
+// Measures how many rays a second a whole render follows, on one thread and on all.
 #include <benchmark/benchmark.h>
 
 #include <crt/prepared_scene.hpp>
@@ -41,7 +41,7 @@ void prepare_scene(benchmark::State& state, const std::function<crt::Scene(int)>
                                                     benchmark::Counter::kIsIterationInvariantRate);
 }
 
-// The argument: how many threads, 0 for all there are.
+// The argument is the number of threads, 0 for all there are.
 BENCHMARK_CAPTURE(render_scene, balls, balls(16))
     ->Arg(1)
     ->Arg(0)
@@ -63,7 +63,7 @@ BENCHMARK_CAPTURE(render_scene, glass_and_mirrors, glass_and_mirrors())
     ->UseRealTime()
     ->Unit(benchmark::kMillisecond);
 
-// The argument: balls along each side.
+// The argument is the number of balls along each side.
 BENCHMARK_CAPTURE(prepare_scene, balls, balls)
     ->Arg(8)
     ->Arg(32)

@@ -1,7 +1,9 @@
-"""Runs the benchmarks and writes what they measured into docs/:  run.py --build build/release [OPTION...]
+"""Runs the benchmarks and writes what they measured into docs/.
 
-A part that was measured with the same programs is not measured again, so a run that was interrupted goes on where it
-stopped. Quick runs print their tables and leave the documents alone.
+    run.py --build build/release [OPTION...]
+
+A part that was measured with the same programs is not measured again, so a run that was interrupted
+goes on where it stopped. Quick runs print their tables and leave the documents alone.
 """
 
 import argparse
@@ -49,8 +51,14 @@ class Bench:
             **{f"povray/{name}": (lambda name=name: self.povray(name)) for name in scenes},
             **{f"povray-bsp/{name}": (lambda name=name: self.povray(name, tree=2)) for name in bsp},
             **{f"threads/{name}": (lambda name=name: self.threads(name)) for name in scenes},
-            **{f"trade/{name}": (lambda name=name: self.trade(name)) for name in self.trade_scenes()},
-            **{f"honesty/{name}": (lambda name=name: self.honesty(name)) for name in self.honesty_classes()},
+            **{
+                f"trade/{name}": (lambda name=name: self.trade(name))
+                for name in self.trade_scenes()
+            },
+            **{
+                f"honesty/{name}": (lambda name=name: self.honesty(name))
+                for name in self.honesty_classes()
+            },
             **{name: (lambda name=name: self.own(name)) for name in OWN_PARTS},
             **{name: (lambda name=name: self.google(name)) for name in GOOGLE_PARTS},
             "python": self.python,
@@ -59,15 +67,22 @@ class Bench:
     def plan(self, longest: float, patience: float = 100, tree: int = 1) -> measure.Plan:
         quick = self.options.quick
         return measure.Plan(
-            crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick else FULL_SIZE,
-            rounds=self.options.rounds or (1 if quick else 5), threads=tuple(sorted({1, os.cpu_count() or 1})),
+            crt=self.bin / "crt", folder=self.folder / "scenes", size=QUICK_SIZE if quick
+            else FULL_SIZE,
+            rounds=self.options.rounds or (1 if quick else 5), threads=tuple(
+                sorted({1, os.cpu_count() or 1})
+            ),
             longest=longest, patience=10 if quick else patience, say=self.say, tree=tree)
 
     def povray(self, name: str, tree: int = 1) -> dict:
-        return measure.measure(name, catalogue.SCENES[name](), self.plan(4 if self.options.quick else 60, tree=tree))
+        return measure.measure(
+            name, catalogue.SCENES[name](), self.plan(4 if self.options.quick else 60, tree=tree)
+        )
 
     def threads(self, name: str) -> dict:
-        return threads.measure(name, catalogue.SCENES[name](), self.plan(1 if self.options.quick else 3, patience=30))
+        return threads.measure(
+            name, catalogue.SCENES[name](), self.plan(1 if self.options.quick else 3, patience=30)
+        )
 
     def trade_scenes(self) -> tuple[str, ...]:
         return trade_scenes.QUICK if self.options.quick else tuple(trade_scenes.SCENES)
@@ -76,7 +91,9 @@ class Bench:
         quick = self.options.quick
         plan = trade_measure.Plan(
             library=self.bin.parent / "lib/libcrt.so", folder=self.folder / "scenes/trade",
-            rounds=self.options.rounds or (1 if quick else 5), patience=10 if quick else 100, quick=quick, say=self.say,
+            rounds=self.options.rounds or (
+                1 if quick else 5
+            ), patience=10 if quick else 100, quick=quick, say=self.say,
             divisor=4 if quick else 1)
         return trade_measure.measure(name, plan)
 
@@ -84,34 +101,45 @@ class Bench:
         return honesty.QUICK if self.options.quick else tuple(honesty.CLASSES)
 
     def honesty(self, name: str) -> dict:
-        return honesty.measure(name, self.bin / HONESTY, self.folder / "scenes/trade", self.options.quick)
+        return honesty.measure(
+            name, self.bin / HONESTY, self.folder / "scenes/trade", self.options.quick
+        )
 
     def own(self, name: str) -> dict:
-        """A program of ours that writes JSON to standard output and its progress to standard error."""
+        """Runs a program of ours that writes JSON to standard output and its progress to standard
+        error."""
         command = [self.bin / PROGRAMS[name], *(["--quick"] if self.options.quick else [])]
-        return json.loads(subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout)
+        return json.loads(
+            subprocess.run(command, stdout=subprocess.PIPE, check=True, text=True).stdout
+        )
 
     def google(self, name: str) -> dict:
         results = self.folder / f"{name}-google.json"
         quick = QUICK_GOOGLE if self.options.quick else []
-        subprocess.run([self.bin / PROGRAMS[name], *quick, f"--benchmark_out={results}"], check=True)
+        subprocess.run(
+            [self.bin / PROGRAMS[name], *quick, f"--benchmark_out={results}"], check=True
+        )
         return json.loads(results.read_text())
 
     def python(self) -> dict:
         library = self.bin.parent / "lib/libcrt.so"
         done = subprocess.run(
             [sys.executable, SOURCE / "tests/bench/ray_queries.py", self.bin / "ray_queries"],
-            stdout=subprocess.PIPE, check=True, text=True, env={**os.environ, "CRT_LIBRARY": str(library)})
+            stdout=subprocess.PIPE, check=True, text=True, env={
+                **os.environ, "CRT_LIBRARY": str(library)
+            })
         print(done.stdout, end="")
         return {"text": done.stdout}
 
     def chosen(self) -> dict[str, Callable[[], dict]]:
         patterns = self.options.only
         return {name: part for name, part in self.parts().items()
-                if not patterns or any(name.startswith(p) or fnmatch.fnmatch(name, p) for p in patterns)}
+                if not patterns or any(
+                    name.startswith(p) or fnmatch.fnmatch(name, p) for p in patterns
+                )}
 
     def programs(self, part: str) -> str:
-        """Tells one build of what the part measures from another."""
+        """Distinguishes one build of what the part measures from another."""
         digest = hashlib.sha256()
         if part.startswith(("povray", "threads/")):
             files = ["bin/crt"]
@@ -129,7 +157,7 @@ class Bench:
         return self.folder / "results" / (part.replace("/", "-") + ".json")
 
     def results(self) -> dict[str, dict]:
-        """Of the programs as they are now."""
+        """Returns the results of the programs as they are now."""
         return {part: json.loads(self.result_file(part).read_text())["result"]
                 for part in self.parts() if self.is_measured(part)}
 
@@ -141,12 +169,14 @@ class Bench:
         return file.exists() and json.loads(file.read_text())["programs"] == self.programs(part)
 
     def run(self) -> list[str]:
-        """The parts that failed."""
+        """Runs the parts, and returns those that failed."""
         failed = []
         (self.folder / "results").mkdir(parents=True, exist_ok=True)
         chosen = self.chosen()
         if os.getloadavg()[0] > BUSY:
-            self.say(f"this machine is busy (load {os.getloadavg()[0]:.1f}): the times will be too long")
+            self.say(
+                f"this machine is busy (load {os.getloadavg()[0]:.1f}): the times will be too long"
+            )
         self.machine_file().write_text(machine.described(SOURCE))
         for index, (name, part) in enumerate(chosen.items()):
             if self.is_measured(name) and not self.options.again:
@@ -155,24 +185,39 @@ class Bench:
             self.say(f"part {index + 1} of {len(chosen)}: {name}")
             try:
                 result = part()
-            except (Failed, ValueError, measure.DifferentPictures, subprocess.SubprocessError, OSError) as error:
+            except (
+                Failed, ValueError, measure.DifferentPictures, subprocess.SubprocessError, OSError
+            ) as error:
                 failed.append(name)
                 self.result_file(name).unlink(missing_ok=True)
                 self.say(f"FAILED: {name}: {error}")
                 continue
-            self.result_file(name).write_text(json.dumps({"programs": self.programs(name), "result": result}, indent=1))
+            self.result_file(name).write_text(
+                json.dumps({"programs": self.programs(name), "result": result}, indent=1)
+            )
         return failed
 
 
 def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--build", type=pathlib.Path, required=True, help="where bin/ and lib/ are")
-    parser.add_argument("--quick", action="store_true", help="small pictures, few rounds: some four minutes")
-    parser.add_argument("--only", action="append", help="parts whose names begin so or match this pattern (repeatable)")
-    parser.add_argument("--rounds", type=int, help="how often both programs take turns (5; quick: 1)")
-    parser.add_argument("--again", action="store_true", help="also what was measured with these programs before")
+    parser.add_argument(
+        "--quick", action="store_true", help="small pictures, few rounds: some four minutes"
+    )
+    parser.add_argument(
+        "--only", action="append",
+        help="parts whose names begin so or match this pattern (repeatable)",
+    )
+    parser.add_argument(
+        "--rounds", type=int, help="how often both programs take turns (5; quick: 1)"
+    )
+    parser.add_argument(
+        "--again", action="store_true", help="also what was measured with these programs before"
+    )
     parser.add_argument("--list", action="store_true", help="tells the parts and ends")
-    parser.add_argument("--report", action="store_true", help="only writes the tables of what was measured")
+    parser.add_argument(
+        "--report", action="store_true", help="only writes the tables of what was measured"
+    )
     bench = Bench(parser.parse_args())
     if not bench.chosen():
         parser.error(f"no part is called {', '.join(bench.options.only)}; --list tells all")
@@ -181,10 +226,15 @@ def main() -> int:
         return 0
     failed = [] if bench.options.report else bench.run()
     results = bench.results()
-    print("\n" + "\n\n".join(filter(None, (tables.all_tables(results), trade_tables.all_tables(results)))))
+    print(
+        "\n"
+        + "\n\n".join(filter(None, (tables.all_tables(results), trade_tables.all_tables(results))))
+    )
     if not bench.options.quick:
         page.write(SOURCE / "docs", results, bench.machine_file().read_text())
-        bench.say("wrote docs/speed.md, docs/trade_measured.md, docs/trade_scenes.md and their plots")
+        bench.say(
+            "wrote docs/speed.md, docs/trade_measured.md, docs/trade_scenes.md and their plots"
+        )
     if failed:
         bench.say(f"FAILED: {', '.join(failed)}")
     return 1 if failed else 0

@@ -14,7 +14,7 @@ Scene studio() {
   return scene;
 }
 
-/// Places for n items across [-4, 4].
+/// Returns the place of one of n items across [-4, 4].
 double spread(int index, int n) {
   return 8.0 * (index + 0.5) / n - 4;
 }

@@ -1,7 +1,9 @@
-"""Whether CRT still takes the scenes that are measured:  smoke.py CRT LIBRARY FOLDER [BENCH_HONESTY]
+"""Checks that CRT still takes the scenes that are measured.
 
-Checks the script of each (but the large ones), and renders one of each kind, tiny. Measures error against time, tiny,
-where there is POV-Ray, and honesty, if its program is told.
+    smoke.py CRT LIBRARY FOLDER [BENCH_HONESTY]
+
+Checks the script of each (but the large ones), and renders one of each kind, tiny. Measures error
+against time, tiny, where there is POV-Ray, and honesty, if its program is given.
 """
 
 import dataclasses
@@ -26,7 +28,8 @@ MEASURED = ("wires", "defocus", "flat")
 
 
 def check_catalogue(crt: pathlib.Path, folder: pathlib.Path) -> None:
-    plan = measure.Plan(crt=crt, folder=folder, size=Size(12, 9), rounds=1, threads=(1,), longest=1, patience=1,
+    plan = measure.Plan(crt=crt, folder=folder, size=Size(12, 9), rounds=1, threads=(1,), longest=1,
+                        patience=1,
                         say=print)
     for name, make in catalogue.SCENES.items():
         if name.endswith(LARGE):
@@ -40,21 +43,30 @@ def check_catalogue(crt: pathlib.Path, folder: pathlib.Path) -> None:
         if json.loads(picture.with_suffix(".json").read_text())["rays"]["shadow"] == 0:
             raise SystemExit(f"{name}: no surface is lit")
     plan = dataclasses.replace(plan, size=Size(64, 48), threads=(1, 2))
-    print(tables.threads_table({"threads/glass": threads.measure("glass", catalogue.SCENES["glass"](), plan)}))
+    print(
+        tables.threads_table(
+            {"threads/glass": threads.measure("glass", catalogue.SCENES["glass"](), plan)}
+        )
+    )
 
 
 def check_trade(library: pathlib.Path, folder: pathlib.Path) -> dict:
-    """What is measured, in pictures of a few pixels."""
-    plan = trade_measure.Plan(library=library, folder=folder, rounds=1, patience=1, quick=True, say=print, divisor=15)
+    """Measures what is measured, in pictures of a few pixels."""
+    plan = trade_measure.Plan(
+        library=library, folder=folder, rounds=1, patience=1, quick=True, say=print, divisor=15
+    )
     for name in trade_scenes.SCENES:
-        trade_measure.contest(name, plan).crt.render({"targeterror": 8 * ladders.STEP, "maxsamples": 16})
+        trade_measure.contest(name, plan).crt.render(
+            {"targeterror": 8 * ladders.STEP, "maxsamples": 16}
+        )
     if shutil.which("povray") is None:
         return {}
     return {f"trade/{name}": trade_measure.measure(name, plan) for name in MEASURED}
 
 
 def main() -> int:
-    os.environ.pop("LD_PRELOAD", None)  # sanitizers, for this process and its libcrt; POV-Ray does not run with them
+    # sanitizers, for this process and its libcrt; POV-Ray does not run with them
+    os.environ.pop("LD_PRELOAD", None)
     crt, library, folder, *rest = (pathlib.Path(argument).resolve() for argument in sys.argv[1:])
     check_catalogue(crt, folder)
     results = check_trade(library, folder)

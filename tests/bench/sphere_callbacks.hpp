@@ -1,5 +1,5 @@
-// What Embree calls for a sphere: bounds, the nearest hit and any hit, for one ray and for 16 at a
-// time, in float and in double.
+// Embree calls these functions for a sphere: bounds, the nearest hit and any hit, for one ray and
+// for 16 at a time, in float and in double.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -21,14 +21,15 @@ using Context = RTCRayQueryContext;
 using Context = RTCIntersectContext;
 #endif
 
-/// A ball as the callbacks have it.
+/// An Equation is a sphere as the callbacks have it.
 template <class Real>
 struct Equation {
   Real center[3];
   Real radius_squared;
 };
 
-/// The rays of a call with all their digits, which Embree hands to the callbacks: N is 1 or 16.
+/// Holds the rays of a call with all their digits, which Embree hands to the callbacks. N is 1 or
+/// 16.
 template <class Real, unsigned N>
 struct Rays {
   Context context;  // first: callbacks get its address
@@ -38,7 +39,7 @@ struct Rays {
   Real t[N];  ///< the nearest so far
 };
 
-/// The nearest crossing of one lane beyond its t_min, or what is nearest already.
+/// Returns the nearest crossing of one lane beyond its t_min, or what is nearest already.
 template <class Real, unsigned N>
 inline Real nearest_crossing(const Rays<Real, N>& rays, const Equation<Real>& ball, unsigned lane) {
   Real along = 0;
@@ -77,8 +78,8 @@ void meet_one(const RTCIntersectFunctionNArguments& arguments) {
   ray_hit.hit.geomID = arguments.geomID;
 }
 
-/// Finds the lanes whose rays the ball stops, 1 or 0 for each; false if there are none. Loops over
-/// lanes here and below are written so that they become vector code.
+/// Finds the lanes whose rays the ball stops, 1 or 0 for each. Returns false if there are none.
+/// Loops over lanes here and below are written so that they become vector code.
 template <class Real>
 bool stopped_lanes(const Rays<Real, lanes>& rays, const Equation<Real>& ball, const int* valid,
                    Real (&found)[lanes], int (&stopped)[lanes]) {

@@ -17,8 +17,8 @@ namespace {
 
 constexpr double pi = std::numbers::pi;
 
-/// Calls `visit` for the centres of a fine grid over the unit square: what a map that keeps areas
-/// does to the grid is then known to the accuracy of the grid, without chance.
+/// Calls `visit` for the centres of a fine grid over the unit square. So the effect of a map that
+/// keeps areas is known to the accuracy of the grid, without random numbers.
 constexpr int grid_side = 1024;
 void for_each_point(ApertureShape shape, const std::function<void(const LensPoint&)>& visit) {
   for (int i = 0; i < grid_side; ++i)
@@ -57,7 +57,7 @@ constexpr std::array<Polygon, 5> polygons = {
      {"hexagon", ApertureShape::hexagon, 6, 0},
      {"octagon", ApertureShape::octagon, 8, 0}}};
 
-/// How far `p` lies beyond the polygon's nearest side; negative inside.
+/// Returns how far `p` lies beyond the polygon's nearest side; negative inside.
 double beyond_sides(const Polygon& polygon, const LensPoint& p) {
   const double half_turn = pi / polygon.sides;
   double most = -2;
@@ -107,7 +107,8 @@ TEST_CASE("a regular polygon has its centroid in the middle and the second momen
   for (const Polygon& polygon : polygons) {
     CAPTURE(polygon.name);
     const Moments m = moments(polygon.shape);
-    // About any axis in its plane, with circumradius 1: (2 + cos(2 pi / n)) / 12.
+    // About any axis in its plane, with circumradius 1, the second moment is (2 + cos(2 pi / n)) /
+    // 12.
     const double second = (2 + std::cos(2 * pi / polygon.sides)) / 12;
     CHECK(m.x == doctest::Approx(0).epsilon(1e-3));
     CHECK(m.y == doctest::Approx(0).epsilon(1e-3));
@@ -130,15 +131,15 @@ TEST_CASE("circle, uniform, line and gaussian have the moments of their formulas
   check(ApertureShape::uniform, 1.0 / 3, 1.0 / 3);
   check(ApertureShape::line, 1.0 / 3, 0);
   // The mean of r^2 of a normal distribution of variance s^2 that is cut at R, with q = R^2 / (2
-  // s^2): 2 s^2 (1 - (1 + q) e^-q) / (1 - e^-q); half of it for each coordinate.
+  // s^2), is 2 s^2 (1 - (1 + q) e^-q) / (1 - e^-q). Each coordinate has half of it.
   const double q = 8;
   const double mean_square = 0.5 * (1 - (1 + q) * std::exp(-q)) / (1 - std::exp(-q));
   check(ApertureShape::gaussian, mean_square / 2, mean_square / 2);
 }
 
 TEST_CASE("equal areas of every polygon and of the disc get equally many points") {
-  // Sub-areas of equal size by construction: each of `wedges` equal wedges cut into `rings` parts
-  // of equal area by scaled copies of the proxy.
+  // These sub-areas have equal size by construction: each of `wedges` equal wedges is cut into
+  // `rings` parts of equal area by scaled copies of the proxy.
   constexpr std::size_t rings = 4;
   for (const Polygon& polygon : polygons) {
     CAPTURE(polygon.name);

@@ -31,7 +31,7 @@ bool is_finite_unit(const Vec3& v) {
   return std::abs(glm::length(v) - 1) < 1e-15;
 }
 
-/// Looking along z from the origin.
+/// Returns a camera at the origin that looks along z.
 Camera plain_camera(Projection projection) {
   return {.position = {0, 0, 0}, .pointing = {0, 0, 1}, .projection = projection};
 }
@@ -48,8 +48,8 @@ Camera random_camera(std::mt19937_64& random, Projection projection) {
           .focal_distance = 1 + std::abs(place(random))};
 }
 
-/// The pixel position at which a camera sees `point`: image.md's formulas the other way round,
-/// worked out in the camera's own coordinates.
+/// Returns the pixel position at which a camera sees `point`. It inverts image.md's formulas in the
+/// camera's own coordinates.
 glm::dvec2 pixel_of(const Camera& camera, const CameraRays& rays, const Vec3& point, double width,
                     double height) {
   const Vec3 offset = point - camera.position;
@@ -107,7 +107,8 @@ TEST_CASE("the camera's directions are orthonormal and left-handed for any direc
     REQUIRE(is_finite_unit(rays.right()));
     REQUIRE(is_finite_unit(rays.up()));
     REQUIRE(is_finite_unit(rays.forward()));
-    // Left-handed as x, y, z are: the formula of the cross product gives right x up = forward.
+    // Space is left-handed, as x, y, z are: the formula of the cross product gives right x up =
+    // forward.
     REQUIRE(near(glm::cross(rays.right(), rays.up()), rays.forward()));
     REQUIRE(near(rays.forward(), glm::normalize(camera.pointing - camera.position)));
   }
@@ -156,7 +157,7 @@ TEST_CASE("a point seen along a pixel's ray is found at that pixel, in every pro
   for (const Projection projection : all_projections) {
     for (int i = 0; i < 2000; ++i) {
       Camera camera = random_camera(random, projection);
-      // Less than a full turn across, so that the way back is unique.
+      // The picture is less than a full turn across, so that the inverse is unique.
       if (projection == Projection::spherical || projection == Projection::cylindrical)
         camera.fov *= 0.9;
       const CameraRays rays(camera, width, height);
@@ -254,8 +255,8 @@ TEST_CASE("rays through all of the lens meet on the focal surface") {
 }
 
 TEST_CASE("the blur of a point out of focus has the thin lens's radius") {
-  // Seen from the point at distance z, the rim of a lens of radius a casts a circle of radius
-  // a |f - z| / z on the focal plane at distance f.
+  // Seen from the point at distance z, the edge of a lens of radius a casts a circle of radius a |f
+  // - z| / z on the focal plane at distance f.
   const double a = 0.2;
   const double f = 5;
   const CameraRays rays(
@@ -266,7 +267,8 @@ TEST_CASE("the blur of a point out of focus has the thin lens's radius") {
     for (int i = 0; i < 16; ++i) {
       const double angle = 2 * pi * i / 16;
       const LensPoint rim{std::cos(angle), std::sin(angle)};
-      // The pixel in whose direction the ray from the rim through the point (0, 0, z) is in focus.
+      // In the direction of this pixel the ray from the lens's edge through the point (0, 0, z) is
+      // in focus.
       const double side = (1 - f / z) * a;
       const double pixels_per_unit = 50 / (f * std::tan(pi / 6));
       const CameraRay ray =
@@ -315,7 +317,8 @@ TEST_CASE("extreme fields of view, sizes and lenses give finite unit directions"
 
 TEST_CASE(
     "the point in focus on a spherical camera's own lens is looked at from there all the same") {
-  // Looking to the side along the lens, with the focal distance equal to the lens's radius.
+  // The camera looks to the side along the lens, with the focal distance equal to the lens's
+  // radius.
   Camera camera = plain_camera(Projection::spherical);
   camera.fov = pi / 2;
   camera.aperture = 1000;
@@ -387,7 +390,7 @@ TEST_CASE("a point appears where the ray to it starts from, in every projection"
       REQUIRE(place);
       CHECK(place->x == doctest::Approx(x));
       CHECK(place->y == doctest::Approx(y));
-      // A step aside of length 1 moves it by that many pixels or more.
+      // A step of length 1 to the side moves it by that many pixels or more.
       const auto aside = rays.place_of(point + rays.up());
       REQUIRE(aside);
       const double pixels = std::hypot(aside->x - x, aside->y - y);
@@ -406,7 +409,7 @@ TEST_CASE("several rays at once are the same to the last bit") {
   constexpr std::size_t most = 11;
   constexpr std::size_t groups = 3;
   for (const Projection projection : all_projections) {
-    // At the scales at the ends lengths are beyond what can be squared.
+    // At the scales at the ends lengths are too large or too small to be squared.
     for (const double scale : {1.0, 1e-160, 1e160}) {
       Camera camera = random_camera(random, projection);
       camera.aperture = 300 * scale;

@@ -1,4 +1,4 @@
-// What is no good is refused with a message that names it, and nothing is written.
+// A wrong argument is refused with a message that names it, and nothing is written.
 #include <functional>
 #include <utility>
 #include <vector>
@@ -9,7 +9,7 @@ using namespace crt::test;
 
 namespace {
 
-/// One call with one thing wrong, and the name that the message must have.
+/// A Wrong is one call with one thing wrong, and the name that the message must have.
 struct Wrong {
   std::string argument;
   std::function<crt_status()> call;
@@ -28,7 +28,7 @@ const Numbers zero = {0, 0, 0};
 const Numbers one = {1, 1, 1};
 const Numbers up = {0, 1, 0};
 
-/// Of the only triangle of a mesh.
+/// Returns the indices of the only triangle of a mesh.
 const std::uint32_t* triangle_indices() {
   static constexpr std::uint32_t indices[] = {0, 1, 2};
   return indices;

@@ -1,4 +1,4 @@
-// What scripts of 2015 say and show, said and shown by C: docs/compat.md.
+// These tests use scripts of 2015 and their settings through C: see docs/compat.md.
 #include <cmath>
 #include <cstring>
 #include <string>
@@ -35,7 +35,7 @@ crt_status run(const std::string& text, const crt_script_options& options, Scene
   return status;
 }
 
-/// The red of the one pixel that an orthographic camera sees which looks in this direction.
+/// Returns the red of the one pixel of an orthographic camera that looks in this direction.
 double red_towards(crt_scene* scene, const Numbers& towards) {
   crt_camera camera;
   REQUIRE(crt_camera_init(&camera, sizeof camera) == CRT_OK);
@@ -74,7 +74,7 @@ TEST_CASE("an equal-area panorama is one more type of background, and comes back
     CHECK(red_towards(scene.get(), {std::sqrt(1 - y * y), y, 0}) ==
           doctest::Approx(std::exp2(row - 3)));
   }
-  // In 2015 all spherical panoramas were.
+  // In 2015 all panoramas were spherical.
   background.type = CRT_BACKGROUND_SPHERICAL;
   REQUIRE(crt_scene_set_background(scene.get(), &background) == CRT_OK);
   const double y = 0.75;
@@ -127,7 +127,7 @@ TEST_CASE("a script of 2015 is run as one by the options' compat") {
   REQUIRE(crt_scene_get_camera(scene.get(), &camera) == CRT_OK);
   CHECK(camera.aperture == 3);
   CHECK(camera.focal_distance == 0.5);
-  // The first number of java.util.Random(1337).
+  // This is the first number of java.util.Random(1337).
   const PreparedHandle prepared = prepare(scene.get());
   const crt_ray ray = {{0, 0, 0}, {0, 0, 1}, 0, infinity};
   crt_hit hit;

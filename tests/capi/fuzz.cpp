@@ -1,6 +1,6 @@
-// libFuzzer: random sequences of calls of the C interface, with random arguments, wrong ones among
-// them. Whatever comes, no call may crash, and each must keep to the rule: a result if and only if
-// CRT_OK.
+// This is a libFuzzer program. It makes random sequences of calls of the C interface, with random
+// arguments, wrong ones among them. No call may crash, and each must keep to the rule: a result if
+// and only if CRT_OK.
 #include <crt/crt.h>
 
 #include <algorithm>
@@ -15,7 +15,7 @@
 
 namespace {
 
-/// What the fuzzer gives, read as values; zeros when it is used up.
+/// An Input reads what the fuzzer gives as values, and gives zeros when it is used up.
 class Input {
  public:
   Input(const std::uint8_t* data, std::size_t size) : data_(data), size_(size) {}
@@ -35,7 +35,7 @@ class Input {
   std::uint8_t byte() { return raw<std::uint8_t>(); }
   std::uint32_t below(std::uint32_t limit) { return byte() % limit; }
 
-  /// Mostly an ordinary number, sometimes an extreme one, sometimes any bits at all.
+  /// Returns mostly an ordinary number, sometimes an extreme one, sometimes any bits at all.
   double number() {
     constexpr double infinity = std::numeric_limits<double>::infinity();
     static const std::array special = {0.0,       -0.0,         1.0,    -1.0, 0.5,   1e-300,
@@ -68,7 +68,7 @@ void require(bool holds) {
   if (!holds) std::abort();
 }
 
-/// A few handles of one kind; the newest takes the place of the oldest.
+/// Slots hold a few handles of one kind. The newest takes the place of the oldest.
 template <class Handle, auto release>
 class Slots {
  public:
@@ -76,7 +76,7 @@ class Slots {
     for (Handle* handle : slots_) release(handle);
   }
 
-  /// Possibly NULL.
+  /// Returns any of them, possibly NULL.
   Handle* any(Input& input) const { return slots_[input.below(count)]; }
 
   template <class Call>
@@ -121,7 +121,7 @@ class Session {
   void ask_rays();
   void use_image();
 
-  /// A struct with its defaults and some of its bytes changed.
+  /// Makes a struct with its defaults and some of its bytes changed.
   template <class Struct, class Init>
   Struct scrambled(const Init& init) {
     Struct result;
@@ -179,7 +179,7 @@ void Session::make_primitive() {
 void Session::combine() {
   crt_entity* const parts[3] = {entities_.any(input_), entities_.any(input_),
                                 entities_.any(input_)};
-  // Not so deep that trees grow without bound.
+  // The depth is limited, so that trees do not grow without bound.
   for (const crt_entity* part : parts) {
     constexpr std::uint64_t enough = 64;
     if (crt_entity_primitive_count(part) > enough) return;

@@ -1,4 +1,4 @@
-// Handles: counted, released in any order, shared by any thread.
+// Handles are counted, released in any order, and shared by any thread.
 #include <algorithm>
 #include <thread>
 #include <vector>
@@ -24,7 +24,8 @@ TEST_CASE("every status has a name of its own") {
 }
 
 TEST_CASE("handles may be released in every order") {
-  // All orders of releasing what a picture is made of; each is still whole when it is used.
+  // This tries all orders of releasing what a picture is made of. Each is still whole when it is
+  // used.
   std::vector<int> order = {0, 1, 2, 3, 4};
   do {
     EntityHandle ball = sphere({0, 0, 2}, 0.5);

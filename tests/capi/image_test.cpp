@@ -1,4 +1,4 @@
-// Images: in and out of memory and files.
+// These tests move images in and out of memory and files.
 #include <algorithm>
 #include <cmath>
 #include <cstring>
@@ -13,7 +13,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// A folder that goes away.
+/// A Scratch is a folder that is removed with it.
 class Scratch {
  public:
   Scratch() : path_(fs::temp_directory_path() / ("crt-capi-" + process())) {
@@ -49,7 +49,8 @@ BufferHandle encoded(const crt_image* image, const char* format) {
 
 }  // namespace
 
-TEST_CASE("how many pixels of a file are not finite is told, and where the first is") {
+TEST_CASE(
+    "the number of pixels of a file that are not finite is reported, and the place of the first") {
   std::string file = "PF\n2 1\n-1.0\n";
   const float values[] = {1, 1, 1, 0, NAN, INFINITY};
   file.append(reinterpret_cast<const char*>(values), sizeof values);
@@ -92,7 +93,7 @@ TEST_CASE("8-bit pixels come back as they were") {
   std::vector<std::uint8_t> back(bytes.size());
   REQUIRE(crt_image_to_rgba8(image.get(), back.data(), 0) == CRT_OK);
   CHECK(back == bytes);
-  // Rows of the caller's with room between them keep what is there.
+  // Rows of the caller's with gaps between them keep what is in the gaps.
   std::vector<std::uint8_t> wide(16 * 70, 0xaa);
   REQUIRE(crt_image_to_rgba8(image.get(), wide.data(), 70) == CRT_OK);
   CHECK(std::memcmp(&wide[70], &bytes[64], 64) == 0);
@@ -173,7 +174,7 @@ TEST_CASE("an image takes other settings without changing its pixels") {
   CHECK(crt_image_pixels(brighter.get(), nullptr)[0] == 0.25f);
 }
 
-TEST_CASE("an image lends what it was asked to tell beside the colours, by name") {
+TEST_CASE("an image lends the channels that were asked for, by name") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
   crt_render_options options;
@@ -191,7 +192,7 @@ TEST_CASE("an image lends what it was asked to tell beside the colours, by name"
   CHECK(crt_image_channel(image.get(), "id") == nullptr);
   CHECK(crt_image_channel_uint(image.get(), "Z") == nullptr);
 
-  // What a ray through the same place hits. The camera is the default one.
+  // This is what a ray through the same place hits. The camera is the default one.
   const float* const depth = crt_image_channel(image.get(), "Z");
   const std::uint32_t* const id = crt_image_channel_uint(image.get(), "id");
   const double half_height = std::tan(std::acos(-1.0) / 6);
@@ -207,9 +208,9 @@ TEST_CASE("an image lends what it was asked to tell beside the colours, by name"
       const bool found = hit.t < infinity;
       hits += found ? 1 : 0;
       CHECK(id[pixel] == (found ? hit.entity_id : UINT32_MAX));
-      const double way = hit.t * std::sqrt(across * across + up * up + 1);
-      CHECK(
-          (found ? std::abs(double{depth[pixel]} - way) <= 1e-6 * way : depth[pixel] == infinity));
+      const double distance = hit.t * std::sqrt(across * across + up * up + 1);
+      CHECK((found ? std::abs(double{depth[pixel]} - distance) <= 1e-6 * distance
+                   : depth[pixel] == infinity));
     }
   }
   CHECK(hits > 100);

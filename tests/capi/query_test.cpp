@@ -1,4 +1,4 @@
-// Ray queries: batches, strides, crossings, and that they see what pictures see.
+// These tests check ray queries: batches, strides, crossings, and that they see what pictures see.
 #include <cstddef>
 #include <cstring>
 #include <random>
@@ -133,10 +133,11 @@ TEST_CASE("a hit tells place, normal, entity and side; a miss nothing but infini
   CHECK(hits[4].t == doctest::Approx(-7));
 }
 
-TEST_CASE("crossings are told however little room there is for them") {
+TEST_CASE("crossings are counted however small the array for them is") {
   const SceneHandle scene = small_scene();
   const PreparedHandle prepared = prepare(scene.get());
-  // Through the block with the hole: in at the hole's bottom, out at the back; and the plain part.
+  // The ray passes the block with the hole, in at the hole's bottom and out at the back, and the
+  // plain part.
   const crt_ray ray = {{0.7, 0, 0}, {0, 0, 1}, 0, infinity};
   std::size_t count = 0;
   REQUIRE(crt_crossings(prepared.get(), &ray, nullptr, 0, &count) == CRT_OK);
@@ -155,7 +156,7 @@ TEST_CASE("crossings are told however little room there is for them") {
 }
 
 TEST_CASE("rays see what the picture sees, pixel by pixel") {
-  // Each entity has a channel of its own, so that a pixel tells whom its ray met.
+  // Each entity has a channel of its own, so that a pixel shows which entity its ray met.
   constexpr int width = 96;
   constexpr int height = 72;
   const SceneHandle scene = new_scene();
@@ -187,7 +188,7 @@ TEST_CASE("rays see what the picture sees, pixel by pixel") {
   const ImageHandle image = render(prepared.get());
   const float* const pixels = crt_image_pixels(image.get(), nullptr);
 
-  // The default camera: at z = -1, looking along z, 60 degrees up and down.
+  // The default camera is at z = -1 and looks along z, 60 degrees from bottom to top.
   const double half = std::tan(std::acos(-1) / 6);
   std::vector<crt_ray> rays;
   for (int y = 0; y < height; ++y) {

@@ -1,4 +1,4 @@
-// Rendering: progress, cancelling, regions, jobs, and what the callbacks may do.
+// These tests check rendering: progress, cancelling, regions, jobs, and what the callbacks may do.
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -34,7 +34,7 @@ JobHandle start(crt_prepared* prepared, const crt_render_options* options = null
   return made<JobHandle>([&](crt_job** out) { return crt_render_start(prepared, options, out); });
 }
 
-/// Stops a render at its first word and holds it there until it is let go.
+/// A Gate stops a render at its first callback and holds it there until it is opened.
 struct Gate {
   std::atomic<bool> reached = false;
   std::atomic<bool> open = false;
@@ -233,8 +233,7 @@ TEST_CASE("releasing a running job cancels it, also from its own callback") {
   self.job = job;
   while (!self.done) std::this_thread::yield();
   CHECK(self.waited == CRT_ERROR_INVALID_ARGUMENT);
-  // The job's thread may still be on its way out of `options`' callback; it touches nothing of
-  // ours.
+  // The job's thread may still be returning from `options`' callback. It touches nothing of ours.
 }
 
 TEST_CASE("a callback may render, query and use everything itself") {
@@ -343,7 +342,7 @@ TEST_CASE("a seed of the options takes the place of the scene's") {
   CHECK(settings.seed == 5);
 }
 
-TEST_CASE("a target error is kept, told of, and met again by the number of passes") {
+TEST_CASE("a target error is kept, reported, and met again by the number of passes") {
   const SceneHandle scene = small_scene();
   crt_settings settings;
   settings.struct_size = sizeof settings;

@@ -1,4 +1,4 @@
-// Scripts through the C interface: options, callbacks, diagnostics.
+// These tests run scripts through the C interface: options, callbacks, diagnostics.
 #include <cstring>
 #include <map>
 #include <string>
@@ -94,7 +94,7 @@ TEST_CASE("a wrong script tells where, with the line, and through whom") {
   CHECK(std::string(crt_diagnostics_json(ran.diagnostics.get())).front() == '[');
 }
 
-TEST_CASE("without room for diagnostics the message alone tells") {
+TEST_CASE("without a place for diagnostics the message alone says what is wrong") {
   crt_scene* scene = nullptr;
   CHECK(crt_scene_from_script("Scene { Spheer { } }", 20, "x.crt", nullptr, nullptr, &scene) ==
         CRT_ERROR_SCRIPT);
@@ -186,7 +186,7 @@ TEST_CASE("files come from the caller first; a number that is none of the answer
     const auto found = all.find(path);
     if (std::strcmp(path, "dir/stop.crt") == 0) return 77;
     if (found == all.end()) return CRT_FILE_NOT_GIVEN;
-    // In pieces, as a file is read.
+    // The content is appended in pieces, as a file is read.
     for (const char& c : found->second) {
       if (crt_file_content_append(content, &c, 1) != CRT_OK) return 99;
     }

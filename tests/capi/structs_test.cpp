@@ -1,4 +1,4 @@
-// Structs that are longer or shorter than the library's, as from other versions of the header.
+// Structs may be longer or shorter than the library's, as from other versions of the header.
 #include <cstddef>
 #include <cstring>
 #include <vector>
@@ -9,7 +9,7 @@ using namespace crt::test;
 
 namespace {
 
-/// A struct's bytes with a guard behind them.
+/// Guarded is a struct's bytes with a guard behind them.
 template <class Struct>
 struct Guarded {
   explicit Guarded(std::size_t new_size) : size(new_size), bytes(new_size + guard, 0x5a) {}
@@ -34,7 +34,7 @@ struct Guarded {
   std::vector<unsigned char> bytes;
 };
 
-/// Initialises structs of every length; nothing may be written behind them, and what fits has its
+/// Initialises structs of every length. Nothing may be written behind them, and what fits has its
 /// default.
 template <class Struct, class Init>
 void check_init(const Init& init) {
@@ -45,7 +45,7 @@ void check_init(const Init& init) {
     REQUIRE(init(given.get(), size) == CRT_OK);
     CHECK(given.untouched_behind());
     CHECK(given.struct_size() == size);
-    // Every byte is the default's, or 0 where a field is cut in two or the library knows none.
+    // Every byte is the default's, or 0 where a field is cut in two or the library has none.
     for (std::size_t i = 4; i < size; ++i) {
       const unsigned char expected =
           i < sizeof whole ? reinterpret_cast<const unsigned char*>(&whole)[i] : 0;
@@ -107,7 +107,7 @@ TEST_CASE("what a struct from an older header does not have keeps its default") 
   crt_settings settings = small_settings();
   settings.gamma = 2.2;
   settings.seed = 77;
-  // An older header whose struct ended before gamma: the bytes behind it are not ours to read.
+  // An older header's struct ended before gamma. The library must not read the bytes behind it.
   settings.struct_size = offsetof(crt_settings, gamma);
   REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
   crt_settings back = small_settings();
@@ -116,7 +116,7 @@ TEST_CASE("what a struct from an older header does not have keeps its default") 
   CHECK(back.gamma == 1);
   CHECK(back.seed == 0);
   CHECK(std::string(back.title).empty());
-  // One whose end cuts a field in two has not got that field.
+  // A struct whose end cuts a field in two does not have that field.
   settings.struct_size = offsetof(crt_settings, gamma) + 7;
   REQUIRE(crt_scene_set_settings(scene.get(), &settings) == CRT_OK);
   REQUIRE(crt_scene_get_settings(scene.get(), &back) == CRT_OK);

@@ -1,4 +1,4 @@
-// Handles that release themselves, and small scenes, for the tests of the C interface.
+// This has handles that release themselves, and small scenes, for the tests of the C interface.
 #pragma once
 
 #include <crt/crt.h>
@@ -31,7 +31,7 @@ using DiagnosticsHandle = std::unique_ptr<crt_diagnostics, Releaser<crt_diagnost
 
 using Numbers = std::array<double, 3>;
 
-/// What a function handed out; the test fails if it did not.
+/// Returns what a function handed out. The test fails if it did not.
 template <class Handle, class Call>
 Handle made(const Call& call) {
   typename Handle::pointer out = nullptr;
@@ -69,7 +69,7 @@ inline ImageHandle render(crt_prepared* prepared, const crt_render_options* opti
   return made<ImageHandle>([&](crt_image** out) { return crt_render(prepared, options, out); });
 }
 
-/// A lit sphere and a box with a hole, small.
+/// Makes a small scene of a lit sphere and a box with a hole.
 inline SceneHandle small_scene(std::int32_t width = 40, std::int32_t height = 30) {
   SceneHandle scene = new_scene();
   const EntityHandle ball = sphere({-0.4, 0, 2}, 0.5);
@@ -97,7 +97,7 @@ inline std::string message() {
   return crt_error_message();
 }
 
-/// Whether the thread's last message has `text` in it.
+/// Says whether the thread's last message contains `text`.
 inline bool says(const std::string& text) {
   return message().find(text) != std::string::npos;
 }

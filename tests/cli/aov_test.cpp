@@ -1,5 +1,5 @@
-// crt render --aov: what gets into the file, as OpenImageIO's own tool reads it, and what is
-// refused.
+// These tests run crt render --aov. They check what gets into the file, as OpenImageIO's own tool
+// reads it, and what is refused.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -18,7 +18,7 @@ bool holds(const std::string& text, const std::string& piece) {
   return text.find(piece) != std::string::npos;
 }
 
-/// What `oiiotool` prints (the CMake package of OpenImageIO cannot be used without it).
+/// Returns what `oiiotool` prints (the CMake package of OpenImageIO cannot be used without it).
 std::string oiiotool(const TemporaryFolder& folder, const std::string& arguments) {
   const std::string command =
       "cd '" + folder.path().string() + "' && oiiotool " + arguments + " >tool.txt 2>&1";
@@ -26,7 +26,7 @@ std::string oiiotool(const TemporaryFolder& folder, const std::string& arguments
   return folder.read("tool.txt");
 }
 
-/// Depth, the normal's z and the green of the albedo in a pixel of ball.exr.
+/// Returns depth, the normal's z and the green of the albedo in a pixel of ball.exr.
 std::vector<double> numbers_at(const TemporaryFolder& folder, const std::string& pixel) {
   oiiotool(folder, "ball.exr --ch Z,N.Z,albedo.G --crop 1x1+" + pixel + " -o pixel.exr");
   const std::string text = oiiotool(folder, "--dumpdata pixel.exr");
@@ -52,9 +52,10 @@ TEST_CASE("an EXR file holds what --aov asks for, under the names that composito
     CAPTURE(channel);
     CHECK(holds(info, channel));
   }
-  // The ray through the pixel to the right of the middle and below it, half a pixel from either.
+  // The ray goes through the pixel to the right of the middle and below it, half a pixel from both
+  // lines.
   const double tangent = std::tan(std::numbers::pi / 6) / 12;
-  const double length = std::sqrt(1 + 2 * tangent * tangent);  // of what is 1 along z
+  const double length = std::sqrt(1 + 2 * tangent * tangent);  // the length of what is 1 along z
   const double middle = 4 / length;
   const double depth = middle - std::sqrt(middle * middle - 15);
   const std::vector<double> ball = numbers_at(folder, "8+6");

@@ -24,7 +24,7 @@ void require(bool fine, const char* what) {
   if (!fine) throw std::runtime_error(what);
 }
 
-/// Where the three standard streams of a process go.
+/// Streams says where the three standard streams of a process go.
 struct Streams {
   posix_spawn_file_actions_t actions{};
 
@@ -50,7 +50,7 @@ pid_t spawn_crt(const Streams& streams, const std::vector<std::string>& argument
   for (const std::string& argument : arguments)
     words.push_back(const_cast<char*>(argument.c_str()));
   words.push_back(nullptr);
-  // What comes first in the environment wins.
+  // The first of several entries in the environment wins.
   std::vector<char*> environment;
   for (const std::string& entry : more_environment)
     environment.push_back(const_cast<char*>(entry.c_str()));

@@ -1,4 +1,4 @@
-// Running the command `crt` in a folder of its own, as a shell would.
+// This runs the command `crt` in a folder of its own, as a shell would.
 #pragma once
 
 #include <sys/types.h>
@@ -9,7 +9,7 @@
 
 namespace crt::test {
 
-/// A folder that lives as long as the test.
+/// A TemporaryFolder lives as long as the test.
 class TemporaryFolder {
  public:
   TemporaryFolder();
@@ -21,14 +21,14 @@ class TemporaryFolder {
   bool has(const std::string& name) const { return std::filesystem::exists(path_ / name); }
   void write(const std::string& name, const std::string& text) const;
   std::string read(const std::string& name) const;
-  /// The names of all that is in it, sorted.
+  /// Returns the names of all that is in it, sorted.
   std::vector<std::string> names() const;
 
  private:
   std::filesystem::path path_;
 };
 
-/// What a run left behind.
+/// An Outcome is what a run left behind.
 struct Outcome {
   int exit_code = -1;
   std::string out;
@@ -38,21 +38,21 @@ struct Outcome {
 /// Runs `crt` with these arguments in the folder. Standard input is empty, the outputs are files.
 Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
-/// The same with standard output, or standard error, going to a file or device that is there.
+/// Runs `crt` with standard output, or standard error, going to a file or device that exists.
 Outcome run_crt_into(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                      const std::string& out, const std::string& err);
 
-/// The same with standard output closed.
+/// Runs `crt` with standard output closed.
 Outcome run_crt_without_output(const TemporaryFolder& folder,
                                const std::vector<std::string>& arguments);
 
-/// Runs `crt` with all standard streams closed; its exit code.
+/// Runs `crt` with all standard streams closed, and returns its exit code.
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
 
-/// Whether this machine has terminals to give: a container without /dev/pts has none.
+/// Says whether this machine has terminals to give. A container without /dev/pts has none.
 bool has_terminals();
 
-/// `crt` with its standard error on a terminal.
+/// A CrtOnTerminal runs `crt` with its standard error on a terminal.
 class CrtOnTerminal {
  public:
   CrtOnTerminal(const TemporaryFolder& folder, const std::vector<std::string>& arguments);
@@ -61,10 +61,10 @@ class CrtOnTerminal {
   CrtOnTerminal(const CrtOnTerminal&) = delete;
   CrtOnTerminal& operator=(const CrtOnTerminal&) = delete;
 
-  /// Reads what it shows until `text` is among it or it ends; says whether it was.
+  /// Reads what it shows until `text` is among it or it ends, and says whether it was.
   bool shows(const std::string& text);
   void send(int signal) const;
-  /// Waits for its end; its exit code, or -1 if a signal ended it.
+  /// Waits for its end, and returns its exit code, or -1 if a signal ended it.
   int wait();
   const std::string& shown() const { return shown_; }
 

@@ -1,4 +1,4 @@
-// --compat: scripts of 2015 on the command line.
+// These tests run scripts of 2015 on the command line, with --compat.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -24,7 +24,7 @@ struct Fixture {
   Fixture() { folder.write("old.crt", old_script); }
 };
 
-/// The bytes of a binary PPM file's one pixel.
+/// Returns the bytes of a binary PPM file's one pixel.
 std::string pixel_of(const std::string& ppm) {
   return ppm.substr(ppm.size() - 3);
 }

@@ -171,7 +171,7 @@ TEST_CASE_FIXTURE(Fixture, "--quiet still tells errors, and warnings no more") {
   CHECK(contains(run_crt(folder, {"check", "wrong.crt", "--quiet"}).err, "error"));
 }
 
-TEST_CASE_FIXTURE(Fixture, "a warning is told once, however many frames give it") {
+TEST_CASE_FIXTURE(Fixture, "a warning is reported once, however many frames give it") {
   folder.write("unused.crt", "1 + 2\nSettings { width -> 4 height -> 4 }\nScene { }\n");
   const Outcome run = run_crt(folder, {"render", "unused.crt", "--frames", "0-3"});
   REQUIRE(run.exit_code == 0);

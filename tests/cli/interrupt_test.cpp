@@ -18,7 +18,7 @@ namespace {
 constexpr int interrupted = 130;
 const std::string first_sight_of_bar = "0 %";
 
-/// Says "made", and then takes long to prepare: half a million balls that overlap.
+/// This script prints "made", and then takes long to prepare: half a million balls that overlap.
 const std::string crowd_script = R"(i = 0
 u = Sphere { center -> vec3(0, 0, 0) radius -> 1 }
 n = 19
@@ -32,8 +32,8 @@ Scene { u }
 print("made")
 )";
 
-/// Until the command has ended after a signal. Bounds below are generous: what is promised is 0.1
-/// s.
+/// Returns the time until the command has ended after a signal. Bounds below are generous: what is
+/// promised is 0.1 s.
 double seconds_to_end(CrtOnTerminal& crt, int signal) {
   const auto begin = std::chrono::steady_clock::now();
   crt.send(signal);
@@ -98,7 +98,7 @@ TEST_CASE("an interrupt at any time leaves a checkpoint, from which the same pic
   std::vector<std::string> command = to_picture;
   command.insert(command.end(), {"-o", "part.png", "--checkpoint", "part.state"});
   for (const int signal : {SIGINT, SIGTERM}) {
-    // At once, and within the first pass, going on from there.
+    // The signal comes at once, and within the first pass of the render that continues.
     for (const char* sight : {"0 %", "[#"}) {
       CrtOnTerminal crt(folder, command);
       REQUIRE(crt.shows(sight));

@@ -1,4 +1,4 @@
-// A reader of JSON that accepts nothing but JSON (RFC 8259), for looking at what crt writes.
+// This reader of JSON accepts nothing but JSON (RFC 8259). Tests read what crt writes with it.
 #pragma once
 
 #include <map>
@@ -19,12 +19,12 @@ struct Json {
   std::vector<Json> items;
   std::map<std::string, Json> members;
 
-  /// The member of that name; throws if there is none.
+  /// Returns the member of that name. Throws if there is none.
   const Json& operator[](const std::string& name) const { return members.at(name); }
   bool has(const std::string& name) const { return members.count(name) != 0; }
 };
 
-/// Throws std::runtime_error, with the place, if `text` is not exactly one JSON value.
+/// Parses JSON. Throws std::runtime_error, with the place, if `text` is not exactly one JSON value.
 Json parse_json(std::string_view text);
 
 }  // namespace crt::test

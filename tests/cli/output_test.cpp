@@ -1,4 +1,4 @@
-// Where the command's outputs go, and what it says when they do not get there.
+// These tests check where the command's outputs go, and what it reports when they do not get there.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -16,7 +16,7 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr int files = 3;  // what the command ends with
-// It takes nothing. Tests write to it as a standard stream alone, which cannot replace it.
+// This device takes nothing. Tests write to it as a standard stream alone, which cannot replace it.
 const std::string full = "/dev/full";
 
 struct Fixture {

@@ -21,7 +21,7 @@ bool is_png(const std::string& content) {
   return content.starts_with("\x89PNG\r\n\x1a\n");
 }
 
-/// The sides of a PNG, from its header chunk.
+/// Returns the sides of a PNG, from its header chunk.
 std::pair<int, int> png_size(const std::string& content) {
   const auto number_at = [&](std::size_t at) {
     int number = 0;
@@ -154,7 +154,7 @@ TEST_CASE_FIXTURE(Fixture, "where standard error is no terminal, progress is pla
                      [](char c) { return c == '\r' || c == '\033'; }));
 }
 
-TEST_CASE_FIXTURE(Fixture, "what is told to closed standard streams gets into no file") {
+TEST_CASE_FIXTURE(Fixture, "what is written to closed standard streams gets into no file") {
   run_crt(folder, {"render", "ball.crt", "--reproducible", "-o", "heard.png"});
   CHECK(run_crt_unheard(folder, {"render", "ball.crt", "--reproducible", "-o", "unheard.png"}) ==
         0);

@@ -1,27 +1,29 @@
-// Scripts that the tests of the command run.
+// The tests of the command run these scripts.
 #pragma once
 
 #include <string>
 
 namespace crt::test {
 
-/// A ball before the camera, 16 x 12 pixels; prints t and n (3), and n is the ball's height.
+/// This script shows a ball before the camera, in 16 x 12 pixels. It prints t and n (3), and n is
+/// the ball's height.
 inline const std::string ball_script = R"(n = 3
 print("t is " + t)
 print("n is " + n)
 Settings {
-  width -> 16
-  height -> 12
+  width -> 16 height -> 12
   title -> "A ball"
   camera -> Camera { position -> vec3(0, 0, -4) pointing -> vec3(0, 0, 0) }
-  lights -> [ParallelLight { from -> vec3(0, 5, -5) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) }]
+  lights -> [ParallelLight {
+    from -> vec3(0, 5, -5) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) }]
 }
 Scene {
   Sphere { center -> vec3(0, n - 3, 0) radius -> 1.0 }
 }
 )";
 
-/// A picture that is done at once at t = 0, and takes minutes afterwards: to be interrupted.
+/// This picture is done at once at t = 0, and takes minutes afterwards, so that it can be
+/// interrupted.
 inline const std::string endless_script = R"(side = t < 0.5 ? 4 : 8000
 Settings {
   width -> side
@@ -34,7 +36,7 @@ Scene {
 }
 )";
 
-/// Rays that go to and fro between mirrors: a pass takes seconds, though its pixels are few.
+/// These rays go to and fro between mirrors. A pass takes seconds, though its pixels are few.
 inline const std::string mirrors_script = R"(m = Material {
   color -> rgb(1, 1, 1)
   reflectivity -> 1.0

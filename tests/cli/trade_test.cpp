@@ -1,4 +1,4 @@
-// crt trade: what it writes, what it refuses, and that it ends in order.
+// These tests check what crt trade writes, what it refuses, and that it ends in order.
 #include <doctest/doctest.h>
 
 #include <csignal>
@@ -15,7 +15,7 @@ bool holds(const std::string& text, const std::string& piece) {
   return text.find(piece) != std::string::npos;
 }
 
-/// The numbers in one column of a CSV file, by the options of each line.
+/// Returns the number in one column of a CSV file, in the line with these options.
 double number_of(const std::string& csv, const std::string& options, int column) {
   std::istringstream lines(csv);
   for (std::string line; std::getline(lines, line);) {
@@ -58,7 +58,7 @@ TEST_CASE("crt trade measures a ladder: more samples cost more and are nearer to
   CHECK(folder.read("ball-trade.svg").starts_with("<svg "));
 }
 
-TEST_CASE("crt trade measures the part that it is told to") {
+TEST_CASE("crt trade measures the given part") {
   const TemporaryFolder folder;
   folder.write("ball.crt", ball_script);
   const Outcome run =

@@ -1,4 +1,4 @@
-// What compiling a scene makes of it, however large, deep or many threads.
+// These tests compile scenes, however large or deep, on any number of threads.
 #include "core/compile/compile.hpp"
 
 #include <doctest/doctest.h>
@@ -32,7 +32,7 @@ class Random {
   std::mt19937 engine_{1};
 };
 
-/// Enough of everything that more than one thread has something to do.
+/// Makes enough of everything that more than one thread has work.
 std::vector<Entity> mixed_entities() {
   Random random;
   std::vector<Entity> entities = random.balls(20'000, 50, 0.1);
@@ -106,17 +106,17 @@ TEST_CASE("a scene is compiled to the same on any number of threads") {
 }
 
 TEST_CASE("faces are on one surface if the surfaces agree, among very many") {
-  // Three of each ball in the union, brought to their place in different ways, and one of each by
-  // itself.
+  // The union has each ball three times, brought to its place by different transforms, and one of
+  // each stands alone.
   Random random;
   const std::vector<Entity> balls = random.balls(10'000, 9, 1);
   std::vector<Entity> parts = balls;
   for (const double moved : {0.5, 1.0}) {
     for (const Entity& ball : balls) {
       const auto& sphere = std::get<Sphere>(std::get<Primitive>(ball.node().content));
-      const Vec3 way = moved * sphere.center;
-      const Entity begun = Sphere{.center = sphere.center - way, .radius = sphere.radius};
-      parts.push_back(begun.transformed({.translation = way}));
+      const Vec3 offset = moved * sphere.center;
+      const Entity begun = Sphere{.center = sphere.center - offset, .radius = sphere.radius};
+      parts.push_back(begun.transformed({.translation = offset}));
     }
   }
   std::vector<Entity> entities{csg_union(parts)};
@@ -177,8 +177,8 @@ TEST_CASE("a hundred thousand operations in one another are compiled") {
 }
 
 TEST_CASE("parts that come apart one by one only take no longer for that") {
-  // Around a core, slabs on six sides in turn: each plane that misses all boxes has but one of them
-  // behind it.
+  // Around a core, slabs lie on six sides in turn. Each plane that misses all boxes has only one of
+  // them behind it.
   std::vector<Entity> parts{Sphere{}};
   double size = 1;
   for (int i = 0; i < 20'000; ++i) {

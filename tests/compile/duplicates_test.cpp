@@ -71,7 +71,7 @@ TEST_CASE("equal trees are one, deep inside of others as well") {
   CHECK(leaves_of({(cut + far_ball) + (Sphere{} - cutter)}) == 3);
   const Entity box = Box{.corner_a = {-2, -2, -2}, .corner_b = {0.1, 2, 2}};
   CHECK(leaves_of({box - ((cut + moved(ball, 0.5)) ^ (moved(ball, 0.5) + cut))}) == 4);
-  // Not equal: what is cut from what.
+  // These two are not equal, as what is cut from what differs.
   CHECK(leaves_of({cut, cutter - ball}) == 4);
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("equal shapes of different materials are one only where none lets ligh
   CHECK(leaves_of({with(glass), with(red)}) == 2);
   const SharedMaterial shared = glass;
   CHECK(leaves_of({ball.with_material(shared), ball.with_material(shared)}) == 1);
-  // Of the parts of one solid the first is seen, whatever they are of.
+  // Of the parts of one solid the first is seen, whatever their materials are.
   CHECK(leaves_of({with(glass) + with(red)}) == 1);
   CHECK(compile(std::vector<Entity>{with(glass) + with(red)}).leaves[0].material == 0);
 }

@@ -1,4 +1,4 @@
-// Which faces of a scene count as one surface.
+// These tests check which faces of a scene count as one surface.
 #include "core/compile/surface_table.hpp"
 
 #include <doctest/doctest.h>
@@ -21,7 +21,7 @@ CanonicalSurface surface_of(const Primitive& primitive, std::uint32_t face,
   return canonical_surface(make_shape(primitive)->surface(face), placement);
 }
 
-/// Whether some face of `a` lies on the same surface as some face of `b`.
+/// Says whether some face of `a` lies on the same surface as some face of `b`.
 bool share(const Primitive& a, const Placement& a_place, const Primitive& b,
            const Placement& b_place) {
   for (std::uint32_t i = 0; i < make_shape(a)->face_count(); ++i) {

@@ -1,5 +1,5 @@
-// Tells what queries answer about random subjects as digests: equal ones mean equal bits of every
-// answer. usage: query_digests RAYS
+// Prints what queries answer about random subjects as digests. Equal digests mean equal bits of
+// every answer. usage: query_digests RAYS
 #include <fmt/core.h>
 
 #include <cstdio>

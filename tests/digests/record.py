@@ -1,8 +1,9 @@
 """Prints digests of pictures and of queries' answers:  record.py CRT QUERY_DIGESTS FOLDER
 
-Of every example and every scene that the benchmarks render, in both tiers, and of a million random queries. A change
-that only moves code leaves all of them as they are: record before, record after, and compare the two texts. They
-hold for one machine and its libraries (the C library's elementary functions are among them).
+They are of every example and every scene that the benchmarks render, in both tiers, and of a
+million random queries. A change that only moves code leaves all of them as they are: record
+before, record after, and compare the two texts. They hold for one machine and its libraries (the C
+library's elementary functions are among them).
 """
 
 import hashlib
@@ -22,7 +23,7 @@ LARGEST = 20_000  # primitives' worth of script: larger scenes of the catalogue 
 
 
 def written_scenes(folder: pathlib.Path) -> list[pathlib.Path]:
-    """The benchmarks' scenes as scripts, but for the huge ones."""
+    """Returns the benchmarks' scenes as scripts, but for the huge ones."""
     scripts = []
     for name, make in catalogue.SCENES.items():
         count = name.rpartition("-")[2]
@@ -37,7 +38,10 @@ def written_scenes(folder: pathlib.Path) -> list[pathlib.Path]:
 
 def picture_digest(crt: pathlib.Path, script: pathlib.Path, tier: str, folder: pathlib.Path) -> str:
     picture = folder / "picture.exr"
-    command = [crt, "render", script, *SIZE, "--precision", tier, "--reproducible", "--quiet", "-o", picture]
+    command = [
+        crt, "render", script, *SIZE, "--precision", tier, "--reproducible", "--quiet", "-o",
+        picture,
+    ]
     subprocess.run(command, check=True, stdin=subprocess.DEVNULL, cwd=script.parent)
     return hashlib.sha256(picture.read_bytes()).hexdigest()
 

@@ -16,7 +16,7 @@ struct Named {
   Entity solid;
 };
 
-/// Convex solids within two units around the origin.
+/// Returns convex solids within two units around the origin.
 std::vector<Named> convex_solids() {
   const Entity ball = Sphere{};
   const Entity block = Box{.corner_a = {-1, -0.7, -0.8}, .corner_b = {0.9, 0.8, 1}};
@@ -32,12 +32,13 @@ std::vector<Named> convex_solids() {
           {"a block less half of it", block - half}};
 }
 
-/// The light that a camera ray's hit sends back if nothing stands between it and the lights.
+/// Returns the light that a camera ray's hit sends back if nothing stands between it and the
+/// lights.
 double unhidden_light(const Scene& scene, const Ray& ray, RayQueries& queries) {
   const std::optional<Hit> hit = queries.intersect(ray);
   if (!hit) return 0;
   double light = 0;
-  for (const Light& lamp : scene.lights) {
+  for (const Light& source : scene.lights) {
     const Vec3 towards = std::visit(
         [&](const auto& kind) {
           using Kind = std::decay_t<decltype(kind)>;
@@ -47,13 +48,13 @@ double unhidden_light(const Scene& scene, const Ray& ray, RayQueries& queries) {
             return kind.origin - hit->position;
           }
         },
-        lamp);
+        source);
     light += std::max(0.0, glm::dot(hit->normal, towards / glm::length(towards)));
   }
   return light;
 }
 
-/// How many pixels are not as bright as if nothing stood in the light's way, and how many are lit.
+/// A Count says how many pixels are darker than if nothing blocked the light, and how many are lit.
 struct Count {
   int wrong = 0;
   int lit = 0;
@@ -113,7 +114,8 @@ TEST_CASE("a lit convex solid never shadows itself") {
 }
 
 TEST_CASE("a lit convex solid far from the origin does not shadow itself either") {
-  // At 10^9 of its size from it: positions have seven digits left, which light need not notice.
+  // The camera is 10^9 of its size away: positions have seven digits left, which light need not
+  // notice.
   Random random(8);
   int lit = 0;
   for (const Named& named : convex_solids()) {

@@ -1,5 +1,5 @@
-// Faces that coincide render without a speckle, from all sides: as if what wins there stood out by
-// a hair.
+// Faces that coincide render without a speckle, from all sides, as if the winner stood out by a
+// hair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,11 +14,12 @@ namespace {
 
 constexpr double hair = 1e-6;
 
-/// Two ways to write what must look alike: with faces that coincide, and with a hair between them.
+/// A Pair writes twice what must look alike: with faces that coincide, and with a hair between
+/// them.
 struct Pair {
   std::string name;
   std::vector<Entity> coincident;
-  std::vector<Entity> apart;
+  std::vector<Entity> separate;
 };
 
 Material paint(double r, double g, double b) {
@@ -119,8 +120,8 @@ std::vector<Pair> flush_pairs() {
            {ring(0.25 + hair, red) ^ behind({1, 0, 0}, 0.3, red), ring(0.25, green)}}};
 }
 
-/// The picture that a camera from somewhere takes; `side` numbers the places, the first 6 along an
-/// axis.
+/// Returns the picture of a camera from one of several places. `side` numbers them, the first 6
+/// along an axis.
 Image taken(std::vector<Entity> entities, const Transform& placed, int side, Precision precision) {
   Scene scene = dark_scene();
   scene.background = SolidBackground{{0.1, 0.1, 0.3}};
@@ -152,11 +153,11 @@ std::vector<Transform> placements() {
 
 void check_pairs(const std::vector<Pair>& pairs) {
   for (const Pair& pair : pairs) {
-    const std::vector<Entity>& apart =
-        pair.apart.empty() ? std::vector<Entity>{pair.coincident.front()} : pair.apart;
+    const std::vector<Entity>& separate =
+        pair.separate.empty() ? std::vector<Entity>{pair.coincident.front()} : pair.separate;
     for (const Transform& placed : placements()) {
       for (int side = 0; side < 14; ++side) {
-        const Image reference = taken(apart, placed, side, Precision::standard);
+        const Image reference = taken(separate, placed, side, Precision::standard);
         for (const Precision precision : {Precision::standard, Precision::exact}) {
           CAPTURE(pair.name);
           CAPTURE(side);

@@ -1,4 +1,4 @@
-// Cameras that are exactly on a surface see what is before it, and from within what is behind it.
+// A camera that is exactly on a surface sees what is before it, and from within what is behind it.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -97,7 +97,7 @@ TEST_CASE("an eye at the level of the water sees into it below and across it abo
         Entity(Box{.corner_a = {-5, -2, -5}, .corner_b = {5, 0, 5}, .material = water})
             .transformed(placed)};
     scene.camera.position = apply(placed, {0.3, 0, -1});
-    // Level, or in the water's plane but to the side.
+    // The camera looks level, or in the water's plane but to the side.
     scene.camera.pointing = apply(placed, {0.3 + round % 3, 0, 1});
     const Image image = render(prepare(scene), {.threads = 1});
     int wrong = 0;

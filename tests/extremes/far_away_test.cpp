@@ -8,7 +8,7 @@ using namespace crt::test;
 
 namespace {
 
-/// Where the scene is put: its coordinates, all multiples of 2^-20, are doubles there too.
+/// The scene is put here. Its coordinates, all multiples of 2^-20, are doubles there too.
 constexpr double far = 0x1p32;
 constexpr double coordinate_step = 0x1p-20;
 
@@ -19,16 +19,16 @@ Vec3 snapped(const Vec3& p) {
   return result;
 }
 
-enum class Way { coordinates, transform };
+enum class Placing { coordinates, transform };
 
-Scene scene_at(const Vec3& away, Way way, Precision precision) {
+Scene scene_at(const Vec3& away, Placing placing, Precision precision) {
   Scene scene;
   scene.settings.width = 60;
   scene.settings.height = 45;
   scene.settings.precision = precision;
   scene.background = GradientBackground{};
   const auto at = [&](double x, double y, double z) {
-    return snapped({x, y, z}) + (way == Way::coordinates ? away : Vec3(0));
+    return snapped({x, y, z}) + (placing == Placing::coordinates ? away : Vec3(0));
   };
   Material crystal = glass(1.5);
   crystal.absorption = {0.1, 0.4, 0.2};
@@ -54,7 +54,7 @@ Scene scene_at(const Vec3& away, Way way, Precision precision) {
       Disc{.center = at(0.2, 1.4, 2), .normal = {0.1, 0.2, -1}, .radius = 0.7, .material = shiny},
       Triangle{
           .a = at(-1, 0, 2.3), .b = at(0, 0.2, 2.4), .c = at(-0.6, 1.6, 2.5), .material = plain}};
-  if (way == Way::transform) {
+  if (placing == Placing::transform) {
     for (Entity& entity : scene.entities) entity = entity.transformed(translate(away));
   }
   scene.lights = {
@@ -70,12 +70,12 @@ Scene scene_at(const Vec3& away, Way way, Precision precision) {
 
 TEST_CASE("a scene at 10^9 of its size from the origin is hit where it is at the origin") {
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    for (const Way way : {Way::coordinates, Way::transform}) {
-      const Scene here = scene_at(Vec3(0), way, precision);
+    for (const Placing placing : {Placing::coordinates, Placing::transform}) {
+      const Scene here = scene_at(Vec3(0), placing, precision);
       RayQueries near_queries(prepare(here));
       for (const Vec3& away :
            {far * Vec3(1, 1, 1), far * Vec3(-1, 0.5, 0.25), far * Vec3(0, 0, -1)}) {
-        const Scene there = scene_at(away, way, precision);
+        const Scene there = scene_at(away, placing, precision);
         RayQueries far_queries(prepare(there));
         int different = 0;
         for (int y = 0; y < here.settings.height; ++y) {
@@ -106,11 +106,12 @@ TEST_CASE("a scene at 10^9 of its size from the origin looks as it does at the o
   // hardly.
   constexpr double alike = 2e-4;
   for (const Precision precision : {Precision::standard, Precision::exact}) {
-    for (const Way way : {Way::coordinates, Way::transform}) {
-      const Image reference = render(prepare(scene_at(Vec3(0), way, precision)), {.threads = 1});
+    for (const Placing placing : {Placing::coordinates, Placing::transform}) {
+      const Image reference =
+          render(prepare(scene_at(Vec3(0), placing, precision)), {.threads = 1});
       for (const Vec3& away :
            {far * Vec3(1, 1, 1), far * Vec3(-1, 0.5, 0.25), far * Vec3(0, 0, -1)}) {
-        const Image image = render(prepare(scene_at(away, way, precision)), {.threads = 1});
+        const Image image = render(prepare(scene_at(away, placing, precision)), {.threads = 1});
         int different = 0;
         for (int y = 0; y < image.height(); ++y) {
           for (int x = 0; x < image.width(); ++x) {

@@ -1,5 +1,5 @@
-// Random glass, most of whose faces coincide, overlap or touch: light that has gone through is in
-// no medium any more, and has been in each as docs/image.md says.
+// These tests render random glass, most of whose faces coincide, overlap or touch. Light that has
+// gone through is in no medium any more, and has been in each as docs/image.md says.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -37,7 +37,7 @@ struct Span {
   double leave;
 };
 
-/// Where the line is inside of the solid, ascending.
+/// Returns where the line is inside of the solid, ascending.
 std::vector<Span> spans(const Entity& solid, const Ray& line) {
   Scene alone;
   alone.entities = {solid};
@@ -51,8 +51,8 @@ std::vector<Span> spans(const Entity& solid, const Ray& line) {
   return result;
 }
 
-/// The optical depth of a line through solids of the given absorptions; nothing where the rule goes
-/// in circles or something is too short to call.
+/// Returns the optical depth of a line through solids of the given absorptions. It returns nothing
+/// where the rule goes in circles or a span is too short to decide.
 std::optional<double> optical_depth(const std::vector<Entity>& solids,
                                     const std::vector<double>& absorption, const Ray& line) {
   constexpr double same = 1e-8;
@@ -102,8 +102,8 @@ std::optional<double> optical_depth(const std::vector<Entity>& solids,
 }  // namespace
 
 TEST_CASE("light that has gone through random glass is back in the open") {
-  // Whoever thinks that it is still in a medium on its endless way to the background loses all of
-  // it.
+  // A renderer that counts itself still in a medium on its endless path to the background loses all
+  // of it.
   constexpr double faint = 1e-12;
   SolidMaker maker(30);
   Random random(30);

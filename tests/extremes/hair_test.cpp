@@ -1,6 +1,6 @@
-// Pictures of random solids, most of whose faces coincide, against a tracer that knows no surface a
-// ray starts on: it lifts the start by a hair. Where two hairs of different size agree the picture
-// must as well.
+// These tests compare pictures of random solids, most of whose faces coincide, with a tracer that
+// knows no surface a ray starts on: it lifts the start by a hair. Where two hairs of different size
+// agree the picture must as well.
 #include <doctest/doctest.h>
 
 #include "extremes/support.hpp"
@@ -21,7 +21,7 @@ class HairTracer {
   HairTracer(const Scene& scene, std::vector<Paint> paints, double hair)
       : scene_(scene), paints_(std::move(paints)), hair_(hair), queries_(prepare(scene)) {}
 
-  /// Red light along a ray.
+  /// Returns the red light along a ray.
   double red(const Ray& ray, int bounces) {
     const std::optional<Hit> hit = queries_.intersect(ray);
     if (!hit) return background;
@@ -30,9 +30,9 @@ class HairTracer {
     const Vec3 start = hit->position + hair_ * normal;
     double light = 0;
     for (const Light& light_source : scene_.lights) {
-      const Vec3 way = std::get<PointLight>(light_source).origin - hit->position;
-      const double cosine = glm::dot(way, normal) / glm::length(way);
-      if (cosine <= 0 || queries_.occluded({.origin = start, .direction = way, .t_max = 1}))
+      const Vec3 offset = std::get<PointLight>(light_source).origin - hit->position;
+      const double cosine = glm::dot(offset, normal) / glm::length(offset);
+      if (cosine <= 0 || queries_.occluded({.origin = start, .direction = offset, .t_max = 1}))
         continue;
       light += paint.color.r * (1 - paint.reflectivity) * cosine;
     }
@@ -50,7 +50,7 @@ class HairTracer {
   RayQueries queries_;
 };
 
-/// A solid on the grid: a tree of the maker's, or a cone or torus that it cuts.
+/// Returns a solid on the grid: a tree of the maker's, or a cone or torus that it cuts.
 Entity random_solid(SolidMaker& maker) {
   const int kind = maker.integer(0, 3);
   if (kind > 1) return maker.tree(2).entity();
@@ -72,7 +72,7 @@ Entity random_solid(SolidMaker& maker) {
 
 constexpr int bounces = 2;
 
-/// Pixels that both hairs agree on, and those of them that the picture has otherwise.
+/// A Count has the pixels that both hairs agree on, and those of them where the picture differs.
 struct Count {
   int agreed = 0;
   int wrong = 0;

@@ -1,4 +1,4 @@
-// Lamps that are exactly on a surface light what is before it, without a speckle.
+// Lights that are exactly on a surface light what is before it, without a speckle.
 #include <doctest/doctest.h>
 
 #include <string>
@@ -32,7 +32,7 @@ std::vector<Fixture> fixtures() {
 
 }  // namespace
 
-TEST_CASE("a lamp on a surface lights what is before it") {
+TEST_CASE("a light on a surface lights what is before it") {
   Random random(40);
   for (const Fixture& fixture : fixtures()) {
     for (int round = 0; round < 12; ++round) {
@@ -47,9 +47,9 @@ TEST_CASE("a lamp on a surface lights what is before it") {
       const SharedMaterial white(Material{.color = grey(1)});
       scene.entities = {fixture.bearer.transformed(placed).with_material(white).with_id(1),
                         Entity(Plane{}).transformed(placed).with_material(white).with_id(0)};
-      const Vec3 lamp = place({0, 2, 0});
-      scene.lights = {PointLight{.origin = lamp}};
-      // From between floor and fixture: the floor alone is in sight.
+      const Vec3 light = place({0, 2, 0});
+      scene.lights = {PointLight{.origin = light}};
+      // The camera is between floor and fixture, where it sees the floor alone.
       scene.camera = {
           .position = place({0.4, 1.9, -3.3}), .pointing = place({0.1, 0, 0.2}), .fov = 1.2};
       RayQueries queries(prepare(scene));
@@ -61,8 +61,8 @@ TEST_CASE("a lamp on a surface lights what is before it") {
           const std::optional<Hit> hit = queries.intersect(pixel_ray(scene, x, y));
           if (!hit || hit->entity_id != 0) continue;
           ++floor;
-          const Vec3 way = lamp - hit->position;
-          const double expected = glm::dot(way, hit->normal) / glm::length(way);
+          const Vec3 offset = light - hit->position;
+          const double expected = glm::dot(offset, hit->normal) / glm::length(offset);
           dark += std::abs(image.at(x, y).r - expected) > 1e-5 ? 1 : 0;
         }
       }

@@ -1,5 +1,5 @@
-// Solids that touch, coincide, contain each other or overlap: which of them light is in, from all
-// sides.
+// Solids touch, coincide, contain each other or overlap. These tests check which of them light is
+// in, from all sides.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -14,7 +14,7 @@ namespace {
 
 constexpr double float_precision = 1e-6;
 
-/// Fresnel's reflectance between two media, for the sine of the angle in the first.
+/// Returns Fresnel's reflectance between two media, for the sine of the angle in the first.
 double reflectance(double n1, double n2, double sine) {
   const double cosine1 = std::sqrt(1 - sine * sine);
   const double cosine2 = std::sqrt(1 - std::pow(n1 / n2 * sine, 2));
@@ -23,8 +23,8 @@ double reflectance(double n1, double n2, double sine) {
   return 0.5 * (across * across + within * within);
 }
 
-/// The weight of the straight way from `eye` towards `target` to a tiny ball at `goal`: what a
-/// white world loses if the ball is there and black.
+/// Returns the weight of the straight path from `eye` towards `target` to a tiny ball at `goal`:
+/// what a white world loses if the ball is there and black.
 double weight_of_way(Scene scene, const Vec3& eye, const Vec3& target, const Vec3& goal) {
   scene.background = SolidBackground{{1, 1, 1}};
   const double without = seen(scene, eye, target).r;
@@ -53,8 +53,8 @@ TEST_CASE(
       scene.settings.precision = precision;
       scene.settings.recursion_depth = static_cast<int>(layers.size()) + 1;
       double height = 0;
-      // Written alike, faces that touch are one surface. In every other round each slab gets to its
-      // place by another way, and faces that touch are a rounding apart.
+      // If written alike, faces that touch are one surface. In every other round each slab gets to
+      // its place by another transform, and faces that touch are a rounding apart.
       const bool alike = round % 4 < 2;
       for (const Layer& layer : layers) {
         const double low = alike ? height : 0;
@@ -76,13 +76,13 @@ TEST_CASE(
       const double angle = random.between(0, 1.5);
       const double sine = std::sin(angle);
       for (const bool upwards : {true, false}) {
-        // In the slabs' own space, along x and y.
+        // The path is in the slabs' own space, along x and y.
         double x = 0;
         double weight = 1;
         double index = 1;
-        std::vector<Layer> way = layers;
-        if (!upwards) std::reverse(way.begin(), way.end());
-        for (const Layer& layer : way) {
+        std::vector<Layer> path = layers;
+        if (!upwards) std::reverse(path.begin(), path.end());
+        for (const Layer& layer : path) {
           weight *= 1 - reflectance(index, layer.index, sine / index);
           index = layer.index;
           x += layer.thickness * std::tan(std::asin(sine / index));
@@ -104,7 +104,7 @@ TEST_CASE(
 }
 
 TEST_CASE("light through a shell that is filled to the brim bends as in concentric spheres") {
-  // n r sin(angle) is the same all along (Bouguer).
+  // n r sin(angle) is constant along the path (Bouguer).
   const double outer = 1;
   const double inner = 0.7;
   Random random(2);
@@ -127,7 +127,7 @@ TEST_CASE("light through a shell that is filled to the brim bends as in concentr
     const double angle_shell = std::asin(b / (1.5 * outer));
     const double angle_shell_inside = std::asin(b / (1.5 * inner));
     const double angle_filling = std::asin(b / (1.33 * inner));
-    // Around the centre from where the ray comes in to where it goes out.
+    // The angle goes around the centre from where the ray comes in to where it goes out.
     const double around_shell = angle_shell_inside - angle_shell;
     const double around_filling = std::numbers::pi - 2 * angle_filling;
     const double around = 2 * around_shell + around_filling;
@@ -148,7 +148,7 @@ TEST_CASE("light through a shell that is filled to the brim bends as in concentr
     CAPTURE(round);
     CHECK(weight_of_way(scene, rim(0) - 2.0 * in, rim(0), rim(around) + 2.0 * out) ==
           doctest::Approx(weight).epsilon(float_precision));
-    // The same way back.
+    // The reverse path has the same weight.
     CHECK(weight_of_way(scene, rim(around) + 2.0 * out, rim(around), rim(0) - 2.0 * in) ==
           doctest::Approx(weight).epsilon(float_precision));
   }
@@ -156,7 +156,7 @@ TEST_CASE("light through a shell that is filled to the brim bends as in concentr
 
 namespace {
 
-/// Boxes of fogs of index 1 on a grid of whole numbers, turned and moved all together.
+/// Fogs are boxes of fogs of index 1 on a grid of whole numbers, turned and moved all together.
 struct Fogs {
   struct Fog {
     Vec3 low;
@@ -201,8 +201,9 @@ std::optional<Span> span(const Fogs::Fog& fog, const Vec3& origin, const Vec3& d
   return result;
 }
 
-/// The optical depth along the line from t = 0 to `end` by the rule as docs/image.md has it;
-/// nothing where the rule goes in circles among three solids, or the line passes an edge.
+/// Returns the optical depth along the line from t = 0 to `end` by the rule as docs/image.md has
+/// it. It returns nothing where the rule goes in circles among three solids, or the line passes an
+/// edge.
 std::optional<double> optical_depth(const Fogs& scene, const Vec3& origin, const Vec3& direction,
                                     double end) {
   constexpr double same = 1e-9;
@@ -269,7 +270,7 @@ TEST_CASE(
   int compared = 0;
   for (int round = 0; round < 1500; ++round) {
     Fogs fogs = random_fogs(random, random.integer(2, 5));
-    // Fogs that are outside alone: nothing starts within one.
+    // These fogs are outside alone: nothing starts within one.
     const Vec3 direction = random.direction();
     const Vec3 middle(random.between(-2, 2), random.between(-2, 2), random.between(-2, 2));
     const double half_length = 12;
@@ -288,7 +289,7 @@ TEST_CASE(
     CHECK(seen(scene, from, to).r == doctest::Approx(expected).epsilon(float_precision));
     CHECK(seen(scene, to, from).r == doctest::Approx(expected).epsilon(float_precision));
 
-    // A white disc at the far end, lit along the line and seen from beside it.
+    // A white disc stands at the far end, lit along the line and seen from beside it.
     scene.background = SolidBackground{{0, 0, 0}};
     const Vec3 towards = glm::normalize(from - to);
     scene.lights = {PointLight{.origin = from}};
@@ -317,7 +318,7 @@ TEST_CASE("a camera and a light within solids that coincide and overlap know wha
     const Vec3 from = fogs.place(origin);
     const Vec3 to = fogs.place(end);
     const Vec3 towards = glm::normalize(from - to);
-    // A white screen within the fogs, seen along the light's own way: there and back.
+    // A white screen stands within the fogs, seen along the light's own path, which counts twice.
     scene.lights = {PointLight{.origin = from}};
     scene.entities.push_back(Disc{
         .center = to, .normal = towards, .radius = 1e-3, .material = Material{.color = grey(1)}});

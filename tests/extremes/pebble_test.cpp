@@ -1,5 +1,5 @@
-// A pebble on a planet, lit by a distant sun and seen from a metre away, against closed forms in
-// quadruple precision: what is seen, its shadow, and its image in the ground.
+// A pebble lies on a planet, lit by a distant sun and seen from a metre away. These tests compare
+// with closed forms in quadruple precision what is seen, its shadow, and its image in the ground.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -43,15 +43,16 @@ QuadVec unit(const QuadVec& v) {
   return (1 / root(dot(v, v))) * v;
 }
 
-/// Too close to call for rounded positions: the oracle gives no answer.
+/// Is thrown where a ray is too close to call for rounded positions. Then the oracle gives no
+/// answer.
 struct Close {};
 
 struct Ball {
   Sphere sphere;
-  /// Lines that pass the rim by less than this are too close to call.
+  /// Lines that pass an edge by less than this are too close to call.
   double margin;
 
-  /// Where the ray enters the ball, or a negative number.
+  /// Returns where the ray enters the ball, or a negative number.
   Quad enter(const QuadVec& origin, const QuadVec& direction) const {
     const QuadVec from = origin - wide(sphere.center);
     const Quad along = dot(from, direction);
@@ -65,12 +66,12 @@ struct Ball {
   QuadVec normal(const QuadVec& at) const { return unit(at - wide(sphere.center)); }
 };
 
-/// Planet, pebble and sun somewhere in space.
+/// A World is planet, pebble and sun somewhere in space.
 struct World {
   Sphere planet;
   Sphere pebble;
   Sphere sun;
-  Vec3 lamp;        ///< just before the sun
+  Vec3 light;       ///< just before the sun
   Vec3 up;          ///< at the pebble
   double rounding;  ///< of coordinates there
 };
@@ -85,7 +86,7 @@ class Oracle {
   explicit Oracle(const World& world)
       : world_(world), planet_{world.planet, 0}, pebble_{world.pebble, 8 * world.rounding} {}
 
-  /// Red light along a ray from the camera.
+  /// Returns the red light along a ray from the camera.
   double red(const Ray& ray) const {
     const QuadVec origin = wide(ray.origin);
     const QuadVec direction = unit(wide(ray.direction));
@@ -109,7 +110,7 @@ class Oracle {
   }
 
   Quad lit(const QuadVec& point, const QuadVec& normal, const Ball& other) const {
-    const QuadVec towards = unit(wide(world_.lamp) - point);
+    const QuadVec towards = unit(wide(world_.light) - point);
     const Quad cosine = dot(towards, normal);
     if (cosine <= 0) return 0;
     return other.enter(point, towards) > 0 ? Quad(0) : cosine;
@@ -125,7 +126,7 @@ constexpr double pebble_radius = 1e-2;
 constexpr double sun_distance = 1.5e11;
 constexpr double sun_radius = 7e8;
 
-/// With the pebble's foot near `foot` as coordinates there allow.
+/// Makes a world with the pebble's foot as near to `foot` as coordinates there allow.
 World world_at(const Vec3& foot, const Vec3& up, double rounding) {
   World world;
   world.up = up;
@@ -133,7 +134,7 @@ World world_at(const Vec3& foot, const Vec3& up, double rounding) {
   world.planet = {.center = foot - planet_radius * up, .radius = planet_radius};
   world.pebble = {.center = foot + pebble_radius * up, .radius = pebble_radius};
   const Vec3 sunwards = glm::normalize(0.5 * up + across(up));
-  world.lamp = foot + sun_distance * sunwards;
+  world.light = foot + sun_distance * sunwards;
   world.sun = {.center = foot + (sun_distance + 1.01 * sun_radius) * sunwards,
                .radius = sun_radius};
   return world;
@@ -146,7 +147,7 @@ Scene seen_from(World world, const Vec3& eye, const Vec3& target, double fov, Pr
   scene.settings.recursion_depth = 1;
   scene.settings.precision = precision;
   scene.background = SolidBackground{grey(sky)};
-  scene.lights = {PointLight{.origin = world.lamp}};
+  scene.lights = {PointLight{.origin = world.light}};
   world.planet.material = Material{.color = grey(ground_grey), .reflectivity = mirrored_share};
   world.pebble.material = Material{.color = Color{pebble_red, 0.1, 0.1}};
   scene.entities = {world.planet, world.pebble, world.sun};

@@ -17,8 +17,8 @@ Transform moved_and_turned(double unit) {
   return map;
 }
 
-/// Every primitive, CSG with coincident faces, shadows, mirrors, glass that absorbs and is filled
-/// to the brim, patterns, bumps, a lens; every length of it times `unit`.
+/// Makes every primitive, CSG with coincident faces, shadows, mirrors, glass that absorbs and is
+/// full to the edge, patterns, bumps, a lens. Every length of it is multiplied by `unit`.
 Scene scaled_scene(double unit) {
   Scene scene;
   scene.settings.width = 20;

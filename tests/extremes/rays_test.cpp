@@ -1,4 +1,5 @@
-// Rays that start on faces, edges, corners, apexes and centres, and directions of any length.
+// These tests ask rays that start on faces, edges, corners, apexes and centres, and directions of
+// any length.
 #include <doctest/doctest.h>
 #include <crt/error.hpp>
 
@@ -37,7 +38,7 @@ TEST_CASE("a ray from a box's face, edge or corner crosses what is ahead of it")
       for (int k = 0; k < 125; ++k) {
         const Vec3 direction(k % 5 - 2, k / 5 % 5 - 2, k / 25 - 2);
         if (direction == Vec3(0)) continue;
-        // Inside just after the start if along every axis it is, and not along a face.
+        // The point just after the start is inside if it is along every axis, and not along a face.
         double leave = std::numeric_limits<double>::infinity();
         for (int axis = 0; axis < 3; ++axis) {
           const double to_face = (direction[axis] < 0 ? -1 : 1) - start[axis];
@@ -82,7 +83,7 @@ TEST_CASE("a ray from a ball's surface or centre crosses what is ahead of it") {
 
 TEST_CASE("a ray from a cone's apex, axis or rim crosses what is ahead of it") {
   for (const Precision precision : both) {
-    // Slope 45 degrees: radius 4 at y = 0, apex at y = 4.
+    // The slope is 45 degrees: the radius is 4 at y = 0, and the apex is at y = 4.
     RayQueries queries =
         queries_of(Cone{.from = {0, 0, 0}, .to = {0, 4, 0}, .radius = 4}, precision);
     const Vec3 apex(0, 4, 0);
@@ -96,11 +97,12 @@ TEST_CASE("a ray from a cone's apex, axis or rim crosses what is ahead of it") {
     for (const Vec3& past : {Vec3(1, 0, 0), Vec3(2, -1, 0), Vec3(1, 1, 1)}) {
       CHECK(crossings_of(queries, {.origin = apex, .direction = past}).empty());
     }
-    // From a point of the rim across the base's middle, just above and below the base's plane.
+    // This ray goes from a point of the base's edge across its middle, just above and below the
+    // base's plane.
     CHECK(crossings_of(queries, {.origin = {4, 0, 0}, .direction = {-1, 0.25, 0}}).size() == 1);
     CHECK(crossings_of(queries, {.origin = {4, 0, 0}, .direction = {-1, -0.25, 0}}).empty());
     CHECK(crossings_of(queries, {.origin = {4, 0, 0}, .direction = {1, 0.25, 0}}).empty());
-    // From within.
+    // This ray starts within.
     CHECK(crossings_of(queries, {.origin = {0, 2, 0}, .direction = {1, 0, 0}}).at(0).t ==
           doctest::Approx(2));
     CHECK(crossings_of(queries, {.origin = {0, 1, 0}, .direction = {0, 1, 0}}).size() == 1);
@@ -131,7 +133,7 @@ TEST_CASE(
     REQUIRE(hits.size() == 2);
     CHECK(hits[0].t == doctest::Approx(1.5).epsilon(1e-15));
     CHECK(hits[1].t == doctest::Approx(2.5).epsilon(1e-15));
-    // From the ring's own middle line.
+    // These rays start on the ring's own middle line.
     CHECK(crossings_of(queries, {.origin = {2, 0, 0}, .direction = {0, 1, 0}}).size() == 1);
     CHECK(crossings_of(queries, {.origin = {2, 0, 0}, .direction = {0, 0, 1}}).size() == 1);
     CHECK(crossings_of(queries, {.origin = {2, 0, 0}, .direction = {-1, 0, 0}}).size() == 3);
@@ -189,7 +191,7 @@ TEST_CASE("directions with tiny, huge and zero components are taken for what the
         CHECK(hit->t == doctest::Approx(2 / direction.z).epsilon(1e-15));
         CHECK_FALSE(queries->intersect({.origin = {0, 0, -3}, .direction = -direction}));
       }
-      // t would be beyond the largest number: no hit that could be told of.
+      // t would be beyond the largest number, so that there is no hit to report.
       CHECK_FALSE(queries->intersect({.origin = {0, 0, -3}, .direction = {0, 0, denormal}}));
       CHECK_THROWS_AS(queries->intersect({.origin = {0, 0, -3}, .direction = {0, 0, 0}}), Error);
       CHECK_THROWS_AS(queries->intersect({.origin = {0, 0, -3}, .direction = {0, std::nan(""), 1}}),

@@ -22,7 +22,7 @@ std::vector<Vec3> box_corners(const Vec3& a, const Vec3& b) {
   return corners;
 }
 
-/// Points on a circle about the y axis.
+/// Returns points on a circle about the y axis.
 std::vector<Vec3> circle(double y, double radius) {
   std::vector<Vec3> points;
   for (int i = 0; i < 8; ++i) {
@@ -59,7 +59,7 @@ std::vector<Room> primitive_rooms() {
   return rooms;
 }
 
-/// Cavities in a block.
+/// Returns cavities in a block.
 std::vector<Room> hollow_rooms() {
   std::vector<Room> rooms;
   for (const Room& filled : primitive_rooms()) {
@@ -94,7 +94,7 @@ std::vector<Room> csg_rooms() {
   rooms.push_back({"half a ball", {sphere ^ half}});
   rooms.push_back({"ball of two halves", {(sphere ^ half) + (sphere - half)}});
   rooms.push_back({"a ball and itself", {sphere + sphere, sphere}});
-  // Slabs butted against each other.
+  // These are slabs butted against each other.
   rooms.push_back({"slabs",
                    {Box{.corner_a = {1, -2, -2}, .corner_b = {2, 2, 2}},
                     Box{.corner_a = {-2, -2, -2}, .corner_b = {-1, 2, 2}},
@@ -123,7 +123,7 @@ std::vector<Entity> six_planes() {
   return planes;
 }
 
-/// Four half planes like the sails of a windmill, between two discs.
+/// Returns four half planes like the sails of a windmill, between two discs.
 std::vector<Entity> windmill() {
   std::vector<Entity> walls = {Disc{.center = {0, -1, 0}, .radius = 50},
                                Disc{.center = {0, 1, 0}, .radius = 50}};
@@ -143,7 +143,7 @@ struct Mesh {
   std::vector<TriangleIndices> triangles;
 };
 
-/// A ball of 20 * 4^n triangles.
+/// Returns a ball of 20 * 4^n triangles.
 Mesh ball_mesh(int subdivisions) {
   const double g = std::numbers::phi;
   Mesh mesh{{{-1, g, 0},

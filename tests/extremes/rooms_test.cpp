@@ -1,4 +1,4 @@
-// Closed rooms: what starts inside never gets out, and no light gets in.
+// What starts inside a closed room never gets out, and no light gets in.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,7 +12,7 @@ using namespace crt::test;
 
 namespace {
 
-/// Every room as it is, turned, and stretched and put somewhere far away.
+/// Returns every room as it is, turned, and scaled and put somewhere far away.
 std::vector<Room> placed_rooms() {
   std::vector<Room> result;
   for (const Room& room : all_rooms()) {
@@ -28,7 +28,7 @@ std::vector<Room> placed_rooms() {
   return result;
 }
 
-/// A ray from within the room: anywhere, at a corner, or along an axis.
+/// Returns a ray from within the room: anywhere, at a corner, or along an axis.
 Ray inner_ray(const Room& room, Random& random) {
   Ray ray{.origin = room.middle + random.between(0, room.free) * random.direction(),
           .direction = random.direction()};
@@ -50,7 +50,7 @@ Ray inner_ray(const Room& room, Random& random) {
   return ray.direction == Vec3(0) ? Ray{.origin = room.middle} : ray;
 }
 
-/// How many of the rays leave the room.
+/// Counts how many of the rays leave the room.
 int leaks(const Room& room, Precision precision, int rays, unsigned seed) {
   Scene scene;
   scene.settings.precision = precision;
@@ -65,7 +65,8 @@ int leaks(const Room& room, Precision precision, int rays, unsigned seed) {
   return leaked;
 }
 
-/// The exact tier gets a fifth of the rays: those at the tips of tori take it a millisecond each.
+/// Checks all rooms. The exact tier gets a fifth of the rays, as those at the tips of tori take it
+/// a millisecond each.
 void check_all_rooms(int rays) {
   unsigned seed = 0;
   for (const Room& room : placed_rooms()) {
@@ -76,7 +77,7 @@ void check_all_rooms(int rays) {
   }
 }
 
-/// A panorama of `height` rows from the middle of the room.
+/// Makes a panorama of `height` rows from the middle of the room.
 Scene panorama(const Room& room, const Material& material, int height) {
   Scene scene = dark_scene();
   scene.entities = room.with_material(material);

@@ -1,4 +1,4 @@
-// What the tests of extremes share: random directions, rotations, and cameras of one pixel.
+// The tests of extremes share this: random directions, rotations, and cameras of one pixel.
 #pragma once
 
 #include <crt/query.hpp>
@@ -22,7 +22,7 @@ class Random {
     return low + static_cast<int>((high - low + 1) * unit_(engine_) * 0.999999);
   }
 
-  /// Evenly over the sphere.
+  /// Returns a direction, evenly over the sphere.
   Vec3 direction() {
     while (true) {
       const Vec3 v(between(-1, 1), between(-1, 1), between(-1, 1));
@@ -41,12 +41,13 @@ inline Vec3 apply(const Transform& map, const Vec3& p) {
          map.translation;
 }
 
-/// The same for a direction.
+/// Turns a direction.
 inline Vec3 turn(const Transform& map, const Vec3& v) {
   return {glm::dot(map.row_x, v), glm::dot(map.row_y, v), glm::dot(map.row_z, v)};
 }
 
-/// The ray through the middle of a pixel of a pinhole camera without roll, as docs/image.md has it.
+/// Returns the ray through the middle of a pixel of a pinhole camera without roll, as docs/image.md
+/// has it.
 inline Ray pixel_ray(const Scene& scene, int x, int y) {
   const Vec3 forward = glm::normalize(scene.camera.pointing - scene.camera.position);
   const Vec3 right = glm::normalize(glm::cross(Vec3(0, 1, 0), forward));
@@ -63,7 +64,7 @@ inline double difference(const Color& a, const Color& b) {
   return std::max({std::abs(a.r - b.r), std::abs(a.g - b.g), std::abs(a.b - b.b)});
 }
 
-/// Pixels that differ by more than `alike` where the reference has no edge next to them.
+/// Counts pixels that differ by more than `alike` where the reference has no edge next to them.
 inline int speckles(const Image& image, const Image& reference, double alike = 0.01) {
   constexpr double smooth = 0.05;
   int count = 0;
@@ -81,7 +82,7 @@ inline int speckles(const Image& image, const Image& reference, double alike = 0
   return count;
 }
 
-/// A unit vector across `v`, which must have length 1.
+/// Returns a unit vector across `v`, which must have length 1.
 inline Vec3 across(const Vec3& v) {
   return glm::normalize(std::abs(v.x) < 0.6 ? glm::cross(v, Vec3(1, 0, 0))
                                             : glm::cross(v, Vec3(0, 1, 0)));

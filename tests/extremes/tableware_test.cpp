@@ -1,5 +1,5 @@
-// Glass on a table, water in a glass, labels on a bottle: faces that coincide look as if one were
-// sunk into the other by a hair.
+// Glass stands on a table, water in a glass, labels on a bottle. Faces that coincide look as if one
+// were sunk into the other by a hair.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ Entity block(double low) {
   return Box{.corner_a = {-0.7, low, -0.6}, .corner_b = {0.6, 0.9, 0.5}, .material = clear()};
 }
 
-/// A tumbler whose inside has the given radius and bottom.
+/// Makes a tumbler whose inside has the given radius and bottom.
 Entity tumbler() {
   return Entity(
              Cylinder{.from = {0, 0, 0}, .to = {0, 1.2, 0}, .radius = 0.6, .material = clear()}) -
@@ -69,14 +69,14 @@ Entity punch(double wider) {
          Entity(Plane{.position = {0, 0.8, 0}, .material = drink()});
 }
 
-/// Of index 1: behind a label a hair away glass would mirror what is there.
+/// Makes a block of index 1. Behind a label a hair away glass would mirror what is there.
 Entity foggy_block() {
   Material fog = clear();
   fog.refractive_index = 1;
   return Box{.corner_a = {-0.7, 0, -0.6}, .corner_b = {0.6, 0.9, 0.5}, .material = fog};
 }
 
-/// Has gaps.
+/// Makes a label, which has gaps.
 Entity label(double before) {
   Material stripes{.color = Pattern(Stripes{
                        .color_a = {0.9, 0.1, 0.1, 1}, .color_b = {1, 1, 1, 0}, .scale = 0.31})};
@@ -177,7 +177,7 @@ TEST_CASE("thousands of solids at one place are seen, and seen through, in the e
   fog.absorption = grey(0.1);
   for (int i = 0; i < 3000; ++i) scene.entities.emplace_back(Sphere{.material = fog});
   scene.entities.emplace_back(Sphere{.center = {0, -2, 0}, .radius = 0.5, .material = wood()});
-  // Seen from outside and from within.
+  // The scene is seen from outside and from within.
   for (const Vec3& eye : {Vec3(0, 0, -3), Vec3(0, 0, 0)}) {
     const double length = eye.z < 0 ? 2 : 1;
     CHECK(seen(scene, eye, {0, 0, 1}).r == doctest::Approx(std::exp(-0.1 * length)).epsilon(1e-6));

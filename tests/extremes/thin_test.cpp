@@ -1,5 +1,5 @@
-// Thin things and narrow looks: needles, sheets, horizons, lenses of a millionth of a radian and of
-// half a turn.
+// These tests look at thin things and through narrow views: needles, sheets, horizons, lenses of a
+// millionth of a radian and of half a turn.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -13,7 +13,7 @@ namespace {
 
 constexpr double thin = 1e-12;
 
-/// A picture straight ahead from `distance` before the origin, `width` units wide there.
+/// Makes a picture straight ahead from `distance` before the origin, `width` units wide there.
 Scene straight_ahead(double distance, double width, int pixels) {
   Scene scene = dark_scene();
   scene.lights = {glow(1)};
@@ -25,7 +25,7 @@ Scene straight_ahead(double distance, double width, int pixels) {
   return scene;
 }
 
-/// Which columns of the middle row are bright.
+/// Says which columns of the middle row are bright.
 std::vector<bool> bright_columns(const Scene& scene) {
   const Image image = render(prepare(scene), {.threads = 1});
   std::vector<bool> columns;
@@ -34,7 +34,7 @@ std::vector<bool> bright_columns(const Scene& scene) {
   return columns;
 }
 
-/// The columns whose middles are within `half` of the middle, of a picture `width` wide.
+/// Says which columns' middles are within `half` of the middle, of a picture `width` wide.
 std::vector<bool> within(double half, double width, int pixels) {
   std::vector<bool> columns;
   for (int x = 0; x < pixels; ++x)
@@ -56,7 +56,7 @@ TEST_CASE("needles and sheets of a millionth of a millionth cover what they shou
            .radius2 = thin,
            .material = inert()},
       Box{.corner_a = {-thin, -1, -thin}, .corner_b = {thin, 1, thin}, .material = inert()},
-      // Sheets edge on: deep along the view, or a disc with a rim.
+      // The sheets are seen edge on: deep along the view, or a disc with an edge.
       Box{.corner_a = {-thin, -1, 0}, .corner_b = {thin, 1, 0.5}, .material = inert()},
       Cylinder{.from = {-thin, 0, 0.5}, .to = {thin, 0, 0.5}, .radius = 0.5, .material = inert()},
       Sphere{.radius = thin, .material = inert()},
@@ -75,7 +75,7 @@ TEST_CASE("needles and sheets of a millionth of a millionth cover what they shou
   }
 }
 
-TEST_CASE("a thin sheet seen flat on has no holes, and its sides are told apart") {
+TEST_CASE("a thin sheet seen flat on has no holes, and its sides are distinguished") {
   const Material front = inert();
   const std::vector<Entity> sheets = {
       Box{.corner_a = {-1, -1, 0}, .corner_b = {1, 1, thin}, .material = front},
@@ -98,7 +98,7 @@ TEST_CASE("a thin sheet seen flat on has no holes, and its sides are told apart"
           REQUIRE(hit->normal.z == -1);
         }
       }
-      // A lamp behind it lights nothing of it in front, and one in front nothing behind.
+      // A light behind it lights nothing of it in front, and one in front nothing behind.
       scene.entities = {sheet.with_material(Material{.color = grey(1)})};
       scene.lights = {PointLight{.origin = {0.1, 0.2, 1}}};
       const Image dark = render(prepare(scene), {.threads = 1});
@@ -149,7 +149,7 @@ TEST_CASE("rays nearly along a plane meet it at height over slope") {
 
 namespace {
 
-/// What a distant pinhole sees is what parallel rays see, but at edges.
+/// Checks that a distant pinhole sees what parallel rays see, except at edges.
 void check_distant_look(const Entity& entity, double size, double distance, Precision precision) {
   Scene scene;
   scene.settings.width = 50;

@@ -1,5 +1,5 @@
-// Transforms that span a hundred million times more one way than another, and a million of them in
-// a row.
+// These tests use transforms that scale a hundred million times more in one direction than in
+// another, and a million of them in a row.
 #include <doctest/doctest.h>
 #include <crt/script.hpp>
 
@@ -12,9 +12,9 @@ namespace {
 
 __extension__ using Quad = __float128;
 
-/// Entering a stretched unit ball about the origin: t of both crossings by the quadratic in
-/// quadruple precision, with M^-1 of the 9 doubles of M by Cramer's rule. Nothing if the line
-/// misses or nearly touches it.
+/// A Chord is the t of both crossings of a scaled unit ball about the origin, by the quadratic in
+/// quadruple precision. M^-1 of the 9 doubles of M is by Cramer's rule. There is none if the line
+/// misses or nearly touches the ball.
 struct Chord {
   double enter;
   double leave;
@@ -58,7 +58,7 @@ std::optional<Chord> ball_chord(const Transform& map, const Ray& ray) {
   return Chord{static_cast<double>((-b - root) / a), static_cast<double>((-b + root) / a)};
 }
 
-/// A map whose longest span is 10^8 times its shortest, turned before and after.
+/// Returns a map whose longest span is 10^8 times its shortest, turned before and after.
 Transform squeezed(Random& random) {
   const Transform before =
       rotate({random.between(0, 360), random.between(0, 360), random.between(0, 360)});
@@ -99,8 +99,8 @@ TEST_CASE("a ball under a map of condition 10^8 is met where the map of the doub
         std::vector<Hit> hits;
         queries.crossings(ray, hits);
         REQUIRE(hits.size() == 2);
-        // The rounding of the ray's own way, and what it does where it meets the surface at a
-        // slant.
+        // The error has the rounding of the ray's own path, and its effect where it meets the
+        // surface at a slant.
         CHECK(hits[0].t == doctest::Approx(chord->enter).epsilon(1e-9));
         CHECK(hits[1].t == doctest::Approx(chord->leave).epsilon(1e-9));
       }
@@ -148,7 +148,7 @@ TEST_CASE("a million transforms in a row are one") {
   const Transform step = rotate({0, 360.0 / count, 0});
   for (int i = 0; i < count; ++i) turned = turned.transformed(step);
   scene.entities = {turned};
-  // Each of the rotations was rounded; a million roundings of u that add up are 10^-10.
+  // Each of the rotations was rounded. A million roundings of u that add up are 10^-10.
   const std::optional<Hit> face = intersect(prepare(scene), {.origin = {0.5, 0.5, -5}});
   REQUIRE(face);
   CHECK(face->t == doctest::Approx(4).epsilon(1e-9));

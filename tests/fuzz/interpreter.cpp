@@ -1,4 +1,5 @@
-// Any script: it ends within its limits, in a scene or in errors, and reaches no file.
+// This fuzzer runs any script. It ends within its limits, in a scene or in errors, and reaches no
+// file.
 #include <cstdint>
 #include <cstdlib>
 #include <string_view>
@@ -21,7 +22,7 @@ crt::ScriptOptions small_world() {
                     .memory_bytes = 4 << 20,
                     .source_bytes = 1 << 20,
                     .errors = 20};
-  // Every file there is holds a script that is short; none is asked of the file system.
+  // Every file that exists holds a script that is short. None is asked of the file system.
   options.open_file = [](const std::filesystem::path&) {
     const std::string_view text = "imported = 1 import \"again.crt\"";
     const auto* begin = reinterpret_cast<const std::byte*>(text.data());

@@ -1,5 +1,5 @@
-// Any bytes: lexer and parser must come back with a tree or with errors, whose places lie in the
-// text.
+// This fuzzer parses any bytes. Lexer and parser must come back with a tree or with errors, whose
+// places lie in the text.
 #include <cstdint>
 #include <cstdlib>
 #include <string>

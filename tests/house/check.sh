@@ -1,15 +1,15 @@
 #!/usr/bin/env bash
-# The rules of the house that no compiler checks: which part may see which, how long a file may
-# grow, what no file may say. Prints each breach as file:line and fails if there is one.
-# Looks at what git tracks; see CONTRIBUTING.md for the rules and their reasons.
+# Checks the rules of the house that no compiler checks: which part may see which, how long a file
+# and a line may grow, what no file may say. Prints each breach as file:line and fails if there is
+# one. It reads what git tracks. CONTRIBUTING.md has the rules and their reasons.
 set -euo pipefail
-shopt -s lastpipe # so that complain can count, at the end of a pipe
+shopt -s lastpipe # complain counts at the end of a pipe
 trap 'echo "${BASH_SOURCE[0]}: failed by itself at line $LINENO" >&2' ERR
 cd "$(dirname "${BASH_SOURCE[0]}")/../.."
 
 breaches=0
 
-# complain RULE: takes breaches on standard input, a line each (nothing is fine).
+# complain RULE prints the breaches on standard input, a line each. There may be none.
 complain() {
   local found
   found=$(cat)
@@ -19,28 +19,33 @@ complain() {
   breaches=$((breaches + 1))
 }
 
-# tracked PATTERN...: the tracked files that match and exist.
+# tracked PATTERN... prints the tracked files that match and exist.
 tracked() {
   git ls-files -- "$@" | while IFS= read -r file; do [[ ! -f $file ]] || printf '%s\n' "$file"; done
 }
 
-# lines_with REGEX PATTERN...: file:line:text for each match in the tracked files that match.
+# lines_with REGEX PATTERN... prints file:line:text for each match in the tracked files that match.
 lines_with() {
   local regex=$1
   shift
   tracked "$@" | xargs -r -d '\n' grep -nHE -- "$regex" || true
 }
 
-# without REGEX: the lines that do not match, be there none.
+# without REGEX prints the lines that do not match, of which there may be none.
 without() {
   grep -vE -- "$1" || true
 }
 
 code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h')
-users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h' 'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
+users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h'
+  'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
+scripts=('*.sh' '*.py' '*.rs' '*.cmake' '*.cmake.in' '*CMakeLists.txt' dev .ci/run
+  docs/make-gallery .clang-tidy)
+recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
-layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect prepare render image)
+layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect
+  prepare render image)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do
@@ -51,7 +56,7 @@ check_layers() {
   lines_with '^#include [<"](lang|cli|capi)/' 'src/core/*'
 }
 
-# only_in THING REGEX FOLDER...: includes of a library that stand outside its folders.
+# only_in REGEX FOLDER... prints includes of a library that stand outside its folders.
 only_in() {
   local regex=$1
   shift
@@ -82,7 +87,8 @@ long_files() {
   tracked "${code[@]}" "${users[@]}" 'tests/*.sh' '*.cmake' '*CMakeLists.txt' dev |
     without '^include/crt/crt\.h$' | # one header is what C programs are promised
     xargs -r -d '\n' awk -v least="$1" -v most="$2" \
-      'FNR == 1 { if (last && n > least && n <= most) print last ": " n " lines"; last = FILENAME } { n = FNR }
+      'FNR == 1 { if (last && n > least && n <= most) print last ": " n " lines"; last = FILENAME }
+       { n = FNR }
        END { if (n > least && n <= most) print last ": " n " lines" }'
 }
 
@@ -98,8 +104,9 @@ check_scripts() {
 # docs/abi.md names the test of each promise: programs that CTest knows, and cases that they have.
 check_promises() {
   local name tests
-  # A name may go on in the next line, as two strings.
-  tests=$(tracked 'tests/*.cpp' 'tests/*.c' | xargs -r -d '\n' cat | tr -s '[:space:]' ' ' | sed 's/" "//g')
+  # A name may continue in the next line, as two strings.
+  tests=$(tracked 'tests/*.cpp' 'tests/*.c' | xargs -r -d '\n' cat |
+    tr -s '[:space:]' ' ' | sed 's/" "//g')
   grep '^|' docs/abi.md | grep -oE '"[^"]+"' | tr -d '"' | while IFS= read -r name; do
     grep -qF "\"$name\")" <<<"$tests" || echo "docs/abi.md: no test has the case \"$name\""
   done
@@ -107,39 +114,93 @@ check_promises() {
 
 check_ends() {
   local file
-  git ls-files -z --eol | tr '\0' '\n' | awk '$1 ~ /crlf|mixed/ { print $NF ": line ends are not \\n" }'
+  git ls-files -z --eol | tr '\0' '\n' |
+    awk '$1 ~ /crlf|mixed/ { print $NF ": line ends are not \\n" }'
   tracked "${code[@]}" "${users[@]}" '*.md' '*.txt' | while IFS= read -r file; do
     [[ ! -s $file || -z $(tail -c 1 "$file") ]] || echo "$file: the last line has no end"
   done
 }
 
+# Lines end at this column. Lines with a URL may be longer, and so may the tables that the oracle
+# writes into docs/accuracy.md.
+most_columns=100
+check_columns() {
+  LC_ALL=C.UTF-8 lines_with "^.{$((most_columns + 1))}" \
+    "${code[@]}" "${users[@]}" "${scripts[@]}" '*.md' |
+    without "$recorded|^docs/accuracy\.md:[0-9]+:\||https?://" | cut -c 1-120
+}
+
+# The subject of a commit fits a line of `git log`. Commits before the rule stay as they are, and a
+# tree without a history has none to check.
+most_in_subject=72
+check_subjects() {
+  { git log --no-merges --since=2026-11-25T12:00:00Z --format='%h %s' 2>/dev/null || true; } |
+    LC_ALL=C.UTF-8 grep -E "^[0-9a-f]+ .{$((most_in_subject + 1))}" || true
+}
+
+# These words say nothing to a reader who knows the field. docs/glossary.md has the field's words.
+# The gallery's scripts may have lamps in their pictures.
+banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verdict 'judges?'
+  'lamps?' 'eye rays?' 'eye-rays?' FirstBalls BallSearch Spine CsgSketch RayBundle small_things
+  leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed)
+check_words() {
+  lines_with "\b($(IFS='|' && echo "${banned_words[*]}"))\b" \
+    'src/*' 'include/*' 'tests/*' 'docs/*.md' 'README.md' 'CONTRIBUTING.md' |
+    without "$recorded|^docs/(design/|gallery\.md:)|^tests/house/check\.sh:|\.abi:" | cut -c 1-160
+}
+
+# A documentation comment is a sentence with a subject and a verb. Such a beginning shows that it
+# hangs on another comment. Only the first line of a comment counts.
+sentences_in=('include/*' 'src/lang/*' 'src/cli/*' 'src/capi/*')
+check_sentences() {
+  # shellcheck disable=SC2016 # $0 is awk's
+  tracked "${sentences_in[@]}" | xargs -r -d '\n' awk '
+    FNR == 1 { inside = 0 }
+    !inside && /^ *(\/\/\/|\/\*\*) (The same|Of|Likewise|Ditto|As before|Whether)[ :;,.]/ {
+      print FILENAME ":" FNR ":" $0
+    }
+    { inside = /^ *\/\/\// }'
+}
+
 check_layers | complain "A layer uses one above it (${layers[*]})"
 only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
-only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel | complain "TBB outside src/core/tasks and src/core/accel"
+only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel |
+  complain "TBB outside src/core/tasks and src/core/accel"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 check_umbrella | complain "A public header is missing from crt.hpp"
-tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once' || true; } | complain "No #pragma once"
+tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once' || true; } |
+  complain "No #pragma once"
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
-lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' | complain "The library reads the environment"
-lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' 'src/core/*' 'src/lang/*' 'src/capi/*' |
+lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' |
+  complain "The library reads the environment"
+lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' \
+  'src/core/*' 'src/lang/*' 'src/capi/*' |
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
-lines_with '\b(TODO|FIXME|XXX|HACK)\b' "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |
+lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
+  "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |
   complain "Unfinished work is not committed"
-lines_with '^#include ' 'include/crt/crt.h' | without '<std(def|int)\.h>' | complain "crt.h includes more than it must"
-lines_with '^#include [<"]crt/' 'examples/*.c' 'examples/*.h' 'tests/abi/*.c' 'tests/package/consumers/c/*' |
+lines_with '^#include ' 'include/crt/crt.h' | without '<std(def|int)\.h>' |
+  complain "crt.h includes more than it must"
+lines_with '^#include [<"]crt/' \
+  'examples/*.c' 'examples/*.h' 'tests/abi/*.c' 'tests/package/consumers/c/*' |
   without '<crt/crt\.h>' | complain "A C program sees crt.h alone"
 lines_with '\.\./shared' . | without '^tests/house/check.sh:' | complain "The project stands alone"
 long_files "$limit_of_lines" 1000000 | complain "Over $limit_of_lines lines: split by subject"
 check_scripts | complain "Shell scripts"
 check_ends | complain "Line ends"
 check_promises | complain "A promise without its test"
+check_columns | complain "Over $most_columns columns"
+check_subjects | complain "A commit's subject has over $most_in_subject characters"
+check_words | complain "A word that is not the field's: see docs/glossary.md"
+check_sentences | complain "A comment that is no sentence: say what the thing is or does"
 
-long_files "$wish_of_lines" "$limit_of_lines" | sed "s/^/note: over $wish_of_lines lines, think of splitting: /"
+long_files "$wish_of_lines" "$limit_of_lines" |
+  sed "s/^/note: over $wish_of_lines lines, think of splitting: /"
 
 ((breaches == 0)) || exit 1
 echo "house rules: kept"

@@ -1,4 +1,4 @@
-// Files that are missing, broken, cut short or made to harm.
+// These tests read files that are missing, broken, cut short or made to harm.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 
@@ -15,7 +15,7 @@ using namespace crt::test;
 
 namespace {
 
-/// The message of the Error (io) that decoding throws; empty if it throws none.
+/// Returns the message of the Error (io) that decoding throws, or an empty text if it throws none.
 std::string decode_error(const Bytes& content, const std::string& name = "some.name") {
   try {
     Image::decode(content, name);
@@ -42,7 +42,7 @@ bool contains(const std::string& text, const char* part) {
   return text.find(part) != std::string::npos;
 }
 
-/// A PNG file whose damage its checksums do not show.
+/// Returns a PNG file whose damage its checksums do not show.
 Bytes with_right_checksums(const Bytes& content) {
   std::string text(reinterpret_cast<const char*>(content.data()), content.size());
   for (std::size_t at = 8; at + 12 <= text.size();) {
@@ -60,7 +60,7 @@ struct NamedFile {
   Bytes content;
 };
 
-/// A sound file of every format that can be read.
+/// Returns a valid file of every format that can be read.
 std::vector<NamedFile> sound_files() {
   const TemporaryDirectory directory;
   std::vector<NamedFile> files;
@@ -125,8 +125,8 @@ TEST_CASE("an EXR header that claims what no file of its length can hold is refu
   smooth_picture(40, 70).write(directory / "a.exr");
   const Bytes sound = file_bytes(directory / "a.exr");
   const std::string text = file_text(directory / "a.exr");
-  // The name and type of the attribute with their zeros, its size, then the corner that is nearest
-  // to 0.
+  // This is the name and type of the attribute with their zeros, its size, then the corner that is
+  // nearest to 0.
   const std::size_t far_corner = text.find("dataWindow") + 11 + 6 + 4 + 8;
   for (const std::size_t coordinate : {far_corner, far_corner + 4}) {
     for (const int most : {0x7f, 0xff}) {
@@ -184,7 +184,7 @@ TEST_CASE("a header that claims a huge picture is refused before anything is all
 }
 
 TEST_CASE("a tall claim with few bytes behind it is an error soon") {
-  // 2^27 pixels are legal; the data for them is not there.
+  // 2^27 pixels are legal, but the data for them is missing.
   CHECK_FALSE(decode_error(png_by_hand(16384, 8192, 8, 2, std::string(100, '\0'))).empty());
   CHECK_FALSE(decode_error(to_bytes("P6 1024 131072 255\nxyz")).empty());
 }
@@ -195,7 +195,7 @@ TEST_CASE("damaged files of every format are read or refused, and nothing worse"
     for (int round = 0; round < 150; ++round) {
       Bytes damaged = content;
       const int changes = 1 + static_cast<int>(random() % 8);
-      // Headers hold what is most dangerous.
+      // Headers hold what is most dangerous, so they are damaged here.
       const std::size_t reach =
           round % 2 == 0 ? std::min<std::size_t>(damaged.size(), 300) : damaged.size();
       for (int i = 0; i < changes; ++i)

@@ -1,5 +1,5 @@
-// Channels beside the colours, in memory and on the way into files. (What EXR files then hold is
-// read by OpenImageIO's own tool in tests/cli.)
+// These tests check channels beside the colours, in memory and on their path into files.
+// (OpenImageIO's own tool reads in tests/cli what EXR files then hold.)
 #include <doctest/doctest.h>
 
 #include <string>

@@ -16,7 +16,7 @@ using namespace crt::test;
 
 namespace {
 
-/// What a picture becomes by being written and read, both through files and through memory.
+/// Returns a picture after it was written and read, both through files and through memory.
 Image round_trip(const Image& image, const std::string& name) {
   const TemporaryDirectory directory;
   image.write(directory / name);
@@ -31,7 +31,7 @@ Image round_trip(const Image& image, const std::string& name) {
   return read;
 }
 
-/// The largest difference of a channel, alpha included.
+/// Returns the largest difference of a channel, alpha included.
 double difference(const Image& a, const Image& b) {
   double most = 0;
   for (std::size_t i = 0; i < a.pixels().size(); ++i) {
@@ -209,7 +209,8 @@ TEST_CASE("floats that are not finite become 0 when a file is read") {
   CHECK(image.at(1, 0) == Color{0, -0.5, 0.25, 1});
 }
 
-TEST_CASE("how many pixels of a file were not finite is told, and where the first is") {
+TEST_CASE(
+    "the number of pixels of a file that are not finite is reported, and the place of the first") {
   Image image(5, 4);
   CHECK(round_trip(image, "a.exr").not_finite() == NotFiniteValues{});
   const float infinity = std::numeric_limits<float>::infinity();

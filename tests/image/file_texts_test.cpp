@@ -14,7 +14,7 @@ namespace {
 
 const std::string crt_version = std::string("CRT ") + version();
 
-/// The tEXt chunks of a PNG file; also checks each chunk's sum.
+/// Returns the tEXt chunks of a PNG file. It also checks each chunk's sum.
 std::map<std::string, std::string> png_texts(const std::string& file) {
   std::map<std::string, std::string> texts;
   REQUIRE(file.substr(0, 8) == png_signature);
@@ -25,7 +25,7 @@ std::map<std::string, std::string> png_texts(const std::string& file) {
     REQUIRE(from_big_endian(std::string_view(file).substr(at + 8 + length)) ==
             crc32(type_and_data));
     const std::string type = type_and_data.substr(0, 4);
-    // Nothing in the file tells the time by itself.
+    // Nothing in the file says the time by itself.
     CHECK(type != "tIME");
     if (type == "tEXt") {
       const std::string data = type_and_data.substr(4);
@@ -184,8 +184,7 @@ TEST_CASE("no file tells the time of its writing") {
   for (const char* name : {"a.png", "a.tif", "a.jpg", "a.exr", "a.hdr"}) {
     CAPTURE(name);
     described_picture().write(directory / name);
-    // The form that all of these formats give a time of theirs: 2003:05:31 12:00:00, in any
-    // century.
+    // All of these formats give a time in this form: 2003:05:31 12:00:00, in any century.
     const std::string file = file_text(directory / name);
     bool found = false;
     for (std::size_t colon = file.find(':'); colon != std::string::npos;

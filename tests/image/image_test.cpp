@@ -28,7 +28,7 @@ ErrorCode error_of(int width, int height, const char* argument) {
   return ErrorCode::internal;
 }
 
-/// The bytes of one pixel.
+/// Returns the bytes of one pixel.
 std::array<int, 4> bytes_of(const Color& color, double gamma = 1, bool show_clip = false) {
   Image image(1, 1);
   image.set(0, 0, color);
@@ -156,7 +156,8 @@ TEST_CASE("show_clip paints pixels red in which a channel passes 1") {
   CHECK(bytes_of({0, 0, 1.01}, 1, true) == red);
   CHECK(bytes_of({1, 1, 1}, 1, true) == Pixel{255, 255, 255, 255});
   CHECK(bytes_of({0, 0, 1.01}, 1, false) == Pixel{0, 0, 255, 255});
-  // Half covered by something too bright; and white whose alpha carries a rounding.
+  // One pixel is half covered by something too bright. The other is white whose alpha carries a
+  // rounding.
   CHECK(bytes_of({0, 0.6, 0, 0.5}, 1, true) == red);
   CHECK(bytes_of({0.3, 0.3, 0.3, 0.29999998}, 1, true) == Pixel{255, 255, 255, 76});
 }

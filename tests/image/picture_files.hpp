@@ -1,4 +1,5 @@
-// What the tests of image files share: a directory that vanishes, pictures, and files made by hand.
+// The tests of image files share this: a directory that is removed, pictures, and files made by
+// hand.
 #pragma once
 
 #include <stdlib.h>
@@ -33,7 +34,7 @@ inline Bytes file_bytes(const std::filesystem::path& path) {
   return to_bytes(file_text(path));
 }
 
-/// A picture whose channels all vary smoothly.
+/// Makes a picture whose channels all vary smoothly.
 inline Image smooth_picture(int width, int height, bool with_alpha = false) {
   Image image(width, height);
   for (int y = 0; y < height; ++y)
@@ -74,7 +75,7 @@ inline std::string png_chunk(const std::string& type, const std::string& data) {
          big_endian(crc32(type + data));
 }
 
-/// A zlib stream of one block that is not compressed.
+/// Returns a zlib stream of one block that is not compressed.
 inline std::string zlib_stored(const std::string& data) {
   std::uint32_t a = 1;
   std::uint32_t b = 0;
@@ -90,7 +91,7 @@ inline std::string zlib_stored(const std::string& data) {
          big_endian(b << 16 | a);
 }
 
-/// `rows` holds the samples of all rows, each row after a 0 for "no filter".
+/// Returns a PNG file. `rows` holds the samples of all rows, each row after a 0 for "no filter".
 inline Bytes png_by_hand(std::uint32_t width, std::uint32_t height, int bit_depth, int color_type,
                          const std::string& rows) {
   const std::string header = big_endian(width) + big_endian(height) + static_cast<char>(bit_depth) +
@@ -99,7 +100,7 @@ inline Bytes png_by_hand(std::uint32_t width, std::uint32_t height, int bit_dept
                   png_chunk("IDAT", zlib_stored(rows)) + png_chunk("IEND", ""));
 }
 
-/// A WebP file of one pixel without loss, (254, 128, 64).
+/// Returns a WebP file of one pixel without loss, (254, 128, 64).
 inline Bytes webp_pixel() {
   using namespace std::string_view_literals;
   return to_bytes("RIFF\x18\0\0\0WEBPVP8L\x0c\0\0\0\x2f\0\0\0\0\x28\x60\xfd\x0b\xd4\xff\0"sv);

@@ -1,4 +1,4 @@
-// What writing leaves behind, above all when it fails.
+// These tests check what writing leaves behind, above all when it fails.
 #include <doctest/doctest.h>
 #include <sys/resource.h>
 #include <sys/wait.h>
@@ -79,7 +79,7 @@ TEST_CASE("a write that fails half-way leaves the old file and nothing else") {
   old_picture.write(directory / "a.ppm");
   const std::string old_file = file_text(directory / "a.ppm");
 
-  // Files may not grow beyond 100 bytes: the next write gets that far and fails.
+  // Files may not grow beyond 100 bytes, so that the next write gets that far and fails.
   rlimit limit{};
   REQUIRE(getrlimit(RLIMIT_FSIZE, &limit) == 0);
   const rlimit small = {100, limit.rlim_max};

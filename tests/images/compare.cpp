@@ -9,7 +9,7 @@ namespace crt::tests {
 
 namespace {
 
-/// Red, green, blue and alpha of the pixel that starts at byte `i`: how much they differ.
+/// Returns how much red, green, blue and alpha of the pixel that starts at byte `i` differ.
 int largest_step(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>& b,
                  std::size_t i) {
   int largest = 0;

@@ -1,4 +1,4 @@
-// How far two pictures are apart, in the 8-bit values that a file holds.
+// These functions say how far two pictures differ, in the 8-bit values that a file holds.
 #pragma once
 
 #include <crt/image.hpp>
@@ -9,9 +9,9 @@ namespace crt::tests {
 
 struct Difference {
   bool same_size = false;
-  /// Root of the mean square of the channels' differences, in 8-bit steps.
+  /// This is the root of the mean square of the channels' differences, in 8-bit steps.
   double rmse = 0;
-  /// Share of the pixels with a channel that differs by more than `visible_step`.
+  /// This is the share of the pixels with a channel that differs by more than `visible_step`.
   double share_of_visible = 0;
 
   static constexpr int visible_step = 8;
@@ -19,8 +19,8 @@ struct Difference {
 
 Difference compare(const Image& picture, const Image& reference);
 
-/// A picture of where two of the same size differ: black where they agree, and eight times the
-/// difference.
+/// Makes a picture of where two pictures of one size differ. It is black where they agree, and
+/// eight times the difference elsewhere.
 Image difference_picture(const Image& picture, const Image& reference);
 
 }  // namespace crt::tests

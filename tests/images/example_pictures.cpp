@@ -17,7 +17,7 @@ namespace fs = std::filesystem;
 
 const fs::path source_dir = CRT_SOURCE_DIR;
 
-/// Settings whose value on the command line is text, which a script puts in quotes.
+/// Says whether a setting's value on the command line is text, which a script puts in quotes.
 bool is_text_setting(const std::string& name) {
   return name == "projection" || name == "falloffmodel";
 }
@@ -78,16 +78,17 @@ Scene small_scene(const ExamplePicture& picture) {
 
   ScriptResult result = run_script_file(picture.script, picture.options);
   if (!result.diagnostics.empty()) {
-    std::string told;
-    for (const Diagnostic& diagnostic : result.diagnostics) told += format_diagnostic(diagnostic);
-    throw Error(ErrorCode::script, told);
+    std::string messages;
+    for (const Diagnostic& diagnostic : result.diagnostics)
+      messages += format_diagnostic(diagnostic);
+    throw Error(ErrorCode::script, messages);
   }
   Scene scene = std::move(result.scene.value());
   Settings& settings = scene.settings;
   const int width = std::min(settings.width, largest_width);
   settings.height = std::max(1, settings.height * width / settings.width);
   settings.width = width;
-  // A picture about supersampling is about nothing without.
+  // A picture about supersampling needs it.
   const bool asked_for =
       std::any_of(picture.options.settings.begin(), picture.options.settings.end(),
                   [](const auto& setting) { return setting.first == "supersampling"; });

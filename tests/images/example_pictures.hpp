@@ -1,5 +1,5 @@
-// The pictures of the example scripts, as the gallery has them, but small: quick to render and
-// small enough to keep references of.
+// These are the pictures of the example scripts, as the gallery has them, but small: quick to
+// render and small enough to keep references of.
 #pragma once
 
 #include <crt/prepared_scene.hpp>
@@ -11,14 +11,14 @@
 
 namespace crt::tests {
 
-/// One picture: a script and what its "-- picture:" line adds to it.
+/// An ExamplePicture is one picture: a script and what its "-- picture:" line adds to it.
 struct ExamplePicture {
   std::string name{};  ///< "csg", or "phong-diffuse" for an extra picture
   std::filesystem::path script{};
   ScriptOptions options{};
 };
 
-/// Every picture of every script in examples/scenes, by name.
+/// Returns every picture of every script in examples/scenes, by name.
 std::vector<ExamplePicture> example_pictures();
 
 /// Runs the script and makes its picture small: at most 160 pixels wide, one ray a pixel (unless
@@ -26,14 +26,14 @@ std::vector<ExamplePicture> example_pictures();
 /// script has errors or warnings.
 Scene small_scene(const ExamplePicture& picture);
 
-/// The hash of a picture's float pixels.
+/// Returns the hash of a picture's float pixels.
 std::string pixel_hash(const Image& image);
 
-// What is kept in the repository.
+// The repository keeps these.
 std::filesystem::path reference_path(const ExamplePicture& picture);
 std::filesystem::path hashes_path();
 
-/// The lines "HASH NAME" of hashes.txt, by name.
+/// Returns the lines "HASH NAME" of hashes.txt, by name.
 std::map<std::string, std::string> read_hashes();
 
 }  // namespace crt::tests

@@ -1,5 +1,6 @@
 // Every example scene renders as it did when its reference was made: nearly, as anyone can see, and
-// exactly, as the hash of its pixels tells. If a change is meant: ./dev references, look, commit.
+// exactly, as the hash of its pixels shows. If a change is meant, run ./dev references, look, and
+// commit.
 #include <doctest/doctest.h>
 
 #include <crt/render.hpp>
@@ -17,7 +18,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Keeps what a failed comparison looked like and says where.
+/// Keeps what a failed comparison looked like, and says where it is.
 void keep_for_inspection(const ExamplePicture& picture, const Image& image,
                          const Image& reference) {
   const fs::path folder = CRT_FAILED_IMAGES;
@@ -33,7 +34,7 @@ void keep_for_inspection(const ExamplePicture& picture, const Image& image,
   std::cerr << "; the reference is " << reference_path(picture).string() << '\n';
 }
 
-/// The picture put together from its four quarters, each rendered alone.
+/// Returns the picture put together from its four quarters, each rendered alone.
 Image render_in_quarters(const PreparedScene& scene, int width, int height) {
   Image whole(width, height);
   const int middle_x = width / 2 + 1;
@@ -61,8 +62,8 @@ Image render_in_quarters(const PreparedScene& scene, int width, int height) {
 }  // namespace
 
 TEST_CASE("each example looks like its reference, and any threads and regions give the same bits") {
-  // In 8-bit steps. Other processors' mathematical functions may differ in the last bit, which can
-  // move an edge or two by a pixel; a mistake moves far more.
+  // These bounds are in 8-bit steps. Other processors' mathematical functions may differ in the
+  // last bit, which can move an edge or two by a pixel. A mistake moves far more.
   constexpr double most_rmse = 1.5;
   constexpr double most_visible = 0.002;
 

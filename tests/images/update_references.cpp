@@ -1,5 +1,5 @@
-// Renders the reference pictures of the example scenes again, and their hashes. Say in the commit
-// what changed them, and look at them before.
+// Renders the reference pictures of the example scenes again, and their hashes. Look at them before
+// you commit, and say in the commit what changed them.
 #include <algorithm>
 #include <crt/render.hpp>
 #include <exception>

@@ -44,7 +44,7 @@ std::vector<std::string> expectations(const fs::path& script) {
   return lines;
 }
 
-/// Messages hold paths as the script was called; here they are relative to its folder.
+/// Makes paths in messages, which are as the script was called, relative to its folder.
 std::string without_folder(std::string text, const fs::path& folder) {
   const std::string prefix = folder.string() + "/";
   for (std::size_t at = text.find(prefix); at != std::string::npos; at = text.find(prefix, at))
@@ -87,7 +87,7 @@ std::string joined(const std::vector<std::string>& lines) {
   return text;
 }
 
-/// A script that asks to be checked for more than it does.
+/// Checks a script, which states in comments what it must do.
 void check(const fs::path& script) {
   const std::vector<std::string> expected = expectations(script);
   CAPTURE(script.filename().string());

@@ -1,4 +1,4 @@
-// How diagnostics look.
+// These tests check how diagnostics look.
 #include <doctest/doctest.h>
 
 #include "lang/suggestion.hpp"

@@ -1,4 +1,4 @@
-// Which files a script may reach, and which it may not.
+// These tests check which files a script may reach, and which it may not.
 #include <doctest/doctest.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 using crt::ErrorCode;
 using crt::ScriptOptions;
 
-/// A folder of its own for each test, gone with it.
+/// A Folder is one test's own, and is removed with it.
 class Folder {
  public:
   Folder() {
@@ -66,7 +66,7 @@ ScriptOptions with_resources(const Folder& folder) {
   return options;
 }
 
-/// A folder with a script beside it, one below it, one in the resources and one outside.
+/// Fills a folder with a script beside it, one below it, one in the resources and one outside.
 void fill(const Folder& folder) {
   fs::create_directories(folder.path() / "work");
   folder.write("work/beside.crt", "where = \"beside\"\n");
@@ -109,20 +109,20 @@ TEST_CASE("no path leads out of the directories unless the caller allows it") {
   const Folder folder;
   fill(folder);
   ScriptOptions options = with_resources(folder);
-  const std::vector<std::string> ways = {"../outside.crt", "sub/../../outside.crt",
-                                         "lib/../../outside.crt", "/../outside.crt",
-                                         "/lib/../../outside.crt"};
-  for (const std::string& way : ways) {
-    CAPTURE(way);
-    CHECK(refused(run_in(folder, "import \"" + way + "\"", options), "outside"));
+  const std::vector<std::string> paths = {"../outside.crt", "sub/../../outside.crt",
+                                          "lib/../../outside.crt", "/../outside.crt",
+                                          "/lib/../../outside.crt"};
+  for (const std::string& outside_path : paths) {
+    CAPTURE(outside_path);
+    CHECK(refused(run_in(folder, "import \"" + outside_path + "\"", options), "outside"));
   }
   CHECK(refused(
       run_in(folder, "import \"" + (folder.path() / "outside.crt").string() + "\"", options),
       "there is no file"));
   options.allow_outside_files = true;
-  for (const std::string& way : ways) {
-    CAPTURE(way);
-    CHECK(run_in(folder, "import \"" + way + "\"" + then_print, options).printed ==
+  for (const std::string& outside_path : paths) {
+    CAPTURE(outside_path);
+    CHECK(run_in(folder, "import \"" + outside_path + "\"" + then_print, options).printed ==
           std::vector<std::string>{"outside"});
   }
   CHECK(refused(run_in(folder, "import \"/etc/passwd\"", options), "there is no file"));
@@ -189,7 +189,7 @@ TEST_CASE("imports are looked for from the script that imports, and run once") {
   CHECK(result.printed == std::vector<std::string>{"one", "two", "three", "beside"});
 }
 
-TEST_CASE("a script that imports itself is told so") {
+TEST_CASE("a script that imports itself is an error") {
   const Folder folder;
   fill(folder);
   folder.write("work/scene.crt", "");
@@ -248,7 +248,9 @@ for (i in range(3)) {
     map = ImageMap { image -> "picture.png" repeatU -> 2 }
     sky = Background { image -> "./picture.png" angle -> 1.5 projection -> "cylindrical" }
 }
-Settings { background -> Background { image -> "picture.png" angle -> 1.5 projection -> "cylindrical" } }
+Settings {
+    background -> Background { image -> "picture.png" angle -> 1.5 projection -> "cylindrical" }
+}
 )");
   REQUIRE(result.ok());
   const auto* panorama = std::get_if<crt::PanoramaBackground>(&result.result.scene->background);
@@ -256,7 +258,7 @@ Settings { background -> Background { image -> "picture.png" angle -> 1.5 projec
   CHECK(panorama->angle == 1.5);
   CHECK(panorama->projection == crt::PanoramaProjection::cylindrical);
   CHECK(panorama->image->width() == 2);
-  // The cache of the run is gone: what is left is the scene's.
+  // The cache of the run is gone, and only the scene holds the picture.
   CHECK(panorama->image.use_count() == 1);
 }
 

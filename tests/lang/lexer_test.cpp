@@ -1,4 +1,5 @@
-// The lexer alone: tokens, their places, and what it says of text that is none.
+// These tests check the lexer alone: tokens, their places, and what it reports of text that is
+// none.
 #include "lang/lexer.hpp"
 
 #include <doctest/doctest.h>
@@ -64,7 +65,7 @@ TEST_CASE("in scripts of 2015 new keywords are names where they cannot be meant 
   CHECK(kinds("for (in in in)", compat) == Kinds{Kind::S_FOR, Kind::S_LEFT_PARENTHESIS,
                                                  Kind::S_IDENTIFIER, Kind::S_IN, Kind::S_IDENTIFIER,
                                                  Kind::S_RIGHT_PARENTHESIS});
-  // Those that were there from the beginning stay.
+  // Keywords that 2015 had stay keywords.
   CHECK(kinds("true scale Macro", compat) == Kinds{Kind::S_TRUE, Kind::S_SCALE, Kind::S_MACRO});
 }
 
@@ -146,7 +147,7 @@ TEST_CASE("spans are bytes of the text") {
   CHECK(result.spans[3] == Span{10, 12});
 }
 
-TEST_CASE("bytes that are no token are told and passed over") {
+TEST_CASE("bytes that are no token are reported and skipped") {
   CHECK(lex("a ; b").kinds.size() == 2);
   CHECK(lex("a ; b").errors.size() == 1);
   CHECK(lex("a \xff b").kinds.size() == 2);
@@ -157,8 +158,9 @@ TEST_CASE("bytes that are no token are told and passed over") {
   CHECK(lex(std::string("a \0 b", 5)).kinds.size() == 2);
 }
 
-TEST_CASE("what is no UTF-8 is told in strings, but not in comments") {
-  // A lone continuation, an overlong slash, a surrogate, beyond U+10FFFF, a character cut short.
+TEST_CASE("what is no UTF-8 is reported in strings, but not in comments") {
+  // These are a lone continuation, an overlong slash, a surrogate, a number beyond U+10FFFF, and a
+  // character cut short.
   for (const char* wrong : {"\x80", "\xc0\xaf", "\xed\xa0\x80", "\xf4\x90\x80\x80", "\xe2\x82"}) {
     CHECK_FALSE(lex(std::string("\"") + wrong + "\"").errors.empty());
     CHECK(lex(std::string("-- ") + wrong + "\n").errors.empty());

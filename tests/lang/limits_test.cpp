@@ -1,4 +1,4 @@
-// No script hangs or exhausts its host: every limit ends in an ordinary error that says where.
+// No script hangs or exhausts its host. Every limit ends in an ordinary error that says where.
 #include <doctest/doctest.h>
 
 #include <pthread.h>
@@ -23,7 +23,7 @@ ScriptOptions with(ScriptLimits limits) {
   return options;
 }
 
-/// Whether the script ends in one error of a limit whose message holds `words`.
+/// Says whether the script ends in one error of a limit whose message holds `words`.
 bool ends_in_limit(const std::string& text, const ScriptOptions& options,
                    const std::string& words) {
   const crt::test::Run result = run_statements(text, options);
@@ -97,7 +97,7 @@ TEST_CASE("an endless loop is the one that goes round most, not what runs within
 }
 
 TEST_CASE("steps are counted to the one") {
-  // Four expressions: the assignment's sum and its operands, and the assignment itself.
+  // There are four expressions: the assignment's sum and its operands, and the assignment itself.
   const std::string text = "x = 1 + 2";
   CHECK(run_statements(text, with({.steps = 4})).ok());
   CHECK(ends_in_limit(text, with({.steps = 3}), "more than 3 steps"));
@@ -125,7 +125,7 @@ TEST_CASE("macros call one another to a depth") {
 }
 
 TEST_CASE("at all limits a script needs no more than about a megabyte of stack") {
-  // Half as much again, for what calls run_script() and for the standard library.
+  // The stack is half as large again, for what calls run_script() and for the standard library.
   constexpr std::size_t stack_bytes = 3 << 19;
   const std::string brackets = repeated("[", 90);
   const std::string closed = repeated("]", 90);
@@ -160,7 +160,7 @@ TEST_CASE("long chains are worked off and freed without deep recursion") {
     CHECK(run_statements(sum + "\nprint(x)").printed == std::vector<std::string>{"100001"});
     CHECK(run_statements(both).ok());
     CHECK(run_statements(solid).ok());
-    // Chains that are made while it runs: macros that hold the scope of the last, entities of
+    // These chains are made while it runs: macros that hold the scope of the last, entities of
     // entities.
     CHECK(run_statements("m = 0\nfor (i in range(100000)) { last = m\n m = Macro () { last } }")
               .ok());
@@ -226,7 +226,7 @@ TEST_CASE("a script and its imports have a greatest size together") {
   CHECK(run_statements("import \"a\"\nimport \"b\"", options).failed_with(ErrorCode::limit));
 }
 
-TEST_CASE("errors are told up to a number, warnings likewise") {
+TEST_CASE("errors and warnings are reported up to a number") {
   std::string text;
   for (int i = 0; i < 50; ++i) text += "x" + std::to_string(i) + " = 1 / 0\n";
   CHECK(run_statements(text, with({.errors = 7})).result.diagnostics.size() == 7);

@@ -1,4 +1,4 @@
-// What the caller sets from outside: variables, settings, t.
+// These tests check what the caller sets from outside: variables, settings, t.
 #include <doctest/doctest.h>
 
 #include "run.hpp"

@@ -1,4 +1,4 @@
-// The parser alone: what parses, how deep it goes, and how it recovers.
+// These tests check the parser alone: what parses, how deep it goes, and how it recovers.
 #include "lang/parser.hpp"
 
 #include <doctest/doctest.h>
@@ -127,7 +127,7 @@ TEST_CASE("chains to the left and long lists do not nest") {
   CHECK(parse("S { " + repeated("a -> 1 ", many) + "}").errors.empty());
 }
 
-TEST_CASE("several syntax errors are told in one go, one a line") {
+TEST_CASE("several syntax errors are reported in one run, one a line") {
   CHECK(parse("a = ) \n b = 2 \n c = ] ] ] \n d = (\n").errors.size() == 3);
   CHECK(parse("a = (1 + )\nb = [,]\nScene { x = * }\n").errors.size() == 3);
 }

@@ -1,4 +1,5 @@
-// rand() and noise(): the same on every platform, and as random and as smooth as they say.
+// rand() and noise() give equal numbers on every platform, and are as random and as smooth as they
+// say.
 #include "lang/random.hpp"
 
 #include <doctest/doctest.h>
@@ -11,7 +12,7 @@ namespace {
 using crt::Vec3;
 using crt::lang::gradient_noise;
 
-/// Points that lie nowhere in particular.
+/// Returns a point that lies nowhere in particular.
 Vec3 some_point(int i) {
   return Vec3(std::sin(i * 1.7) * 40, std::cos(i * 2.3) * 40, std::sin(i * 0.9 + 1) * 40);
 }
@@ -44,7 +45,7 @@ TEST_CASE("random numbers fill [0, 1) evenly") {
     REQUIRE((number >= 0 && number < 1));
     ++filled[static_cast<int>(number * bins)];
   }
-  // Six standard deviations of a binomial distribution.
+  // The bound is six standard deviations of a binomial distribution.
   const double deviation = 6 * std::sqrt(count * 0.1 * 0.9);
   for (const int in_bin : filled) CHECK(std::abs(in_bin - count / bins) < deviation);
 }

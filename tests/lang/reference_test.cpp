@@ -29,7 +29,7 @@ std::vector<std::string> reference_lines() {
   return lines;
 }
 
-/// The examples: what stands between ```crt and ```.
+/// Returns the examples: what stands between ```crt and ```.
 std::vector<std::string> examples() {
   std::vector<std::string> result;
   bool inside = false;
@@ -46,7 +46,7 @@ std::vector<std::string> examples() {
   return result;
 }
 
-/// "| a | b \| c |" as its cells, without the blanks around them.
+/// Returns the cells of "| a | b \| c |", without the blanks around them.
 std::vector<std::string> cells(const std::string& line) {
   std::vector<std::string> result;
   std::string cell;
@@ -63,7 +63,8 @@ std::vector<std::string> cells(const std::string& line) {
   return result;
 }
 
-/// The tables of attributes, by the heading they stand under: "name type default" for each row.
+/// Returns the tables of attributes, by the heading they stand under: "name type default" for each
+/// row.
 std::map<std::string, std::vector<std::string>> attribute_tables() {
   std::map<std::string, std::vector<std::string>> tables;
   std::string heading;
@@ -94,7 +95,7 @@ std::vector<std::string> rows_of(const crt::lang::ObjectType& type) {
   return rows;
 }
 
-/// A picture of one pixel as a PNG file.
+/// Returns a picture of one pixel as a PNG file.
 std::vector<std::byte> png() {
   const fs::path file = fs::temp_directory_path() / fmt::format("crt_reference_{}.png", getpid());
   crt::Image(1, 1).write(file);
@@ -172,7 +173,7 @@ TEST_CASE("what the reference says a built-in's example is, it is") {
     const std::string value = row[2].substr(is + 5);
     if (value.find("pi") != std::string::npos) continue;  // a word, not a script's text
     CAPTURE(expression);
-    // A hair's breadth is what the last digit of a sine may be off.
+    // The tolerance allows for the error in the last digit of a sine.
     const std::string script = "x = " + expression + "\ny = " + value +
                                "\nok = x == y || (str(x) != \"\" && abs(x - y) < 1e-15)\nprint(ok)";
     CHECK(crt::test::run_statements(script).printed == std::vector<std::string>{"true"});

@@ -1,4 +1,4 @@
-// Runs scripts for the tests.
+// This runs scripts for the tests.
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ struct Run {
 
   bool ok() const { return result.scene.has_value(); }
 
-  /// The messages of errors and warnings, in order.
+  /// Returns the messages of errors and warnings, in order.
   std::vector<std::string> messages() const {
     std::vector<std::string> messages;
     for (const Diagnostic& diagnostic : result.diagnostics) messages.push_back(diagnostic.message);
@@ -30,7 +30,7 @@ struct Run {
     return errors;
   }
 
-  /// Whether the run ended in just one error, of this kind.
+  /// Says whether the run ended in just one error, of this kind.
   bool failed_with(ErrorCode code) const {
     return !ok() && errors().size() == 1 && errors()[0].code == code;
   }
@@ -44,7 +44,7 @@ inline Run run(std::string_view text, ScriptOptions options = {},
   return run;
 }
 
-/// The same with an empty Scene behind the text.
+/// Runs a script with an empty Scene behind the text.
 inline Run run_statements(std::string_view text, ScriptOptions options = {}) {
   return run(std::string(text) + "\nScene { }\n", std::move(options));
 }

@@ -1,4 +1,4 @@
-// What arrives in the Scene: values, units and defaults.
+// These tests check what arrives in the Scene: values, units and defaults.
 #include <doctest/doctest.h>
 
 #include <numbers>
@@ -36,8 +36,9 @@ TEST_CASE("all settings arrive") {
   const crt::Scene scene = scene_of(R"(Settings {
     title -> "T" author -> "A" date -> "D" notes -> "N" width -> 12 height -> 34 gamma -> 2.5
     supersampling -> 3 dofsamples -> 4 recursiondepth -> 5 minweight -> 0.25 falloffmodel -> "light"
-    targeterror -> 0.25 timebudget -> 1.5 minsamples -> 32 maxsamples -> 64 filter -> "blackmanharris"
-    filterwidth -> 2.5 showclip -> true seed -> 77 precision -> "exact" projection -> "cylindrical"
+    targeterror -> 0.25 timebudget -> 1.5 minsamples -> 32 maxsamples -> 64
+    filter -> "blackmanharris" filterwidth -> 2.5 showclip -> true seed -> 77
+    precision -> "exact" projection -> "cylindrical"
   } Scene { })");
   const crt::Settings& settings = scene.settings;
   CHECK(settings.title == "T");
@@ -85,10 +86,13 @@ TEST_CASE("a camera's angles are degrees in a script and radians in the scene") 
 TEST_CASE("lights arrive in their order, with their own defaults") {
   const crt::Scene scene = scene_of(R"(Settings { lights -> [
     PointLight { origin -> vec3(1, 0, 0) color -> rgb(2, 3, 4) },
-    ParallelLight { from -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) ambient -> 0.5 },
-    SpotLight { origin -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) angle -> 30 penumbra -> 10 falloff -> 2 },
+    ParallelLight { from -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1)
+      ambient -> 0.5 },
+    SpotLight { origin -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1)
+      angle -> 30 penumbra -> 10 falloff -> 2 },
     SpotLight { origin -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) },
-    CylinderLight { origin -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1) radius -> 3 }
+    CylinderLight { origin -> vec3(0, 1, 0) pointing -> vec3(0, 0, 0) color -> rgb(1, 1, 1)
+      radius -> 3 }
   ] } Scene { })");
   REQUIRE(scene.lights.size() == 5);
   const auto& point = std::get<crt::PointLight>(scene.lights[0]);
@@ -141,7 +145,8 @@ TEST_CASE("surfaces and solids keep what they are") {
   const crt::Scene scene = scene_of(R"(Scene {
     Disc { center -> vec3(0, 0, 0) normal -> vec3(0, 1, 0) radius -> 1 }
     Sphere { center -> vec3(0, 0, 0) radius -> 1 }
-    Disc { center -> vec3(0, 0, 0) normal -> vec3(0, 1, 0) radius -> 1 } + Sphere { center -> vec3(0, 0, 0) radius -> 1 }
+    Disc { center -> vec3(0, 0, 0) normal -> vec3(0, 1, 0) radius -> 1 } +
+      Sphere { center -> vec3(0, 0, 0) radius -> 1 }
   })");
   CHECK_FALSE(scene.entities[0].is_solid());
   CHECK(scene.entities[1].is_solid());

@@ -1,6 +1,6 @@
-// Scripts in the manner of 2015 (the folder scripts_2015): what each construct gives, by closed
-// form. What they print and what is said of them is in their comments, which corpus_test.cpp
-// checks.
+// These scripts are in the manner of 2015 (the folder scripts_2015). The tests check what each
+// construct gives, by closed form. What they print and the messages about them are in their
+// comments, which corpus_test.cpp checks.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -42,7 +42,7 @@ Image picture_of(const Scene& scene, const crt::RenderOptions& options = {}) {
   return crt::render(crt::prepare(scene), options);
 }
 
-/// Of a picture of one pixel.
+/// Returns the colour of a picture of one pixel.
 Color pixel_of(const Scene& scene) {
   return picture_of(scene).at(0, 0);
 }
@@ -62,13 +62,14 @@ Color square(int column, int row) {
   return {column * 32 / 255.0, row * 64 / 255.0, (255 - column * 16) / 255.0, 1};
 }
 
-/// A direction at an angle from straight ahead to the right, and at a height.
+/// Returns a direction at an angle from straight ahead to the right, and at a height.
 Vec3 direction(double yaw, double y) {
   const double level = std::sqrt(1 - y * y);
   return {std::sin(yaw) * level, y, std::cos(yaw) * level};
 }
 
-/// All rays of an orthographic camera have the direction in which it looks.
+/// Returns the colour in a direction. All rays of an orthographic camera have the direction in
+/// which it looks.
 Color seen(Scene scene, const Vec3& towards) {
   scene.camera.pointing = scene.camera.position + towards;
   return pixel_of(scene);
@@ -91,9 +92,9 @@ void check_squares(const Scene& scene, double to_the_right) {
 
 // ---- the lens
 
-/// How much of the lens sees the white background beside an edge at twice the distance in focus. A
-/// point at p of the plane in focus is seen by the lens's point l along a line that passes the
-/// edge's plane at 2 p - l.
+/// Returns how much of the lens sees the white background beside an edge at twice the distance in
+/// focus. A point at p of the plane in focus is seen by the lens's point l along a line that passes
+/// the edge's plane at 2 p - l.
 double seen_beside_edge(double p, double half_width) {
   return 1 - std::clamp(0.5 + p / half_width, 0.0, 1.0);
 }
@@ -128,7 +129,7 @@ TEST_CASE("the mode turns equal-area and cylindrical panoramas the other way, to
 }
 
 TEST_CASE("rand of 2015 is java.util.Random's nextDouble from the seed 1337") {
-  // As its documentation has it: next(bits) takes the upper bits of a linear congruential generator
+  // Its documentation says that next(bits) takes the upper bits of a linear congruential generator
   // modulo 2^48.
   std::uint64_t state = (1337 ^ 0x5DEECE66D) & 0xFFFFFFFFFFFF;
   const auto next = [&state](int bits) {
@@ -144,7 +145,7 @@ TEST_CASE("rand of 2015 is java.util.Random's nextDouble from the seed 1337") {
   const auto drawn =
       run_statements("Settings { compat -> 2015 }\nfor (i in range(100)) { print(rand()) }");
   CHECK(drawn.printed == expected);
-  // What `new java.util.Random(1337)` gave when it was asked.
+  // These numbers came from `new java.util.Random(1337)`.
   CHECK(drawn.printed[0] == "0.6599297847448217");
   CHECK(drawn.printed[1] == "0.6892426740281012");
   CHECK(drawn.printed[99] == "0.3344566363092968");
@@ -162,7 +163,7 @@ TEST_CASE("a lens of 2015 blurs as many pixels at every size: half its width is 
     const double half_width = 20.0 / width;
     int blurred = 0;
     for (int x = 0; x < width; ++x) {
-      // The sample lies on the pixel's left side; the plane in focus is 8 wide.
+      // The sample lies on the pixel's left side, and the plane in focus is 8 wide.
       const double p = 8.0 * x / width - 4;
       const double value = row.at(x, 0).r;
       CAPTURE(x);
@@ -297,7 +298,7 @@ TEST_CASE("the mode is asked for by the options, a setting from outside, or the 
   ScriptOptions by_setting;
   by_setting.settings = {{"compat", "0"}, {"compat", "2015"}};
   CHECK(run_statements(script, by_setting).result.scene->settings.compat == 2015);
-  // Anywhere in the script, but in Settings only.
+  // These stand anywhere in the script, but in Settings only.
   for (const char* settings :
        {"Settings { compat -> 2015 }", "Settings{title->\"}\" -- compat -> 0 }\ncompat\n->2015}",
         "Settings { camera -> Camera { position -> vec3(0, 0, 0) pointing -> vec3(1, 0, 0) }"

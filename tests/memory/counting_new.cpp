@@ -11,13 +11,14 @@ namespace {
 std::atomic<std::uint64_t> count = 0;
 std::atomic<std::int64_t> in_use = 0;
 
-/// In front of each block: its size. As large as the strictest alignment that plain new promises.
+/// In front of each block is its size. The space for it is as large as the strictest alignment that
+/// plain new promises.
 constexpr std::size_t header = alignof(std::max_align_t);
 static_assert(header >= sizeof(std::size_t));
 
 void* take_if_there_is(std::size_t size, std::size_t alignment) noexcept {
   const std::size_t front = alignment > header ? alignment : header;
-  // One byte at least, so that the address given is within the block: leaks are told by that.
+  // A block has at least one byte, so that its address is within it. Leaks are found by that.
   const std::size_t whole = (front + std::max<std::size_t>(size, 1) + front - 1) / front * front;
   void* block = std::aligned_alloc(front, whole);
   if (block == nullptr) return nullptr;
@@ -55,7 +56,7 @@ std::int64_t bytes_in_use() {
 
 }  // namespace crt::test
 
-// All forms, as sanitizers have their own of those that are not here.
+// All forms are replaced, as sanitizers have their own of those that are not here.
 void* operator new(std::size_t size) {
   return take(size, header);
 }

@@ -1,15 +1,15 @@
-// Counts what this program takes from the heap by operator new, which it replaces: for a test
-// program of its own.
+// This counts what the program takes from the heap by operator new, which it replaces. It needs a
+// test program of its own.
 #pragma once
 
 #include <cstdint>
 
 namespace crt::test {
 
-/// How often memory was taken since the program began, on any thread.
+/// Returns how often memory was taken since the program began, on any thread.
 std::uint64_t allocations();
 
-/// How many bytes are taken and not yet given back.
+/// Returns how many bytes are taken and not yet given back.
 std::int64_t bytes_in_use();
 
 }  // namespace crt::test

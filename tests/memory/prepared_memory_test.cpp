@@ -1,4 +1,4 @@
-// What a prepared scene says that it takes of memory, against what it takes.
+// These tests compare the memory that a prepared scene reports with the memory that it takes.
 #include <doctest/doctest.h>
 
 #include "memory/counting_new.hpp"
@@ -33,7 +33,7 @@ double ratio(std::uint64_t a, std::uint64_t b) {
   return static_cast<double>(a) / static_cast<double>(b);
 }
 
-/// Of everything, so that each kind of part is a share that a mistake would show in.
+/// Makes some of everything, so that each kind of part has a share in which a mistake would show.
 std::vector<Entity> mixed_entities(int count) {
   std::vector<Entity> entities = balls(count, 0.01);
   for (const Entity& ball : balls(count, 0.1, 2)) {
@@ -55,7 +55,7 @@ TEST_CASE("the memory that a prepared scene reports is what was taken for it") {
     prepare(scene);  // what libraries take once and for all is not of any scene
     MemoryUse claimed;
     const std::int64_t taken = taken_for(scene, claimed);
-    // Embree's own memory does not come from operator new, or not all of it.
+    // Embree's own memory does not come from operator new, or only partly.
     const double without_tree =
         static_cast<double>(claimed.primitives + claimed.csg + claimed.materials);
     CHECK(static_cast<double>(taken) >= 0.99 * without_tree);

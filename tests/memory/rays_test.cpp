@@ -9,7 +9,7 @@ using namespace crt::test;
 
 namespace {
 
-/// Something of everything that rays may meet.
+/// Makes a scene of everything that rays may meet.
 Scene rich_scene() {
   Scene scene;
   const Material glass{.color = Color{0.9, 0.95, 1},
@@ -50,7 +50,7 @@ std::uint64_t allocations_of(const PreparedScene& prepared, const RenderOptions&
   return allocations() - before;
 }
 
-/// Grows the picture; whatever is taken per render, tile or thread does not count.
+/// Grows the picture, so that what is taken per render, tile or thread does not count.
 void check_rays_take_nothing(Scene scene) {
   const PreparedScene small = prepare(scene);
   scene.settings.supersampling = 3;
@@ -60,7 +60,8 @@ void check_rays_take_nothing(Scene scene) {
       render(large, alone).stats().camera_rays - render(small, alone).stats().camera_rays;
   const std::uint64_t of_small = allocations_of(small, alone);
   const std::uint64_t of_large = allocations_of(large, alone);
-  // Lists grow to the longest that any ray has needed: a few of them, a step each.
+  // Lists grow to the longest that any ray has needed. There are a few of them, which take a few
+  // steps each.
   constexpr std::uint64_t steps_of_growth = 64;
   CHECK_MESSAGE(of_large <= of_small + steps_of_growth, of_small, " allocations grow to ", of_large,
                 " by ", rays, " rays");

@@ -1,4 +1,4 @@
-// Scenes of any size.
+// These functions make scenes of any size.
 #pragma once
 
 #include <crt/crt.hpp>

@@ -187,7 +187,7 @@ begin or end at a crossing, or a double beside it.
 |---|---|---|---|---|
 )";
 
-/// Puts rows in the place of those of a table (that comes after `heading`) which begin like them.
+/// Replaces those rows of a table (that comes after `heading`) which begin like the new rows.
 class RowReplacement {
  public:
   RowReplacement(std::string heading, std::string rows)
@@ -214,7 +214,7 @@ class RowReplacement {
   std::string begin_;
 };
 
-/// The first line of a part of the page that has one.
+/// Returns the first line of a part of the page that has one.
 std::string heading_of(std::string_view part) {
   const std::size_t begin = part.find_first_not_of('\n');
   return std::string(part.substr(begin, part.find('\n', begin) - begin));

@@ -1,4 +1,4 @@
-// docs/accuracy.md: what was measured, as a page of text.
+// These functions write docs/accuracy.md: what was measured, as a page of text.
 #pragma once
 
 #include <cstdint>
@@ -11,13 +11,13 @@
 
 namespace crt::test {
 
-/// All about a primitive.
+/// Holds all that was measured about a primitive.
 struct MeasuredPrimitive {
   Measured in_place;
   Record placed;  ///< of the exact tier, transformed
 };
 
-/// What all queries told of subjects of a kind.
+/// Holds what all queries reported of subjects of a kind.
 struct MeasuredAgreement {
   std::size_t kind = 0;
   AgreementRecord standard;
@@ -30,18 +30,17 @@ struct MeasuredAll {
   std::vector<MeasuredAgreement> agreement;
 };
 
-/// The page, whole.
+/// Returns the whole page.
 std::string accuracy_page(const MeasuredAll& all);
 
-/// The rows of a primitive in the table that compares the tiers.
+/// Returns the rows of a primitive in the table that compares the tiers.
 std::string tier_rows(const Measured& of);
-/// Those of trees, and of the queries' agreement.
+/// Returns the rows of trees, and of the queries' agreement.
 std::string tree_rows(const CsgRecord& record);
 std::string agreement_rows(const MeasuredAgreement& of);
 
-/// Puts the rows of primitives, and of trees and the agreement if any were measured, in the place
-/// of those in a page that is there already. Throws std::runtime_error, and changes nothing, if
-/// there is one without.
+/// Replaces the rows of primitives, and of trees and the agreement if any were measured, in a page
+/// that exists. Throws std::runtime_error, and changes nothing, if the page lacks one of them.
 std::string with_rows_replaced(const std::string& page, const MeasuredAll& some);
 
 }  // namespace crt::test

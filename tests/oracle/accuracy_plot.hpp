@@ -7,7 +7,7 @@
 
 namespace crt::test {
 
-/// What oracle_table knows of a primitive by one of the contestants.
+/// Holds what oracle_table knows of a primitive by one of the contestants.
 struct MeasuredTier {
   std::string name;
   Record record;
@@ -18,8 +18,8 @@ struct Measured {
   std::vector<MeasuredTier> tiers;  ///< standard, exact, naive
 };
 
-/// An SVG: for each primitive the error that 99.9 % of plain rays stay below, in ulps, against
-/// distance.
+/// Returns an SVG: for each primitive the error that 99.9 % of plain rays stay below, in ulps,
+/// against distance.
 std::string accuracy_plot(const std::vector<Measured>& all);
 
 }  // namespace crt::test

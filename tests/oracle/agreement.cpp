@@ -38,7 +38,7 @@ bool same(const std::optional<Hit>& a, const PlainHit& b) {
          b.side == (a->entering ? HitSide::entering : HitSide::leaving);
 }
 
-/// What a batch tells of its rays.
+/// Holds what a batch reports of its rays.
 struct BatchAnswers {
   std::vector<std::optional<Hit>> hits;
   std::vector<PlainHit> plain;
@@ -57,7 +57,7 @@ struct BatchAnswers {
   }
 };
 
-/// What is wrong with the list of crossings by itself; "" for nothing.
+/// Returns what is wrong with the list of crossings by itself, or "" for nothing.
 std::string fault_of(const std::vector<Hit>& crossings, const Ray& ray) {
   for (std::size_t i = 0; i < crossings.size(); ++i) {
     const Hit& hit = crossings[i];
@@ -71,7 +71,7 @@ std::string fault_of(const std::vector<Hit>& crossings, const Ray& ray) {
   return "";
 }
 
-/// What differs between the answers about one ray.
+/// Returns what differs between the answers about one ray.
 std::string difference(RayQueries& queries, const Ray& ray, const BatchAnswers& batch,
                        std::size_t i, std::vector<Hit>& crossings) {
   queries.crossings(ray, crossings);
@@ -91,7 +91,7 @@ std::string difference(RayQueries& queries, const Ray& ray, const BatchAnswers& 
   return "";
 }
 
-/// FNV-1a over the bits of numbers (Fowler, Noll, Vo).
+/// A Digest is FNV-1a over the bits of numbers (Fowler, Noll, Vo).
 class Digest {
  public:
   void add(std::uint64_t bits) {
@@ -116,7 +116,7 @@ class Digest {
   std::uint64_t value_ = 0xcbf29ce484222325;
 };
 
-/// Of a ray and of what it crosses, of which all other answers are parts.
+/// Returns the digest of a ray and of what it crosses, of which all other answers are parts.
 std::uint64_t digest_of(const Ray& ray, const std::vector<Hit>& crossings) {
   Digest digest;
   digest.add(ray.origin);
@@ -138,7 +138,7 @@ std::string text_of(const Ray& ray) {
 constexpr std::size_t trees = primitive_kinds;
 constexpr std::size_t crowds = primitive_kinds + 1;
 
-/// What is asked about, and what its rays are made for.
+/// A Subject is what is asked about, and what its rays are made for.
 struct Subject {
   std::vector<Entity> entities;
   std::vector<Primitive> parts;
@@ -176,7 +176,7 @@ Subject make_tree(Counted& random, const Vec3& at, double size) {
   return {.entities = {entity}, .parts = parts, .size = size};
 }
 
-/// More than are looked at in a row, each in a cell of its own.
+/// Makes more objects than a flat box list takes, each in a cell of its own.
 Subject make_crowd(Counted& random, const Vec3& at, double size) {
   constexpr int cells = 5;
   constexpr double most_sizes = 8;  // from its place a spindle torus reaches nearly that far
@@ -211,7 +211,7 @@ Subject make_subject(Counted& random, std::size_t kind) {
   return subject;
 }
 
-/// A length near the ends of what doubles hold, of the whole or of some components.
+/// Scales a direction, or some of its components, to near the ends of what doubles hold.
 Vec3 scaled(Counted& random, const Vec3& direction) {
   constexpr double farthest = 305;
   Vec3 result = direction * random.power_of_ten(-farthest, farthest);
@@ -274,7 +274,7 @@ constexpr std::size_t rays_of_subject = 48;
 
 void measure_subject(std::size_t kind, Precision precision, std::uint64_t number,
                      AgreementRecord& record) {
-  // A size that is lost in the offset makes no subject; the next seed makes another.
+  // A size that is lost in the offset makes no subject. The next seed makes another.
   for (std::uint64_t seed = agreement_kinds + kind;; seed += agreement_kinds) {
     Counted random(seed, number);
     try {

@@ -1,6 +1,5 @@
-// One ray asked in every way there is: nearest hit, distance, whether anything is hit, all
-// crossings; alone and among neighbours. Whatever the geometry decides, all answers must tell one
-// story.
+// These functions ask one ray by every query: nearest hit, distance, whether anything is hit, all
+// crossings; alone and among neighbours. Whatever the geometry decides, all answers must agree.
 #pragma once
 
 #include <cstdint>
@@ -24,21 +23,22 @@ struct AgreementRecord {
   void add(const AgreementRecord& other);
 };
 
-/// Asks a scene whose entities keep apart. What it tells of a ray must be:
+/// Asks a scene whose entities are disjoint. Its answers about a ray must be these:
 ///  - crossings() is in order of t, within t_min < t < t_max, and enters and leaves by turns;
-///  - intersect() is its first, or nothing if there is none, and occluded() tells whether there is
-///  one;
+///  - intersect() is its first, or nothing if there is none, and occluded() says whether there is
+///    one;
 ///  - a batch has the same bits as each of its rays alone, and distances() those of intersect().
 void compare_queries(const PreparedScene& scene, const std::string& subject,
                      std::span<const Ray> rays, AgreementRecord& record);
 
-/// The kinds of subjects: each primitive, by its place in the variant `Primitive`; CSG of two or
-/// three solids; crowds of solids that keep apart.
+/// The kinds of subjects are each primitive, by its place in the variant `Primitive`, CSG of two or
+/// three solids, and crowds of disjoint solids.
 inline constexpr std::size_t agreement_kinds = std::variant_size_v<Primitive> + 2;
 std::string name_of_agreement(std::size_t kind);
 
 /// Compares queries of random subjects, each with some rays of every kind that there is, and with
-/// parts of these rays that begin or end at a crossing. On all cores; at least so many rays.
+/// parts of these rays that begin or end at a crossing. It uses all cores, and at least so many
+/// rays.
 AgreementRecord measure_agreement(std::size_t kind, Precision precision, std::uint64_t rays);
 
 }  // namespace crt::test

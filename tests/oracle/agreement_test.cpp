@@ -1,4 +1,4 @@
-// Whatever is asked of a ray, and however, the answers tell one story.
+// Whatever query a ray is asked by, the answers agree.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -14,7 +14,7 @@ using namespace crt::test;
 
 namespace {
 
-// In all some 10^5 rays; `./dev oracle` asks as many as one likes.
+// These are some 10^5 rays in all. `./dev oracle` asks as many as one likes.
 constexpr std::uint64_t rays = 6'000;
 
 void check(Precision precision) {

@@ -1,4 +1,4 @@
-// The judge of the exact tier: it takes the truth, and nothing else.
+// The oracle of the exact tier accepts the truth, and nothing else.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -12,7 +12,7 @@ using crt::core::CrossingList;
 
 namespace {
 
-/// Whether an answer that is made of the truth is accepted.
+/// Says whether an answer that is made of the truth is accepted.
 template <class Change>
 bool accepts(const Truth& truth, const Change& change) {
   Contestant contestant{.name = "changed", .promise = Promise::exact, .crossings = {}};
@@ -32,7 +32,7 @@ bool accepts(const Truth& truth, const Change& change) {
 
 }  // namespace
 
-TEST_CASE("of all answers the judge takes the rounded truth only") {
+TEST_CASE("of all answers the oracle accepts the rounded truth only") {
   constexpr std::uint64_t rays = 10'000;
   constexpr double infinity = std::numeric_limits<double>::infinity();
   int hits = 0;
@@ -52,8 +52,8 @@ TEST_CASE("of all answers the judge takes the rounded truth only") {
       CHECK_FALSE(accepts(truth, [](CrossingList& out, bool&) { out.pop_back(); }));
       CHECK_FALSE(accepts(
           truth, [&](CrossingList& out, bool&) { out[last].entering = !out[last].entering; }));
-      // Away from the truth, as what lies halfway between two doubles has two neighbours that are
-      // as near. Next to a power of two doubles are closer on one side.
+      // The change is away from the truth, as a value halfway between two doubles has two
+      // neighbours that are as near. Next to a power of two doubles are closer on one side.
       const Ball<4>& t = truth.line.crossings[last].t;
       if (t.value() == 0 || std::exp2(std::logb(t.value())) == std::abs(t.value())) continue;
       const double away = t.part(1) > 0 ? -infinity : infinity;

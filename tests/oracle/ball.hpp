@@ -1,4 +1,4 @@
-// Ball arithmetic on short sums of doubles: what the oracle tries before MPFR, as it is some
+// This is ball arithmetic on short sums of doubles. The oracle tries it before MPFR, as it is some
 // hundred times faster.
 //
 // A ball holds the true value for certain: it is within `radius` of the sum of the parts. Every
@@ -19,13 +19,13 @@
 
 namespace crt::test {
 
-/// The sign of a number that may be 0, or more or less.
+/// Is thrown for the sign of a number that may be 0, or more or less.
 struct Undecided {};
 
 template <std::size_t parts>
 class Ball {
  public:
-  /// In bits.
+  /// Returns the precision in bits.
   static constexpr int precision() { return 53 * static_cast<int>(parts); }
 
   Ball() = default;
@@ -36,7 +36,7 @@ class Ball {
   requires(fewer < parts) explicit Ball(const Ball<fewer>& other) : radius_(other.radius()) {
     for (std::size_t i = 0; i < fewer; ++i) part_[i] = other.part(i);
   }
-  /// The sum of the terms, each with the error that is told, and `radius` more.
+  /// Returns the sum of the terms, each with the given error, and `radius` more.
   static Ball sum_of(const double* terms, std::size_t count, double radius) {
     Sum sum;
     for (std::size_t i = 0; i < count; ++i) sum.add(terms[i]);
@@ -104,7 +104,7 @@ class Ball {
       return sum.ball(radius);
     }
   }
-  /// b must not hold 0.
+  /// Divides. b must not hold 0.
   friend Ball operator/(const Ball& a, const Ball& b) {
     if (b.certain_sign() == 0) throw Undecided{};
     // Long division: |a / b - q| = |a - b q| / |b|.
@@ -119,7 +119,7 @@ class Ball {
     return quotient;
   }
   friend Ball square(const Ball& a) { return a * a; }
-  /// The root of what is known not to be negative.
+  /// Returns the root of what is known not to be negative.
   friend Ball sqrt(const Ball& a) {
     if (a.is_zero()) return a;
     if (a.certain_sign() <= 0) throw Undecided{};
@@ -143,15 +143,15 @@ class Ball {
     if (certain == 0 && !is_zero()) throw Undecided{};
     return certain;
   }
-  /// 0 also where it is not known.
+  /// Returns the sign, or 0 where it is not known.
   int certain_sign() const {
     if (!(least_size() > 0)) return 0;
     return part_[0] > 0 ? 1 : -1;
   }
-  /// 0 for certain.
+  /// Says whether it is 0 for certain.
   bool is_zero() const { return part_[0] == 0 && radius_ == 0 && size() == 0; }
   bool surely_below(const Ball& other) const { return (other - *this).certain_sign() > 0; }
-  /// For ordering what is apart.
+  /// Orders balls that are disjoint.
   friend bool is_less(const Ball& a, const Ball& b) {
     for (std::size_t i = 0; i < parts; ++i) {
       if (a.part_[i] != b.part_[i]) return a.part_[i] < b.part_[i];
@@ -163,21 +163,21 @@ class Ball {
     result.radius_ = radius_ - radius_;
     return result;
   }
-  /// The same with `more` on each side.
+  /// Returns the ball with `more` on each side.
   Ball widened(double more) const {
     Ball result = *this;
     result.radius_ = inflated(radius_ + more);
     return result;
   }
-  /// A ball that holds both.
+  /// Returns a ball that holds both.
   friend Ball hull(const Ball& a, const Ball& b) {
-    const Ball way = b - a;
-    return a.widened(way.size() + way.radius_ + b.radius_);
+    const Ball offset = b - a;
+    return a.widened(offset.size() + offset.radius_ + b.radius_);
   }
   double value() const { return part_[0]; }
   double radius() const { return radius_; }
   double part(std::size_t i) const { return part_[i]; }
-  /// No number of the ball is larger, in size.
+  /// Returns a bound: no number of the ball is larger, in size.
   double largest_size() const { return inflated(size() + radius_); }
 
  private:
@@ -205,7 +205,7 @@ class Ball {
     return result;
   }
 
-  /// Adds doubles without error, but for what runs off its end.
+  /// A Sum adds doubles without error, but for what runs off its end.
   struct Sum {
     void add(double term) {
       for (double& part : part_) {
@@ -217,7 +217,8 @@ class Ball {
       dropped_ += std::abs(term);
     }
     Ball ball(double radius) {
-      // From the small end up: twice leaves each part below the last place of the one before.
+      // It goes from the small end up. Two passes leave each part below the last place of the one
+      // before.
       for (int pass = 0; pass < 2; ++pass) {
         for (std::size_t i = part_.size() - 1; i > 0; --i) {
           const Two sum = two_sum(part_[i - 1], part_[i]);
@@ -244,7 +245,7 @@ class Ball {
     for (std::size_t i = 1; i < parts; ++i) result += std::abs(part_[i]);
     return result * (1 + 0x1p-50);
   }
-  /// Every number of the ball is at least so large, or this is negative.
+  /// Returns a bound: every number of the ball is at least so large, or it is negative.
   double least_size() const {
     double rest = radius_;
     for (std::size_t i = 1; i < parts; ++i) rest += std::abs(part_[i]);

@@ -1,5 +1,5 @@
-// The quick numbers of the oracle against MPFR: the same truth from all, and no wrong answer
-// passes.
+// These tests compare the quick numbers of the oracle with MPFR: all give the same truth, and no
+// wrong answer passes.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@ using namespace crt::test;
 
 namespace {
 
-/// A double of any of many sizes; now and then 0 or a small whole number.
+/// Returns a double of any of many sizes, now and then 0 or a small whole number.
 double random_double(Counted& random) {
   const int form = random.integer(0, 9);
   if (form == 0) return 0;
@@ -39,7 +39,7 @@ void check_arithmetic() {
     Interval truth(ball.value());
     for (int step = 0; step < 6; ++step) {
       const double next = random_double(random);
-      // Now and then something that cancels nearly all.
+      // Now and then the operand cancels nearly all.
       const double operand = random.integer(0, 3) == 0 ? -ball.value() : next;
       switch (random.integer(0, 4)) {
         case 0:

@@ -23,7 +23,7 @@ constexpr std::uint64_t lines = 100'000;
 constexpr std::uint64_t lines = 10'000;
 #endif
 
-/// A torus somewhere in the world: a ring, or now and then a horn or a spindle.
+/// A PlacedTorus is a torus somewhere in the world: a ring, or now and then a horn or a spindle.
 class PlacedTorus {
  public:
   explicit PlacedTorus(Counted& random) {
@@ -50,7 +50,7 @@ class PlacedTorus {
   const BoundingProxy& proxy() const { return proxies_.list.front(); }
   const ProxyAxis& axis() const { return proxies_.axes.front(); }
 
-  /// Of the surface, and the normal there: `turn` goes about the ring from outside to the top.
+  /// Returns the normal of the surface. `turn` goes about the ring from outside to the top.
   Vec3 normal(const Vec3& radial, double turn) const {
     return std::cos(turn) * radial + std::sin(turn) * axis().normal;
   }
@@ -77,7 +77,7 @@ Vec3 across(const Vec3& axis, Counted& random) {
   return glm::normalize(result);
 }
 
-/// Of an angle: anywhere, or nearly at the top or bottom, or at the in- or outside.
+/// Returns an angle: any, or nearly at the top or bottom, or at the in- or outside.
 double any_turn(Counted& random) {
   constexpr double quarter = 1.5707963267948966;
   if (random.integer(0, 1) == 0) return random.uniform(0, 4 * quarter);
@@ -97,7 +97,7 @@ FilterLine<double> filter_line(const Vec3& origin, const Vec3& direction, double
   return line;
 }
 
-/// Whether a line is inside somewhere after its start and before `end`.
+/// Says whether a line is inside somewhere after its start and before `end`.
 bool is_met(const TrueLine& truth, double end) {
   return std::any_of(truth.crossings.begin(), truth.crossings.end(),
                      [&](const TrueCrossing& crossing) {
@@ -116,8 +116,8 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
     Counted random(71, i);
     const PlacedTorus torus(random);
     if (torus.proxy().kind != BoundingProxy::Kind::torus) continue;  // too far from the origin
-    // Along the surface, a little out- or inside of it, or any line through the ball around the
-    // torus.
+    // The line is along the surface, a little out- or inside of it, or anywhere through the ball
+    // around the torus.
     const Vec3 radial = across(torus.axis().normal, random);
     const double turn = any_turn(random);
     const Vec3 normal = torus.normal(radial, turn);
@@ -126,9 +126,10 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
     const double off = random.sign() * random.power_of_ten(-12, -1) * torus.tube();
     const Vec3 place = grazes ? torus.point(radial, turn) + off * normal
                               : torus.proxy().place + torus.size() * random.in_cube();
-    const double way = random.power_of_ten(-2, random.integer(0, 7) == 0 ? 6 : 2) * torus.size();
-    const Vec3 origin = place - way * direction;
-    const double end = random.integer(0, 1) == 0 ? 0x1p100 : random.uniform(0, 2) * way;
+    const double distance =
+        random.power_of_ten(-2, random.integer(0, 7) == 0 ? 6 : 2) * torus.size();
+    const Vec3 origin = place - distance * direction;
+    const double end = random.integer(0, 1) == 0 ? 0x1p100 : random.uniform(0, 2) * distance;
 
     const FilterLine<double> line = filter_line(origin, direction, end);
     const Decision<bool> decision = test_torus(torus.proxy(), torus.axis(), line, end);

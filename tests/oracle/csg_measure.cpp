@@ -13,7 +13,7 @@ namespace {
 
 constexpr std::size_t most_failures = 20;
 
-/// Whether the flips alternate, and so make sense at all.
+/// Says whether the flips alternate, and so make sense at all.
 bool alternates(const FoundFlips& found) {
   bool inside = found.inside_before;
   return std::all_of(found.flips.begin(), found.flips.end(), [&](const FoundFlip& flip) {
@@ -39,7 +39,7 @@ bool is_inside_at(double t, bool inside_before, const FlipList& flips, const Tim
   return (passed % 2 == 1) != inside_before;
 }
 
-/// How an answer of the standard tier differs from the truth.
+/// Says how an answer of the standard tier differs from the truth.
 enum class Difference { none, within_bounds, beyond };
 
 Difference difference(const FoundFlips& found, const TreeOracle::Flips& truth,
@@ -55,11 +55,11 @@ Difference difference(const FoundFlips& found, const TreeOracle::Flips& truth,
       samples.push_back(places[i] + share * (places[i + 1] - places[i]));
   }
   for (const double t : samples) {
-    const bool told =
+    const bool reported =
         is_inside_at(t, found.inside_before, found.flips, [](const auto& f) { return f.t; });
     const bool is = is_inside_at(t, truth.inside_before, truth.flips,
                                  [](const auto& f) { return f.t.value(); });
-    if (told != is && tree.certain_side(ray, t) != 0) return Difference::beyond;
+    if (reported != is && tree.certain_side(ray, t) != 0) return Difference::beyond;
   }
   const bool same =
       found.inside_before == truth.inside_before && found.flips.size() == truth.flips.size();

@@ -1,8 +1,8 @@
-// Compares what both tiers say of trees of solids with exact roots, and keeps account.
+// These functions compare what both tiers report of trees of solids with exact roots.
 //
-// The standard tier is never to call a point inside (or outside) that is not, whatever the leaves
-// are at which the point is within the bound of measure.hpp: only such points are *close calls*.
-// The exact tier is to find the very crossings that there are, each within an ulp.
+// The standard tier must never call a point inside (or outside) that is not, whatever the leaves
+// are at which the point is within the bound of measure.hpp. Only such points are *close calls*.
+// The exact tier must find the very crossings that there are, each within an ulp.
 #pragma once
 
 #include <cstdint>

@@ -47,12 +47,12 @@ Polynomial<Number> square(const Polynomial<Number>& a) {
   return result;
 }
 
-/// A line in the space of a primitive, without rounding, with t = shift + x: x is 0 near the
-/// primitive.
+/// An ExactLine is a line in the space of a primitive, without rounding, with t = shift + x. x is 0
+/// near the primitive.
 template <class Number>
 struct ExactLine {
   /// The primitive is where `to_world` has it, and that where those around it have it, the
-  /// innermost first; inverses are taken by Cramer's rule.
+  /// innermost first. Inverses are taken by Cramer's rule.
   ExactLine(const Vec3& world_origin, const Vec3& world_direction, const Transform& to_world,
             const Vec3& near, std::span<const Transform> around = {})
       : origin(exactly<Number>(world_origin)), direction(exactly<Number>(world_direction)) {
@@ -64,18 +64,18 @@ struct ExactLine {
 
   void move_to(double t) {
     shift = t;
-    way = Number(t) * direction;
+    offset = Number(t) * direction;
   }
-  /// The point at x = 0, relative to another.
+  /// Returns the point at x = 0, relative to another.
   NumberVec<Number> from(const Vec3& position) const {
-    return (origin - exactly<Number>(position)) + way;
+    return (origin - exactly<Number>(position)) + offset;
   }
-  NumberVec<Number> at(const Number& x) const { return (origin + way) + x * direction; }
+  NumberVec<Number> at(const Number& x) const { return (origin + offset) + x * direction; }
 
   NumberVec<Number> origin;  ///< at t = 0
   NumberVec<Number> direction;
   double shift = 0;
-  NumberVec<Number> way;  ///< from there to x = 0
+  NumberVec<Number> offset;  ///< from there to x = 0
 
  private:
   void enter(const Transform& to_world) {
@@ -94,7 +94,7 @@ struct ExactLine {
   }
 };
 
-/// The line relative to a point, and what can be said of it as polynomials in x.
+/// Holds the line relative to a point, and its squared lengths as polynomials in x.
 template <class Number>
 struct Relative {
   Relative(const ExactLine<Number>& line, const Vec3& origin)
@@ -107,7 +107,8 @@ struct Relative {
     return {squared(point), Number(2) * dot(point, direction), squared(direction)};
   }
 
-  /// From the axis through the origin; times the length of `axis`, squared.
+  /// Returns the squared distance from the axis through the origin, times the squared length of
+  /// `axis`.
   Polynomial<Number> squared_distance_from_axis(const NumberVec<Number>& axis) const {
     const NumberVec<Number> p = cross(point, axis);
     const NumberVec<Number> d = cross(direction, axis);
@@ -118,12 +119,12 @@ struct Relative {
   const NumberVec<Number>& direction;
 };
 
-/// The most that a primitive has.
+/// A primitive has at most so many equations.
 inline constexpr std::size_t most_equations = 6;
 template <class Number>
 using Equations = Few<Polynomial<Number>, most_equations>;
 
-// A solid is where its polynomials are negative: all of them, but for the torus.
+// A solid is where all its polynomials are negative, except the torus.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
 // h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
@@ -183,7 +184,7 @@ Equations<Number> equations(const Torus& torus, const ExactLine<Number>& line) {
   return {a * square(s) - (Number(4) * ring) * relative.squared_distance_from_axis(axis), s};
 }
 
-/// Of a surface, its plane's.
+/// Returns the equation of a surface's plane.
 template <class Number>
 Equations<Number> equations(const Disc& d, const ExactLine<Number>& line) {
   return {Relative(line, d.center).along(exactly<Number>(d.normal))};
@@ -202,7 +203,7 @@ Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>&
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);
 }
 
-/// Whether a point is inside a solid, by the signs of its equations there.
+/// Says whether a point is inside a solid, by the signs of its equations there.
 template <class Signs>
 bool is_inside(const Primitive& solid, const Signs& signs) {
   const auto negative = [](int sign) { return sign < 0; };

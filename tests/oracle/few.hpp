@@ -7,7 +7,7 @@
 
 namespace crt::test {
 
-/// A short list that allocates nothing itself.
+/// Few is a short list that allocates nothing itself.
 template <class T, std::size_t capacity>
 class Few {
  public:

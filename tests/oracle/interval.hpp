@@ -1,4 +1,4 @@
-// Interval arithmetic on MPFR: what every number of the oracle is.
+// This is interval arithmetic on MPFR, which every number of the oracle uses.
 //
 // An interval holds the true value for certain, as every operation rounds outwards. A number that
 // fits the precision stays a point, so the sign of a dyadic expression is known exactly once the
@@ -16,7 +16,7 @@
 
 namespace crt::test {
 
-/// The precision of what this thread computes, in bits.
+/// Bits sets the precision of what this thread computes, in bits.
 struct Bits {
   static constexpr mpfr_prec_t lowest = 256;
   static constexpr mpfr_prec_t highest = 4096;
@@ -27,7 +27,7 @@ struct Bits {
 
 class Interval {
  public:
-  /// No number at all: only to be assigned to.
+  /// Makes no number at all, which can only be assigned to.
   Interval() noexcept : Interval(Empty{}) {}
   Interval(double value) {  // NOLINT(google-explicit-constructor): exact
     initialise(Bits::now);
@@ -75,7 +75,7 @@ class Interval {
              MPFR_RNDU);
     return result;
   }
-  /// b must not hold 0.
+  /// Divides. b must not hold 0.
   friend Interval operator/(const Interval& a, const Interval& b) {
     if (b.certain_sign() == 0) throw Undecided{};
     const bool positive = b.certain_sign() > 0;
@@ -92,7 +92,7 @@ class Interval {
     if (mpfr_sgn(result.lower_) < 0) mpfr_set_zero(result.lower_, 1);
     return result;
   }
-  /// The root of what is known not to be negative.
+  /// Returns the root of what is known not to be negative.
   friend Interval sqrt(const Interval& a) {
     Interval result(Blank{});
     if (mpfr_sgn(a.lower_) > 0) {
@@ -109,23 +109,23 @@ class Interval {
     return sqrt(square(a));
   }
 
-  /// -1, 0 or 1. An interval around 0 that is more than 0 throws; with the highest precision it is
-  /// 0.
+  /// Returns -1, 0 or 1. An interval around 0 that is more than 0 throws. With the highest
+  /// precision it is 0.
   int sign() const {
     const int certain = certain_sign();
     if (certain != 0 || is_zero()) return certain;
     if (Bits::now < Bits::highest) throw Undecided{};
     return 0;
   }
-  /// 0 also where it is not known.
+  /// Returns the sign, or 0 where it is not known.
   int certain_sign() const { return mpfr_sgn(lower_) > 0 ? 1 : (mpfr_sgn(upper_) < 0 ? -1 : 0); }
 
-  /// 0 for certain.
+  /// Says whether it is 0 for certain.
   bool is_zero() const { return mpfr_zero_p(lower_) != 0 && mpfr_zero_p(upper_) != 0; }
 
   bool surely_below(const Interval& other) const { return mpfr_less_p(upper_, other.lower_) != 0; }
 
-  /// A point within.
+  /// Returns a point within.
   Interval middle() const {
     Interval result(Blank{});
     mpfr_add(result.lower_, lower_, upper_, MPFR_RNDN);
@@ -133,26 +133,26 @@ class Interval {
     mpfr_set(result.upper_, result.lower_, MPFR_RNDN);
     return result;
   }
-  /// The smallest interval that holds both.
+  /// Returns the smallest interval that holds both.
   friend Interval hull(const Interval& a, const Interval& b) {
     Interval result(Blank{});
     mpfr_min(result.lower_, a.lower_, b.lower_, MPFR_RNDD);
     mpfr_max(result.upper_, a.upper_, b.upper_, MPFR_RNDU);
     return result;
   }
-  /// For ordering what is apart.
+  /// Orders intervals that are disjoint.
   friend bool is_less(const Interval& a, const Interval& b) {
     return mpfr_less_p(a.middle().lower_, b.middle().lower_) != 0;
   }
-  /// In bits.
+  /// Returns the precision in bits.
   static int precision() { return static_cast<int>(Bits::now); }
-  /// Near the middle.
+  /// Returns a double near the middle.
   double value() const { return mpfr_get_d(middle().lower_, MPFR_RNDN); }
-  /// No number of the interval is larger, in size.
+  /// Returns a bound: no number of the interval is larger, in size.
   double largest_size() const {
     return std::max(-mpfr_get_d(lower_, MPFR_RNDD), mpfr_get_d(upper_, MPFR_RNDU));
   }
-  /// A ball that holds the interval.
+  /// Returns a ball that holds the interval.
   Ball<4> ball() const {
     std::array<double, 4> parts{};
     Interval rest = *this;
@@ -204,10 +204,10 @@ class Interval {
   mpfr_t upper_ = {};
 };
 
-/// The numbers that the oracle tries, the fastest first; Interval comes after them.
+/// Lists the numbers that the oracle tries, the fastest first. Interval comes after them.
 enum class FirstTry { two_doubles, three_doubles, mpfr };
 
-/// The number that `compute`, a function of a value of a number type, works with.
+/// Names the number that `compute`, a function of a value of a number type, works with.
 template <class Number>
 struct Using {
   using type = Number;
@@ -238,7 +238,7 @@ auto until_certain(const Compute& compute, FirstTry first = FirstTry::two_double
   }
 }
 
-/// Whether more bits could be had.
+/// Says whether this is the last try, so that no more bits can be had.
 inline bool is_last_try() {
   return Bits::now >= Bits::highest;
 }

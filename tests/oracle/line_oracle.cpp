@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-// |grad| of the polynomial's function where it is 0.
+// Returns |grad| of the polynomial's function where it is 0.
 template <class Number>
 double gradient(const Sphere& s, std::size_t, const ExactLine<Number>&, const Number&) {
   return 2 * s.radius;
@@ -69,7 +69,8 @@ double gradient(const Triangle& t, std::size_t, const ExactLine<Number>&, const 
   return glm::length(rounded(normal_of<Number>(t)));
 }
 
-/// Where a line meets a surface's plane, relative to its position, times `w` (so that it is exact).
+/// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
+/// exact).
 template <class Number>
 struct Meeting {
   NumberVec<Number> point;
@@ -110,7 +111,7 @@ class Solution {
   Solution(const Primitive& any, const P& primitive, const ExactLine<Number>& line)
       : any_(any), primitive_(primitive), line_(line), equations_(equations(primitive, line)) {}
 
-  /// Of a surface; `anywhere` means within the rim or not.
+  /// Returns the crossing of a surface. `anywhere` includes points beyond the edge.
   TrueLine surface_crossing(bool anywhere) const {
     TrueLine result;
     const Polynomial<Number>& plane = equations_[0];
@@ -135,7 +136,7 @@ class Solution {
         if (&other == &place) continue;
         const double gap = std::abs((other.x - place.x).value());
         const double approach = approach_at(other);
-        // Within the bounds of both, the rounding of either t included, one may be taken for the
+        // Within the bounds of both, the rounding of either t included, one may stand for the
         // other.
         const double bounds =
             8 * unit_of_rounding * crossing.reach * (1 / approach + 1 / own_approach) +
@@ -172,12 +173,12 @@ class Solution {
             .reach = size_of(any_) + glm::length(rounded(from_center))};
   }
 
-  /// Throws Undecided if t is not known well enough to judge a last bit.
+  /// Throws Undecided if t is not known well enough to decide its last bit.
   Ball<4> t_at(const Number& x, std::size_t which) const {
     constexpr double accuracy = 0x1p-76;
     const Ball<4> t = as_ball(x) + Ball<4>(line_.shift);
     if (t.radius() <= accuracy * std::abs(t.value())) return t;
-    // The origin may be on the surface, not to rounding only.
+    // The origin may be on the surface exactly, not to rounding only.
     ExactLine<Number> from_origin = line_;
     from_origin.move_to(0);
     if (t.certain_sign() == 0 && equations(primitive_, from_origin)[which][0].is_zero()) return {};
@@ -186,7 +187,7 @@ class Solution {
   }
 
   const Primitive& any_;
-  const P& primitive_;  ///< the same
+  const P& primitive_;  ///< the primitive of question_
   const ExactLine<Number>& line_;
   Equations<Number> equations_;
 };

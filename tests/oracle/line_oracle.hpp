@@ -4,7 +4,7 @@
 //
 // Sums of two doubles with a bound on their error do for most lines, sums of three for nearly all
 // others, and MPFR for the rest: signs, tangencies, and roots that coincide are decided. Two roots
-// that 4096 bits cannot tell apart are taken as one.
+// that 4096 bits cannot distinguish are taken as one.
 #pragma once
 
 #include <cmath>
@@ -20,8 +20,8 @@ namespace crt::test {
 struct TrueCrossing {
   Ball<4> t;  ///< to some 20 bits more than a double has
   bool entering = false;
-  /// |n . d| with d as given: t is conditioned by its inverse. Where several faces meet within
-  /// their bounds, at an edge, the least of theirs.
+  /// This is |n . d| with d as given: t is conditioned by its inverse. Where several faces meet
+  /// within their bounds, at an edge, it is the least of theirs.
   double approach = 0;
   bool at_edge = false;  ///< whether several do
   double reach = 0;      ///< R + |x|: the primitive's size, and the distance from its centre
@@ -32,7 +32,7 @@ struct TrueLine {
   std::vector<TrueCrossing> crossings;
 };
 
-/// A primitive in its place, and a line.
+/// A Question is a primitive in its place, and a line.
 struct Question {
   Primitive primitive;
   Vec3 origin{0};
@@ -41,18 +41,18 @@ struct Question {
   std::vector<Transform> around{};  ///< what that is in, the innermost first
 };
 
-/// What of the line is inside the primitive, or for a surface where it crosses.
+/// Returns what of the line is inside the primitive, or for a surface where it crosses.
 TrueLine true_crossings(const Question& question, FirstTry first = FirstTry::two_doubles);
 
-/// Where the line meets the plane of a surface, within the rim or not.
+/// Returns where the line meets the plane of a surface, within the edge or not.
 TrueLine true_plane_crossings(const Question& question);
 
-/// How far the point at t is outside of the solid (negative: inside), in lengths of the primitive's
-/// space. For a surface: how far the point where the line meets its plane is beyond its rim; t is
-/// of no matter there.
+/// Returns how far the point at t is outside of the solid (negative: inside), in lengths of the
+/// primitive's space. For a surface it is how far the point where the line meets its plane is
+/// beyond its edge, and t is not used.
 double true_distance(const Question& question, double t);
 
-/// The point at t in the primitive's space, rounded, and the length of the direction there.
+/// Holds the point at t in the primitive's space, rounded, and the length of the direction there.
 struct PointAndSpeed {
   Vec3 point;
   double speed = 0;
@@ -61,12 +61,13 @@ PointAndSpeed point_and_speed(const Question& question, double t);
 
 inline constexpr double unit_of_rounding = 0x1p-53;  ///< u
 
-/// The distance to the next double, away from 0.
+/// Returns the distance to the next double, away from 0.
 inline double ulp(double t) {
   return std::nextafter(std::abs(t), std::numeric_limits<double>::infinity()) - std::abs(t);
 }
 
-/// The centre and the size (the radius of a ball that holds it, 0 if there is none) of a primitive.
+/// Return the centre and the size of a primitive. The size is the radius of a ball that holds it,
+/// or 0 if there is none.
 Vec3 center_of(const Primitive& primitive);
 double size_of(const Primitive& primitive);
 

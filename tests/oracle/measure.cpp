@@ -21,7 +21,7 @@ using core::Crossing;
 using core::CrossingList;
 
 constexpr double u = unit_of_rounding;
-/// What the measurement itself may be off by.
+/// The measurement itself may be off by this factor.
 constexpr double tolerance = 1 + 0x1p-20;
 constexpr std::size_t most_failures = 20;
 
@@ -33,7 +33,7 @@ double error_of(double t, const TrueCrossing& crossing) {
   return std::abs((crossing.t - Ball<4>(t)).value());
 }
 
-/// The distance of the doubles around it.
+/// Returns the distance of the doubles around it.
 double spacing_at(const Ball<4>& t) {
   const double size = std::abs(t.value());
   const bool below = t.part(1) != 0 && (t.part(1) < 0) == (t.value() > 0);
@@ -53,7 +53,7 @@ bool is_inside_at(double t, bool inside_before, const std::vector<double>& flips
   return (passed % 2 == 1) != inside_before;
 }
 
-/// Whether found and true membership differ somewhere beyond the bound.
+/// Says whether found and true membership differ somewhere beyond the bound.
 bool differs_beyond_bound(const TestRay& ray, bool found_before, const std::vector<double>& found,
                           bool true_before, const std::vector<double>& expected) {
   std::vector<double> places = found;
@@ -114,7 +114,7 @@ void account(const Crossing& found, const TrueCrossing& crossing, const TestRay&
   }
 }
 
-/// Asks a shape as a query does: with the direction brought near length 1. What it tells is put
+/// Asks a shape as a query does, with the direction scaled to near length 1, and scales the results
 /// back.
 template <class Ask>
 bool ask_as_query(const TestRay& ray, CrossingList& out, const Ask& ask) {
@@ -211,7 +211,7 @@ void Record::add(const Record& other) {
 }
 
 Truth truth_of(const TestRay& ray, FirstTry first) {
-  // Doubles cannot hold what components that are so far apart make of one another.
+  // Doubles cannot represent the products of components that are so far apart.
   const bool is_extreme = ray.kind == RayKind::extreme_length;
   return {ray, true_crossings(question_of(ray), is_extreme ? FirstTry::mpfr : first)};
 }
@@ -268,7 +268,7 @@ std::vector<Record> measure_all(std::size_t primitive_kind, std::uint64_t first,
       const std::uint64_t begin = next.fetch_add(batch);
       if (begin >= last) break;
       for (std::uint64_t number = begin; number < std::min(begin + batch, last); ++number) {
-        // Now and then with more bits, for what the exact tier claims of t_low.
+        // Now and then more bits check what the exact tier claims of t_low.
         constexpr std::uint64_t finer = 16;
         const FirstTry first_try =
             number % finer == 0 ? FirstTry::three_doubles : FirstTry::two_doubles;

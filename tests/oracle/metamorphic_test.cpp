@@ -1,4 +1,5 @@
-// What must be the same when a question is asked in another way; no oracle says what it is.
+// These tests ask a question in two forms that must have the same answer. No oracle says what it
+// is.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -86,8 +87,8 @@ bool is_inside_at(double t, const FoundFlips& found) {
   return (passed % 2 == 1) != found.inside_before;
 }
 
-/// Whether two answers about one tree are the same, but next to its surfaces by what the standard
-/// tier may be off by.
+/// Says whether two answers about one tree are equal, except next to its surfaces by the standard
+/// tier's bound.
 bool same_but_for_rounding(const FoundFlips& a, const FoundFlips& b, const TreeOracle& tree,
                            const GridRay& ray) {
   std::vector<double> places;
@@ -102,7 +103,7 @@ bool same_but_for_rounding(const FoundFlips& a, const FoundFlips& b, const TreeO
   return a.inside_before == b.inside_before;
 }
 
-/// Whether two answers of the exact tier are the same to the last bit or so.
+/// Says whether two answers of the exact tier are equal to the last bit or so.
 bool same_to_an_ulp(const FoundFlips& a, const FoundFlips& b) {
   return a.inside_before == b.inside_before &&
          std::equal(a.flips.begin(), a.flips.end(), b.flips.begin(), b.flips.end(),
@@ -136,7 +137,7 @@ TEST_CASE(
       TestRay larger = ray;
       larger.primitive = scaled(ray.primitive, factor);
       larger.origin *= factor;
-      // With the direction, or with t.
+      // Either the direction or t is scaled.
       const bool with_direction = random.integer(0, 1) == 0;
       if (with_direction) larger.direction *= factor;
       for (const Contestant& tier : {standard_tier(), exact_tier()}) {

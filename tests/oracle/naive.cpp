@@ -13,7 +13,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// What of a line is between two parameters.
+/// A Span is what of a line is between two parameters.
 struct Span {
   double enter = -infinity;
   double leave = infinity;
@@ -78,7 +78,7 @@ bool meet(const Disc& disc, const Vec3& o, const Vec3& d, core::CrossingList& ou
   return false;
 }
 
-/// Moeller, Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
+/// Intersects as in Moeller, Trumbore, Fast, minimum storage ray/triangle intersection, 1997.
 bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::CrossingList& out) {
   const Vec3 ab = triangle.b - triangle.a;
   const Vec3 ac = triangle.c - triangle.a;
@@ -93,7 +93,7 @@ bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::Crossing
   return false;
 }
 
-/// The quadratic of the side with a unit axis, and the caps as slabs.
+/// Solves the quadratic of the side with a unit axis, and intersects with the caps as slabs.
 bool meet_frustum(const Vec3& from, const Vec3& to, double radius, double radius2, const Vec3& o,
                   const Vec3& d, core::CrossingList& out) {
   const double height = glm::length(to - from);
@@ -134,7 +134,7 @@ bool meet(const Cone& c, const Vec3& o, const Vec3& d, core::CrossingList& out) 
 
 using Complex = std::complex<double>;
 
-/// Ferrari's formula for x^4 + b x^3 + c x^2 + d x + e.
+/// Returns the roots of x^4 + b x^3 + c x^2 + d x + e by Ferrari's formula.
 std::array<Complex, 4> quartic_roots(double b, double c, double d, double e) {
   const double p = c - 3 * b * b / 8;
   const double q = b * b * b / 8 - b * c / 2 + d;

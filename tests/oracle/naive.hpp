@@ -1,4 +1,4 @@
-// The textbook's intersections in plain double precision: the yardstick that accuracy is compared
+// These are the textbook's intersections in plain double precision, which accuracy is compared
 // with.
 #pragma once
 
@@ -7,7 +7,7 @@
 
 namespace crt::test {
 
-/// As Shape::crossings, by the formulas that everyone writes first.
+/// Works as Shape::crossings, by the formulas that everyone writes first.
 bool naive_crossings(const Primitive& primitive, const Vec3& origin, const Vec3& direction,
                      core::CrossingList& out);
 

@@ -1,5 +1,5 @@
-// Nested transforms in the exact tier against the product without rounding, of the very doubles
-// given.
+// These tests compare nested transforms in the exact tier with the product without rounding, of the
+// very doubles given.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -15,8 +15,8 @@ using namespace crt::test;
 
 namespace {
 
-/// One transform after the other: on the entity itself, or on what it is a part of, the innermost
-/// first.
+/// Applies one transform after the other: on the entity itself, or on what it is a part of, the
+/// innermost first.
 Entity nested(const Primitive& primitive, const std::vector<Transform>& transforms,
               bool in_unions) {
   Entity entity(primitive);
@@ -43,23 +43,23 @@ Transform random_transform(SolidMaker& make) {
 
 Primitive random_primitive(SolidMaker& make) {
   const Vec3 place{make.real(-2, 2), make.real(-2, 2), make.real(-2, 2)};
-  const Vec3 way{make.real(0.5, 2), make.real(-2, 2), make.real(-2, 2)};
+  const Vec3 extent{make.real(0.5, 2), make.real(-2, 2), make.real(-2, 2)};
   switch (make.integer(0, 5)) {
     case 0:
       return Sphere{.center = place, .radius = make.real(0.5, 2)};
     case 1:
       return Box{.corner_a = place, .corner_b = place + Vec3(1, 2, make.real(0.5, 2))};
     case 2:
-      return Cylinder{.from = place, .to = place + way, .radius = make.real(0.2, 1)};
+      return Cylinder{.from = place, .to = place + extent, .radius = make.real(0.2, 1)};
     case 3:
       return Cone{.from = place,
-                  .to = place + way,
+                  .to = place + extent,
                   .radius = make.real(0.2, 1),
                   .radius2 = make.real(0, 1)};
     case 4:
-      return Torus{.center = place, .axis = way, .radius = 1, .thickness = make.real(0.1, 0.6)};
+      return Torus{.center = place, .axis = extent, .radius = 1, .thickness = make.real(0.1, 0.6)};
     default:
-      return Plane{.normal = way, .position = place};
+      return Plane{.normal = extent, .position = place};
   }
 }
 
@@ -75,7 +75,7 @@ struct Count {
   std::size_t wrong = 0;
 };
 
-/// Compares along one ray.
+/// Compares both along one ray.
 void compare(const Primitive& primitive, const std::vector<Transform>& transforms,
              PreparedTree& scene, const Vec3& origin, const Vec3& direction, Count& count) {
   const TrueLine truth = true_crossings({.primitive = primitive,

@@ -1,4 +1,4 @@
-// What the parts of the oracle share: vectors of numbers, and which primitives are what.
+// The parts of the oracle share this: vectors of numbers, and which primitives are what.
 #pragma once
 
 #include <array>
@@ -54,13 +54,13 @@ Ball<4> as_ball(const Number& number) {
   }
 }
 
-/// In doubles, for what need not be exact.
+/// Returns the vector in doubles, for what need not be exact.
 template <class Number>
 Vec3 rounded(const NumberVec<Number>& v) {
   return {v[0].value(), v[1].value(), v[2].value()};
 }
 
-/// A truncated cone, or a cylinder.
+/// A Frustum is a truncated cone, or a cylinder.
 struct Frustum {
   Vec3 from;
   Vec3 to;
@@ -81,7 +81,7 @@ NumberVec<Number> normal_of(const Triangle& t) {
   return cross(exactly<Number>(t.b) - a, exactly<Number>(t.c) - a);
 }
 
-/// The primitives without an inside.
+/// Holds for the primitives without an inside.
 template <class P>
 constexpr bool is_surface =
     std::is_same_v<P, Disc> || std::is_same_v<P, HalfPlane> || std::is_same_v<P, Triangle>;

@@ -1,5 +1,5 @@
-// Measures the accuracy of every primitive, and of trees of them, and whether all queries agree,
-// and writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...] With
+// Measures the accuracy of every primitive, and of trees of them, and whether all queries agree. It
+// writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...] With
 // names of primitives ("half plane"), "trees" or "agreement" only those are measured, and their
 // rows in the page replaced; the plot and everything else stays as it is.
 #include <fmt/core.h>
@@ -30,7 +30,7 @@ constexpr std::uint64_t rays_per_tree = 200;
 constexpr const char* trees = "trees";
 constexpr const char* agreement = "agreement";
 
-/// Nanoseconds a ray: the best of many rounds, as other work may disturb some.
+/// Returns nanoseconds a ray: the best of many rounds, as other work may disturb some.
 template <class Intersect>
 double nanoseconds(std::size_t rays, const Intersect& intersect) {
   constexpr int rounds = 300;
@@ -44,7 +44,7 @@ double nanoseconds(std::size_t rays, const Intersect& intersect) {
   return best;
 }
 
-/// The first rays of a primitive with what takes them, to be timed.
+/// Holds the first rays of a primitive with what takes them, to be timed.
 struct TimedRays {
   explicit TimedRays(std::size_t kind) {
     constexpr std::uint64_t count = 1000;
@@ -89,7 +89,7 @@ Measured measured(std::size_t kind, std::uint64_t rays) {
            {"naive", std::move(naive), naive_time}}};
 }
 
-/// Prints the rays that broke a promise; whether there were none.
+/// Prints the rays that broke a promise, and says whether there were none.
 bool kept(std::size_t kind, const Record& record, const char* tier, RayMaker maker) {
   for (const std::uint64_t failure : record.failures)
     fmt::print("{}: broken by ray {}: {}\n", tier, failure, description(maker(kind, failure)));
@@ -101,7 +101,7 @@ bool kept(const std::vector<std::string>& failures) {
   return failures.empty();
 }
 
-/// What is measured on the way, told as it comes.
+/// Measures everything, and prints results as they come.
 class Measuring {
  public:
   explicit Measuring(std::uint64_t rays) : rays_(rays) {}
@@ -129,7 +129,7 @@ class Measuring {
     tell(tree_rows(all.trees));
   }
 
-  /// So many rays in all, of subjects of all kinds in both tiers.
+  /// Asks so many rays in all, of subjects of all kinds in both tiers.
   void agreement() {
     const std::uint64_t rays = rays_ / (2 * agreement_kinds);
     for (std::size_t kind = 0; kind < agreement_kinds; ++kind) {

@@ -1,4 +1,4 @@
-// Every primitive against the oracle, over 18 orders of size and 15 of distance.
+// These tests compare every primitive with the oracle, over 18 orders of size and 15 of distance.
 #include <doctest/doctest.h>
 #include <fmt/core.h>
 
@@ -8,8 +8,8 @@ using namespace crt::test;
 
 namespace {
 
-// Some 50 s of two cores in all. A torus of the exact tier costs a hundred times what others do.
-// Where a build is slow by intent, a twentieth.
+// This takes some 50 s of two cores in all. A torus of the exact tier costs a hundred times what
+// others do. A build that is slow by intent gets a twentieth.
 #if defined(__OPTIMIZE__) && !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
 constexpr std::uint64_t rays = 1'000'000;
 #else

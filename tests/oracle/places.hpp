@@ -1,4 +1,5 @@
-// Where a membership that depends on the signs of polynomials changes along a line.
+// These functions find where a membership that depends on the signs of polynomials changes along a
+// line.
 #pragma once
 
 #include <span>
@@ -8,7 +9,8 @@
 
 namespace crt::test {
 
-/// One or several polynomials change their signs here: roots that are one place by proof.
+/// A Place is where one or several polynomials change their signs: roots that are one place by
+/// proof.
 template <class Number>
 struct Place {
   struct Flip {
@@ -20,8 +22,8 @@ struct Place {
   std::span<const Flip> flips;
 };
 
-/// Whether two polynomials have the same roots, as they are one but for a factor: known at once
-/// where faces coincide, and where lines meet the edge of two planes.
+/// Says whether two polynomials have the same roots, as they are equal but for a factor. That is
+/// known at once where faces coincide, and where lines meet the edge of two planes.
 template <class Number>
 bool are_proportional(const Polynomial<Number>& a, const Polynomial<Number>& b) {
   if (a.size() != b.size()) return false;
@@ -31,7 +33,8 @@ bool are_proportional(const Polynomial<Number>& a, const Polynomial<Number>& b) 
   return true;
 }
 
-/// Whether a polynomial has a root where the quotient a / b has it: q b^degree, by Horner's rule.
+/// Says whether a polynomial has a root where the quotient a / b has it: q b^degree, by Horner's
+/// rule.
 template <class Number>
 bool is_root(const Polynomial<Number>& q, const Number& a, const Number& b) {
   Number value = q.back();
@@ -40,19 +43,20 @@ bool is_root(const Polynomial<Number>& q, const Number& a, const Number& b) {
   return value.is_zero();
 }
 
-/// Whether two polynomials are known to have a root in common. False where it is not.
+/// Says whether two polynomials are known to have a root in common. It is false where that is not
+/// known.
 template <class Number>
 bool share_root(const Polynomial<Number>& p, const Polynomial<Number>& q) {
   if (are_proportional(p, q)) return true;
   if (p.size() == 2) return is_root(q, -p[0], p[1]);
   if (q.size() == 2) return is_root(p, -q[0], q[1]);
   if (p.size() != 3 || q.size() != 3 || p[2].is_zero() || q[2].is_zero()) return false;
-  // The resultant of two quadratics.
+  // This is the resultant of two quadratics.
   const Number outer = p[2] * q[0] - p[0] * q[2];
   return (square(outer) - (p[2] * q[1] - p[1] * q[2]) * (p[1] * q[0] - p[0] * q[1])).is_zero();
 }
 
-/// All places along a line in order.
+/// Holds all places along a line in order.
 template <class Number>
 class Places {
  public:
@@ -72,12 +76,12 @@ class Places {
   Places(const Places&) = delete;
   Places& operator=(const Places&) = delete;
 
-  /// The signs at t = -infinity.
+  /// Returns the signs at t = -infinity.
   const std::vector<int>& signs_before() const { return signs_before_; }
   const std::vector<Place<Number>>& places() const { return places_; }
 
  private:
-  /// Adds the place that begins with this flip; where the next begins.
+  /// Adds the place that begins with this flip, and returns where the next begins.
   std::size_t join(std::size_t begin) {
     Number x = flips_[begin].x;
     std::size_t end = begin + 1;
@@ -97,7 +101,7 @@ class Places {
   std::vector<Place<Number>> places_;
 };
 
-/// Calls changed(place, now inside) where inside(signs) changes; whether it is true at t =
+/// Calls changed(place, now inside) where inside(signs) changes. Returns whether it is true at t =
 /// -infinity.
 template <class Number, class Inside, class Changed>
 bool follow(const Places<Number>& places, const Inside& inside, const Changed& changed) {

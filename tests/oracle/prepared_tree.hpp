@@ -1,4 +1,4 @@
-// What the library says of a tree of solids, as a scene with nothing else.
+// This asks the library about a tree of solids, as a scene with nothing else.
 #pragma once
 
 #include <limits>

@@ -49,7 +49,8 @@ Vec3 Counted::direction() {
 
 namespace {
 
-/// A point on the surface with its normal, and a direction that a ray may be nearly parallel to.
+/// A Spot is a point on the surface with its normal, and a direction that a ray may be nearly
+/// parallel to.
 struct Spot {
   Vec3 point;
   Vec3 normal;
@@ -73,8 +74,8 @@ double angle(Counted& random) {
   return random.uniform(0, 2 * std::numbers::pi);
 }
 
-// For each primitive: make() one of a size at a place, a random spot() on its surface, a random
-// point of an edge().
+// Each primitive has make() for one of a size at a place, a random spot() on its surface, and a
+// random point of an edge().
 
 void make(Counted& random, const Vec3& at, double size, Sphere& s) {
   s.center = at;
@@ -201,7 +202,7 @@ Spot spot(Counted& random, const Torus& t) {
   const Frame frame = across(t.axis);
   const double turn = angle(random);
   const Vec3 out = around(frame, turn);
-  // Of a spindle only the outside of the lemon counts.
+  // For a spindle only the outside of the lemon counts.
   double tube = angle(random);
   while (t.radius + t.thickness * std::cos(tube) < 0) tube = angle(random);
   const Vec3 n = std::cos(tube) * out + std::sin(tube) * w;
@@ -303,7 +304,7 @@ TestRay ray_for(Counted& random, const P& primitive, double size) {
       d = at.parallel + tilt * random.direction();
       break;
   }
-  // From where the origin comes to be, so that the line still passes the target.
+  // The line starts from the rounded origin, so that it still passes the target.
   ray.origin = target - distance * d;
   ray.direction = target - ray.origin;
   if (random.integer(0, 3) == 0) ray.direction = glm::normalize(ray.direction);
@@ -318,7 +319,7 @@ Primitive default_primitive(std::size_t wanted) {
   return std::variant_alternative_t<kind, Primitive>{};
 }
 
-/// Numbers of every ten that make no ordinary rays at cylinders and cones.
+/// Numbers that end in these digits make no ordinary rays at cylinders and cones.
 constexpr std::uint64_t ruling_digit = 7;
 constexpr std::uint64_t extreme_digit = 3;
 
@@ -336,12 +337,12 @@ bool is_usable(const TestRay& ray) {
   return true;
 }
 
-/// Of the linear part.
+/// Applies the linear part.
 Vec3 apply(const Transform& transform, const Vec3& v) {
   return {glm::dot(transform.row_x, v), glm::dot(transform.row_y, v), glm::dot(transform.row_z, v)};
 }
 
-/// The linear part of first and then second, rounded.
+/// Returns the linear part of first and then second, rounded.
 Transform product(const Transform& second, const Transform& first) {
   const auto row = [&](const Vec3& r) {
     return r.x * first.row_x + r.y * first.row_y + r.z * first.row_z;
@@ -409,7 +410,7 @@ std::string_view name_of_primitive(std::size_t kind) {
 }
 
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number) {
-  // A size that is lost in the offset makes no primitive; the next seed makes another.
+  // A size that is lost in the offset makes no primitive. The next seed makes another.
   for (std::uint64_t seed = primitive_kind;; seed += primitive_kinds) {
     Counted random(seed, number);
     const double size = random.power_of_ten(-9, 9);

@@ -23,12 +23,13 @@ enum class RayKind : std::uint8_t {
   on_surface,      ///< from a point on the surface, as near as doubles have it
   near_parallel,   ///< 10^-16 to 0.1 off parallel to a face or an axis
   along_ruling,    ///< of cylinders and cones: 10^-16 to 0.1 off a straight line of the side
-  extreme_length,  ///< any of these, its direction stretched or its components up to 10^280 apart
+  extreme_length,  ///< any of these, its direction scaled or its components made to differ by
+                   ///< up to 10^280
 };
 inline constexpr std::size_t ray_kinds = 8;
 std::string_view name_of(RayKind kind);
 
-/// The primitives by their place in the variant `Primitive`.
+/// Counts the primitives, which are numbered by their place in the variant `Primitive`.
 inline constexpr std::size_t primitive_kinds = std::variant_size_v<Primitive>;
 std::string_view name_of_primitive(std::size_t kind);
 
@@ -39,14 +40,14 @@ struct TestRay {
   Vec3 origin{0};
   Vec3 direction{0};
   Transform to_world{};  ///< where the primitive is
-  /// A power of two. Asked is a ray with a direction so many times as long, which all that t is
-  /// compared with need not know.
+  /// This is a power of two. The library is asked about a ray with a direction so many times as
+  /// long, which the numbers that t is compared with need not know.
   double scale = 1;
 };
 inline constexpr int lowest_decade = -3;
 inline constexpr int highest_decade = 11;
 
-/// Random numbers that depend on a seed, a number and how many were drawn before.
+/// Counted makes random numbers that depend on a seed, a number and how many were drawn before.
 class Counted {
  public:
   Counted(std::uint64_t seed, std::uint64_t number) : seed_(seed), number_(number) {}
@@ -65,12 +66,12 @@ class Counted {
   std::uint32_t drawn_ = 0;
 };
 
-/// A primitive of a size at a place; a ray of a random kind for it.
+/// Make a primitive of a size at a place, and a ray of a random kind for it.
 Primitive make_primitive(Counted& random, std::size_t primitive_kind, const Vec3& at, double size);
 TestRay make_ray_at(Counted& random, const Primitive& primitive, double size);
 
-/// Rotates, scales by factors that differ by up to 10^8 and rotates again; one in four rounds
-/// nothing.
+/// Returns a transform that rotates, scales by factors that differ by up to 10^8 and rotates again.
+/// One in four rounds nothing.
 Transform random_transform(Counted& random);
 
 /// Moves a ray along with its primitive, by ray.to_world.
@@ -78,8 +79,8 @@ void move_to_world(TestRay& ray);
 
 TestRay make_ray(std::size_t primitive_kind, std::uint64_t number);
 
-/// The same with the primitive and the ray moved by a transform: rotated, scaled by factors that
-/// differ by up to 10^8, rotated again and shifted; or turned and scaled so that nothing is
+/// Makes a test ray with the primitive and the ray moved by a transform: rotated, scaled by factors
+/// that differ by up to 10^8, rotated again and shifted; or turned and scaled so that nothing is
 /// rounded.
 TestRay make_placed_ray(std::size_t primitive_kind, std::uint64_t number);
 

@@ -1,4 +1,4 @@
-// Rays that the oracle found to be answered wrong, by name.
+// These are rays that the oracle found to be answered wrong, by name.
 #include <doctest/doctest.h>
 
 #include "oracle/measure.hpp"
@@ -9,7 +9,7 @@ using namespace crt::test;
 
 namespace {
 
-/// Whether the ray's answer is right, and within its bound.
+/// Says whether the ray's answer is right, and within its bound.
 bool holds(const Primitive& primitive, const Vec3& origin, const Vec3& direction,
            const Contestant& tier = standard_tier()) {
   Record record;
@@ -106,7 +106,7 @@ TEST_CASE("a solid is met where it is, though the ray grazes another one there")
 }
 
 TEST_CASE("a solid that is cut off where it is grazed ends where the cut is") {
-  // Along the outside of a torus, to where a box begins that is taken away.
+  // The ray goes along the outside of a torus, to where a box begins that is taken away.
   const Torus torus{.center = {1, 0, -1}, .axis = {0, -1, 0}, .radius = 1, .thickness = 1};
   const Box box{.corner_a = {1, 0, -1}, .corner_b = {2, 2, 2}};
   const GridRay ray{{-0x1.d116ba8835b24p+0, -0x1.d6733410226a9p+2, 0x1.f3d7f61a347bp-1},
@@ -133,7 +133,7 @@ TEST_CASE(
     CHECK(holds_in_exact(make_placed_ray(torus, number)));
   }
   CHECK(holds_in_exact(make_ray(cylinder, 310949)));
-  // Along a ruling, whose two crossings are 10^-19 of the way to them from one another.
+  // The ray goes along a ruling. Its two crossings differ by 10^-19 of their distance.
   const Cylinder thin{.from = {0, 0x1.26b9df30b744bp-30, 0},
                       .to = {-0x1.00918e1e567bep-4, 0x1.26b9df30b744bp-30, 0},
                       .radius = 0x1.188317422dafep-20};
@@ -150,7 +150,8 @@ TEST_CASE(
 }
 
 TEST_CASE(
-    "a cylinder's cap may be taken for its side where the rounding of t does not tell them apart") {
+    "a cylinder's cap may be taken for its side where the rounding of t does not distinguish "
+    "them") {
   const Cylinder cylinder{
       .from = {0x1.4bce3ea3b8262p-12, 0x1.99e8bf6b2eb07p-12, -0x1.7c26bea915e2fp-12},
       .to = {0x1.4bce3ea3b8262p-12, 0x1.6c8e9f9455c1ep-3, -0x1.7c26bea915e2fp-12},

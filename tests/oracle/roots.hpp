@@ -1,4 +1,5 @@
-// The real roots of polynomials, each enclosed for certain; Number is a Ball or an Interval.
+// These functions enclose the real roots of polynomials for certain. Number is a Ball or an
+// Interval.
 #pragma once
 
 #include <algorithm>
@@ -11,11 +12,11 @@ namespace crt::test {
 
 inline constexpr std::size_t highest_degree = 4;
 
-/// Coefficients, the constant one first.
+/// Holds the coefficients, the constant one first.
 template <class Number>
 using Polynomial = Few<Number, highest_degree + 1>;
 
-/// Where a polynomial changes its sign.
+/// A SignChange is where a polynomial changes its sign.
 template <class Number>
 struct SignChange {
   Number x;
@@ -43,7 +44,7 @@ Polynomial<Number> derivative(const Polynomial<Number>& p) {
   return result;
 }
 
-/// A power of two beyond all roots (twice Fujiwara's bound).
+/// Returns a power of two beyond all roots (twice Fujiwara's bound).
 template <class Number>
 double bound_of_roots(const Polynomial<Number>& p) {
   const std::size_t degree = p.size() - 1;
@@ -60,8 +61,8 @@ double bound_of_roots(const Polynomial<Number>& p) {
   return std::ldexp(1.0, exponent + 2);
 }
 
-/// A root between two points of different sign as doubles have it: Newton's iteration, or else
-/// halving.
+/// Returns a root between two points of different sign to the precision of doubles: by Newton's
+/// iteration, or else by halving.
 template <class Number>
 double rounded_root(const Polynomial<Number>& p, double low, double high, int sign_low) {
   constexpr int most_steps = 100;
@@ -78,7 +79,7 @@ double rounded_root(const Polynomial<Number>& p, double low, double high, int si
     }
     ((height > 0) == (sign_low > 0) ? low : high) = x;
     double next = x - height / rate;
-    // Newton from far away comes nearer by a constant factor only; halve now and then.
+    // Newton from far away comes nearer by a constant factor only, so the step halves now and then.
     if (!(low < next && next < high) || step % 4 == 3) next = (low + high) / 2;
     const double moved = std::abs(next - x);
     x = next;
@@ -87,8 +88,8 @@ double rounded_root(const Polynomial<Number>& p, double low, double high, int si
   return x;
 }
 
-/// The one root between two points of different sign: a guess, and an enclosure that is proved by
-/// signs.
+/// Returns the one root between two points of different sign: a guess, and an enclosure that is
+/// proved by signs.
 template <class Number>
 Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, const Number& from,
                const Number& to, int sign_low) {
@@ -96,7 +97,7 @@ Number enclose(const Polynomial<Number>& p, const Polynomial<Number>& slope, con
   constexpr int most_widenings = 12;
   constexpr double widening = 8;
   if (p[0].is_zero() && from.certain_sign() < 0 && to.certain_sign() > 0) return Number(0.0);
-  constexpr int most_bits = 900;  // of what is left of the way, as long as doubles hold it
+  constexpr int most_bits = 900;  // of the remaining distance, as long as doubles hold it
   const double shortest =
       std::ldexp((to - from).largest_size(), -std::min(Number::precision(), most_bits));
   Number low = from;
@@ -143,9 +144,10 @@ SignChanges<Number> quadratic_changes(const Polynomial<Number>& p, int leading) 
   return result;
 }
 
-/// Every place where the polynomial changes its sign. Degrees up to 2 by formula; above, roots are
-/// isolated by those of the derivative. Throws Undecided if the precision does not do; with the
-/// highest, extrema that nothing tells from 0 are double roots, which are left out.
+/// Returns every place where the polynomial changes its sign. Degrees up to 2 are by formula.
+/// Above, roots are isolated by those of the derivative. Throws Undecided if the precision does not
+/// suffice. With the highest precision, extrema that cannot be distinguished from 0 are double
+/// roots, which are left out.
 template <class Number>
 SignChanges<Number> sign_changes(const Polynomial<Number>& polynomial) {
   Polynomial<Number> p = polynomial;
@@ -174,8 +176,8 @@ SignChanges<Number> sign_changes(const Polynomial<Number>& polynomial) {
     sign_low = sign_high;
   };
   for (const auto& extremum : extrema) {
-    // On the whole enclosure: the extreme value itself has this sign, and all between it and the
-    // middle.
+    // This is on the whole enclosure: the extreme value itself has this sign, and all between it
+    // and the middle.
     const int sign = evaluate(p, extremum.x).sign();
     if (sign != 0) up_to(extremum.x, sign);
   }

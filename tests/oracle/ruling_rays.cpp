@@ -15,7 +15,8 @@ double log_uniform_tilt(Counted& random) {
   return size * random.sign();
 }
 
-/// One in eight is next to a coordinate axis, and Counted::direction() has those themselves.
+/// Returns an axis. One in eight is next to a coordinate axis, and Counted::direction() has those
+/// themselves.
 Vec3 any_axis(Counted& random) {
   const Vec3 axis = random.direction();
   if (random.integer(0, 7) != 0) return axis;
@@ -33,8 +34,8 @@ Proportions any_proportions(Counted& random, double size) {
   return random.integer(0, 1) == 0 ? Proportions{size, less} : Proportions{less, size};
 }
 
-/// A unit vector across `v`: anywhere, or one of the first two turns of a coordinate axis without
-/// rounding.
+/// Returns a unit vector across `v`: anywhere, or one of the first two turns of a coordinate axis
+/// without rounding.
 Vec3 any_across(Counted& random, const Vec3& v) {
   const Vec3 n = glm::normalize(v);
   const Vec3 other = std::abs(n.x) < 0.6 ? Vec3(1, 0, 0) : Vec3(0, 1, 0);
@@ -48,7 +49,7 @@ Vec3 any_across(Counted& random, const Vec3& v) {
   return std::cos(angle) * a + std::sin(angle) * b;
 }
 
-/// Where along a ruling, from 0 at `from` to 1 at `to`.
+/// Returns where along a ruling, from 0 at `from` to 1 at `to`.
 double any_share(Counted& random) {
   switch (random.integer(0, 7)) {
     case 0:
@@ -102,7 +103,7 @@ TestRay ray_along(Counted& random, const Cone& cone) {
     ray.direction = d * random.uniform(0.5, 2);
     return ray;
   }
-  // From where the origin comes to be, so that the line still passes the target.
+  // The line starts from the rounded origin, so that it still passes the target.
   ray.origin = target - size * std::pow(10.0, exponent) * d;
   ray.direction = target - ray.origin;
   if (random.integer(0, 3) == 0) ray.direction = glm::normalize(ray.direction);

@@ -1,31 +1,32 @@
-// Cylinders and cones of extreme proportions, and rays along the straight lines of their sides
-// (rulings).
+// These functions make cylinders and cones of extreme proportions, and rays along the straight
+// lines of their sides (rulings).
 #pragma once
 
 #include "oracle/ray_maker.hpp"
 
 namespace crt::test {
 
-/// Sets a cylinder's or cone's place and proportions: its height and radius are up to 10^6 apart, a
-/// cone's two radii up to 10^6 or next to none; the axis is slanted, along a coordinate axis or
-/// nearly so.
+/// Sets a cylinder's or cone's place and proportions. Its height and radius differ by a factor of
+/// up to 10^6, a cone's two radii by up to 10^6 or by next to nothing. The axis is slanted, along a
+/// coordinate axis or nearly so.
 void make_extreme(Counted& random, const Vec3& at, double size, Cylinder& c);
 void make_extreme(Counted& random, const Vec3& at, double size, Cone& c);
 
-/// A straight line of the side of a cone (or of a cylinder: with two radii that are equal).
+/// A Ruling is a straight line of the side of a cone (or of a cylinder: with two radii that are
+/// equal).
 struct Ruling {
   Vec3 from;       ///< where it is at the end `from`
   Vec3 way;        ///< from there to the end `to`
-  Vec3 direction;  ///< the same with length 1
-  Vec3 normal;     ///< of the side, outwards
+  Vec3 direction;  ///< `way` with length 1
+  Vec3 normal;     ///< normal of the side, outwards
 
   Ruling(Counted& random, const Cone& cone);
   Vec3 at(double share) const { return from + share * way; }
 };
 
-/// A ray that is 10^-16 to 0.1 off a ruling: turned by such an angle, shifted by so many sizes,
-/// both or neither, in any direction. It passes the ruling within the solid or beyond either end,
-/// and starts there or up to 10^12 sizes away.
+/// Makes a ray that is 10^-16 to 0.1 off a ruling: turned by such an angle, shifted by so many
+/// sizes, both or neither, in any direction. It passes the ruling within the solid or beyond either
+/// end, and starts there or up to 10^12 sizes away.
 TestRay make_ruling_ray(Counted& random, const Cylinder& cylinder);
 TestRay make_ruling_ray(Counted& random, const Cone& cone);
 

@@ -1,5 +1,5 @@
-// Rays along the straight lines of the sides of cylinders and cones (rulings): those that were
-// answered wrong, by name, and what must be true of any.
+// These tests ask rays along the straight lines of the sides of cylinders and cones (rulings):
+// those that were answered wrong, by name, and what must be true of any.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -16,7 +16,7 @@ using namespace crt::test;
 
 namespace {
 
-/// Whether the ray's answer is right, and within its bound.
+/// Says whether the ray's answer is right, and within its bound.
 bool holds(const Primitive& primitive, const Vec3& origin, const Vec3& direction) {
   Record record;
   return measure(truth_of({.primitive = primitive, .origin = origin, .direction = direction}),
@@ -132,15 +132,15 @@ TEST_CASE(
 
 namespace {
 
-/// A ray that starts on the side of a solid of extreme proportions, where rounding has its start.
+/// A SideStart is a ray that starts on the side of a solid of extreme proportions, as exactly as
+/// rounding allows.
 struct SideStart {
   Primitive primitive;
   core::ObjectRay ray;
 
   SideStart(Counted& random, std::size_t kind);
 
-  /// How far it is told to be inside or outside against the truth, beyond what is promised, over
-  /// that.
+  /// Returns how far the reported inside or outside is wrong, beyond what is promised, over that.
   double wrong_by() const;
 };
 
@@ -222,7 +222,7 @@ TEST_CASE("a ray that starts on a side next to a ruling is inside for as long as
 
 namespace {
 
-/// What first_entry() says of a ray, after a comparison with all crossings.
+/// Returns what first_entry() says of a ray, after a comparison with all crossings.
 core::FrustumEntry<double> checked_entry(const TestRay& ray) {
   const auto shape = core::make_shape(ray.primitive);
   const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
@@ -243,7 +243,8 @@ core::FrustumEntry<double> checked_entry(const TestRay& ray) {
 }  // namespace
 
 TEST_CASE(
-    "where a ray plainly enters a side, or misses the solid, is told as all its crossings are") {
+    "where a ray plainly enters a side, or misses the solid, is reported as all its crossings "
+    "are") {
   for (const std::size_t kind : {cylinder_kind, cone_kind}) {
     std::uint64_t known = 0;
     std::uint64_t missed = 0;

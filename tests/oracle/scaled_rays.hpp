@@ -1,4 +1,4 @@
-// Rays with directions of extreme length.
+// These functions make rays with directions of extreme length.
 #pragma once
 
 #include "oracle/ray_maker.hpp"
@@ -8,7 +8,7 @@ namespace crt::test {
 /// Gives the direction an extreme length, and components that are extremely far apart.
 void scale_direction(Counted& random, TestRay& ray);
 
-/// Makes the direction what is left of it when it is lengthened by ray.scale.
+/// Rounds the direction as lengthening it by ray.scale does.
 void round_scaled(TestRay& ray);
 
 }  // namespace crt::test

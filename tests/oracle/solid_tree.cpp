@@ -23,7 +23,7 @@ Vec3 random_axis(Counted& random) {
   return axis;
 }
 
-/// A leaf whose numbers are small integers.
+/// Returns a leaf whose numbers are small integers.
 Primitive grid_leaf(Counted& random) {
   const Vec3 at = whole_vector(random, 2);
   const Vec3 axis = random_axis(random);
@@ -48,7 +48,7 @@ Primitive grid_leaf(Counted& random) {
   }
 }
 
-/// The linear part of v, exactly for the numbers here.
+/// Applies the linear part to v, exactly for the numbers here.
 Vec3 apply(const Transform& transform, const Vec3& v) {
   return {glm::dot(transform.row_x, v), glm::dot(transform.row_y, v), glm::dot(transform.row_z, v)};
 }
@@ -61,8 +61,8 @@ Transform compose(const Transform& second, const Transform& first) {
           apply(second, first.translation) + second.translation};
 }
 
-/// A turn by quarters; now and then by an eighth, which takes planes of the grid to diagonal ones
-/// (and makes all of it the root of 2 larger across), or half or twice the size.
+/// Returns a turn by quarters. Now and then it is by an eighth, which takes planes of the grid to
+/// diagonal ones (and makes all of it the root of 2 larger across), or half or twice the size.
 Transform grid_transform(Counted& random) {
   Transform result;
   if (random.integer(0, 2) > 0) return result;
@@ -85,14 +85,14 @@ SolidTree part_of_depth(Counted& random, int depth, const Transform& outer) {
     tree.primitive = grid_leaf(random);
     return tree;
   }
-  // Unions more often, as the others leave little.
+  // Unions are more frequent, as the others leave little.
   const int tenth = random.integer(0, 9);
   tree.kind = tenth < 5   ? SolidTree::Kind::set_union
               : tenth < 8 ? SolidTree::Kind::difference
                           : SolidTree::Kind::intersection;
   const int count = random.integer(2, 3);
   for (int i = 0; i < count; ++i) {
-    // The same part twice: most of what coincides by design.
+    // The same part comes twice, which makes most of what coincides by design.
     const bool again = i > 0 && random.integer(0, 9) == 0;
     tree.parts.push_back(again ? tree.parts[0] : part_of_depth(random, depth - 1, tree.to_world));
   }
@@ -107,7 +107,7 @@ bool value_of(SolidTree::Kind kind, const std::vector<bool>& parts) {
   return parts[0] && std::none_of(parts.begin() + 1, parts.end(), is_true);
 }
 
-/// The value of a tree from that of its leaves, in their order.
+/// Returns the value of a tree from that of its leaves, in their order.
 template <class LeafValue>
 bool value_of(const SolidTree& tree, const LeafValue& leaf_value, std::size_t& leaf) {
   if (tree.kind == SolidTree::Kind::leaf) return leaf_value(leaf++);
@@ -116,7 +116,7 @@ bool value_of(const SolidTree& tree, const LeafValue& leaf_value, std::size_t& l
   return value_of(tree.kind, parts);
 }
 
-/// -1, 0 or 1: outside, open, inside.
+/// Returns -1, 0 or 1: outside, open, inside.
 int certain_value(const SolidTree& tree, const std::vector<int>& leaf_sides, std::size_t& leaf) {
   if (tree.kind == SolidTree::Kind::leaf) return leaf_sides[leaf++];
   std::vector<bool> smallest;
@@ -139,7 +139,7 @@ Equations<Number> equations_along(const GridRay& ray, const SolidTree& leaf) {
   return equations(leaf.primitive, line);
 }
 
-/// Whether an equation is of a face; a torus has another one, and an apex has a plane.
+/// Says whether an equation is of a face. A torus has another one, and an apex has a plane.
 bool is_of_face(const Primitive& primitive, std::size_t equation) {
   if (std::holds_alternative<Torus>(primitive)) return equation == 0;
   const Cone* cone = std::get_if<Cone>(&primitive);
@@ -213,9 +213,9 @@ void TreeOracle::collect(const SolidTree& tree) {
   for (const SolidTree& part : tree.parts) collect(part);
 }
 
-/// Two surfaces are one if their equations are the same, but for a factor, along some lines of
-/// small whole numbers, where everything is computed without rounding: more lines than surfaces of
-/// these kinds have coefficients.
+/// Two surfaces are one if their equations are equal, but for a factor, along some lines of small
+/// whole numbers, where everything is computed without rounding. There are more lines than surfaces
+/// of these kinds have coefficients.
 void TreeOracle::find_coincident() {
   constexpr std::uint64_t probes = 12;
   using Number = Ball<4>;

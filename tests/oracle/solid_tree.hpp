@@ -1,6 +1,6 @@
-// Random trees of solids most of whose faces coincide, and rays that meet them where it is hardest.
-// All numbers of the trees are small and dyadic, so that faces which coincide on paper coincide in
-// doubles.
+// These functions make random trees of solids most of whose faces coincide, and rays that meet them
+// where it is hardest. All numbers of the trees are small and dyadic, so that faces which coincide
+// on paper coincide in doubles.
 #pragma once
 
 #include <vector>
@@ -25,14 +25,14 @@ struct SolidTree {
 
 SolidTree random_tree(std::uint64_t number);
 
-/// A line through corners, edges and faces of the grid, more often than not.
+/// A GridRay is a line through corners, edges and faces of the grid, more often than not.
 struct GridRay {
   Vec3 origin;
   Vec3 direction;
 };
 GridRay random_ray(std::uint64_t tree, std::uint64_t number);
 
-/// What a line sees of a tree, by exact roots.
+/// A TreeOracle finds what a line sees of a tree, by exact roots.
 class TreeOracle {
  public:
   explicit TreeOracle(const SolidTree& tree);
@@ -47,11 +47,12 @@ class TreeOracle {
   };
   Flips flips(const GridRay& ray) const;
 
-  /// Whether the point at t is inside (1) or outside (-1) of the tree, even if every leaf that it
-  /// is next to, within the bounds of the standard tier, were otherwise; else 0.
+  /// Returns whether the point at t is inside (1) or outside (-1) of the tree, even if every leaf
+  /// that it is next to, within the bounds of the standard tier, were otherwise. Else it returns 0.
   int certain_side(const GridRay& ray, double t) const;
 
-  /// All faces, and those which lie on a surface that another solid has too.
+  /// Return the number of all faces, and of those which lie on a surface that another solid has
+  /// too.
   int faces() const { return faces_; }
   int coincident_faces() const { return coincident_faces_; }
 
@@ -59,7 +60,7 @@ class TreeOracle {
   void collect(const SolidTree& tree);
   void find_coincident();
 
-  /// Of a surface that several equations may stand for.
+  /// An Equation is that of a surface that several equations may stand for.
   struct Equation {
     std::size_t surface = 0;
     int orientation = 1;  ///< the sign of the factor to the surface's own equation

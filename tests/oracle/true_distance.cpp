@@ -1,4 +1,5 @@
-// How far a point is from a primitive's surface, and where primitives are: by their definitions.
+// This finds how far a point is from a primitive's surface, and where primitives are, by their
+// definitions.
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
@@ -12,12 +13,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Near the middle, but 0 for what may be 0.
+/// Returns a number near the middle, but 0 for what may be 0.
 double value_if_certain(const Interval& interval) {
   return interval.certain_sign() == 0 ? 0 : interval.value();
 }
 
-/// How far a point, relative to the position, is beyond the rim.
+/// Returns how far a point, relative to the position, is beyond the edge.
 double beyond_rim(const Disc& d, const IntervalVec& p) {
   return value_if_certain(length(p) - Interval(d.radius));
 }

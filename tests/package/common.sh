@@ -1,4 +1,4 @@
-# What the tests of installing and packaging share. They get, from CTest, in the environment:
+# The tests of installing and packaging share this. They get these from CTest, in the environment:
 #   BUILD, SOURCE  CRT's build tree and source
 #   WORK           a folder for what they make
 #   CC, CXX        the compilers that CRT was built with
@@ -16,7 +16,8 @@ expect_png() {
   [[ $(od -An -tx1 -N8 "$1" | tr -d ' ') == 89504e470d0a1a0a ]] || fail "$1 is no PNG file"
 }
 
-# run_program COMMAND...: has a consumer write program.png in its folder, with an environment of its own.
+# run_program COMMAND... has a consumer write program.png in its folder, with an environment of its
+# own.
 run_program() {
   rm -f program.png
   env -u LD_LIBRARY_PATH "$@" "$PWD/program.png"

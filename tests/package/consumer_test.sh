@@ -1,5 +1,6 @@
 #!/usr/bin/env bash
-# Builds and runs a consumer against the installed, moved tree. usage: consumer_test.sh KIND, one of the cases below.
+# Builds and runs a consumer against the installed, moved tree.
+# usage: consumer_test.sh KIND, one of the cases below.
 # shellcheck source=tests/package/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
@@ -10,15 +11,17 @@ rm -rf "$build"
 mkdir -p "$build"
 cd "$build"
 
-# with_cmake PROJECT TREE [ARGUMENT...]
+# with_cmake PROJECT TREE [ARGUMENT...] builds a consumer by CMake.
 with_cmake() {
-  cmake -S "$consumers/$1" -B . -DCMAKE_PREFIX_PATH="$2" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
-    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli "${@:3}" >configure.log 2>&1 || fail "$(cat configure.log)"
+  cmake -S "$consumers/$1" -B . -DCMAKE_PREFIX_PATH="$2" \
+    -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli "${@:3}" >configure.log 2>&1 ||
+    fail "$(cat configure.log)"
   cmake --build . >build.log 2>&1 || fail "$(cat build.log)"
   run_program ./program
 }
 
-# with_pkg_config TREE [FLAG...]: a plain compiler, C99 to the letter.
+# with_pkg_config TREE [FLAG...] builds one by a plain compiler, as strict C99.
 with_pkg_config() {
   need pkg-config pkg-config
   export PKG_CONFIG_PATH=$1/$LIBDIR/pkgconfig
@@ -27,7 +30,7 @@ with_pkg_config() {
     $(pkg-config --cflags --libs "${@:2}" crt)
 }
 
-# A machine that has libcrt-dev and none of what the C++ libraries need.
+# This stands for a machine that has libcrt-dev and none of what the C++ libraries need.
 without_dependencies=()
 for package in glm fmt TBB embree OpenImageIO Threads; do
   without_dependencies+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
@@ -48,11 +51,13 @@ case $kind in
     run_program ./program
     ;;
   subdirectory)
-    # Building all of CRT once more would take too long to be told that it still does.
-    cmake -S "$consumers/subdirectory" -B . -DCRT_SOURCE="$SOURCE" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    # Building all of CRT once more would take too long.
+    cmake -S "$consumers/subdirectory" -B . -DCRT_SOURCE="$SOURCE" \
+      -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
       >configure.log 2>&1 || fail "$(cat configure.log)"
     cmake --build . --target help >targets.txt
-    ! grep -E '(test_|abi_|\bhello\b)' targets.txt || fail "a project with CRT in it has CRT's tests and examples"
+    ! grep -E '(test_|abi_|\bhello\b)' targets.txt ||
+      fail "a project with CRT in it has CRT's tests and examples"
     exit
     ;;
   *) fail "no kind $kind" ;;
@@ -63,5 +68,6 @@ if [[ $kind == *static* || $kind == *cpp ]]; then
 else
   readelf -d program | grep -qF 'NEEDED' || fail "the program has no libraries"
   readelf -d program | grep -qF '[libcrt.so.1]' || fail "the program does not need libcrt.so.1"
-  ! readelf -d program | grep -E 'NEEDED.*(embree|tbb|fmt|stdc)' || fail "it needs what is libcrt's business"
+  ! readelf -d program | grep -E 'NEEDED.*(embree|tbb|fmt|stdc)' ||
+    fail "it needs the libraries that libcrt uses"
 fi

@@ -1,6 +1,6 @@
 #!/usr/bin/env bash
-# Makes the Debian packages, looks at what they have and ask for, unpacks them side by side, and runs the command and a
-# consumer from there.
+# Makes the Debian packages, checks what they have and ask for, unpacks them side by side, and runs
+# the command and a consumer from there.
 # shellcheck source=tests/package/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 need dpkg-shlibdeps dpkg-dev
@@ -14,14 +14,14 @@ cd "$work"
 cpack --config "$BUILD/CPackConfig.cmake" -B . >cpack.log 2>&1 || fail "$(cat cpack.log)"
 rm -r _CPack_Packages
 
-# package NAME: its file, of which there is one.
+# package NAME prints its file, of which there is one.
 package() {
   local files=("$1"_[0-9]*.deb)
   [[ ${#files[@]} -eq 1 && -f ${files[0]} ]] || fail "not one file of the package $1"
   echo "${files[0]}"
 }
 
-# expect_field PACKAGE FIELD REGEX...: the field must have all of them.
+# expect_field PACKAGE FIELD REGEX... checks that the field has all of them.
 expect_field() {
   local regex value
   value=$(dpkg-deb -f "$(package "$1")" "$2")
@@ -30,7 +30,8 @@ expect_field() {
   done
 }
 
-# expect_files PACKAGE REGEX...: each of its files must match one, and each must match some file.
+# expect_files PACKAGE REGEX... checks that each of its files matches one, and each matches some
+# file.
 expect_files() {
   local files regex
   files=$(dpkg-deb --fsys-tarfile "$(package "$1")" | tar -t | grep -v '/$')
@@ -43,25 +44,30 @@ expect_files() {
 library=$(basename libcrt[0-9]*_*.deb)
 library=${library%%_*}
 major=${library#libcrt}
-expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libfmt' 'libopenimageio' 'libc6' 'libstdc\+\+6'
+expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libfmt' 'libopenimageio' 'libc6' \
+  'libstdc\+\+6'
 expect_field libcrt-dev Depends "^$library \(= [0-9.]+\)$"
 expect_field libcrt-dev Recommends libglm-dev libfmt-dev libtbb-dev libembree-dev
 expect_field crt Depends "$library \(= [0-9.]+\)" 'libembree' 'libtbb12' 'libc6'
 expect_field "$library" Description '^ray tracer .*library'
 expect_field libcrt-dev Description '^ray tracer .*development'
 expect_field crt Description '^ray tracer .*command'
-dpkg-deb -I "$(package "$library")" shlibs | grep -qE "^libcrt $major $library \(>= " || fail "$library has no shlibs"
-dpkg-deb -I "$(package "$library")" postinst | grep -q ldconfig || fail "$library leaves ldconfig to others"
+dpkg-deb -I "$(package "$library")" shlibs | grep -qE "^libcrt $major $library \(>= " ||
+  fail "$library has no shlibs"
+dpkg-deb -I "$(package "$library")" postinst | grep -q ldconfig ||
+  fail "$library leaves ldconfig to others"
 
 lib=\\./usr/$LIBDIR
 doc=\\./usr/share/doc
-expect_files "$library" "$lib/libcrt\\.so\\.$major(\\.[0-9.]+)?" "$lib/crt/crt_image_files\\.so" "$doc/$library/copyright"
-expect_files libcrt-dev '\./usr/include/crt/[a-z_]+\.(h|hpp)' "$lib/libcrt(_core|_lang|)\\.(so|a)" "$lib/cmake/crt/.*\\.cmake" \
-  "$lib/pkgconfig/crt\\.pc" "$doc/crt/.*" "$doc/libcrt-dev/copyright"
+expect_files "$library" "$lib/libcrt\\.so\\.$major(\\.[0-9.]+)?" "$lib/crt/crt_image_files\\.so" \
+  "$doc/$library/copyright"
+expect_files libcrt-dev '\./usr/include/crt/[a-z_]+\.(h|hpp)' "$lib/libcrt(_core|_lang|)\\.(so|a)" \
+  "$lib/cmake/crt/.*\\.cmake" "$lib/pkgconfig/crt\\.pc" "$doc/crt/.*" "$doc/libcrt-dev/copyright"
 expect_files crt '\./usr/bin/crt' "$doc/crt/copyright"
 
 for deb in *.deb; do dpkg-deb -x "$deb" root; done
-for binary in "root/usr/bin/crt" "root/usr/$LIBDIR/libcrt.so" "root/usr/$LIBDIR/crt/crt_image_files.so" \
+for binary in "root/usr/bin/crt" "root/usr/$LIBDIR/libcrt.so" \
+  "root/usr/$LIBDIR/crt/crt_image_files.so" \
   "root/usr/$LIBDIR/libcrt.a"; do
   ! readelf -S "$binary" | grep -qF .debug_info || fail "$binary is not stripped"
 done

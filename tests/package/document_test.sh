@@ -9,12 +9,13 @@ rm -rf "$work"
 mkdir -p "$work"
 cd "$work"
 
-# Each piece of code into a file of its own, named for its number and language.
-awk '/^```/ { if (out != "") { out = ""; next } out = sprintf("%02d.%s", ++count, substr($0, 4)); next }
+# Writes each piece of code into a file of its own, named for its number and language.
+awk '/^```/ && out != "" { out = ""; next }
+     /^```/ { out = sprintf("%02d.%s", ++count, substr($0, 4)); next }
      out != "" { print > out }' "$SOURCE/docs/installing.md"
 module=$(grep -l 'TARGET_FILE:crt::image_files' ./*.cmake) || fail "nothing brings the module along"
 
-# prepare FOLDER: a folder with the consumers' sources under the names that the document uses.
+# prepare FOLDER makes a folder with the consumers' sources under the names that the document uses.
 prepare() {
   mkdir "$work/$1"
   cd "$work/$1"
@@ -29,8 +30,10 @@ for piece in "$work"/*.cmake; do
   prepare "project_$projects"
   cat "$piece" >CMakeLists.txt
   ! grep -q 'COMPONENTS' "$piece" || cat "$work/$module" >>CMakeLists.txt
-  cmake -S . -B . -DCMAKE_PREFIX_PATH="$moved" -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
-    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli >configure.log 2>&1 || fail "$piece: $(cat configure.log)"
+  cmake -S . -B . -DCMAKE_PREFIX_PATH="$moved" \
+    -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
+    -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli >configure.log 2>&1 ||
+    fail "$piece: $(cat configure.log)"
   cmake --build . >build.log 2>&1 || fail "$piece: $(cat build.log)"
   run_program ./my_program
 done

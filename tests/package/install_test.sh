@@ -1,19 +1,20 @@
 #!/usr/bin/env bash
-# Installs CRT, moves the tree, and looks at what is in it. The consumers use the moved tree.
+# Installs CRT, moves the tree, and checks what is in it. The consumers use the moved tree.
 # shellcheck source=tests/package/common.sh
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 
 rm -rf "$WORK"
 mkdir -p "$WORK"
 
-# install_to PREFIX [ARGUMENT...]
+# install_to PREFIX [ARGUMENT...] installs the build.
 install_to() {
   local prefix=$1
   shift
-  cmake --install "$BUILD" --prefix "$prefix" "$@" >"$WORK/install.log" || fail "$(cat "$WORK/install.log")"
+  cmake --install "$BUILD" --prefix "$prefix" "$@" >"$WORK/install.log" ||
+    fail "$(cat "$WORK/install.log")"
 }
 
-# files_in FOLDER: all files and links, by name.
+# files_in FOLDER prints all files and links, by name.
 files_in() {
   (cd "$1" && find . ! -type d | sort)
 }
@@ -24,14 +25,15 @@ mv "$WORK/first" "$moved"
 DESTDIR=$WORK/staged install_to /opt/crt
 diff -r "$moved" "$WORK/staged/opt/crt" || fail "what is installed depends on the prefix"
 
-# The copyright files are of packages, which are made of components one by one.
+# The copyright files belong to packages, which are made of components one by one.
 for component in runtime development command; do
   install_to "$WORK/component/$component" --component $component
   files_in "$WORK/component/$component"
 done | grep -v '/copyright$' | sort >"$WORK/components.txt"
-diff "$WORK/components.txt" <(files_in "$moved") || fail "the components are not a partition of the whole"
+diff "$WORK/components.txt" <(files_in "$moved") ||
+  fail "the components are not a partition of the whole"
 
-# expect COMPONENT FILE...
+# expect COMPONENT FILE... checks that the component has the files.
 expect() {
   local file folder=$WORK/component/$1
   shift
@@ -40,26 +42,32 @@ expect() {
   done
 }
 expect runtime "$LIBDIR/libcrt.so.1" "$LIBDIR/crt/crt_image_files.so"
-expect development include/crt/crt.h include/crt/crt.hpp "$LIBDIR/libcrt.so" "$LIBDIR"/libcrt{,_core,_lang}.a share/doc/crt/LICENSE \
-  "$LIBDIR/pkgconfig/crt.pc" "$LIBDIR/cmake/crt/crtConfig.cmake"
+expect development include/crt/crt.h include/crt/crt.hpp "$LIBDIR/libcrt.so" \
+  "$LIBDIR"/libcrt{,_core,_lang}.a share/doc/crt/LICENSE "$LIBDIR/pkgconfig/crt.pc" \
+  "$LIBDIR/cmake/crt/crtConfig.cmake"
 expect command bin/crt
-diff <(files_in "$SOURCE/include") <(files_in "$moved/include") || fail "not the headers of the source"
+diff <(files_in "$SOURCE/include") <(files_in "$moved/include") ||
+  fail "not the headers of the source"
 
-[[ $(readlink "$moved/$LIBDIR/libcrt.so") == libcrt.so.1 ]] || fail "libcrt.so is not a link to libcrt.so.1"
-[[ $(readlink "$moved/$LIBDIR/libcrt.so.1") == libcrt.so.1.* ]] || fail "libcrt.so.1 is not a link to the version"
+[[ $(readlink "$moved/$LIBDIR/libcrt.so") == libcrt.so.1 ]] ||
+  fail "libcrt.so is not a link to libcrt.so.1"
+[[ $(readlink "$moved/$LIBDIR/libcrt.so.1") == libcrt.so.1.* ]] ||
+  fail "libcrt.so.1 is not a link to the version"
 
-for binary in "$moved/bin/crt" "$moved/$LIBDIR/libcrt.so" "$moved/$LIBDIR/crt/crt_image_files.so"; do
+for binary in "$moved/bin/crt" "$moved/$LIBDIR/libcrt.so" \
+  "$moved/$LIBDIR/crt/crt_image_files.so"; do
   ! readelf -d "$binary" | grep -E 'R(UN)?PATH' || fail "$binary has a path to libraries"
 done
 # Debug information names the source files, which is what it is for.
-[[ $BUILD_TYPE == *Deb* ]] || ! grep -rlF -e "$BUILD/" -e "$SOURCE/" "$moved" || fail "they name folders of this build"
+[[ $BUILD_TYPE == *Deb* ]] || ! grep -rlF -e "$BUILD/" -e "$SOURCE/" "$moved" ||
+  fail "they name folders of this build"
 
-# The command finds its module from where it is.
+# The command finds its module relative to itself.
 cd "$WORK"
 echo 'Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }' >sphere.crt
 env -i "$moved/bin/crt" render sphere.crt -o sphere.png --width 64 --height 48 --quiet
 expect_png sphere.png
 
-# What a build with BUILD_SHARED_LIBS=OFF installs.
+# This is what a build with BUILD_SHARED_LIBS=OFF installs.
 cp -a "$moved" "$static_only"
 rm "$static_only/$LIBDIR"/libcrt.so* "$static_only/$LIBDIR"/cmake/crt/crtShared*.cmake

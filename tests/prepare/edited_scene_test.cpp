@@ -1,4 +1,4 @@
-// Preparing a scene again after an edit.
+// These tests prepare a scene again after an edit.
 #include <doctest/doctest.h>
 
 #include <algorithm>

@@ -1,4 +1,4 @@
-// Preparing scenes and finding crossings: transforms, sizes, places, many objects.
+// These tests prepare scenes and find crossings: transforms, sizes, places, many objects.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -38,7 +38,7 @@ Scene scene_of(std::vector<Entity> entities) {
   return scene;
 }
 
-/// One of each primitive around the origin, none larger than about 2.
+/// Returns one of each primitive around the origin, none larger than about 2.
 std::vector<Entity> one_of_each(double scale) {
   const auto v = [scale](double x, double y, double z) {
     return Vec3(x * scale, y * scale, z * scale);
@@ -130,7 +130,7 @@ TEST_CASE("a transformed ray meets a transformed entity where the plain ones mee
   SolidMaker make(17);
   const PreparedData plain(scene_of(one_of_each(1)));
   for (int round = 0; round < 20; ++round) {
-    // Non-uniform, mirrored in every second round.
+    // The scale is non-uniform, and mirrored in every second round.
     const Transform steps[] = {
         scale(Vec3(make.real(0.3, 3), make.real(0.3, 3),
                    round % 2 == 0 ? make.real(0.3, 3) : -make.real(0.3, 3))),
@@ -173,14 +173,14 @@ TEST_CASE("a transformed ray meets a transformed entity where the plain ones mee
   }
 }
 
-TEST_CASE("a union whose parts keep apart is several objects, one whose parts touch is one") {
+TEST_CASE("a union whose parts are disjoint is several objects, one whose parts touch is one") {
   std::vector<Entity> row;
   for (int i = 0; i < 50; ++i) row.emplace_back(Sphere{.center = {3.0 * i, 0, 0}, .radius = 1});
-  const PreparedData apart(scene_of({csg_union(row)}));
+  const PreparedData disjoint(scene_of({csg_union(row)}));
   RayWorkspace work;
-  CHECK(apart.intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
+  CHECK(disjoint.intersect(ray_from({0, 0, -5}, {0, 0, 1}), work).found());
   CHECK(work.intersection_tests == 1);
-  CHECK_FALSE(apart.features().csg);
+  CHECK_FALSE(disjoint.features().csg);
 
   const PreparedData touching(scene_of({Entity(Sphere{}) + Sphere{.center = {2, 0, 0}}}));
   CHECK(touching.features().csg);
@@ -195,7 +195,7 @@ TEST_CASE("surrounding solids come outermost first") {
   data.surrounding(ray_from({0, 0, 0}, {1, 0, 0.1}), around, work);
   REQUIRE(around.size() == 4);
   CHECK(around[0].t ==
-        std::numeric_limits<double>::infinity());  // along the ground it is never left
+        std::numeric_limits<double>::infinity());  // a ray along the ground never leaves it
   CHECK(around[1].object == 1);
   CHECK(around[2].object == 2);
   CHECK(around[3].object == 0);
@@ -261,7 +261,7 @@ TEST_CASE("the empty entity is what the empty set is") {
     CHECK(empty.is_empty());
   }
   CHECK_FALSE(ball.is_empty());
-  // What holds for all operands holds for these.
+  // The rules for operands hold for these, too.
   CHECK_THROWS_AS(disc ^ nothing, Error);
   CHECK_THROWS_AS(nothing - disc, Error);
   CHECK_THROWS_AS(nothing.transformed(scale(0)), Error);

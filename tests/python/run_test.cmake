@@ -1,5 +1,5 @@
-# Runs the unittest module TEST by a Python that has NumPy, with the package in PACKAGE and the libcrt LIBRARY.
-# PRELOAD: see CrtPreload.cmake.
+# Runs the unittest module TEST by a Python that has NumPy, with the package in PACKAGE and the
+# libcrt LIBRARY. CrtPreload.cmake explains PRELOAD.
 set(python)
 foreach(candidate /usr/bin/python3 python3)
   execute_process(COMMAND ${candidate} -c "import sys, numpy; sys.exit(sys.version_info < (3, 10))"
@@ -9,7 +9,8 @@ foreach(candidate /usr/bin/python3 python3)
   endif()
 endforeach()
 if(NOT python)
-  message("SKIPPED: there is no Python 3.10 or later with NumPy (Debian: python3 and python3-numpy)")
+  message("SKIPPED: there is no Python 3.10 or later with NumPy"
+    " (Debian: python3 and python3-numpy)")
   return()
 endif()
 

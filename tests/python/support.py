@@ -1,4 +1,4 @@
-"""What several tests use."""
+"""Several tests use this."""
 
 import math
 import pathlib
@@ -12,7 +12,7 @@ INFINITY = math.inf
 
 
 def shell() -> crt.Entity:
-    """A ball of radius 1 about the origin, hollow from 0.5 inwards."""
+    """Makes a ball of radius 1 about the origin, hollow from 0.5 inwards."""
     return crt.Sphere((0, 0, 0), 1) - crt.Sphere((0, 0, 0), 0.5)
 
 
@@ -21,7 +21,7 @@ def prepared_shell() -> crt.Prepared:
 
 
 def parallel_rays(count: int) -> np.ndarray:
-    """Along z, from below the shell, side by side from x = -1.5 to 1.5."""
+    """Makes rays along z, from below the shell, side by side from x = -1.5 to 1.5."""
     rays = crt.rays(count)
     rays["origin"][:, 0] = np.linspace(-1.5, 1.5, count)
     rays["origin"][:, 2] = -5

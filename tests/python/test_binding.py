@@ -13,19 +13,29 @@ HEADER = re.sub(r"/\*.*?\*/", "", (SOURCE / "include/crt/crt.h").read_text(), fl
 
 
 def letter_of(declaration: str) -> str:
-    """What stands for a C type in _library's tables."""
+    """Returns what stands for a C type in _library's tables."""
     if "*" in declaration or "_fn " in declaration:
         return "p"
     words = declaration.replace("const", "").split()
-    letters = {"double": "d", "size_t": "z", "int32_t": "i", "uint32_t": "u", "uint64_t": "l", "void": "-"}
+    letters = {
+        "double": "d",
+        "size_t": "z",
+        "int32_t": "i",
+        "uint32_t": "u",
+        "uint64_t": "l",
+        "void": "-",
+    }
     return "p" if declaration.endswith("]") else letters[words[0]]
 
 
 def functions() -> dict[str, tuple[str, list[str]]]:
-    """Of each function of crt.h what it returns and its parameters, as declared."""
+    """Returns what each function of crt.h returns and its parameters, as declared."""
     found = re.findall(r"CRT_API (\w[\w ]*?\*?) ?(crt_\w+)\(([^)]*)\);", HEADER)
     return {
-        name: (result, [] if parameters == "void" else [" ".join(p.split()) for p in parameters.split(",")])
+        name: (
+            result,
+            [] if parameters == "void" else [" ".join(p.split()) for p in parameters.split(",")],
+        )
         for result, name, parameters in found
     }
 
@@ -41,11 +51,14 @@ class Functions(unittest.TestCase):
         for name, letters in _library.PLAIN_FUNCTIONS.items():
             result, parameters = known[name]
             self.assertNotEqual(result, "crt_status", name)
-            self.assertEqual(letters.replace("t", "p"), "".join(map(letter_of, [result, *parameters])), name)
+            self.assertEqual(
+                letters.replace("t", "p"), "".join(map(letter_of, [result, *parameters])), name
+            )
 
     def test_the_library_is_the_one_that_the_header_is_of(self):
         major, minor, patch = (
-            re.search(rf"CRT_VERSION_{part} (\d+)", HEADER)[1] for part in ("MAJOR", "MINOR", "PATCH")
+            re.search(rf"CRT_VERSION_{part} (\d+)", HEADER)[1]
+            for part in ("MAJOR", "MINOR", "PATCH")
         )
         self.assertEqual(crt.version(), (int(major), int(minor), int(patch)))
 
@@ -81,7 +94,9 @@ class Structs(unittest.TestCase):
             thing
             for module in modules
             for thing in vars(module).values()
-            if isinstance(thing, type) and issubclass(thing, _structs.Struct) and thing is not _structs.Struct
+            if isinstance(thing, type)
+            and issubclass(thing, _structs.Struct)
+            and thing is not _structs.Struct
         }
         self.assertEqual(len(structs), 13)
         for struct in structs:
@@ -110,13 +125,16 @@ class Structs(unittest.TestCase):
             self.assertEqual(len(names), sum(member >= 0 for member in ours))
 
     def test_aovs_have_the_bits_of_the_header(self):
-        bits = {name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+)\s*=\s*(\d+)", HEADER)}
+        bits = {
+            name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+) = (\d+)", HEADER)
+        }
         self.assertEqual(rendering._AOV_BITS, bits)
 
     def test_rays_and_hits_have_the_frozen_layout(self):
         self.assertEqual((crt.RAY.itemsize, crt.HIT.itemsize), (64, 56))
         self.assertEqual(
-            [crt.RAY.fields[name][1] for name in ("origin", "direction", "t_min", "t_max")], [0, 24, 48, 56]
+            [crt.RAY.fields[name][1] for name in ("origin", "direction", "t_min", "t_max")],
+            [0, 24, 48, 56],
         )
         self.assertEqual(
             [crt.HIT.fields[name][1] for name in ("t", "normal", "u", "v", "entity_id", "flags")],

@@ -1,4 +1,4 @@
-"""python -m crt.depth"""
+"""These tests run python -m crt.depth."""
 
 import pathlib
 import subprocess

@@ -1,4 +1,4 @@
-"""The example programs in Python."""
+"""These tests run the example programs in Python."""
 
 import sys
 import unittest

@@ -1,4 +1,4 @@
-"""Ray queries on arrays in place."""
+"""These tests ask ray queries on arrays in place."""
 
 import math
 import unittest
@@ -12,7 +12,7 @@ prepared = prepared_shell()
 
 
 def expected_t(rays: np.ndarray) -> np.ndarray:
-    """Where a ray along z from z = -5 meets the unit ball."""
+    """Returns where a ray along z from z = -5 meets the unit ball."""
     rest = 1 - rays["origin"][..., 0] ** 2
     return np.where(rest > 0, 5 - np.sqrt(np.maximum(rest, 0)), INFINITY)
 
@@ -43,12 +43,16 @@ class Answers(unittest.TestCase):
     def test_every_crossing(self):
         hits = prepared.crossings(crt.ray((0, 0, -5), (0, 0, 2)))
         np.testing.assert_allclose(hits["t"], (2, 2.25, 2.75, 3), rtol=1e-15)
-        self.assertEqual([bool(flags & crt.ENTERING) for flags in hits["flags"]], [True, False, True, False])
+        self.assertEqual(
+            [bool(flags & crt.ENTERING) for flags in hits["flags"]], [True, False, True, False]
+        )
 
     def test_more_crossings_than_there_was_room_for(self):
         row = crt.union(crt.Sphere((0, 0, 3 * i), 1) for i in range(100))
         hits = crt.Scene([row]).prepare().crossings(crt.ray((0, 0, -5), (0, 0, 1)))
-        np.testing.assert_allclose(hits["t"], np.ravel([(3 * i + 4, 3 * i + 6) for i in range(100)]))
+        np.testing.assert_allclose(
+            hits["t"], np.ravel([(3 * i + 4, 3 * i + 6) for i in range(100)])
+        )
 
     def test_a_range_of_t(self):
         ray = crt.ray((0, 0, -5), (0, 0, 1), t_min=4.2, t_max=5.7)
@@ -56,7 +60,9 @@ class Answers(unittest.TestCase):
 
 
 class Memory(unittest.TestCase):
-    RECORD = np.dtype([("name", "S3"), ("ray", crt.RAY), ("count", "i4"), ("hit", crt.HIT), ("end", "u1")])
+    RECORD = np.dtype(
+        [("name", "S3"), ("ray", crt.RAY), ("count", "i4"), ("hit", crt.HIT), ("end", "u1")]
+    )
 
     def records(self, count: int) -> np.ndarray:
         records = np.zeros(count, self.RECORD)
@@ -71,7 +77,9 @@ class Memory(unittest.TestCase):
         np.testing.assert_allclose(records["hit"]["t"], expected_t(records["ray"]), rtol=1e-14)
         np.testing.assert_array_equal(records["ray"], parallel_rays(101))
         self.assertTrue(
-            ((records["name"] == b"abc") & (records["count"] == -1) & (records["end"] == 0xEE)).all()
+            (
+                (records["name"] == b"abc") & (records["count"] == -1) & (records["end"] == 0xEE)
+            ).all()
         )
 
     def test_every_third_ray(self):
@@ -167,7 +175,9 @@ class CameraRays(unittest.TestCase):
     def test_t_is_the_depth_along_the_view(self):
         camera = crt.Camera(position=(1, 2, 3), pointing=(1, 2, 9))
         wall = crt.Scene([crt.Plane((0, 0, -1), (0, 0, 8))]).prepare()
-        np.testing.assert_allclose(wall.intersect(crt.camera_rays(camera, 7, 5))["t"], 5, rtol=1e-14)
+        np.testing.assert_allclose(
+            wall.intersect(crt.camera_rays(camera, 7, 5))["t"], 5, rtol=1e-14
+        )
 
     def test_other_projections_are_refused(self):
         camera = crt.Camera(projection=crt.Projection.ORTHOGRAPHIC)

@@ -1,4 +1,4 @@
-"""Pictures, callbacks, jobs and images."""
+"""These tests check pictures, callbacks, jobs and images."""
 
 import gc
 import os
@@ -32,7 +32,9 @@ class Rendering(unittest.TestCase):
 
     def test_the_number_of_threads_changes_nothing(self):
         prepared = small_scene(64, 2).prepare()
-        np.testing.assert_array_equal(prepared.render(threads=1).pixels, prepared.render(threads=3).pixels)
+        np.testing.assert_array_equal(
+            prepared.render(threads=1).pixels, prepared.render(threads=3).pixels
+        )
 
     def test_a_picture_goes_on_from_its_checkpoint(self):
         prepared = small_scene(48).prepare()
@@ -96,10 +98,10 @@ class Rendering(unittest.TestCase):
 
 class Callbacks(unittest.TestCase):
     def test_progress_goes_from_0_to_1(self):
-        told = []
-        small_scene(100).render(progress=told.append)
-        self.assertEqual((told[0], told[-1]), (0, 1))
-        self.assertEqual(told, sorted(told))
+        shares = []
+        small_scene(100).render(progress=shares.append)
+        self.assertEqual((shares[0], shares[-1]), (0, 1))
+        self.assertEqual(shares, sorted(shares))
 
     def test_what_progress_raises_cancels_and_comes_out(self):
         calls = []
@@ -237,7 +239,9 @@ class Images(unittest.TestCase):
     def test_pixels_are_the_librarys_memory_and_outlive_the_image(self):
         image = crt.Image.from_pixels(np.arange(24, dtype=np.float32).reshape(2, 3, 4))
         pixels = image.pixels
-        self.assertEqual(pixels.__array_interface__["data"][0], image.pixels.__array_interface__["data"][0])
+        self.assertEqual(
+            pixels.__array_interface__["data"][0], image.pixels.__array_interface__["data"][0]
+        )
         self.assertFalse(pixels.flags.owndata)
         with self.assertRaises(ValueError):
             pixels[0, 0, 0] = 1
@@ -250,7 +254,9 @@ class Images(unittest.TestCase):
     def test_rows_that_lie_apart_are_taken_as_they_are(self):
         whole = np.random.default_rng(2).random((8, 8, 4), np.float32)
         np.testing.assert_array_equal(crt.Image.from_pixels(whole[::2, :5]).pixels, whole[::2, :5])
-        np.testing.assert_array_equal(crt.Image.from_pixels(whole[3:4, 2:5]).pixels, whole[3:4, 2:5])
+        np.testing.assert_array_equal(
+            crt.Image.from_pixels(whole[3:4, 2:5]).pixels, whole[3:4, 2:5]
+        )
 
     def test_what_is_no_picture_is_refused(self):
         whole = np.zeros((4, 4, 4), np.float32)

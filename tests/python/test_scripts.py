@@ -1,4 +1,4 @@
-"""Scenes from scripts."""
+"""These tests make scenes from scripts."""
 
 import os
 import pathlib
@@ -27,13 +27,16 @@ class Scripts(unittest.TestCase):
         lines = []
         scene = crt.Scene.from_script(
             'n = 2\nname = "none"\nplaces = []\nSettings { width -> 7 }\n'
-            "Scene { print(n, name, places, t)\n for (p in places) { Sphere { center -> p radius -> n } } }",
+            "Scene { print(n, name, places, t)\n for (p in places) { Sphere { center -> p radius"
+            " -> n } } }",
             variables={"n": 3, "name": 'a "b"\n\\c', "places": [(0, 0, 0), (1.5, -2, 1e-20)]},
             settings={"width": 9, "title": "new"},
             t=4,
             print=lines.append,
         )
-        self.assertEqual((scene.settings.width, scene.settings.title, len(scene.entities)), (9, "new", 2))
+        self.assertEqual(
+            (scene.settings.width, scene.settings.title, len(scene.entities)), (9, "new", 2)
+        )
         self.assertEqual("\n".join(lines).split("[")[0], '3 a "b"\n\\c ')
         self.assertTrue(lines[-1].endswith(" 4"), lines)
 

@@ -1,4 +1,4 @@
-"""Several threads at once: the library runs without Python's lock."""
+"""These tests use several threads at once, as the library runs without Python's lock."""
 
 import concurrent.futures
 import threading
@@ -11,7 +11,7 @@ import crt
 
 
 def at_once(*functions):
-    """Runs all of them together; gives their results."""
+    """Runs all of them together, and returns their results."""
     barrier = threading.Barrier(len(functions))
 
     def run(function):
@@ -79,9 +79,9 @@ class Threads(unittest.TestCase):
         prepared = small_scene(100).prepare()
 
         def render():
-            told = []
-            prepared.render(progress=told.append)
-            return told[0], told[-1]
+            shares = []
+            prepared.render(progress=shares.append)
+            return shares[0], shares[-1]
 
         self.assertEqual(at_once(render, render, render), [(0, 1)] * 3)
 

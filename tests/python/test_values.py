@@ -1,4 +1,4 @@
-"""Materials, lights, cameras, backgrounds and settings."""
+"""These tests check materials, lights, cameras, backgrounds and settings."""
 
 import math
 import unittest
@@ -90,7 +90,9 @@ class Values(unittest.TestCase):
         del image
         painted = crt.Sphere((0, 0, 3), 1, material=material)
         self.assertIsInstance(material.pattern.image, crt.Image)
-        scene = crt.Scene([painted], [crt.Light.point(ambient=1)], settings=crt.Settings(width=9, height=9))
+        scene = crt.Scene(
+            [painted], [crt.Light.point(ambient=1)], settings=crt.Settings(width=9, height=9)
+        )
         self.assertGreater(scene.render().pixels[4, 4, 0], 0)
 
 
@@ -103,7 +105,9 @@ class SceneValues(unittest.TestCase):
             settings=crt.Settings(width=12, height=8, title="Größe", seed=2**64 - 1),
         )
         self.assertEqual(len(scene.entities), 1)
-        self.assertEqual([light.type for light in scene.lights], [crt.LightType.SPOT, crt.LightType.CYLINDER])
+        self.assertEqual(
+            [light.type for light in scene.lights], [crt.LightType.SPOT, crt.LightType.CYLINDER]
+        )
         self.assertEqual((scene.lights[0].angle, scene.lights[1].radius), (0.5, 0.25))
         self.assertEqual((scene.camera.position, scene.camera.roll), ((0, 0, -7), 0.25))
         settings = scene.settings

@@ -1,4 +1,5 @@
-// What a picture tells beside its colours (RenderOptions::aovs), against closed forms.
+// These tests compare what a picture reports beside its colours (RenderOptions::aovs) with closed
+// forms.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -19,10 +20,10 @@ namespace {
 constexpr Aovs all_aovs = {
     .depth = true, .normal = true, .id = true, .albedo = true, .samples = true, .error = true};
 constexpr float infinity = std::numeric_limits<float>::infinity();
-/// Of a float's rounding and a bit more.
+/// This is a float's rounding and a bit more.
 constexpr double float_rounding = 1e-6;
 
-/// An eye at (0, 0, -4) that looks along z.
+/// Makes a camera at (0, 0, -4) that looks along z.
 Scene scene_before_eye(int width, int height) {
   Scene scene = dark_scene();
   scene.settings.width = width;
@@ -63,7 +64,7 @@ bool is_near(const Vec3& a, const Vec3& b, double tolerance = float_rounding) {
   return glm::distance(a, b) <= tolerance;
 }
 
-/// The direction, of unit length, through a place of a picture of scene_before_eye.
+/// Returns the direction, of unit length, through a place of a picture of scene_before_eye.
 Vec3 direction_through(const Image& image, double x, double y) {
   const double tangent = std::tan(std::numbers::pi / 6);
   const double nx = 2 * x / image.width() - 1;
@@ -78,7 +79,7 @@ bool same_channels(const Image& a, const Image& b) {
                     });
 }
 
-/// Things of all kinds, behind a lens.
+/// Makes a scene of all kinds of things, behind a lens.
 Scene busy_scene() {
   Scene scene = scene_before_eye(45, 34);
   scene.settings.supersampling = 2;
@@ -103,13 +104,13 @@ TEST_CASE("nobody who does not ask gets channels, and the colours are the same f
   const Image plain = render(scene);
   CHECK(plain.channels().empty());
   CHECK(plain.channel("Z").empty());
-  const Image told = render(scene, {.aovs = all_aovs});
-  CHECK(same_pixels(plain, told));
-  CHECK(told.stats().camera_rays == plain.stats().camera_rays);
-  CHECK(told.channels().size() == 10);
+  const Image extended = render(scene, {.aovs = all_aovs});
+  CHECK(same_pixels(plain, extended));
+  CHECK(extended.stats().camera_rays == plain.stats().camera_rays);
+  CHECK(extended.channels().size() == 10);
 }
 
-TEST_CASE("each AOV is told by itself as with all others") {
+TEST_CASE("each AOV is the same by itself as with all others") {
   const PreparedScene scene = prepare(busy_scene());
   const Image all = render(scene, {.aovs = all_aovs});
   std::size_t count = 0;
@@ -160,7 +161,7 @@ TEST_CASE("a ball's depth, normal, id and albedo are those of the closed form") 
 }
 
 TEST_CASE(
-    "a plane is told from outside and from within: its normal is turned to the viewer, its id is "
+    "a plane is seen from outside and from within: its normal is turned to the viewer, its id is "
     "its place") {
   Scene scene = scene_before_eye(9, 9);
   for (const double facing : {-1.0, 1.0}) {
@@ -198,7 +199,7 @@ TEST_CASE("an ellipsoid's normal is that of its surface, not its sphere's") {
       ++hits;
       const Vec3 point = scene.camera.position +
                          depth_at(image, x, y) * direction_through(image, x + 0.5, y + 0.5);
-      // The gradient of (x/a)^2 + (y/b)^2 + (z/c)^2 = 1. Near the rim it turns fast.
+      // This is the gradient of (x/a)^2 + (y/b)^2 + (z/c)^2 = 1. Near the silhouette it turns fast.
       const Vec3 scaled = point / half_axes;
       CHECK(glm::dot(scaled, scaled) == doctest::Approx(1).epsilon(1e-5));
       CHECK(is_near(normal_at(image, x, y), glm::normalize(point / (half_axes * half_axes)), 1e-4));
@@ -224,7 +225,7 @@ TEST_CASE("a cut face has its cutter's material and the whole's id") {
 TEST_CASE("normal and albedo are means over a pixel's samples, depth and id those of its middle") {
   Scene scene = scene_before_eye(1, 1);
   scene.settings.supersampling = 4;
-  // Columns of samples are at -3/4, -1/4, 1/4 and 3/4 of the way to the picture's edge.
+  // Columns of samples are at -3/4, -1/4, 1/4 and 3/4 of the distance to the picture's edge.
   const double edge = 4 * std::tan(std::numbers::pi / 6);
   const Material red{.color = Color{1, 0, 0}};
   const Material blue{.color = Color{0, 0, 1}};
@@ -263,7 +264,7 @@ TEST_CASE("a lens blurs albedo as it blurs colours, and leaves depth and id shar
   int partly = 0;
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 24; ++x) {
-      // The ball is white and evenly lit: what its light is, its albedo is.
+      // The ball is white and evenly lit, so that its light equals its albedo.
       REQUIRE(albedo_at(image, x, y).x ==
               doctest::Approx(image.at(x, y).r).epsilon(float_rounding));
       partly += image.at(x, y).r > 0.1 && image.at(x, y).r < 0.9 ? 1 : 0;
@@ -287,7 +288,7 @@ TEST_CASE("the first surface counts, be it a mirror or glass") {
   }
 }
 
-TEST_CASE("seen through a medium that swallows all light a surface is still told") {
+TEST_CASE("seen through a medium that swallows all light a surface is still reported") {
   Scene scene = scene_before_eye(1, 1);
   Material ink = glass(1);
   ink.absorption = {1e6, 1e6, 1e6};
@@ -299,7 +300,7 @@ TEST_CASE("seen through a medium that swallows all light a surface is still told
   CHECK(is_near(albedo_at(image, 0, 0), {1, 0, 0}));
 }
 
-TEST_CASE("of surfaces at one place the one that is seen is told") {
+TEST_CASE("of surfaces at one place the one that is seen is reported") {
   Scene scene = scene_before_eye(1, 1);
   const Material red{.color = Color{1, 0, 0}};
   const Entity clear = Box{.corner_a = {-1, -1, 0}, .corner_b = {1, 1, 1}, .material = glass(1.5)};
@@ -385,7 +386,7 @@ TEST_CASE(
   const Image image = with_aovs(scene);
   for (int y = 0; y < 16; ++y) {
     for (int x = 0; x < 16; ++x) {
-      // White and evenly lit: what its light is, its albedo is.
+      // It is white and evenly lit, so that its light equals its albedo.
       REQUIRE(albedo_at(image, x, y).x == doctest::Approx(image.at(x, y).r).epsilon(1e-5));
     }
   }

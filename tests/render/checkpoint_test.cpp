@@ -1,4 +1,4 @@
-// Checkpoints: a picture goes on where it stopped, to the same picture, and only that one.
+// With a checkpoint a picture continues where it stopped, to the same picture, and only that one.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -72,7 +72,7 @@ TEST_CASE("a picture that is done is there at once") {
   CHECK(same_counts(again.stats(), reference.stats()));
 }
 
-TEST_CASE("many breaks, with other threads and a time budget, and what is told beside colours") {
+TEST_CASE("many breaks, with other threads and a time budget, and channels beside colours") {
   Scene description = varied_scene();
   const PreparedScene scene = prepare(description);
   const Aovs aovs{.normal = true, .albedo = true, .samples = true, .error = true};
@@ -127,7 +127,7 @@ TEST_CASE(
   const Aovs aovs{.normal = true, .samples = true, .error = true};
   const Image reference = render(scene, {.aovs = aovs});
   for (const int threads : {1, 2}) {
-    for (const int calls : {1, 2, 3, 5, 8}) {  // of the clock, which rays ask now and then
+    for (const int calls : {1, 2, 3, 5, 8}) {  // calls of the clock, which rays make now and then
       const TemporaryDirectory directory;
       const auto checkpoint = directory / "state";
       std::optional<Image> whole;
@@ -185,7 +185,7 @@ TEST_CASE(
     });
     rendering.run();
     CHECK(seconds_of_first > 0);
-    // With others, which ask for the time as well, it flies while the file is written.
+    // With other threads, which ask for the time as well, it flies while the file is written.
     if (threads == 1) CHECK(seconds_of_first <= 10);
     const Image reference = render(scene);
     CHECK(same_pixels(rendering.take(), reference));
@@ -318,7 +318,7 @@ TEST_CASE("nonsense with a right checksum does no harm") {
   }
 }
 
-TEST_CASE("where no checkpoint can be written the picture is the same, and the log is told") {
+TEST_CASE("where no checkpoint can be written the picture is the same, and the log says so") {
   const PreparedScene scene = prepare(varied_scene());
   int warnings = 0;
   const Image image = render(

@@ -1,4 +1,4 @@
-// A scene pays only for what it uses: the counts say so.
+// A scene pays only for what it uses, as the counts show.
 #include <doctest/doctest.h>
 
 #include "pictures.hpp"
@@ -57,13 +57,13 @@ TEST_CASE("a shadow ray is sent only where the light would count") {
   };
   CHECK(shadow_rays(ParallelLight{}) > 0);
   CHECK(shadow_rays(ParallelLight{}) < pixels);
-  // From below the floor it lights nothing that is seen; black light, and a cone that looks away,
-  // too.
+  // From below the floor a light reaches nothing that is seen. Nor does black light, or a cone that
+  // points away.
   CHECK(shadow_rays(ParallelLight{.from = {0, -1, 0}, .pointing = {0, 0, 0}}) <
         shadow_rays(ParallelLight{}));
   CHECK(shadow_rays(PointLight{.origin = {0, 5, 0}, .color = {0, 0, 0}}) == 0);
   CHECK(shadow_rays(SpotLight{.origin = {0, 5, 0}, .pointing = {0, 6, 0}}) == 0);
-  // Nor does a surface ask that answers no light.
+  // A surface that answers no light asks for none either.
   scene = small_scene(inert());
   CHECK(shadow_rays(PointLight{.origin = {0, 5, 0}, .ambient = 1}) == 0);
 }
@@ -90,8 +90,8 @@ TEST_CASE("mirrors cost reflection rays, glass refraction rays and media") {
 }
 
 TEST_CASE(
-    "what surrounds the camera is looked up once a picture, or for each ray where they start "
-    "apart") {
+    "what surrounds the camera is looked up once a picture, or for each ray where their starts "
+    "differ") {
   Scene scene = small_scene(glass(1.5));
   CHECK(stats_of(scene).media_lookups == 1);
   scene.camera.projection = Projection::spherical;

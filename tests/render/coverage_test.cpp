@@ -1,6 +1,6 @@
-// Whether the half-width that is told of a pixel keeps its promise: in each class of pixels by
-// itself, where the renderer stopped, against references with many more samples. And what cutting
-// off paths takes.
+// These tests check whether the half-width that is claimed for a pixel keeps its promise, in each
+// class of pixels by itself, where the renderer stopped, against references with many more samples.
+// They also check what cutting off paths takes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,7 +28,7 @@ struct PixelClass {
 Scene white_on_black() {
   Scene scene = dark_scene();
   scene.settings.width = scene.settings.height = side;
-  // Pixels of size 1.
+  // Pixels have size 1.
   scene.camera = {.position = {0, 0, -40},
                   .fov = 2 * std::atan(side / 2.0),
                   .projection = Projection::orthographic,
@@ -107,7 +107,7 @@ TEST_CASE("the bound of Clopper and Pearson is as in tables") {
 }
 
 TEST_CASE("in every class of pixels 95 of 100 are as near the truth as they say") {
-  // The reference's own error, and rounding.
+  // This covers the reference's own error, and rounding.
   constexpr double tolerance = 0.1 / 255;
   for (PixelClass& pixels : std::array{flat_pixels(), edge_pixels(), thin_pixels(),
                                        defocused_pixels(), refractive_pixels()}) {

@@ -1,5 +1,4 @@
-// Many things at one place: in the picture they are what they are once, or what they are one by
-// one.
+// Many things at one place look as one does, or as they do one by one.
 #include <doctest/doctest.h>
 
 #include <random>
@@ -93,8 +92,7 @@ TEST_CASE("a picture whose rays take too many steps is an error, at any number o
 TEST_CASE(
     "light through tens of thousands of absorbing solids that overlap costs no square of their "
     "number") {
-  // Each is left in the order in which they are entered; what was kept before were lists of all,
-  // for each.
+  // Each ball is left in the order in which they are entered.
   std::vector<Entity> balls;
   const SharedMaterial clear =
       Material{.color = grey(1), .transparency = 1, .absorption = {1e-6, 1e-6, 1e-6}};
@@ -108,12 +106,12 @@ TEST_CASE(
   CHECK(image.stats().shadow_rays > 0);
 }
 
-TEST_CASE("the media on a way are those that lists of them give, however solids overlap") {
+TEST_CASE("the media along a ray are those that lists of them give, however solids overlap") {
   std::mt19937 random(18);
   for (int trial = 0; trial < 3000; ++trial) {
     const auto count = std::uint32_t{1} + random() % (trial % 10 == 0 ? 60 : 8);
     std::vector<RayHit> crossings;
-    std::vector<double> beyond(count, 0);  // where a solid is left that is not left on the way
+    std::vector<double> beyond(count, 0);  // where a solid is left that is not left before
     std::vector<std::uint32_t> around;
     const auto any_t = [&] { return static_cast<double>(random() % 40); };
     for (std::uint32_t object = 0; object < count; ++object) {
@@ -156,23 +154,23 @@ TEST_CASE("the media on a way are those that lists of them give, however solids 
       const std::vector<double>& beyond_;
     };
     const Line line(beyond);
-    MediaAlongRay way;
-    way.begin(crossings, line);
-    for (const std::uint32_t object : around) way.surround({object, 0});
+    MediaAlongRay along;
+    along.begin(crossings, line);
+    for (const std::uint32_t object : around) along.surround({object, 0});
     for (std::size_t i = 0; i < crossings.size(); ++i) {
       const Medium medium{crossings[i].object, static_cast<std::uint32_t>(i)};
       if (crossings[i].entering) {
         list = entered_in_order(lists, list, medium,
                                 [&](std::uint32_t object) { return exit_after(i + 1, object); });
-        way.enter(medium, i + 1);
+        along.enter(medium, i + 1);
       } else {
         list = lists.left(list, medium.object);
-        way.leave(medium.object);
+        along.leave(medium.object);
       }
-      REQUIRE(way.empty() == (list == MediaLists::empty));
-      if (way.empty()) continue;
-      REQUIRE(way.innermost().object == lists.innermost(list).object);
-      REQUIRE(way.innermost().material == lists.innermost(list).material);
+      REQUIRE(along.empty() == (list == MediaLists::empty));
+      if (along.empty()) continue;
+      REQUIRE(along.innermost().object == lists.innermost(list).object);
+      REQUIRE(along.innermost().material == lists.innermost(list).material);
     }
   }
 }

@@ -1,4 +1,4 @@
-// How a render behaves towards the program that asks for it.
+// These tests check how a render behaves towards the program that asks for it.
 #include <doctest/doctest.h>
 #include <xmmintrin.h>
 
@@ -177,7 +177,8 @@ TEST_CASE("the host's floating-point mode has no influence, and is there again a
   const Ray ray{.origin = {0, 1, -4}, .direction = {0, 0, 1}};
   const auto hit = intersect(scene, ray);
   const unsigned before = _mm_getcsr();
-  // Flush to zero, denormals are zero, round towards zero; all exceptions masked, one flag raised.
+  // The control word flushes to zero, takes denormals for zero and rounds towards zero. All
+  // exceptions are masked, and one flag is raised.
   const unsigned odd = 0x8040u | 0x6000u | 0x1f80u | 0x0004u;
   for (const int threads : {0, 1, 3}) {
     _mm_setcsr(odd);
@@ -231,7 +232,7 @@ TEST_CASE(
   CHECK(warnings[0].find("(0, 0)") != std::string::npos);
   CHECK(picture.at(4, 0) == Color{0, 0.5, 0.25, 1});
 
-  // A picture that is known to have had some in its file.
+  // This picture is known to have had some in its file.
   auto read = std::make_shared<Image>(8, 4);
   read->set_not_finite({.file = "sky.exr", .pixels = 1, .x = 3, .y = 2});
   scene.background = PanoramaBackground{.image = read};

@@ -1,4 +1,4 @@
-// Renders on a thread of their own, and batches of ray queries.
+// These tests render on a thread of their own, and ask batches of ray queries.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -154,7 +154,7 @@ TEST_CASE("where t would pass the largest number there is no hit for any questio
 }
 
 TEST_CASE("a mesh is a surface whose triangles share their corners without a gap") {
-  // A square of two triangles, and a fan about its middle in front of it.
+  // This is a square of two triangles, and a fan about its middle in front of it.
   const std::vector<Vec3> positions = {{-1, -1, 0}, {1, -1, 0}, {1, 1, 0}, {-1, 1, 0}, {0, 0, -1}};
   const std::vector<TriangleIndices> triangles = {{0, 1, 2}, {0, 2, 3}, {0, 1, 4}, {1, 2, 4},
                                                   {2, 3, 4}, {3, 0, 4}, {0, 0, 1}};

@@ -1,4 +1,4 @@
-// What a lit surface looks like, against the formulas computed here once more.
+// These tests compare lit surfaces with the formulas, which are computed here once more.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -28,13 +28,13 @@ TEST_CASE("a lit sphere has the ambient, diffuse and specular light of the formu
                           .diffuse = 0.7,
                           .specular = 0.5,
                           .shininess = 12};
-  const PointLight lamp{
+  const PointLight light{
       .origin = {3, 4, -5}, .color = {1, 0.9, 0.8}, .falloff = 60, .ambient = 0.1};
   const Vec3 eye(0, 0, -6);
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 0;
   scene.entities = {Sphere{.center = {0, 0, 0}, .radius = 2, .material = material}};
-  scene.lights = {lamp};
+  scene.lights = {light};
 
   for (const FalloffModel model : {FalloffModel::path, FalloffModel::light}) {
     scene.settings.falloff_model = model;
@@ -42,11 +42,11 @@ TEST_CASE("a lit sphere has the ambient, diffuse and specular light of the formu
          {Vec3(0, 0, -1), Vec3(0.6, 0, -0.8), Vec3(0, 0.6, -0.8), Vec3(-0.48, -0.6, -0.64)}) {
       const Vec3 point = 2.0 * normal;
       const Vec3 view = glm::normalize(point - eye);
-      const Vec3 to_lamp = lamp.origin - point;
-      const Vec3 l = glm::normalize(to_lamp);
-      const double way =
-          glm::length(to_lamp) + (model == FalloffModel::path ? glm::length(point - eye) : 0);
-      const double intensity = 60 / (way * way);
+      const Vec3 to_light = light.origin - point;
+      const Vec3 l = glm::normalize(to_light);
+      const double distance =
+          glm::length(to_light) + (model == FalloffModel::path ? glm::length(point - eye) : 0);
+      const double intensity = 60 / (distance * distance);
       const double cosine = std::max(0.0, glm::dot(l, normal));
       const Vec3 reflected = 2 * glm::dot(l, normal) * normal - l;
       const double highlight =
@@ -70,7 +70,8 @@ TEST_CASE("the diffuse strength defaults to what is neither mirrored nor let thr
 }
 
 TEST_CASE("the path to a light goes over all mirrors on the way") {
-  // Eye to mirror 3, mirror to wall 5, wall to lamp 4: the lamp's share is 288 / 12^2 = 2.
+  // It is 3 from camera to mirror, 5 from mirror to wall, 4 from wall to light: the light's share
+  // is 288 / 12^2 = 2.
   Scene scene = dark_scene();
   scene.lights = {PointLight{.origin = {0, 0, -1}, .falloff = 288}};
   scene.entities = {
@@ -115,7 +116,7 @@ TEST_CASE("the inside of an opaque solid is lit by a light inside") {
   check_color(seen(scene, {0, 0, 0.5}, {0, 0, 1}), 1, 1, 1);
 }
 
-TEST_CASE("light is tinted at each crossing of its way, and absorbed by the length inside") {
+TEST_CASE("light is tinted at each crossing of its path, and absorbed by the length inside") {
   const Material stained{
       .color = Color{1, 0.5, 0.25}, .transparency = 0.8, .absorption = {0.1, 0.2, 0.4}};
   Scene scene = dark_scene();
@@ -145,7 +146,7 @@ TEST_CASE("inside nested solids the innermost absorbs") {
 }
 
 TEST_CASE("light that starts in a medium is absorbed from there") {
-  // The lamp hangs in the same water as the lit floor: both ways count.
+  // The light is in the same water as the lit floor, so both distances count.
   Scene scene = dark_scene();
   scene.lights = {PointLight{.origin = {0, 3, 0}}};
   scene.entities = {
@@ -166,17 +167,16 @@ TEST_CASE("the gaps of a pattern let light through") {
   scene.entities = {
       Plane{.normal = {0, 0, -1}, .position = {0, 0, 5}, .material = Material{.color = grey(1)}},
       Disc{.center = {0, 0, 0.5}, .normal = {0, 0, -1}, .radius = 9, .material = lattice}};
-  // Seen from the side under the lattice, points behind a filled and an open square.
+  // Seen from the side under the lattice, these are points behind a filled and an open square.
   check_color(seen(scene, {20, 0.5, 4}, {0.5, 0.5, 5}), 0, 0, 0);
   check_color(seen(scene, {20, 0.5, 4}, {1.5, 0.5, 5}), 1, 1, 1);
-  // Seen through: the filled square is lit itself, the open one shows the plane.
+  // Seen through the lattice, the filled square is lit itself, and the open one shows the plane.
   CHECK(look(scene, {0.5, 0.5, -3}, {0.5, 0.5, 5}).stats().refraction_rays == 0);
   CHECK(look(scene, {1.5, 0.5, -3}, {1.5, 0.5, 5}).stats().refraction_rays == 1);
   check_color(seen(scene, {1.5, 0.5, -3}, {1.5, 0.5, 5}), 1, 1, 1);
 }
 
-TEST_CASE(
-    "a bump tilts the normal by the slope of its height, also on an entity that is stretched") {
+TEST_CASE("a bump tilts the normal by the slope of its height, also on an entity that is scaled") {
   // The bump's height is 0.2 (0.5 + 0.5 cos(2 pi x)) in the entity's space.
   const Material bumpy{
       .color = grey(1), .bump = Gradient{.direction = {1, 0, 0}}, .bump_height = 0.2};

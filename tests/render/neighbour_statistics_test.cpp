@@ -1,4 +1,4 @@
-// What is seen reaches the pixels around, whichever tiles they are in.
+// What a pixel sees reaches the pixels around, whichever tiles they are in.
 #include "core/render/neighbour_statistics.hpp"
 
 #include <doctest/doctest.h>
@@ -12,7 +12,7 @@ using crt::Region;
 
 namespace {
 
-/// Pixels of a tile that all see black, but one that sees white; of two samples each.
+/// Makes the pixels of a tile that all see black, but one that sees white, of two samples each.
 std::vector<PixelSamples> tile_with_white(const Region& tile, std::size_t white) {
   std::vector<PixelSamples> pixels(pixel_count(tile));
   for (std::size_t i = 0; i < pixels.size(); ++i) {

@@ -1,4 +1,4 @@
-// The small parts that rendering is made of.
+// These tests check the small parts that rendering is made of.
 #include <doctest/doctest.h>
 
 #include <set>

@@ -1,4 +1,5 @@
-// Rendering pass by pass: the same bytes however it is done, and what is said of the pixels.
+// Rendering pass by pass gives the same bytes on any number of threads and tiles, and reports what
+// is known of the pixels.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -15,7 +16,7 @@ using namespace crt::test;
 
 namespace {
 
-/// A white disc before black: every pixel but those of its edge is of one colour.
+/// Makes a white disc before black. Every pixel but those of its edge has one colour.
 Scene disc_scene(int size) {
   Scene scene = dark_scene();
   scene.settings.width = scene.settings.height = size;
@@ -37,7 +38,7 @@ bool same_part(const Image& part, int left, int top, const Image& whole) {
   return true;
 }
 
-/// The same of what is known of the pixels in a part of a picture that is so wide.
+/// Says whether what is known of the pixels in a part of a picture with this width is the same.
 bool same_part(const core::PixelMeasures& part, const Region& region,
                const core::PixelMeasures& whole, int width) {
   for (int y = 0; y < region.height; ++y) {
@@ -51,7 +52,7 @@ bool same_part(const core::PixelMeasures& part, const Region& region,
   return true;
 }
 
-/// A clock that is one second further each time one looks.
+/// Returns a clock that is one second further at each reading.
 core::PassClock::Seconds ticking_clock() {
   return [now = 0.0]() mutable { return now++; };
 }
@@ -106,8 +107,8 @@ TEST_CASE("pass by pass, it makes no difference where the tiles meet that thread
 }
 
 TEST_CASE("a pixel goes on for what is seen beside it in another tile") {
-  // The edge of a white wall goes between the pixels 15 and 16, which none of their samples can
-  // see.
+  // The edge of a white wall lies between the pixels 15 and 16, where none of their samples can see
+  // it.
   Scene scene = disc_scene(32);
   scene.camera.projection = Projection::orthographic;
   scene.entities = {Box{.corner_a = {0, -9, 0}, .corner_b = {9, 9, 1}, .material = inert()}};
@@ -134,7 +135,7 @@ TEST_CASE("the pass count that a picture tells gives the same picture, whatever 
     first.run();
     const Image timed = first.take();
     const int passes = timed.stats().passes;
-    // The first eight come in one, and as long as all of the others are of one size the end is
+    // The first eight passes come in one. As long as all of the others are of one size the end is
     // within half a pass.
     if (budget < 50) CHECK(passes == 7 + std::max(1, static_cast<int>(std::floor(budget + 0.5))));
     if (budget > 50) CHECK(passes > 50);
@@ -209,7 +210,7 @@ TEST_CASE("samples go where they are needed") {
 }
 
 TEST_CASE("what is smaller than a pixel is found beside what has been seen of it") {
-  // A wire a 12th of a pixel wide, nearly level: every pixel along it must have its share.
+  // A wire is a 12th of a pixel wide, nearly level, and every pixel along it must have its share.
   Scene scene = dark_scene();
   scene.settings.width = 40;
   scene.settings.height = 9;
@@ -242,7 +243,8 @@ TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it 
                   .projection = Projection::orthographic,
                   .focal_distance = 1};
   scene.lights = {glow(1)};
-  // Through corners of pixels, where all around see little of them: cylinders, cones and boxes.
+  // These cylinders, cones and boxes go through corners of pixels, where all pixels around see
+  // little of them.
   const double width = 0.07;
   for (int i = 0; i < 3; ++i) {
     const double rise = 0.5 + 0.2 * i;
@@ -257,7 +259,7 @@ TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it 
       scene.entities.push_back(bar.transformed(rotate({0, 0, 41})));
     }
   }
-  // A needle, wider than a pixel where it begins.
+  // A needle is wider than a pixel where it begins.
   scene.entities.push_back(Cone{{-24, 22, 0}, {24, 11.3, 0}, 0.6, 0.01, inert()});
   scene.settings.supersampling = 32;
   const Image truth = render(prepare(scene));
@@ -290,7 +292,7 @@ TEST_CASE("no ball that covers more than a 20th of a pixel vanishes") {
                   .projection = Projection::orthographic,
                   .focal_distance = 1};
   scene.lights = {glow(1)};
-  // In the middle of every fifth pixel, where no neighbour sees any of it.
+  // These are in the middle of every fifth pixel, where no neighbour sees any of them.
   for (int y = -2; y <= 2; ++y) {
     for (int x = -2; x <= 2; ++x) {
       const double radius = std::sqrt(0.055 / std::numbers::pi);

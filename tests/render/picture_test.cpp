@@ -1,4 +1,5 @@
-// Whole pictures: sampling, symmetry, the same bytes however they are made.
+// These tests check whole pictures: sampling, symmetry, and that the bytes are equal however they
+// are made.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -12,7 +13,7 @@ using namespace crt::test;
 
 namespace {
 
-/// A scene with a bit of everything.
+/// Makes a scene with a bit of everything.
 Scene busy_scene() {
   Scene scene;
   scene.settings.width = 45;
@@ -142,7 +143,8 @@ TEST_CASE("a scene that is its own mirror image gives a picture that is too") {
 
 namespace {
 
-/// A scene of spheres, boxes, planes, CSG and a lens, every length of it multiplied by `unit`.
+/// Makes a scene of spheres, boxes, planes, CSG and a lens, every length of it multiplied by
+/// `unit`.
 Scene scaled_scene(double unit) {
   Scene scene = busy_scene();
   scene.settings.supersampling = 1;
@@ -202,7 +204,8 @@ TEST_CASE("supersampling is the mean over a grid of subpixel centres") {
 }
 
 TEST_CASE("a point out of focus is blurred into a disc of radius aperture |z - f| / z") {
-  // The ball at twice the focal distance; on the focal plane the blur has half the lens's radius.
+  // The ball is at twice the focal distance. On the focal plane the blur has half the lens's
+  // radius.
   const double lens_radius = 0.2;
   const double focal_distance = 2;
   const double distance = 4;

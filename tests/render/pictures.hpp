@@ -1,4 +1,4 @@
-// Small pictures for tests whose pixels are known by hand.
+// These are small pictures for tests whose pixels are known by hand.
 #pragma once
 
 #include <crt/render.hpp>
@@ -7,7 +7,7 @@
 
 namespace crt::test {
 
-/// What every scene here starts from: black all around and no limit on weights.
+/// Makes the scene that every other here starts from: black all around and no limit on weights.
 inline Scene dark_scene() {
   Scene scene;
   scene.background = SolidBackground{{0, 0, 0}};
@@ -15,7 +15,7 @@ inline Scene dark_scene() {
   return scene;
 }
 
-/// The picture of one pixel, whose only ray goes from `eye` to `target`.
+/// Returns the picture of one pixel, whose only ray goes from `eye` to `target`.
 inline Image look(Scene scene, const Vec3& eye, const Vec3& target) {
   scene.settings.width = 1;
   scene.settings.height = 1;
@@ -28,37 +28,39 @@ inline Color seen(const Scene& scene, const Vec3& eye, const Vec3& target) {
   return look(scene, eye, target).at(0, 0);
 }
 
-/// Whether two pictures have the same bytes.
+/// Says whether two pictures have the same bytes.
 inline bool same_pixels(const Image& a, const Image& b) {
   return a.width() == b.width() && a.height() == b.height() &&
          std::memcmp(a.pixels().data(), b.pixels().data(), a.pixels().size_bytes()) == 0;
 }
 
-/// A light that only has an ambient share: every surface that mirrors nothing is `level` bright.
+/// Makes a light that only has an ambient share. Every surface that mirrors nothing is `level`
+/// bright.
 inline Light glow(double level) {
   return ParallelLight{
       .from = {0, 0, 0}, .pointing = {0, 1e-3, 0}, .color = grey(level), .ambient = 1};
 }
 
-/// A material that answers no light but the ambient one.
+/// Makes a material that answers no light but the ambient one.
 inline Material inert(double reflectivity = 0, double transparency = 0) {
   return {
       .color = grey(1), .reflectivity = reflectivity, .transparency = transparency, .diffuse = 0};
 }
 
-/// Clear glass.
+/// Makes clear glass.
 inline Material glass(double refractive_index) {
   return {.color = grey(1), .transparency = 1, .refractive_index = refractive_index, .diffuse = 0};
 }
 
-/// A panorama that is `up` above the horizon and `down` below it, but for a thin blend.
+/// Makes a panorama that is `up` above the horizon and `down` below it, but for a thin blend.
 inline PanoramaBackground two_halves(const Color& up, const Color& down) {
   auto image = std::make_shared<Image>(1, 64);
   for (int y = 0; y < 64; ++y) image->set(0, y, y < 32 ? up : down);
   return {.image = image};
 }
 
-/// For target errors: curved silhouettes, glass, a mirror, a shadow, a checked floor and a lens.
+/// Makes a scene for target errors: curved silhouettes, glass, a mirror, a shadow, a checked floor
+/// and a lens.
 inline Scene varied_scene() {
   Scene scene;
   scene.settings = {

@@ -1,4 +1,4 @@
-// What Settings::precision changes of ray queries and renders.
+// These tests check what Settings::precision changes of ray queries and renders.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +18,7 @@ Scene exact_scene() {
   return scene;
 }
 
-/// Turns and scales without rounding: (x, y) becomes (3x - 4y, 4x + 3y), z becomes 5z.
+/// This turns and scales without rounding: (x, y) becomes (3x - 4y, 4x + 3y), and z becomes 5z.
 const Transform turned_by_345{{3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};
 
 }  // namespace
@@ -35,9 +35,10 @@ TEST_CASE("exact: a ray past a turned ball hits by one ulp, or misses") {
   CHECK_FALSE(hits(std::nextafter(3, 4)));
 }
 
-TEST_CASE("exact: crossings whose t is the same double are told apart, and equal ones are not") {
+TEST_CASE("exact: crossings whose t is the same double are distinguished, and equal ones are not") {
   Scene scene = exact_scene();
-  // From so far that t has no bits left for a difference of 2^-20 at the slab's two faces.
+  // The ray comes from so far that t has no bits left for a difference of 2^-20 at the slab's two
+  // faces.
   scene.entities.push_back(Entity(Box{.corner_a = {-1, -1, 0}, .corner_b = {1, 1, 0x1p-20}}) -
                            Entity(Box{.corner_a = {-2, -2, -1}, .corner_b = {2, 2, 0}}));
   scene.entities.push_back(Entity(Box{.corner_a = {9, -1, 0}, .corner_b = {11, 1, 1}}) -

@@ -1,4 +1,5 @@
-// What queries say of a surface at the start of a ray: crt/query.hpp has the promise.
+// These tests check what queries report of a surface at the start of a ray. crt/query.hpp has the
+// promise.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -35,13 +36,13 @@ class Chance {
   std::mt19937_64 source_{7};
 };
 
-/// A primitive and a point of its surface, as one computes it.
+/// OnSurface is a primitive and a computed point of its surface.
 struct OnSurface {
   Entity entity;
   Vec3 point;
 };
 
-/// Of about the given size, in a place and position of chance.
+/// Makes surfaces of about the given size, in a random place and position.
 std::array<OnSurface, 6> surfaces(Chance& chance, double r) {
   const Vec3 c = std::pow(10, chance.between(-2, 4)) * chance.direction();
   const Vec3 n = chance.direction();
@@ -61,7 +62,7 @@ std::array<OnSurface, 6> surfaces(Chance& chance, double r) {
        {Disc{.center = c, .normal = n, .radius = r}, c + r * along * around}}};
 }
 
-/// What four queries say alike: how far the nearest hit is.
+/// Returns how far the nearest hit is, which four queries agree on.
 double nearest(const PreparedScene& scene, const Ray& ray) {
   const std::optional<Hit> hit = intersect(scene, ray);
   const double t = hit ? hit->t : infinity;
@@ -75,7 +76,7 @@ double nearest(const PreparedScene& scene, const Ray& ray) {
   return t;
 }
 
-/// The crossing that is nearest to the origin, before or behind it, if no other is near.
+/// Returns the crossing that is nearest to the origin, before or behind it, if no other is near.
 std::optional<Hit> crossing_at_start(const PreparedScene& exact, const Ray& ray, double near) {
   const std::vector<Hit> all =
       crossings(exact, {.origin = ray.origin, .direction = ray.direction, .t_min = -infinity});
@@ -96,7 +97,7 @@ TEST_CASE(
     "tier") {
   Chance chance;
   int passed = 0;
-  int told = 0;
+  int met = 0;
   for (int i = 0; i < 400; ++i) {
     const double size = std::pow(10, chance.between(-2, 2));
     for (const OnSurface& on : surfaces(chance, size)) {
@@ -118,9 +119,9 @@ TEST_CASE(
       CHECK((nearest(exact, ray) < near) == (at_start->t > 0));
       if (across <= 0) CHECK_FALSE(meets);
       if (across > 32 * u * extent) CHECK(meets);
-      if (across > 0) ++(meets ? told : passed);
+      if (across > 0) ++(meets ? met : passed);
     }
   }
   CHECK(passed > 100);
-  CHECK(told > 100);
+  CHECK(met > 100);
 }

@@ -23,7 +23,7 @@ PreparedScene two_balls() {
   return prepare(scene);
 }
 
-/// Small things of several kinds side by side, some behind others.
+/// Makes small things of several kinds side by side, some behind others.
 PreparedScene many_kinds() {
   Scene scene;
   std::mt19937_64 random(5);
@@ -135,7 +135,7 @@ TEST_CASE("a ray without a direction or with a number that is none is refused, a
   CHECK(rejected({.t_max = nan}) == "t_max");
 }
 
-TEST_CASE("the first ray of many that is refused is told") {
+TEST_CASE("the first ray of many that is refused is named") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const double inf = std::numeric_limits<double>::infinity();
   const double largest = std::numeric_limits<double>::max();
@@ -146,7 +146,7 @@ TEST_CASE("the first ray of many that is refused is told") {
                                     Ray{.direction = {0, inf, 1}},
                                     Ray{.t_min = nan},
                                     Ray{.t_max = nan}};
-  // What is as large, or as empty, as can be is not refused.
+  // Rays as large, or as empty, as can be are not refused.
   const std::array<Ray, 3> extreme = {
       Ray{.origin = {largest, -largest, largest}, .direction = {largest, 0, 0}},
       Ray{.direction = {0, 0, 5e-324}}, Ray{.t_min = inf, .t_max = -inf}};

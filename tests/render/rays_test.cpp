@@ -1,4 +1,4 @@
-// Where rays go: mirrors, glass, media, depth.
+// These tests check where rays go: mirrors, glass, media, depth.
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -22,7 +22,7 @@ double reflectance(double angle, double n) {
   return 0.5 * (across * across + within * within);
 }
 
-/// A slab of glass from y = 0 down to -thickness.
+/// Makes a slab of glass from y = 0 down to -thickness.
 Entity slab(double thickness, const Material& material) {
   return Box{.corner_a = {-100, -thickness, -100}, .corner_b = {100, 0, 100}, .material = material};
 }
@@ -168,15 +168,16 @@ TEST_CASE("a medium without end swallows what it absorbs, and only that") {
 }
 
 TEST_CASE("a ray that leaves an inner solid is back in the outer one") {
-  // Straight through an air bubble in glass: four boundaries, each with the same share.
+  // The ray goes straight through an air bubble in glass, which has four boundaries with the same
+  // share.
   const double f = straight_on_reflectance(1.5, 1);
   Scene scene = dark_scene();
   scene.background = SolidBackground{{1, 1, 1}};
   scene.settings.recursion_depth = 4;
   scene.entities = {Box{.corner_a = {-2, -2, -2}, .corner_b = {2, 2, 2}, .material = glass(1.5)},
                     Box{.corner_a = {-1, -1, -1}, .corner_b = {1, 1, 1}, .material = glass(1)}};
-  // Besides the straight way, light of up to four bounces: mirrored at the front, or once inside
-  // and back out of the front.
+  // Besides the straight path, there is light of up to four bounces: mirrored at the front, or once
+  // inside and back out of the front.
   const double through = std::pow(1 - f, 4);
   const double from_front = f;
   const double from_bubble = (1 - f) * f * (1 - f);
@@ -207,14 +208,15 @@ TEST_CASE("a hollow cut into glass looks like a bubble of index 1 in it") {
 }
 
 TEST_CASE("solids that merely overlap are media one after the other") {
-  // Index 1.5 for the whole way through both: no boundary inside reflects.
+  // The index is 1.5 along the whole path through both, so no boundary inside reflects.
   const double f = straight_on_reflectance(1.5, 1);
   Scene scene = dark_scene();
   scene.background = SolidBackground{{1, 1, 1}};
   scene.settings.recursion_depth = 4;
   scene.entities = {Box{.corner_a = {-2, -2, -2}, .corner_b = {2, 2, 1}, .material = glass(1.5)},
                     Box{.corner_a = {-2, -2, -1}, .corner_b = {2, 2, 2}, .material = glass(1.5)}};
-  // Straight through; mirrored at the front. What comes back from the far side needs 6 bounces.
+  // Light comes straight through and mirrored at the front. What comes back from the far side needs
+  // 6 bounces.
   check_level(seen(scene, {0, 0, -5}, {0, 0, 0}), (1 - f) * (1 - f) + f);
 }
 
@@ -288,12 +290,13 @@ TEST_CASE("a ray is followed that a bright surface can still make matter") {
   scene.entities = {Disc{.normal = {0, 0, -1}, .material = dark},
                     Disc{.center = {0, 0, 1}, .normal = {0, 0, -1}, .material = bright}};
   CHECK(seen(scene, {0, 0, -1}, {0, 0, 0}).r == 2);
-  // Not where it can pass no such surface any more: the cut-off is what it might have brought.
+  // A ray is not followed where it can pass no such surface any more. The cut-off is what it might
+  // have brought.
   scene.settings.recursion_depth = 1;
   const Image cut = look(scene, {0, 0, -1}, {0, 0, 0});
   CHECK(cut.at(0, 0) == Color{0, 0, 0, 1});
   CHECK(cut.stats().rays_below_min_weight == 1);
-  // Nor where even that is not enough.
+  // Nor is it where even that is not enough.
   scene.settings.recursion_depth = 2;
   scene.settings.min_weight = 1;
   dark.color = Color{0.004, 0, 0};
@@ -305,8 +308,8 @@ TEST_CASE("a ray is followed that a bright surface can still make matter") {
 }
 
 TEST_CASE(
-    "light stays a number however many surfaces brighten it, on its way to the eye and from a "
-    "lamp") {
+    "light stays a number however many surfaces brighten it, on its path to the camera and from "
+    "a light") {
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 256;
   scene.settings.min_weight = 1.0 / 1024;
@@ -325,7 +328,7 @@ TEST_CASE(
   scene.background = SolidBackground{{1e30, 0, 0}};
   check_numbers(look(scene, {0, 0, -1}, {0, 0, 0}));
   CHECK(look(scene, {0, 0, -1}, {0, 0, 0}).at(0, 0).b == 0);
-  // And before a wall that a lamp lights through them.
+  // A wall before them is lit through them by a light.
   scene.background = SolidBackground{{0, 0, 0}};
   scene.lights = {PointLight{.origin = {0, 0, -1}, .color = {1e30, 0, 1e30}}};
   Material wall;
@@ -336,7 +339,8 @@ TEST_CASE(
 }
 
 TEST_CASE("a sample that could go on for ever is bounded") {
-  // Every hit mirrors everything and lets everything through: 2^250 rays, if nobody stopped them.
+  // Every hit mirrors everything and lets everything through. That makes 2^250 rays without a
+  // limit.
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 250;
   scene.entities = {

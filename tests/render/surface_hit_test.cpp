@@ -1,4 +1,4 @@
-// Hits that are looked up side by side are what each is by itself.
+// Hits that are looked up side by side equal what each is by itself.
 #include "core/render/surface_hit.hpp"
 
 #include <doctest/doctest.h>
@@ -35,7 +35,7 @@ std::vector<Material> materials() {
           {.color = grey(1), .bump = picture, .bump_height = 0.05}};
 }
 
-/// Solids of all these materials, as they are, moved, turned, and cut from one another.
+/// Makes solids of all these materials, as they are, moved, turned, and cut from one another.
 Scene solids(Numbers& numbers) {
   Scene scene;
   for (const Material& material : materials()) {
@@ -120,7 +120,7 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
     Workspace work;
     SurfaceGroup group;
     for (int i = 0; i < 500; ++i) {
-      // Close to one another, so that some of them hit the same thing.
+      // The rays are close to one another, so that some of them hit the same thing.
       std::array<WorldRay, lane_count> rays;
       std::array<RayHit, lane_count> hits;
       const Vec3 origin = numbers.point(8);
@@ -143,7 +143,7 @@ TEST_CASE("hits looked up side by side are what each is by itself, to the last b
   }
 }
 
-TEST_CASE("what a way through a medium leaves of light is right at all lengths") {
+TEST_CASE("what a path through a medium leaves of light is right at all lengths") {
   const auto left = [](const Color& absorption, double length) {
     TexturePool textures(1);
     const PreparedMaterial medium(Material{.absorption = absorption}, textures);

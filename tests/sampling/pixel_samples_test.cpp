@@ -1,4 +1,4 @@
-// What is known of a pixel from its samples.
+// These tests check what is known of a pixel from its samples.
 #include "core/sampling/pixel_samples.hpp"
 
 #include <doctest/doctest.h>
@@ -20,7 +20,7 @@ struct OneSample {
   double dropped = 0;
 };
 
-/// Gives a pixel that has `count` samples the sum of its next step of them; what they show goes
+/// Gives a pixel that has `count` samples the sum of its next step of them. What they show goes
 /// into `seen`.
 template <class SampleAt>
 void add_sum(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at,
@@ -35,7 +35,7 @@ void add_sum(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at,
   pixel.add_step(PixelSamples::place_of_step(count, size), sum);
 }
 
-/// The same and what they show.
+/// Gives a pixel its next step, and returns what they show.
 template <class SampleAt>
 void add_step(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at) {
   SeenSamples seen(pixel, sample_at(count).identity);
@@ -43,7 +43,7 @@ void add_step(PixelSamples& pixel, std::int64_t count, const SampleAt& sample_at
   pixel.add_seen(seen, count == 0);
 }
 
-/// The pixel takes note of a neighbour.
+/// Takes a neighbour's samples into the pixel's neighbour statistics.
 void take_note(PixelSamples& pixel, const PixelSamples& neighbour) {
   PixelSamples::Statistics statistics = pixel.statistics();
   statistics.take(neighbour.statistics());
@@ -106,7 +106,7 @@ TEST_CASE("the mean is that of all samples, whatever the pass") {
 
 TEST_CASE("an edge in the pixel or beside it keeps a width of two samples of its contrast") {
   const PixelSequence sequence(3, 1, 4);
-  // Halves: the sequence gets them right with every pass, and its blocks agree.
+  // The sequence gets halves right with every pass, and its blocks agree.
   const auto halves = [](const SequencePoint& p) { return p.pixel_u < 0.5 ? 0.2 : 0.8; };
   const auto plain = [](const SequencePoint&) { return 0.2; };
   PixelSamples pixel = sampled(sequence, 64, halves);
@@ -254,7 +254,7 @@ TEST_CASE(
   }
 }
 
-TEST_CASE("what steps show may be told together") {
+TEST_CASE("what steps show may be added together") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto sample_at = [&](std::int64_t i) {
     const double value = i % 5 == 3 ? none : std::sin(static_cast<double>(7 * i));
@@ -262,14 +262,14 @@ TEST_CASE("what steps show may be told together") {
                      0.1 * static_cast<double>(i)};
   };
   for (const std::int64_t end : {8, 16, 32, 64}) {
-    PixelSamples apart;
+    PixelSamples separate;
     PixelSamples together;
     SeenSamples seen(together, sample_at(0).identity);
     for (std::int64_t count = 0; count < end; count += samples_of_next_step(count)) {
-      add_step(apart, count, sample_at);
+      add_step(separate, count, sample_at);
       add_sum(together, count, sample_at, seen);
     }
     together.add_seen(seen, true);
-    CHECK(apart.stored() == together.stored());
+    CHECK(separate.stored() == together.stored());
   }
 }

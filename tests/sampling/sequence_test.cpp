@@ -1,4 +1,4 @@
-// The sequence of a pixel's samples, the schedule of passes, and pixel filters.
+// These tests check the sequence of a pixel's samples, the schedule of passes, and pixel filters.
 #include "core/sampling/sequence.hpp"
 
 #include <doctest/doctest.h>
@@ -16,8 +16,8 @@ using namespace crt::core;
 
 namespace {
 
-/// Whether `count` points from `begin` on hit each of as many equal rectangles in so many columns
-/// once.
+/// Says whether `count` points from `begin` on hit each of as many equal rectangles in so many
+/// columns once.
 bool is_net(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t count,
             std::uint32_t columns) {
   std::vector<int> hits(count, 0);
@@ -34,7 +34,8 @@ bool is_net(const PixelSequence& sequence, std::uint32_t begin, std::uint32_t co
   return true;
 }
 
-/// The root of the mean square error of the mean over `count` points of something whose mean is 0.
+/// Returns the root of the mean square error of the mean over `count` points of something whose
+/// mean is 0.
 template <class Integrand>
 double spread(std::uint32_t count, const Integrand& integrand) {
   constexpr int pixels = 2000;
@@ -200,9 +201,8 @@ TEST_CASE("a wide filter's places have its weight as their density") {
     square += (place - 0.5) * (place - 0.5) / count;
   }
   CHECK(mean == doctest::Approx(0.5));
-  // The window's second moment: a cosine of frequency k weighs x^2 by its integral over [-1/2,
-  // 1/2], which is
-  // (-1)^k / (2 pi^2 k^2).
+  // The window's second moment is found so: a cosine of frequency k weighs x^2 by its integral over
+  // [-1/2, 1/2], which is (-1)^k / (2 pi^2 k^2).
   const double pi_2 = std::numbers::pi * std::numbers::pi;
   const double moment =
       (0.35875 / 12 - 0.48829 / (2 * pi_2) + 0.14128 / (8 * pi_2) - 0.01168 / (18 * pi_2)) /

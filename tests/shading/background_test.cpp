@@ -21,7 +21,7 @@ PreparedBackground prepared(const crt::Background& background, double gamma = 1,
   return {background, textures, compat};
 }
 
-/// Every texel another colour.
+/// Makes a picture whose texels all have different colours.
 std::shared_ptr<Image> test_picture(int width, int height) {
   auto image = std::make_shared<Image>(width, height);
   for (int y = 0; y < height; ++y) {
@@ -138,7 +138,7 @@ TEST_CASE("a cylindrical panorama's rows are as high as its columns are wide, se
   const PreparedBackground background =
       prepared(crt::PanoramaBackground{picture, crt::PanoramaProjection::cylindrical});
   for (int y = 0; y < 4; ++y) {
-    // On the cylinder of radius 1 a texel is 2 pi / 8 high; the horizon is the middle of the
+    // On the cylinder of radius 1 a texel is 2 pi / 8 high. The horizon is the middle of the
     // picture.
     const double height = (2 - (y + 0.5)) * 2 * pi / 8;
     for (int x = 0; x < 8; ++x) {

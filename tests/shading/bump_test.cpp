@@ -95,7 +95,7 @@ TEST_CASE("the gradient of u does not jump where 1 meets 0") {
   }
 }
 
-TEST_CASE("beside the edge of a face (u, v) are told by the side there is") {
+TEST_CASE("beside the edge of a face (u, v) come from the side that exists") {
   const crt::Triangle triangle{.a = {0, 0, 0}, .b = {2, 0, 0}, .c = {0, 4, 0}};
   CrossingList scratch;
   const Vec3 normal(0, 0, 1);

@@ -13,14 +13,15 @@ namespace {
 
 const std::vector<double> indices = {0.01, 0.5, 1.0, 1.0003, 1.33, 1.5, 2.42, 100.0};
 
-/// A direction that comes down at the given angle from straight down, in the x-y plane.
+/// Returns a direction that comes down at the given angle from straight down, in the x-y plane.
 Vec3 incoming(double angle) {
   return {std::sin(angle), -std::cos(angle), 0};
 }
 
 const Vec3 up(0, 1, 0);
 
-/// The textbook equations as they are usually written, in quadruple precision.
+/// Returns the reflectance by the textbook equations as they are usually written, in quadruple
+/// precision.
 double textbook_reflectance(double cosine, double index_1, double index_2) {
   const __float128 n1 = index_1;
   const __float128 n2 = index_2;
@@ -88,7 +89,7 @@ TEST_CASE("grazing light is all reflected, and near to grazing the share has all
   CHECK(fresnel_reflectance(0, 1.0, 1.5) == doctest::Approx(1).epsilon(1e-15));
   CHECK(fresnel_reflectance(0, 1.5, 1.0) == 1);
   for (const double cosine : {1e-3, 1e-6, 1e-9, 1e-12}) {
-    // What is let through, to first order in the cosine: 2 c (n + 1/n) / sqrt(n^2 - 1).
+    // The light let through is, to first order in the cosine, 2 c (n + 1/n) / sqrt(n^2 - 1).
     const double n = 1.5;
     const double passed = 2 * cosine * (n + 1 / n) / std::sqrt(n * n - 1);
     CHECK(1 - fresnel_reflectance(cosine, 1.0, n) ==
@@ -133,13 +134,13 @@ TEST_CASE("total internal reflection begins at the critical angle") {
   CHECK(total.direction == Vec3(0));
 }
 
-TEST_CASE("light takes the same way back, and the same share of it is reflected") {
+TEST_CASE("light takes the same path back, and the same share of it is reflected") {
   for (const double n1 : indices) {
     for (const double n2 : indices) {
       for (int step = 1; step < 90; ++step) {
         const Vec3 direction = incoming(step * std::numbers::pi / 180);
         const Refraction<double> there = refract(direction, up, n1, n2);
-        if (there.reflectance > 0.999) continue;  // the way back is then ill-conditioned
+        if (there.reflectance > 0.999) continue;  // the reverse path is then ill-conditioned
         const Refraction<double> back = refract(-there.direction, -up, n2, n1);
         CHECK(back.reflectance == doctest::Approx(there.reflectance).epsilon(1e-9));
         CHECK(glm::length(back.direction + direction) < 1e-9);

@@ -12,7 +12,7 @@ using crt::Vec3;
 
 namespace {
 
-/// The most that the gradients of the corners of a cell can add up to at a point of it.
+/// Returns the most that the gradients of the corners of a cell can add up to at a point of it.
 double largest_possible_sum(const Vec3& p) {
   double sum = 0;
   for (int corner = 0; corner < 8; ++corner) {

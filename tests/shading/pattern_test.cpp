@@ -33,7 +33,7 @@ double level_at(const crt::Pattern& pattern, const Vec3& position) {
   return color_at(pattern, position).r;
 }
 
-/// Of every kind, with two colours that differ in alpha.
+/// Returns patterns of every kind, with two colours that differ in alpha.
 std::vector<crt::Pattern> all_patterns(double scale) {
   const Color a = {0.9, 0.5, 0.25, 0.75};
   const Color b = {0.1, 0.3, 0.75, 1};
@@ -51,7 +51,7 @@ std::vector<crt::Pattern> all_patterns(double scale) {
       crt::ImageMap{.image = image, .repeat_u = 1 / scale, .repeat_v = -3}};
 }
 
-/// Of all sizes and signs, some of them whole, some no numbers.
+/// Coordinates have all sizes and signs. Some of them are whole, some no numbers.
 class Coordinates {
  public:
   double next() {
@@ -112,9 +112,9 @@ TEST_CASE(
     "rounded") {
   const crt::Checker checker;
   for (const double rounding : {-1e-15, -1e-300, 0.0, 1e-300, 1e-15}) {
-    // The top of a floor: the cubes below it, from y = -1 to 0.
+    // The top of a floor shows the cubes below it, from y = -1 to 0.
     CHECK(color_at(checker, {0.5, rounding, 0.5}, {0, 1, 0}) == black);
-    // The underside of a ceiling: those above it.
+    // The underside of a ceiling shows those above it.
     CHECK(color_at(checker, {0.5, rounding, 0.5}, {0, -1, 0}) == white);
   }
   CHECK(color_at(checker, {1e6 + 0.5, 1e6, 0.5}, {0, 1, 0}) ==

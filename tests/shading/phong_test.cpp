@@ -26,7 +26,7 @@ struct LightSample {
   double intensity = 1;
 };
 
-/// What one surface sends back that has a mirror in the shade beside it.
+/// Returns what one surface sends back that has a mirror in the shade beside it.
 Rgb direct_light(const PhongSurface& surface, const LightSample& light, const Rgb& light_color) {
   PhongSurfaces surfaces;
   surfaces.specular = lanes_of(1);
@@ -84,7 +84,7 @@ TEST_CASE("the highlight is a power of the cosine between the mirrored light and
 TEST_CASE("a viewer on the other side of the mirrored light sees no highlight") {
   const PhongSurface surface{.diffuse = 0, .specular = 1, .normal = up, .view = {-0.8, -0.6, 0}};
   const LightSample light{.direction = {-0.8, 0.6, 0}, .distance = 1};
-  // The light is mirrored to (0.8, 0.6), the viewer looks from (0.8, 0.6): full strength.
+  // The light is mirrored to (0.8, 0.6), and the viewer looks from (0.8, 0.6): full strength.
   CHECK(direct_light(surface, light, Rgb(1)).x == doctest::Approx(1));
   PhongSurface opposite = surface;
   opposite.view = {0.8, -0.6, 0};

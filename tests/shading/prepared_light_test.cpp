@@ -20,7 +20,7 @@ struct LightSample {
   double intensity = 0;
 };
 
-/// What a point gets that has others beside it; nothing if it is in the dark.
+/// Returns what a point gets that has others beside it, or nothing if it is in the dark.
 std::optional<LightSample> sample_of(const crt::Light& light, const Vec3& point,
                                      double path_length = 0,
                                      FalloffModel model = FalloffModel::light) {
@@ -76,7 +76,7 @@ TEST_CASE(
   CHECK(sample.intensity == 1);
 }
 
-TEST_CASE("falloff divides by the square of the way: to the light, or over the whole path") {
+TEST_CASE("falloff divides by the square of the distance: to the light, or over the whole path") {
   const crt::PointLight light{.origin = {0, 5, 0}, .falloff = 50};
   CHECK(sampled(light, {0, 0, 0}, 15, FalloffModel::light).intensity == 2);
   CHECK(sampled(light, {0, 0, 0}, 15, FalloffModel::path).intensity == 0.125);
@@ -134,13 +134,13 @@ TEST_CASE("a spot light without penumbra ends sharply, and one of a full turn sh
   CHECK(sampled(round, {1, 2, -7}).intensity == 1);
 }
 
-TEST_CASE("a cone as narrow as a laser's is still told apart from its surroundings") {
+TEST_CASE("a cone as narrow as a laser's is still distinguished from its surroundings") {
   const crt::SpotLight laser{
       .origin = {0, 0, 0}, .pointing = {0, 0, 1}, .angle = 2e-9, .penumbra = 5e-10};
   CHECK(sampled(laser, {0, 0, 1}).intensity == 1);
   CHECK(sampled(laser, {0.4e-9, 0, 1}).intensity == 1);
   CHECK_FALSE(shines_on(laser, {1.1e-9, 0, 1}));
-  // In the middle of the penumbra, where cosines are parabolas: (1 - 0.75^2) / (1 - 0.5^2).
+  // In the middle of the penumbra, cosines are parabolas: (1 - 0.75^2) / (1 - 0.5^2).
   const double x = (1 - 0.5625) / 0.75;
   CHECK(sampled(laser, {0.75e-9, 0, 1}).intensity ==
         doctest::Approx(x * x * (3 - 2 * x)).epsilon(1e-6));

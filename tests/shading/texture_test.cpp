@@ -10,7 +10,7 @@ using crt::Image;
 
 namespace {
 
-/// Texel (x, y) is red x / 10 and green y / 10.
+/// Makes a picture whose texel (x, y) is red x / 10 and green y / 10.
 std::shared_ptr<Image> ramp(int width, int height) {
   auto image = std::make_shared<Image>(width, height);
   for (int y = 0; y < height; ++y) {
@@ -112,7 +112,7 @@ TEST_CASE("where nothing covers the colour is black and fully transparent") {
   const Texture texture(image, 2.2);
   CHECK_FALSE(texture.opaque());
   CHECK(texture.bilinear(0.5, 0.5, TextureWrap::clamp, TextureWrap::clamp) == Color{0, 0, 0, 0});
-  // Half way to white: half covered by pure white, not covered by grey.
+  // Half way to white there is one half covered by pure white, and one not covered by grey.
   CHECK(texture.bilinear(1, 0.5, TextureWrap::clamp, TextureWrap::clamp) == Color{1, 1, 1, 0.5});
 }
 

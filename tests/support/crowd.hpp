@@ -1,4 +1,4 @@
-// Objects of all kinds, close together and through each other, to try rays on.
+// These are objects of all kinds, close together and through each other, to try rays on.
 #pragma once
 
 #include <cstddef>
@@ -10,8 +10,8 @@
 
 namespace crt::test {
 
-/// A place to aim at, and how far its rim is from it. If it is a torus (or, without a ring, a
-/// sphere, or if it has a length a rod) lines can be laid along its surface.
+/// A Target is a place to aim at, and how far its edge is from it. If it is a torus (or, without a
+/// ring, a sphere, or if it has a length a cylinder) lines can run along its surface.
 struct Target {
   Vec3 center;
   double reach;
@@ -40,7 +40,7 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
     crowd.add(Sphere{.center = center, .radius = size}, center, size);
     crowd.targets.back().axis = {0, 1, 0};
     crowd.targets.back().tube = size;
-    // One that coincides with it, and one that is turned as well.
+    // One copy coincides with it, and one is turned as well.
     if (i % 8 == 0) crowd.add(Sphere{.center = center, .radius = size}, center, size);
     const Transform turned = rotate(numbers.point(180));
     if (i % 5 == 0) crowd.add(Entity(Sphere{.radius = size}).transformed(turned), Vec3(0), size);
@@ -109,7 +109,7 @@ inline Crowd crowd(Numbers& numbers, Precision precision) {
   return crowd;
 }
 
-/// As many of a crowd.
+/// Keeps so many objects of a crowd.
 inline void keep(Crowd& crowd, std::size_t count, Numbers& numbers) {
   std::vector<Entity>& entities = crowd.scene.entities;
   while (entities.size() > count) {

@@ -1,4 +1,4 @@
-// Random numbers, directions and sizes; the same in every run.
+// This makes random numbers, directions and sizes, which are equal in every run.
 #pragma once
 
 #include <cmath>
@@ -26,7 +26,7 @@ class Numbers {
     while (glm::dot(v, v) < 0.01) v = point(1);
     return glm::normalize(v);
   }
-  /// Of very different sizes.
+  /// Returns a size. Sizes differ greatly.
   double size(double low, double high) { return low * std::pow(high / low, within(0, 1)); }
 
  private:

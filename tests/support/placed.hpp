@@ -1,4 +1,4 @@
-// A primitive, and what is done to it on the way to the world.
+// This is a primitive, and the transforms from it to the world.
 #pragma once
 
 #include <glm/geometric.hpp>
@@ -36,7 +36,7 @@ struct Placed {
   }
 };
 
-/// Not moved, moved, turned, or scaled unevenly.
+/// Returns some transforms: not moved, moved, turned, or scaled unevenly.
 inline std::vector<Transform> some_steps(Numbers& numbers, double scale) {
   std::vector<Transform> steps;
   const int kind = numbers.below(4);
@@ -50,8 +50,8 @@ inline std::vector<Transform> some_steps(Numbers& numbers, double scale) {
   return steps;
 }
 
-/// Along d (in the primitive's own space) through a place of something of that size, from nearby or
-/// afar.
+/// Makes a ray along d (in the primitive's own space) through a place of something of that size,
+/// from nearby or afar.
 template <class Primitive>
 core::WorldRay ray_through(const Placed<Primitive>& placed, const Vec3& place, const Vec3& d,
                            double object_size, Numbers& numbers) {

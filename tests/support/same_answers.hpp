@@ -1,4 +1,5 @@
-// Rays find the same alone, in a packet, and without what spares them exact tests.
+// These functions check that rays find the same alone, in a packet, and without what spares them
+// exact tests.
 #pragma once
 
 #include <doctest/doctest.h>
@@ -23,7 +24,7 @@ inline bool same(const RayHit& a, const RayHit& b) {
          a.entering == b.entering && a.has_coincident == b.has_coincident;
 }
 
-/// Those rays that have their bit in `some`; in the other lanes is no ray at all.
+/// Makes a batch of those rays that have their bit in `some`. In the other lanes is no ray at all.
 inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
   constexpr double nan = std::numeric_limits<double>::quiet_NaN();
   RayBatch batch;
@@ -31,13 +32,13 @@ inline RayBatch batch_of(std::span<const WorldRay> rays, RayMask some) {
     const bool is_one = (some >> i & 1u) != 0;
     batch.set(
         i, is_one ? rays[i] : WorldRay{.origin = Vec3(nan), .direction = Vec3(nan), .t_max = nan});
-    // As those who have rays in free space make them.
+    // Code that has rays in free space makes its batches so.
     if (batch.starts[i].leaf == nothing) batch.with_starts &= ~(RayMask{1} << i);
   }
   return batch;
 }
 
-/// What rays find in a packet, wherever they go.
+/// Returns what rays find in a packet, whatever their directions.
 inline void intersect_as_packet(const PreparedData& data, std::span<const WorldRay> rays,
                                 std::span<RayHit, packet_size> hits, RayWorkspace& work) {
   const RayMask all = RayPacket::all(rays.size());
@@ -49,8 +50,8 @@ inline RayMask occluded_as_packet(const PreparedData& data, std::span<const Worl
   return data.occluded_each(batch_of(rays, all), all, work, Packets::always);
 }
 
-/// With `rough_errors` the bounds on the errors of first crossings may be larger than where the
-/// others are found as well.
+/// Checks first crossings. With `rough_errors` the bounds on their errors may be larger than where
+/// the others are found as well.
 inline void check_first_crossings(const PreparedData& data, const std::vector<WorldRay>& rays,
                                   RayWorkspace& work, int& met, bool rough_errors = false) {
   std::array<RayHit, packet_size> hits;
@@ -60,7 +61,7 @@ inline void check_first_crossings(const PreparedData& data, const std::vector<Wo
   for (std::size_t k = 0; k < rays.size(); ++k) {
     const RayHit alone = data.intersect(rays[k], work);
     REQUIRE(same(alone, hits[k]));
-    // The crossings are found by the shapes themselves.
+    // The shapes themselves find these crossings.
     data.crossings(rays[k], line, work);
     REQUIRE(alone.found() == !line.empty());
     REQUIRE(((hidden >> k & 1u) != 0) == !line.empty());
@@ -72,8 +73,8 @@ inline void check_first_crossings(const PreparedData& data, const std::vector<Wo
   }
 }
 
-/// Lets most of the rays that hit something start there, whereto and how set_way(point, ray) says;
-/// mostly to the side that the start says, but not always.
+/// Lets most of the rays that hit something start there, in the direction that set_way(point, ray)
+/// sets. Mostly it is to the side that the start says, but not always.
 template <class SetWay>
 void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work,
            std::vector<WorldRay>& rays, const SetWay& set_way) {
@@ -94,8 +95,8 @@ void go_on(const PreparedData& data, Numbers& numbers, RayWorkspace& work,
   }
 }
 
-/// The same of so many packets of rays that some_ray() makes, and of those that go on from what
-/// they hit, many of them to where others start.
+/// Checks so many packets of rays that some_ray() makes, and of those that continue from what they
+/// hit, many of them to where others start.
 template <class SomeRay>
 void check_bounces(const PreparedData& data, Numbers& numbers, int packets, const SomeRay& some_ray,
                    int& met, bool rough_errors = false) {

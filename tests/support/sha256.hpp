@@ -1,4 +1,4 @@
-// SHA-256 (FIPS 180-4), to tell whether long arrays are the same, bit for bit.
+// This is SHA-256 (FIPS 180-4), which compares long arrays bit for bit.
 #pragma once
 
 #include <array>
@@ -11,9 +11,9 @@
 
 namespace crt::tests {
 
-/// The hash as 64 hexadecimal digits.
+/// Returns the hash as 64 hexadecimal digits.
 inline std::string sha256(std::span<const std::byte> content) {
-  // FIPS 180-4, 4.2.2: of the cube roots of the first primes.
+  // These are of the cube roots of the first primes (FIPS 180-4, 4.2.2).
   constexpr std::array<std::uint32_t, 64> constants = {
       0x428a2f98, 0x71374491, 0xb5c0fbcf, 0xe9b5dba5, 0x3956c25b, 0x59f111f1, 0x923f82a4,
       0xab1c5ed5, 0xd807aa98, 0x12835b01, 0x243185be, 0x550c7dc3, 0x72be5d74, 0x80deb1fe,
@@ -25,12 +25,12 @@ inline std::string sha256(std::span<const std::byte> content) {
       0x1e376c08, 0x2748774c, 0x34b0bcb5, 0x391c0cb3, 0x4ed8aa4a, 0x5b9cca4f, 0x682e6ff3,
       0x748f82ee, 0x78a5636f, 0x84c87814, 0x8cc70208, 0x90befffa, 0xa4506ceb, 0xbef9a3f7,
       0xc67178f2};
-  // 5.3.3: of the square roots.
+  // These are of the square roots (5.3.3).
   std::array<std::uint32_t, 8> state = {0x6a09e667, 0xbb67ae85, 0x3c6ef372, 0xa54ff53a,
                                         0x510e527f, 0x9b05688c, 0x1f83d9ab, 0x5be0cd19};
   constexpr std::size_t block_size = 64;
 
-  // 5.1.1: a bit 1, zeros, and the length in bits fill whole blocks.
+  // A bit 1, zeros, and the length in bits fill whole blocks (5.1.1).
   std::vector<std::byte> message(content.begin(), content.end());
   message.push_back(std::byte{0x80});
   while (message.size() % block_size != block_size - 8) message.push_back(std::byte{0});
@@ -39,7 +39,7 @@ inline std::string sha256(std::span<const std::byte> content) {
     message.push_back(static_cast<std::byte>((bits >> shift) & 0xff));
   }
 
-  // 6.2.2
+  // This is 6.2.2.
   for (std::size_t block = 0; block < message.size(); block += block_size) {
     std::array<std::uint32_t, 64> w{};
     for (std::size_t i = 0; i < block_size; ++i) {

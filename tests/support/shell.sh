@@ -1,5 +1,4 @@
-# What tests in shell share.
-# shellcheck shell=bash
+# Tests in shell share this. shellcheck shell=bash
 set -euo pipefail
 export LC_ALL=C
 
@@ -15,7 +14,7 @@ fail() {
   exit 1
 }
 
-# need TOOL PACKAGE: skips where the tool is missing.
+# need TOOL PACKAGE skips the test where the tool is missing.
 need() {
   command -v "$1" >/dev/null || skip "no $1 here; it is in Debian's package $2"
 }

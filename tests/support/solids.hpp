@@ -1,5 +1,5 @@
-// Random CSG trees of boxes, spheres, half-spaces and cylinders, with an independent answer to
-// "is this point inside?": by the definition of each solid, in quadruple precision.
+// These are random CSG trees of boxes, spheres, half-spaces and cylinders, with an independent
+// answer to "is this point inside?": by the definition of each solid, in quadruple precision.
 #pragma once
 
 #include <cstdint>
@@ -19,13 +19,13 @@ struct QuadPoint {
   Quad z = 0;
 };
 
-/// A solid that knows itself twice: as an entity, and by definition.
+/// A Solid knows itself twice: as an entity, and by definition.
 struct Solid {
   enum class Kind { box, sphere, half_space, cylinder, set_union, intersection, difference };
 
   Kind kind = Kind::box;
-  // box: corners; sphere: centre, radius; half_space: point, normal; cylinder along z: base,
-  // radius, height
+  // A box has corners; a sphere has centre and radius; a half_space has a point and a normal; a
+  // cylinder along z has base, radius and height.
   Vec3 a{0};
   Vec3 b{0};
   double size = 0;
@@ -89,8 +89,8 @@ struct Solid {
     return csg_difference(made[0], std::span(made).subspan(1));
   }
 
-  /// Every t at which the ray passes a surface of any part, unsorted: t where membership may
-  /// change.
+  /// Collects every t at which the ray passes a surface of any part, unsorted. Membership may
+  /// change there.
   void candidate_ts(const Vec3& o, const Vec3& d, std::vector<Quad>& out) const {
     const auto plane = [&](int axis, double at) {
       if (d[axis] != 0) out.push_back((Quad(at) - o[axis]) / d[axis]);
@@ -139,7 +139,8 @@ struct Solid {
   }
 };
 
-/// Random solids whose numbers are small integers, so that most of their faces coincide.
+/// A SolidMaker makes random solids whose numbers are small integers, so that most of their faces
+/// coincide.
 class SolidMaker {
  public:
   explicit SolidMaker(std::uint32_t seed) : random_(seed) {}

@@ -1,4 +1,4 @@
-// A place for the files of a test.
+// This is a directory for the files of a test.
 #pragma once
 
 #include <cstdlib>
@@ -9,7 +9,7 @@
 
 namespace crt::test {
 
-/// A new empty directory; removed with all that is in it.
+/// A TemporaryDirectory is new and empty, and is removed with all that is in it.
 class TemporaryDirectory {
  public:
   TemporaryDirectory() {

@@ -1,4 +1,4 @@
-// Running work on several threads.
+// These tests run work on several threads.
 #include "core/tasks/tasks.hpp"
 
 #include <doctest/doctest.h>

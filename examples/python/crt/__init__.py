@@ -1,4 +1,4 @@
-"""CRT for Python: solids, scenes, pictures and ray queries by libcrt and NumPy.
+"""This package is CRT for Python: solids, scenes, pictures and ray queries by libcrt and NumPy.
 
     import crt
 
@@ -8,9 +8,9 @@
     scene.camera = crt.Camera(position=(2, 2, -5), pointing=(0, 1, 0))
     scene.render().save("ball.png")
 
-Space is left-handed: x to the right, y up, z into the picture. Everything is released by itself; `with`
-and `close()` do so earlier. Prepared scenes, images and entities may be shared between threads, and threads
-run at once while the library works. What fails raises crt.Error.
+Space is left-handed: x to the right, y up, z into the picture. Everything is released by itself;
+`with` and `close()` do so earlier. Prepared scenes, images and entities may be shared between
+threads, and threads run at once while the library works. What fails raises crt.Error.
 """
 
 from ._library import version

@@ -1,4 +1,4 @@
-"""Python functions that the library calls."""
+"""The library calls Python functions through this module."""
 
 import contextlib
 import ctypes
@@ -10,7 +10,9 @@ from typing import Any
 
 PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_void_p)
 LOG = ctypes.CFUNCTYPE(None, ctypes.c_int32, ctypes.c_char_p, ctypes.c_void_p)
-PRINT = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.POINTER(ctypes.c_char), ctypes.c_size_t, ctypes.c_void_p)
+PRINT = ctypes.CFUNCTYPE(
+    ctypes.c_int, ctypes.POINTER(ctypes.c_char), ctypes.c_size_t, ctypes.c_void_p
+)
 OPEN_FILE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)
 POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 
@@ -25,7 +27,8 @@ class Guard:
         self._thread_inside: int | None = None
 
     def call(self, function: Callable[..., int | None], *arguments: Any) -> int:
-        """What a callback returns: the function's result, or STOP if it or one before it has raised."""
+        """Returns what a callback returns: the function's result, or STOP if it or one before it
+        has raised."""
         if self.exception is None:
             self._thread_inside = threading.get_ident()
             try:
@@ -37,15 +40,16 @@ class Guard:
         return STOP
 
     def is_inside(self) -> bool:
-        """Whether this thread is within a call()."""
+        """Says whether this thread is within a call()."""
         return self._thread_inside == threading.get_ident()
 
     @contextlib.contextmanager
     def raising(self) -> Iterator[None]:
-        """Around a call of the library: raises what a callback raised, in place of the error that it caused.
+        """Wraps a call of the library. It raises what a callback raised, in place of the error that
+        it caused.
 
-        Ctrl-C cancels, if a callback looks here now and then. It is noted by a handler of our own, since a
-        KeyboardInterrupt raised on the way into a callback could only be printed by ctypes.
+        Ctrl-C cancels, if a callback looks here now and then. It is noted by a handler of our own,
+        since a KeyboardInterrupt raised on the way into a callback could only be printed by ctypes.
         """
         is_main = threading.current_thread() is threading.main_thread()
         has_handler = is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler

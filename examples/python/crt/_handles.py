@@ -1,4 +1,4 @@
-"""References to what the library owns, dropped when Python needs them no more."""
+"""These are references to what the library owns. Python drops them when it needs them no more."""
 
 import types
 from typing import Any, ClassVar, TypeVar
@@ -9,7 +9,8 @@ Self = TypeVar("Self", bound="Handle")
 
 
 class Reference:
-    """One reference; stands for its handle in calls, which it outlives as their argument."""
+    """A Reference is one reference. It stands for its handle in calls, which it outlives as their
+    argument."""
 
     __slots__ = ("_as_parameter_", "_release")
 
@@ -22,10 +23,11 @@ class Reference:
 
 
 class Handle:
-    """Something of the library. Lives as long as it is used; `close()`, or `with`, ends its use earlier.
+    """A Handle is something of the library. It lives as long as it is used; `close()`, or `with`,
+    ends its use earlier.
 
-    Closing drops this object's reference. A call of another thread that is under way, and arrays that were
-    lent, have references of their own, so closing never pulls anything from under them.
+    Closing drops this object's reference. A call of another thread that is under way, and arrays
+    that were lent, have references of their own, so closing never pulls anything from under them.
     """
 
     _name: ClassVar[str]  # of the type in crt.h
@@ -33,7 +35,7 @@ class Handle:
 
     @classmethod
     def _adopt(cls: type[Self], handle: int) -> Self:
-        """An object for a reference that is ours to release."""
+        """Makes an object for a reference that is ours to release."""
         self = cls.__new__(cls)
         self._take(handle)
         return self
@@ -49,7 +51,7 @@ class Handle:
         return reference
 
     def close(self) -> None:
-        """Ends the use of this object. Again does no harm."""
+        """Ends the use of this object. Closing again does no harm."""
         self._reference = None
 
     def __enter__(self: Self) -> Self:

@@ -1,8 +1,8 @@
-"""libcrt itself: where it is found, and the functions of crt.h that this package calls.
+"""This module loads libcrt, and declares the functions of crt.h that this package calls.
 
 The environment variable CRT_LIBRARY may name the file; otherwise the system's loader is asked for
-libcrt.so.1. A function that returns a status raises crt.Error instead. Calls give up Python's lock, so other
-threads go on.
+libcrt.so.1. A function that returns a status raises crt.Error instead. Calls give up Python's lock,
+so other threads go on.
 """
 
 import ctypes
@@ -16,7 +16,7 @@ ABI = 1
 
 
 class _Text:
-    """An argument that is a str and arrives as UTF-8 ended by 0."""
+    """A _Text is an argument that is a str and arrives as UTF-8 ended by 0."""
 
     @classmethod
     def from_param(cls, text: str) -> ctypes.c_char_p:
@@ -186,6 +186,6 @@ def create(name: str, *arguments: Any) -> int:
 
 
 def version() -> tuple[int, int, int]:
-    """The library's version."""
+    """Returns the library's version."""
     number = library.crt_version()
     return number >> 16, number >> 8 & 0xFF, number & 0xFF

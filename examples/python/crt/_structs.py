@@ -1,11 +1,12 @@
-"""Structs of crt.h that may grow, declared by annotations.
+"""The structs of crt.h that may grow are declared by annotations.
 
     @growable("crt_camera")
     class Camera(Struct):
         position: Vector
         fov: Double
 
-is a ctypes.Structure that begins with struct_size, as all of them do, and goes on with these fields.
+is a ctypes.Structure that begins with struct_size, as all of them do, and goes on with these
+fields.
 """
 
 import ctypes
@@ -31,13 +32,14 @@ Class = TypeVar("Class", bound="type[Struct]")
 
 
 def vector(numbers: Sequence[float]) -> Any:
-    """Three numbers as C has them."""
+    """Returns three numbers as C has them."""
     x, y, z = numbers
     return (ctypes.c_double * 3)(x, y, z)
 
 
 class Struct(ctypes.Structure):
-    """Keyword arguments change fields; the others keep what the library's crt_*_init() has put there."""
+    """A Struct takes keyword arguments that change fields. The others keep what the library's
+    crt_*_init() has put there."""
 
     _name: ClassVar[str]
     _kinds: ClassVar[dict[str, Any]]
@@ -56,7 +58,7 @@ class Struct(ctypes.Structure):
 
     @classmethod
     def of_type(cls: type[Self], kind: int, /, **fields: Any) -> Self:
-        """One of the types that the struct has a list of, with the defaults of that type."""
+        """Makes one of the types that the struct has a list of, with the defaults of that type."""
         self = cls()
         getattr(library, f"{cls._name}_init_type")(ctypes.byref(self), ctypes.sizeof(self), kind)
         self.set(**fields)
@@ -64,7 +66,8 @@ class Struct(ctypes.Structure):
 
     @classmethod
     def _filled_by(cls: type[Self], function: str, *arguments: Any) -> Self:
-        """What a function of the library writes into its last argument, with texts of Python's own."""
+        """Returns what a function of the library writes into its last argument, with texts of
+        Python's own."""
         self = cls()
         getattr(library, function)(*arguments, ctypes.byref(self))
         for name, kind in cls._kinds.items():
@@ -80,7 +83,9 @@ class Struct(ctypes.Structure):
     def __setattr__(self, name: str, value: Any) -> None:
         kind = self._kinds.get(name)
         if kind is None:
-            raise AttributeError(f"{type(self).__name__} has no {name!r}; it has {', '.join(self._kinds)}")
+            raise AttributeError(
+                f"{type(self).__name__} has no {name!r}; it has {', '.join(self._kinds)}"
+            )
         if kind is ctypes.c_void_p:
             if value is not None and name in self._pointees:
                 require_type(value, self._pointees[name], name)
@@ -95,15 +100,20 @@ class Struct(ctypes.Structure):
         return _to_python(value) if kept is None else kept
 
     def __repr__(self) -> str:
-        fields = ", ".join(f"{name}={getattr(self, name)!r}" for name in self._kinds if name != "reserved")
+        fields = ", ".join(
+            f"{name}={getattr(self, name)!r}" for name in self._kinds if name != "reserved"
+        )
         return f"{type(self).__name__}({fields})"
 
 
 def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
-    """Makes fields of a class's annotations. `name` is the struct's; `has_init`: there is a crt_*_init()."""
+    """Makes fields of a class's annotations. `name` is the struct's, and `has_init` says that there
+    is a crt_*_init()."""
 
     def finish(cls: Class) -> Class:
-        notes = {field: annotation.__metadata__ for field, annotation in cls.__annotations__.items()}
+        notes = {
+            field: annotation.__metadata__ for field, annotation in cls.__annotations__.items()
+        }
         kinds = {field: note[0] for field, note in notes.items()}
         cls._name = name
         cls._kinds = kinds
@@ -116,13 +126,15 @@ def growable(name: str, has_init: bool = True) -> Callable[[Class], Class]:
 
 
 def require_type(value: Any, name: str, argument: str) -> None:
-    """Refuses what is not of this type of crt.h: the library could only take it for one."""
+    """Refuses what is not of this type of crt.h, as the library could only take it for one."""
     if getattr(value, "_name", None) != name:
-        raise TypeError(f"{argument} must be a {name.removeprefix('crt_')}, not a {type(value).__name__}")
+        raise TypeError(
+            f"{argument} must be a {name.removeprefix('crt_')}, not a {type(value).__name__}"
+        )
 
 
 def reference(value: Struct, name: str) -> Any:
-    """The address of a struct as an argument."""
+    """Returns the address of a struct as an argument."""
     require_type(value, name, name.removeprefix("crt_"))
     return ctypes.byref(value)
 
@@ -143,7 +155,7 @@ def _to_c(kind: Any, value: Any) -> Any:
 
 
 def _address(value: Any) -> int | None:
-    """Where a Struct, an array of ctypes or what is behind a handle begins."""
+    """Returns where a Struct, an array of ctypes or what is behind a handle begins."""
     if isinstance(value, Handle):
         return value._handle._as_parameter_
     if isinstance(value, (ctypes.Structure, ctypes.Array)):

@@ -1,8 +1,8 @@
-"""Depth maps by ray queries:  python -m crt.depth SCENE.crt -o depth.png
+"""This program makes depth maps by ray queries: python -m crt.depth SCENE.crt -o depth.png
 
-Each pixel of a script's picture gets how far along the view the nearest surface is. An .exr or .hdr file
-holds the depth itself, in scene units; others a grey, from white for the nearest to dark for the farthest.
-Where nothing is, the picture is transparent.
+Each pixel of a script's picture gets how far along the view the nearest surface is. An .exr or .hdr
+file holds the depth itself, in scene units; others a grey, from white for the nearest to dark for
+the farthest. Where nothing is, the picture is transparent.
 """
 
 import argparse
@@ -17,27 +17,37 @@ import crt
 
 
 def depth_map(scene: crt.Scene) -> NDArray[Any]:
-    """height x width depths of the scene as its camera sees it; infinite where nothing is."""
+    """Returns height x width depths of the scene as its camera sees it, infinite where nothing
+    is."""
     settings = scene.settings
     rays = crt.camera_rays(scene.camera, settings.width, settings.height)
     return scene.prepare().intersect(rays)["t"]
 
 
 def to_grey(depths: NDArray[Any], nearest: float, farthest: float) -> NDArray[Any]:
-    """8-bit RGBA: 1 / depth between those of the nearest and the farthest."""
+    """Returns 8-bit RGBA: 1 / depth between those of the nearest and the farthest."""
     darkest = 0.08
     span = 1 / nearest - 1 / farthest
-    closeness = (1 / np.maximum(depths, nearest) - 1 / farthest) / span if span > 0 else np.ones_like(depths)
+    closeness = (
+        (1 / np.maximum(depths, nearest) - 1 / farthest) / span
+        if span > 0
+        else np.ones_like(depths)
+    )
     pixels = np.empty((*depths.shape, 4), np.uint8)
-    pixels[..., :3] = np.round(255 * (darkest + (1 - darkest) * np.clip(closeness, 0, 1)))[..., None]
+    greys = np.round(255 * (darkest + (1 - darkest) * np.clip(closeness, 0, 1)))
+    pixels[..., :3] = greys[..., None]
     pixels[..., 3] = np.where(np.isfinite(depths), 255, 0)
     return pixels
 
 
 def main() -> int:
-    parser = argparse.ArgumentParser(prog="crt.depth", description="Renders how far away things are.")
+    parser = argparse.ArgumentParser(
+        prog="crt.depth", description="Renders how far away things are."
+    )
     parser.add_argument("scene", type=pathlib.Path, help="a script")
-    parser.add_argument("-o", "--output", default="depth.png", help="the picture (default: depth.png)")
+    parser.add_argument(
+        "-o", "--output", default="depth.png", help="the picture (default: depth.png)"
+    )
     parser.add_argument("--width", type=int, help="pixels, in place of the script's")
     parser.add_argument("--height", type=int)
     parser.add_argument("--near", type=float, help="what is white (default: the nearest point)")
@@ -45,7 +55,9 @@ def main() -> int:
     arguments = parser.parse_args()
 
     settings = {
-        name: value for name in ("width", "height") if (value := getattr(arguments, name)) is not None
+        name: value
+        for name in ("width", "height")
+        if (value := getattr(arguments, name)) is not None
     }
     try:
         depths = depth_map(crt.Scene.from_script(arguments.scene, settings=settings, print=print))

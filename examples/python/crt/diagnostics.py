@@ -1,4 +1,4 @@
-"""What the library has to say about a script, as Python objects."""
+"""This module gives the diagnostics of a script as Python objects."""
 
 from ._handles import Reference
 from ._library import library
@@ -29,7 +29,7 @@ class _DiagnosticCall(Struct):
 
 
 def diagnostics_of(handle: int) -> tuple[str, list[Diagnostic]]:
-    """The text of all of them, and each; releases the handle."""
+    """Returns the text of all of them, and each, and releases the handle."""
     reference = Reference(handle, library.crt_diagnostics_release)
     count = library.crt_diagnostics_count(reference)
     text = library.crt_diagnostics_text(reference).decode()

@@ -1,4 +1,5 @@
-"""Solids and surfaces, combined and moved. Entities never change: each operation makes a new one.
+"""Entities are solids and surfaces, combined and moved. They never change: each operation makes a
+new one.
 
     part = crt.Box((-1, 0, -1), (1, 2, 1)) - crt.Sphere((0, 2, 0), 0.8, material=red)
 
@@ -22,49 +23,66 @@ Point = Sequence[float]
 
 
 class Entity(Handle):
-    """Something in a scene. All that follow take `material=` and `id=`, as with_material and with_id do."""
+    """An Entity is something in a scene. All that follow take `material=` and `id=`, as
+    with_material and with_id do."""
 
     _name = "crt_entity"
 
     def _create(
-        self, function: str, *arguments: Any, material: Material | None = None, id: int | None = None
+        self,
+        function: str,
+        *arguments: Any,
+        material: Material | None = None,
+        id: int | None = None,
     ) -> None:
         self._take(create(function, *arguments))
         if material is not None:
-            self._take(create("crt_entity_with_material", self._handle, reference(material, "crt_material")))
+            self._take(
+                create(
+                    "crt_entity_with_material", self._handle, reference(material, "crt_material")
+                )
+            )
         if id is not None:
             self._take(create("crt_entity_with_id", self._handle, id))
 
     def with_material(self, material: Material) -> "Entity":
-        """With a material on every part that has none of its own."""
+        """Returns the entity with a material on every part that has none of its own."""
         return Entity._adopt(
             create("crt_entity_with_material", self._handle, reference(material, "crt_material"))
         )
 
     def with_id(self, id: int) -> "Entity":
-        """Under a number that hits report."""
+        """Returns the entity under a number that hits report."""
         return Entity._adopt(create("crt_entity_with_id", self._handle, id))
 
     def transformed(self, matrix: ArrayLike) -> "Entity":
-        """Moved by an affine map: a 3 x 4 matrix, or a 4 x 4 one whose last row is 0, 0, 0, 1."""
+        """Returns the entity moved by an affine map: a 3 x 4 matrix, or a 4 x 4 one whose last row
+        is 0, 0, 0, 1."""
         rows = np.asarray(matrix, np.float64)
         if rows.shape == (4, 4) and np.array_equal(rows[3], (0, 0, 0, 1)):
             rows = rows[:3]
         if rows.shape != (3, 4):
-            raise ValueError("a transform is a 3 x 4 matrix, or 4 x 4 with 0, 0, 0, 1 in its last row")
+            raise ValueError(
+                "a transform is a 3 x 4 matrix, or 4 x 4 with 0, 0, 0, 1 in its last row"
+            )
         return Entity._adopt(
-            create("crt_entity_with_transform", self._handle, (ctypes.c_double * 12)(*rows.ravel().tolist()))
+            create(
+                "crt_entity_with_transform",
+                self._handle,
+                (ctypes.c_double * 12)(*rows.ravel().tolist()),
+            )
         )
 
     def moved(self, offset: Point) -> "Entity":
         return self.transformed(np.column_stack((np.eye(3), vector(offset))))
 
     def scaled(self, factors: float | Point) -> "Entity":
-        """By one factor, or one for each axis, about the origin."""
+        """Scales by one factor, or one for each axis, about the origin."""
         return self.transformed(np.column_stack((np.eye(3) * np.asarray(factors), np.zeros(3))))
 
     def rotated(self, degrees: Point) -> "Entity":
-        """By degrees about x, then y, then z, as in scripts: 90 about z takes x to y.
+        """Rotates by degrees about x, then y, then z, as in scripts: 90 about z takes x to y.
+        Multiples of 90 are exact.
 
         Multiples of 90 are exact.
         """
@@ -85,7 +103,7 @@ class Entity(Handle):
 
     @property
     def is_solid(self) -> bool:
-        """Whether it has an inside; or a part of it is a mere surface."""
+        """Says whether it has an inside. It has none if a part of it is a mere surface."""
         return bool(library.crt_entity_is_solid(self._handle))
 
     @property
@@ -94,23 +112,24 @@ class Entity(Handle):
 
 
 def union(parts: Iterable[Entity]) -> Entity:
-    """What is in any of the parts."""
+    """Returns what is in any of the parts."""
     return Entity._adopt(create("crt_union_create", *_handles(parts)))
 
 
 def intersection(parts: Iterable[Entity]) -> Entity:
-    """What is in all of the parts."""
+    """Returns what is in all of the parts."""
     return Entity._adopt(create("crt_intersection_create", *_handles(parts)))
 
 
 def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
-    """What is in the whole and in none of the cutters. A cut has its cutter's material."""
+    """Returns what is in the whole and in none of the cutters. A cut has its cutter's material."""
     require_type(whole, "crt_entity", "the whole")
     return Entity._adopt(create("crt_difference_create", whole._handle, *_handles(cutters)))
 
 
 class Empty(Entity):
-    """Nothing: the solid without a point. No ray meets it; in combinations it is what the empty set is."""
+    """Empty is the solid without a point. No ray meets it, and in combinations it behaves as the
+    empty set."""
 
     def __init__(self, **common: Any) -> None:
         self._create("crt_empty_create", **common)
@@ -122,21 +141,22 @@ class Sphere(Entity):
 
 
 class Box(Entity):
-    """Parallel to the axes, between any two opposite corners."""
+    """A Box is parallel to the axes, between any two opposite corners."""
 
     def __init__(self, corner_a: Point, corner_b: Point, **common: Any) -> None:
         self._create("crt_box_create", vector(corner_a), vector(corner_b), **common)
 
 
 class Plane(Entity):
-    """The half-space behind a plane; the normal points out of it."""
+    """A Plane is the half-space behind a plane. The normal points out of it."""
 
     def __init__(self, normal: Point, position: Point = (0, 0, 0), **common: Any) -> None:
         self._create("crt_plane_create", vector(normal), vector(position), **common)
 
 
 class HalfPlane(Entity):
-    """A surface: the half of a plane on the `direction` side of the line through `position` across it."""
+    """A HalfPlane is a surface: the half of a plane on the `direction` side of the line through
+    `position` across it."""
 
     def __init__(self, normal: Point, position: Point, direction: Point, **common: Any) -> None:
         vectors = vector(normal), vector(position), vector(direction)
@@ -149,35 +169,40 @@ class Cylinder(Entity):
 
 
 class Cone(Entity):
-    """A cone, or with `radius2`, at the end, a part of one."""
+    """A Cone has its apex at the end, or with `radius2` there it is a part of one."""
 
-    def __init__(self, start: Point, end: Point, radius: float, radius2: float = 0, **common: Any) -> None:
+    def __init__(
+        self, start: Point, end: Point, radius: float, radius2: float = 0, **common: Any
+    ) -> None:
         self._create("crt_cone_create", vector(start), vector(end), radius, radius2, **common)
 
 
 class Torus(Entity):
-    """All within `thickness` of the circle of `radius` about `center` across `axis`."""
+    """A Torus is all points within `thickness` of the circle of `radius` about `center` across
+    `axis`."""
 
-    def __init__(self, center: Point, axis: Point, radius: float, thickness: float, **common: Any) -> None:
+    def __init__(
+        self, center: Point, axis: Point, radius: float, thickness: float, **common: Any
+    ) -> None:
         self._create("crt_torus_create", vector(center), vector(axis), radius, thickness, **common)
 
 
 class Disc(Entity):
-    """A surface."""
+    """A Disc is a surface."""
 
     def __init__(self, center: Point, normal: Point, radius: float, **common: Any) -> None:
         self._create("crt_disc_create", vector(center), vector(normal), radius, **common)
 
 
 class Triangle(Entity):
-    """A surface."""
+    """A Triangle is a surface."""
 
     def __init__(self, a: Point, b: Point, c: Point, **common: Any) -> None:
         self._create("crt_triangle_create", vector(a), vector(b), vector(c), **common)
 
 
 class Mesh(Entity):
-    """A surface of triangles: n x 3 positions, and m x 3 indices into them."""
+    """A Mesh is a surface of triangles: n x 3 positions, and m x 3 indices into them."""
 
     def __init__(self, positions: ArrayLike, indices: ArrayLike, **common: Any) -> None:
         points = np.ascontiguousarray(positions, np.float64)
@@ -192,12 +217,14 @@ class Mesh(Entity):
 
 
 def _handles(entities: Iterable[Entity]) -> tuple[Any, int]:
-    """The array of pointers that the library wants, and its length."""
+    """Returns the array of pointers that the library needs, and its length."""
     parts = list(entities)
     for part in parts:
         require_type(part, "crt_entity", "a part")
     references: list[Reference] = [part._handle for part in parts]
-    array: Any = (ctypes.c_void_p * len(references))(*(reference._as_parameter_ for reference in references))
+    array: Any = (ctypes.c_void_p * len(references))(
+        *(reference._as_parameter_ for reference in references)
+    )
     array.references = references  # live as long as the array
     return array, len(references)
 

@@ -1,11 +1,11 @@
-"""What can go wrong: crt.Error, and crt.ScriptError with the places in the script."""
+"""Calls raise crt.Error, or crt.ScriptError with the places in the script."""
 
 import enum
 from dataclasses import dataclass
 
 
 class Status(enum.IntEnum):
-    """What became of a call; see crt_status in crt.h."""
+    """A Status says how a call ended; see crt_status in crt.h."""
 
     OK = 0
     INVALID_ARGUMENT = 1
@@ -24,7 +24,7 @@ class Status(enum.IntEnum):
 
 
 class Error(Exception):
-    """A call that failed. `status` is the kind, the text says what was wrong."""
+    """An Error is a call that failed. `status` is the kind, and the text says what was wrong."""
 
     def __init__(self, status: Status, message: str) -> None:
         super().__init__(message)
@@ -33,7 +33,7 @@ class Error(Exception):
 
 @dataclass(frozen=True)
 class Call:
-    """A macro call that led to an error."""
+    """A Call is a macro call that led to an error."""
 
     name: str
     file: str
@@ -43,7 +43,8 @@ class Call:
 
 @dataclass(frozen=True)
 class Diagnostic:
-    """One thing to say about a script. Lines and columns count from 1; 0: it has no place."""
+    """A Diagnostic is one message about a script. Lines and columns count from 1; 0 means that it
+    has no place."""
 
     is_error: bool  # or a warning
     status: Status
@@ -57,7 +58,8 @@ class Diagnostic:
 
 
 class ScriptError(Error):
-    """A script that failed. `diagnostics` has all there is to say, the text is as compilers print it."""
+    """A ScriptError is a script that failed. `diagnostics` has all messages, and the text is as
+    compilers print them."""
 
     def __init__(self, status: Status, message: str, diagnostics: list[Diagnostic]) -> None:
         super().__init__(status, message)

@@ -1,4 +1,5 @@
-"""Python values in the CRT language, for variables that are set from outside of a script."""
+"""This module writes Python values in the CRT language, for variables that are set from outside of
+a script."""
 
 import math
 from collections.abc import Mapping
@@ -10,13 +11,14 @@ import numpy as np
 
 @dataclass(frozen=True)
 class Expression:
-    """Text in the CRT language: crt.Expression("rgb(1, 0.5, 0)")."""
+    """An Expression is text in the CRT language: crt.Expression("rgb(1, 0.5, 0)")."""
 
     text: str
 
 
 def to_expression(value: Any) -> str:
-    """Booleans, numbers and strings as they are; a tuple of three is a Vec3, any other sequence a List."""
+    """Writes Booleans, numbers and strings as they are, a tuple of three as a Vec3, any other
+    sequence as a List."""
     if isinstance(value, Expression):
         return value.text
     if isinstance(value, (bool, np.bool_)):
@@ -33,11 +35,13 @@ def to_expression(value: Any) -> str:
         return f"vec3({', '.join(map(to_expression, value))})"
     if isinstance(value, (tuple, list, np.ndarray)):
         return f"[{', '.join(map(to_expression, value))}]"
-    raise TypeError(f"a {type(value).__name__} has no counterpart in scripts; crt.Expression takes any text")
+    raise TypeError(
+        f"a {type(value).__name__} has no counterpart in scripts; crt.Expression takes any text"
+    )
 
 
 def to_expressions(values: Mapping[str, Any]) -> tuple[list[str], list[str]]:
-    """The names, and their values as expressions."""
+    """Returns the names, and their values as expressions."""
     return list(values), [to_expression(value) for value in values.values()]
 
 

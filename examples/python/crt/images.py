@@ -1,4 +1,4 @@
-"""Pictures."""
+"""This module has the pictures."""
 
 import ctypes
 import os
@@ -20,18 +20,20 @@ class _WriteOptions(Struct):
 
 
 class Image(Handle):
-    """A picture: linear RGBA floats, alpha premultiplied, rows from the top. Immutable."""
+    """An Image is a picture: linear RGBA floats, alpha premultiplied, rows from the top. It is
+    immutable."""
 
     _name = "crt_image"
 
     @classmethod
     def from_pixels(cls, pixels: NDArray[Any]) -> "Image":
-        """A copy of height x width x 4 float32; the rows may lie apart."""
+        """Makes a copy of height x width x 4 float32. There may be gaps between the rows."""
         return cls._of_array("crt_image_create", pixels, np.dtype(np.float32))
 
     @classmethod
     def from_rgba8(cls, pixels: NDArray[Any]) -> "Image":
-        """A copy of height x width x 4 uint8 as displays want them: gamma applied, alpha straight."""
+        """Makes a copy of height x width x 4 uint8 as displays want them: gamma applied, alpha
+        straight."""
         return cls._of_array("crt_image_from_rgba8", pixels, np.dtype(np.uint8))
 
     @classmethod
@@ -40,25 +42,29 @@ class Image(Handle):
 
     @classmethod
     def decode(cls, content: bytes, name: str = "image") -> "Image":
-        """From a file's bytes; the name is for messages."""
+        """Reads an image from a file's bytes. The name is for messages."""
         return cls._adopt(create("crt_image_decode", content, len(content), name.encode()))
 
     @classmethod
     def _of_array(cls, function: str, pixels: NDArray[Any], dtype: np.dtype[Any]) -> "Image":
         if pixels.dtype != dtype or pixels.ndim != 3 or pixels.shape[2] != 4:
-            raise TypeError(f"pixels are height x width x 4 {dtype}, not {pixels.shape} {pixels.dtype}")
+            raise TypeError(
+                f"pixels are height x width x 4 {dtype}, not {pixels.shape} {pixels.dtype}"
+            )
         height, width, channels = pixels.shape
         row_bytes = width * channels * dtype.itemsize
-        if pixels.strides[1:] != (channels * dtype.itemsize, dtype.itemsize) or pixels.strides[0] < row_bytes:
+        steps = (channels * dtype.itemsize, dtype.itemsize)
+        if pixels.strides[1:] != steps or pixels.strides[0] < row_bytes:
             raise TypeError(
-                "pixels of a row must follow one another, and rows must not overlap or run backwards"
+                "pixels of a row must follow one another, and rows must not overlap or run"
+                " backwards"
             )
         return cls._adopt(create(function, width, height, pixels.ctypes.data, pixels.strides[0]))
 
     @property
     def not_finite(self) -> tuple[int, int, int]:
-        """How many pixels of the file had values that are not finite (they count as 0), and the column and row
-        of the first; (0, 0, 0) if there are none."""
+        """Returns how many pixels of the file had values that are not finite (they count as 0), and
+        the column and row of the first; (0, 0, 0) if there are none."""
         x, y = ctypes.c_uint32(), ctypes.c_uint32()
         pixels = library.crt_image_not_finite(self._handle, ctypes.byref(x), ctypes.byref(y))
         return int(pixels), x.value, y.value
@@ -73,20 +79,22 @@ class Image(Handle):
 
     @property
     def pixels(self) -> NDArray[Any]:
-        """height x width x 4 float32, read-only: the library's own memory, which the array keeps."""
+        """Returns height x width x 4 float32, read-only: the library's own memory, which the array
+        keeps."""
         return np.asarray(_LentArray.of_pixels(self._handle))
 
     @property
     def channels(self) -> dict[str, NDArray[Any]]:
-        """What there is beside the colours (see Prepared.render), by name: height x width float32, or uint32
-        for "id" and "samples"; read-only: the library's own memory, which the arrays keep."""
+        """Returns what there is beside the colours (see Prepared.render), by name: height x width
+        float32, or uint32 for "id" and "samples". They are read-only: the library's own memory,
+        which the arrays keep."""
         reference = self._handle
         count = library.crt_image_channel_count(reference)
         names = [library.crt_image_channel_name(reference, index) for index in range(count)]
         return {name.decode(): np.asarray(_LentArray.of_channel(reference, name)) for name in names}
 
     def to_rgba8(self) -> NDArray[Any]:
-        """height x width x 4 uint8, as a file gets them: gamma applied, alpha straight."""
+        """Returns height x width x 4 uint8, as a file gets them: gamma applied, alpha straight."""
         reference = self._handle
         shape = library.crt_image_height(reference), library.crt_image_width(reference), 4
         pixels = np.empty(shape, np.uint8)
@@ -96,20 +104,22 @@ class Image(Handle):
     def save(
         self, path: str | os.PathLike[str], *, reproducible: bool = False, colors_only: bool = False
     ) -> None:
-        """Writes a file; its ending tells the format. `reproducible` leaves out how long the render took,
-        `colors_only` the channels beside the colours, which only .exr files hold."""
+        """Writes a file whose ending decides the format. `reproducible` leaves out how long the
+        render took, `colors_only` the channels beside the colours, which only .exr files hold."""
         options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
         library.crt_image_write_with(self._handle, path, ctypes.byref(options))
 
-    def encode(self, format: str, *, reproducible: bool = False, colors_only: bool = False) -> bytes:
-        """The bytes of a file of this format: "png", "exr", ...; otherwise as save()."""
+    def encode(
+        self, format: str, *, reproducible: bool = False, colors_only: bool = False
+    ) -> bytes:
+        """Returns the bytes of a file of this format: "png", "exr", ...; otherwise as save()."""
         options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
         handle = create("crt_image_encode", self._handle, format, ctypes.byref(options))
         buffer = Reference(handle, library.crt_buffer_release)
         return ctypes.string_at(library.crt_buffer_data(buffer), library.crt_buffer_size(buffer))
 
     def _repr_png_(self) -> bytes:
-        """For notebooks."""
+        """Shows the image in notebooks."""
         return self.encode("png", colors_only=True)
 
     @property
@@ -118,21 +128,26 @@ class Image(Handle):
 
     @property
     def settings(self) -> Settings:
-        """What it was rendered with."""
+        """Returns the settings that it was rendered with."""
         return Settings._filled_by("crt_image_settings", self._handle)
 
     def with_settings(self, settings: Settings) -> "Image":
-        """The same pixels with another gamma, other texts, ..."""
+        """Returns the same pixels with another gamma, other texts, ..."""
         return Image._adopt(
             create("crt_image_with_settings", self._handle, reference(settings, "crt_settings"))
         )
 
 
 class _LentArray:
-    """What NumPy makes an array of, which keeps this, which keeps the image."""
+    """NumPy makes an array of a _LentArray. The array keeps it, and it keeps the image."""
 
     def __init__(
-        self, reference: Reference, address: int, kind: type, shape: tuple[int, ...], strides: tuple[int, ...]
+        self,
+        reference: Reference,
+        address: int,
+        kind: type,
+        shape: tuple[int, ...],
+        strides: tuple[int, ...],
     ) -> None:
         self._reference = reference
         self.__array_interface__: dict[str, Any] = {
@@ -155,4 +170,6 @@ class _LentArray:
         floats = library.crt_image_channel(reference, name)
         address = floats or library.crt_image_channel_uint(reference, name)
         height, width = library.crt_image_height(reference), library.crt_image_width(reference)
-        return cls(reference, address, np.float32 if floats else np.uint32, (height, width), (4 * width, 4))
+        return cls(
+            reference, address, np.float32 if floats else np.uint32, (height, width), (4 * width, 4)
+        )

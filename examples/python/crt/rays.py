@@ -1,7 +1,7 @@
-"""Rays and hits as NumPy arrays that the library reads and writes where they are.
+"""Rays and hits are NumPy arrays that the library reads and writes in place.
 
-RAY and HIT are the layouts of crt_ray and crt_hit. Arrays of them may be of any shape, and have gaps: a
-field of an array of larger records will do. What would need a copy is refused.
+RAY and HIT are the layouts of crt_ray and crt_hit. Arrays of them may be of any shape, and have
+gaps: a field of an array of larger records will do. What would need a copy is refused.
 """
 
 import math
@@ -15,7 +15,14 @@ from .values import Camera, Projection
 
 RAY = np.dtype([("origin", "f8", 3), ("direction", "f8", 3), ("t_min", "f8"), ("t_max", "f8")])
 HIT = np.dtype(
-    [("t", "f8"), ("normal", "f8", 3), ("u", "f8"), ("v", "f8"), ("entity_id", "u4"), ("flags", "u4")]
+    [
+        ("t", "f8"),
+        ("normal", "f8", 3),
+        ("u", "f8"),
+        ("v", "f8"),
+        ("entity_id", "u4"),
+        ("flags", "u4"),
+    ]
 )
 
 ENTERING = 1  # of a hit's flags: into the solid, or through a surface against its normal
@@ -23,7 +30,7 @@ BACKFACE = 2  # from the side that the normal points away from
 
 
 def rays(shape: int | tuple[int, ...]) -> NDArray[Any]:
-    """An array of rays from 0 to infinity, for you to fill in `origin` and `direction`."""
+    """Makes an array of rays from 0 to infinity, for you to fill in `origin` and `direction`."""
     array = np.zeros(shape, RAY)
     array["t_max"] = math.inf
     return array
@@ -32,12 +39,13 @@ def rays(shape: int | tuple[int, ...]) -> NDArray[Any]:
 def ray(
     origin: Sequence[float], direction: Sequence[float], t_min: float = 0, t_max: float = math.inf
 ) -> NDArray[Any]:
-    """One ray."""
+    """Makes one ray."""
     return np.array((tuple(origin), tuple(direction), t_min, t_max), RAY)
 
 
 def camera_rays(camera: Camera, width: int, height: int) -> NDArray[Any]:
-    """The rays through the middles of a pinhole camera's pixels, height x width.
+    """Makes the rays through the middles of a pinhole camera's pixels, height x width. Their
+    directions have a length of 1 along the view, so that a hit's t is the depth of the point.
 
     Their directions have a length of 1 along the view, so that a hit's t is the depth of the point.
     """
@@ -64,7 +72,8 @@ def camera_rays(camera: Camera, width: int, height: int) -> NDArray[Any]:
 
 
 class Batch:
-    """How the library is to find the items of an array: where, how many, how many bytes apart."""
+    """A Batch says where the library finds the items of an array: where, how many, how many bytes
+    apart."""
 
     def __init__(self, array: NDArray[Any], dtype: np.dtype[Any], name: str) -> None:
         items = array.shape
@@ -82,7 +91,8 @@ class Batch:
 
 
 def _common_stride(shape: tuple[int, ...], strides: tuple[int, ...], size: int, name: str) -> int:
-    """The one distance from each item to the next, of an array of any number of dimensions."""
+    """Returns the one distance from each item to the next, of an array of any number of
+    dimensions."""
     steps = [(length, step) for length, step in zip(shape, strides) if length != 1]
     if math.prod(shape) == 0 or not steps:
         return size

@@ -1,4 +1,4 @@
-"""Scenes made ready, and what one does with them: pictures and ray queries."""
+"""This module renders pictures of prepared scenes and asks ray queries."""
 
 import atexit
 import ctypes
@@ -28,7 +28,8 @@ _AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8, "samples": 16, "erro
 
 
 class Prepared(Handle):
-    """A scene ready for rays. Immutable: any number of threads may use it at once."""
+    """A Prepared is a scene ready for rays. It is immutable: any number of threads may use it at
+    once."""
 
     _name = "crt_prepared"
 
@@ -47,17 +48,20 @@ class Prepared(Handle):
     ) -> Image:
         """Renders a picture.
 
-        `threads`: at most; 0 for all cores. `region`: x, y, width, height of a part, from the top left.
-        `seed` takes the place of the settings', unless it is 0. `passes`: renders so many (stats.passes),
-        unless it is 0, whatever the settings' time budget. `aovs`, some of "depth", "normal", "id",
-        "albedo", "samples" and "error", become Image.channels. `checkpoint`: a file that keeps a picture which
-        is rendered by passes, and from which the next render goes on. `max_ray_steps`: things that one ray may
-        be tested against, see crt_render_options. `progress` is told the share that is
-        done, `log` what there is to tell; they may be called from other threads, one at a time. What
-        progress raises cancels the render and comes out of here. So does Ctrl-C.
+        `threads` is the most threads, 0 for all cores. `region` is x, y, width, height of a part,
+        from the top left. `seed` replaces the settings', unless it is 0. `passes` is the number of
+        passes to render (stats.passes), unless it is 0, whatever the settings' time budget. `aovs`,
+        some of "depth", "normal", "id", "albedo", "samples" and "error", become Image.channels.
+        `checkpoint` is a file that keeps a picture which is rendered by passes, and from which the
+        next render continues. `max_ray_steps` limits the things that one ray may be tested against,
+        see crt_render_options. `progress` gets the share that is done, and `log` the messages. Both
+        may be called from other threads, one at a time. What progress raises cancels the render and
+        comes out of here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log)
+        options = _options(
+            guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log
+        )
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
 
@@ -74,23 +78,27 @@ class Prepared(Handle):
         progress: Progress | None = None,
         log: Log | None = None,
     ) -> "Job":
-        """Starts to render in the background; as render() otherwise."""
+        """Starts to render in the background, otherwise as render()."""
         guard = Guard()
-        options = _options(guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log)
+        options = _options(
+            guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log
+        )
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
     def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
-        """The nearest hit of each ray; a miss has an infinite t.
+        """Finds the nearest hit of each ray. A miss has an infinite t.
 
-        `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if given,
-        has crt.HIT and as many items. Both are used in place.
+        `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if
+        given, has crt.HIT and as many items. Both are used in place.
         """
         questions = Batch(rays, RAY, "rays")
         if out is None:
             out = np.empty(questions.shape, HIT)
         answers = Batch(out, HIT, "hits")
         if answers.shape != questions.shape or not out.flags.writeable:
-            raise ValueError(f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}")
+            raise ValueError(
+                f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
+            )
         library.crt_intersect(
             self._handle,
             questions.address,
@@ -102,7 +110,8 @@ class Prepared(Handle):
         return out
 
     def distances(self, rays: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """How far each ray's nearest hit is (infinity for a miss), and of which entity: faster than intersect()."""
+        """Finds how far each ray's nearest hit is (infinity for a miss), and of which entity,
+        faster than intersect()."""
         questions = Batch(rays, RAY, "rays")
         out = np.empty(questions.shape, np.float64)
         ids = np.empty(questions.shape, np.uint32)
@@ -117,7 +126,7 @@ class Prepared(Handle):
         return out, ids
 
     def occluded(self, rays: NDArray[Any]) -> NDArray[Any]:
-        """Whether each ray hits anything at all."""
+        """Asks whether any surface blocks each ray."""
         questions = Batch(rays, RAY, "rays")
         out = np.empty(questions.shape, np.bool_)
         library.crt_occluded(
@@ -126,7 +135,7 @@ class Prepared(Handle):
         return out
 
     def crossings(self, ray: NDArray[Any]) -> NDArray[Any]:
-        """Every crossing along one ray, in order: the solid intervals that CSG leaves."""
+        """Finds every crossing along one ray, in order: the solid intervals that CSG leaves."""
         record = np.asarray(ray)
         question = Batch(record, RAY, "rays")
         if question.count != 1:
@@ -142,7 +151,8 @@ class Prepared(Handle):
 
 
 class Job(Handle):
-    """A render under way. Closing it, or dropping it, cancels it and waits for its threads."""
+    """A Job is a render that runs on threads of its own. Closing it, or dropping it, cancels it and
+    waits for its threads."""
 
     _name = "crt_job"
 
@@ -153,18 +163,19 @@ class Job(Handle):
 
     @property
     def progress(self) -> float:
-        """The share done, from 0 to 1."""
+        """Returns the share done, from 0 to 1."""
         fraction = ctypes.c_double()
         library.crt_job_progress(self._handle, ctypes.byref(fraction))
         return fraction.value
 
     @property
     def is_finished(self) -> bool:
-        """Whether it has ended, in one way or another."""
+        """Says whether it has ended: it is done, was cancelled or failed."""
         return bool(library.crt_job_is_finished(self._handle))
 
     def snapshot(self) -> Image:
-        """The image so far; what is not yet rendered is transparent black."""
+        """Returns the image so far, in which pixels that are not yet rendered are transparent
+        black."""
         return Image._adopt(create("crt_job_snapshot", self._handle))
 
     def cancel(self) -> None:
@@ -172,7 +183,8 @@ class Job(Handle):
         library.crt_job_cancel(self._handle)
 
     def wait(self) -> Image:
-        """The image, once it is there; or raises what went wrong, such as what the progress callback raised.
+        """Returns the image, once it is there, or raises what went wrong, such as what the progress
+        callback raised. Ctrl-C in here cancels the job.
 
         Ctrl-C in here cancels the job.
         """
@@ -195,7 +207,8 @@ class _JobReference(Reference):
         self._options = options
 
     def __del__(self) -> None:
-        if self._guard.is_inside():  # a callback drops its own job, whose thread then ends by itself, later
+        # a callback drops its own job, whose thread then ends by itself, later
+        if self._guard.is_inside():
             _still_needed.append(self._options)
         super().__del__()
 
@@ -206,7 +219,7 @@ _jobs: weakref.WeakSet[Job] = weakref.WeakSet()
 
 @atexit.register
 def _end_jobs() -> None:
-    """No callback may come when Python is being taken apart."""
+    """Ends all jobs, as no callback may come while Python shuts down."""
     for job in list(_jobs):
         if job._reference is not None:
             job.cancel()

@@ -1,4 +1,4 @@
-"""Scenes: put together in Python, or made by a script."""
+"""A scene is put together in Python, or made by a script."""
 
 import ctypes
 import os
@@ -20,7 +20,8 @@ from .values import Background, Camera, Light, Settings
 
 
 class Scene(Handle):
-    """The description of a picture. What `prepare()` makes of it, ready for rays, does not change with it."""
+    """A Scene is the description of a picture. What `prepare()` makes of it, ready for rays, does
+    not change with it."""
 
     _name = "crt_scene"
 
@@ -62,17 +63,20 @@ class Scene(Handle):
         open_file: Callable[[str], bytes | None] | None = None,
         **limits: int,
     ) -> "Scene":
-        """The scene of a script: a str is its text, a path (pathlib.Path) its file.
+        """Makes the scene of a script: a str is its text, a path (pathlib.Path) its file.
 
-        `name` stands for a text in messages. `variables` of the top level and attributes of Settings get
-        these values in place of the script's (see crt.Expression). `t` is the frame of an animation. `compat`
-        may be 2015, for a script of that year (docs/compat.md). `print` gets each line that the script
-        prints. `open_file` is asked for the content of each file that the script names; None leaves it to
-        the file system. `limits` are max_steps and the like, see crt_script_options. What a callback raises comes out of here; so does Ctrl-C. A script that is wrong
-        raises crt.ScriptError.
+        `name` stands for a text in messages. `variables` of the top level and attributes of
+        Settings get these values in place of the script's (see crt.Expression). `t` is the frame of
+        an animation. `compat` may be 2015, for a script of that year (docs/compat.md). `print` gets
+        each line that the script prints. `open_file` is asked for the content of each file that the
+        script names; None leaves it to the file system. `limits` are max_steps and the like, see
+        crt_script_options. What a callback raises comes out of here. So does Ctrl-C. A script that
+        is wrong raises crt.ScriptError.
         """
         guard = Guard()
-        options = _ScriptOptions(t=t, compat=compat, allow_outside_files=allow_outside_files, **limits)
+        options = _ScriptOptions(
+            t=t, compat=compat, allow_outside_files=allow_outside_files, **limits
+        )
         options.set(**_pairs("variable", variables), **_pairs("setting", settings))
         directories = [to_utf8(directory) for directory in resource_directories]
         options.resource_directories = _texts(directories)
@@ -118,7 +122,10 @@ class Scene(Handle):
         with self._lock:
             scene = self._handle
             count = library.crt_scene_entity_count(scene)
-            return [Entity._adopt(create("crt_scene_get_entity", scene, index)) for index in range(count)]
+            return [
+                Entity._adopt(create("crt_scene_get_entity", scene, index))
+                for index in range(count)
+            ]
 
     @property
     def lights(self) -> list[Light]:
@@ -129,7 +136,7 @@ class Scene(Handle):
 
     @property
     def camera(self) -> Camera:
-        """A copy, as are the next two: assign what you have changed."""
+        """Returns a copy, as do the next two: assign what you have changed."""
         with self._lock:
             return Camera._filled_by("crt_scene_get_camera", self._handle)
 
@@ -162,12 +169,13 @@ class Scene(Handle):
             library.crt_scene_set_settings(self._handle, reference(settings, "crt_settings"))
 
     def copy(self) -> "Scene":
-        """Another scene with the same content."""
+        """Returns another scene with the same content."""
         with self._lock:
             return Scene._adopt(create("crt_scene_copy", self._handle))
 
     def prepare(self, max_primitives: int = 0) -> Prepared:
-        """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here.
+        """Checks the scene and builds what rays need. Ctrl-C ends it, and comes out of here. A
+        scene of more than max_primitives is an error; 0 is as many as memory is enough for.
 
         A scene of more than max_primitives is an error; 0 is as many as memory is enough for.
         """
@@ -176,10 +184,12 @@ class Scene(Handle):
         options.max_primitives = max_primitives
         options.poll = POLL(lambda _user: guard.call(_nothing))
         with self._lock, guard.raising():
-            return Prepared._adopt(create("crt_scene_prepare_with", self._handle, ctypes.byref(options)))
+            return Prepared._adopt(
+                create("crt_scene_prepare_with", self._handle, ctypes.byref(options))
+            )
 
     def render(self, **options: Any) -> Image:
-        """Prepares and renders; the options are those of Prepared.render()."""
+        """Prepares and renders. The options are those of Prepared.render()."""
         return self.prepare().render(**options)
 
 
@@ -226,7 +236,7 @@ def _texts(texts: list[bytes]) -> Any:
 
 
 def _pairs(kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
-    """The three fields of the options that have names, values and their count."""
+    """Returns the three fields of the options that have names, values and their count."""
     names, expressions = to_expressions(values)
     return {
         f"{kind}_names": _texts([to_utf8(name) for name in names]),
@@ -236,7 +246,7 @@ def _pairs(kind: str, values: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _nothing() -> None:
-    """For the callback that is there to look whether another one has raised something."""
+    """Does nothing, as a callback that only checks whether another one has raised something."""
 
 
 def _print_callback(guard: Guard, print: Callable[[str], Any]) -> Any:

@@ -1,14 +1,24 @@
-"""Materials, lights, cameras, backgrounds and settings.
+"""This module has materials, lights, cameras, backgrounds and settings.
 
-The fields, their units, ranges and defaults are those of the structs of the same name in crt.h: vectors are
-three numbers, colours linear RGB, angles radians. Each class takes fields as keyword arguments, and they may
-be changed later; whoever takes a value copies it.
+The fields, their units, ranges and defaults are those of the structs of the same name in crt.h:
+vectors are three numbers, colours linear RGB, angles radians. Each class takes fields as keyword
+arguments, and they may be changed later; whoever takes a value copies it.
 """
 
 import enum
 from typing import Any
 
-from ._structs import Double, ImagePointer, Int, Long, PatternPointer, Struct, Text, Vector, growable
+from ._structs import (
+    Double,
+    ImagePointer,
+    Int,
+    Long,
+    PatternPointer,
+    Struct,
+    Text,
+    Vector,
+    growable,
+)
 
 
 class PatternType(enum.IntEnum):
@@ -23,7 +33,7 @@ class PatternType(enum.IntEnum):
 
 @growable("crt_pattern")
 class Pattern(Struct):
-    """Colours that vary over a surface or through space: Pattern.wood(scale=0.1)."""
+    """A Pattern is colours that vary over a surface or through space: Pattern.wood(scale=0.1)."""
 
     type: Int
     color_a: Vector
@@ -42,43 +52,43 @@ class Pattern(Struct):
 
     @classmethod
     def checker(cls, **fields: Any) -> "Pattern":
-        """Cubes whose edges are `scale` long."""
+        """Makes cubes whose edges are `scale` long."""
         return cls.of_type(PatternType.CHECKER, **fields)
 
     @classmethod
     def stripes(cls, **fields: Any) -> "Pattern":
-        """Bands across `direction`, one of each colour in `scale`."""
+        """Makes bands across `direction`, one of each colour in `scale`."""
         return cls.of_type(PatternType.STRIPES, **fields)
 
     @classmethod
     def gradient(cls, **fields: Any) -> "Pattern":
-        """From `color_a` to `color_b` and back along `direction` within `scale`."""
+        """Changes from `color_a` to `color_b` and back along `direction` within `scale`."""
         return cls.of_type(PatternType.GRADIENT, **fields)
 
     @classmethod
     def noise(cls, **fields: Any) -> "Pattern":
-        """Clouds."""
+        """Makes clouds."""
         return cls.of_type(PatternType.NOISE, **fields)
 
     @classmethod
     def marble(cls, **fields: Any) -> "Pattern":
-        """Veins across `direction`."""
+        """Makes veins across `direction`."""
         return cls.of_type(PatternType.MARBLE, **fields)
 
     @classmethod
     def wood(cls, **fields: Any) -> "Pattern":
-        """Rings about the line through `offset` along `direction`."""
+        """Makes rings about the line through `offset` along `direction`."""
         return cls.of_type(PatternType.WOOD, **fields)
 
     @classmethod
     def of_image(cls, image: Any, **fields: Any) -> "Pattern":
-        """A crt.Image laid over the surface."""
+        """Lays a crt.Image over the surface."""
         return cls.of_type(PatternType.IMAGE, image=image, **fields)
 
 
 @growable("crt_material")
 class Material(Struct):
-    """What a surface is made of. A `pattern` takes the place of the colour."""
+    """A Material says what a surface is made of. A `pattern` replaces the colour."""
 
     reserved: Int
     color: Vector
@@ -104,7 +114,8 @@ class LightType(enum.IntEnum):
 
 @growable("crt_light")
 class Light(Struct):
-    """Light.point(origin=...), Light.parallel(origin=..., pointing=...), Light.spot(), Light.cylinder()."""
+    """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
+    Light.spot() or Light.cylinder()."""
 
     type: Int
     origin: Vector
@@ -133,7 +144,7 @@ class Light(Struct):
 
     @classmethod
     def cylinder(cls, **fields: Any) -> "Light":
-        """Parallel rays that fill a cylinder from `origin` towards `pointing`."""
+        """Sends parallel rays that fill a cylinder from `origin` towards `pointing`."""
         return cls.of_type(LightType.CYLINDER, **fields)
 
 
@@ -158,7 +169,7 @@ class ApertureShape(enum.IntEnum):
 
 @growable("crt_camera")
 class Camera(Struct):
-    """Where the picture is seen from."""
+    """A Camera says where the picture is seen from."""
 
     projection: Int
     position: Vector
@@ -181,7 +192,8 @@ class BackgroundType(enum.IntEnum):
 
 @growable("crt_background")
 class Background(Struct):
-    """What a ray that hits nothing sees: a colour, Background.gradient(), or Background.panorama(image)."""
+    """A Background is what a ray that hits nothing sees: a colour, Background.gradient(), or
+    Background.panorama(image)."""
 
     type: Int
     color: Vector
@@ -195,14 +207,15 @@ class Background(Struct):
 
     @classmethod
     def gradient(cls, **fields: Any) -> "Background":
-        """From `horizon` to `sky`."""
+        """Changes from `horizon` to `sky`."""
         return cls(type=BackgroundType.GRADIENT, **fields)
 
     @classmethod
     def panorama(
         cls, image: Any, cylindrical: bool = False, equal_area: bool = False, **fields: Any
     ) -> "Background":
-        """A crt.Image all around: spherical (equirectangular), unless it is one of the others."""
+        """Shows a crt.Image all around: spherical (equirectangular), unless it is one of the
+        others."""
         if cylindrical and equal_area:
             raise ValueError("a panorama is cylindrical or of equal area, not both")
         type = BackgroundType.SPHERICAL
@@ -220,7 +233,7 @@ class PixelFilter(enum.IntEnum):
 
 @growable("crt_settings")
 class Settings(Struct):
-    """How a scene is rendered."""
+    """Settings say how a scene is rendered."""
 
     width: Int
     height: Int
@@ -251,7 +264,7 @@ class Settings(Struct):
 
 @growable("crt_render_stats", has_init=False)
 class RenderStats(Struct):
-    """What rendering a picture took."""
+    """RenderStats say what rendering a picture took."""
 
     threads: Int
     pixels: Long

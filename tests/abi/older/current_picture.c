@@ -1,4 +1,5 @@
-// The same picture by a program of today, which has every field at its default.
+// Makes the same picture as older_picture.c by a program of today, which has every field at its
+// default.
 #include <crt/crt.h>
 
 #include "picture.h"

@@ -1,5 +1,5 @@
-// A program that was compiled against an older crt.h. Guards behind each struct show that the
-// library leaves alone what this version of the structs does not have.
+// This program is compiled against an older crt.h. Guards behind each struct show that the library
+// leaves alone what this version of the structs does not have.
 #include <stdio.h>
 #include <string.h>
 
@@ -8,7 +8,7 @@
 
 enum { guard_bytes = 200, guard_value = 0x5a };
 
-// A struct on its own with a guard behind it.
+// Declares a struct with a guard behind it.
 #define GUARDED(type, name)           \
   struct {                            \
     type value;                       \
@@ -32,7 +32,7 @@ static int untouched(const unsigned char* guard) {
   return 1;
 }
 
-// A checkered ball: pattern and material say nothing of what came later.
+// Adds a checkered ball. Pattern and material have only fields of the older version.
 static void add_ball(crt_scene* scene) {
   static const double center[3] = {0, 0, 2};
   crt_entity* bare = NULL;

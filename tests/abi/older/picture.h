@@ -1,4 +1,4 @@
-// What the older program and the current one have in common: the picture that both make.
+// The older program and the current one make the same picture with these functions.
 #pragma once
 
 #include <stdint.h>
@@ -9,7 +9,7 @@ enum {
   picture_bytes = 4 * picture_width * picture_height
 };
 
-// Each gives the picture's 8-bit RGBA, and 0 unless something failed. The one is compiled against
-// older_crt.h, the other against crt.h.
+// Each gives the picture's 8-bit RGBA, and returns 0 unless something failed. One is compiled
+// against older_crt.h, the other against crt.h.
 int older_picture(uint8_t* pixels);
 int current_picture(uint8_t* pixels);

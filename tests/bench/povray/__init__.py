@@ -1,1 +1,2 @@
-"""CRT beside POV-Ray: the same scenes in both languages, the same pictures, and what each took."""
+"""CRT stands beside POV-Ray: the same scenes in both languages, the same pictures, and what each
+took."""

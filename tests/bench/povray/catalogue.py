@@ -1,12 +1,12 @@
-"""The scenes that CRT and POV-Ray both render, by name."""
+"""CRT and POV-Ray both render these scenes, by name."""
 
 import math
 
 import numpy as np
 
 from .model import (
-    Alternating, Box, Camera, Checker, Difference, Lenses, Material, Plane, PointLight, Scene, Sphere, Spheres, Torus,
-    Union,
+    Alternating, Box, Camera, Checker, Difference, Lenses, Material, Plane, PointLight, Scene,
+    Sphere, Spheres, Torus, Union,
 )
 from .stream import Stream
 
@@ -20,7 +20,7 @@ FRONT = Camera(position=(1, 2, -11), pointing=(0, 0, 0))
 
 
 def spheres(count: int) -> Scene:
-    """As many spheres in the same space; their share of it stays the same."""
+    """Makes so many spheres in the same space, of which their share stays the same."""
     centers = Stream(1).points(count, (-4, -3, -4), (4, 3, 4))
     balls = Spheres(centers, 1.4 / count ** (1 / 3), SHINY)
     return Scene(f"{count} spheres over a plane", (balls, Plane(-4, FLOOR)), STUDIO)
@@ -34,7 +34,7 @@ def rows_and_columns(count: int) -> tuple[int, int]:
 
 
 def cells(count: int, width: float, height: float) -> tuple[np.ndarray, float]:
-    """The centres of a grid in the plane z = 0, and the shorter side of a cell."""
+    """Returns the centres of a grid in the plane z = 0, and the shorter side of a cell."""
     columns, rows = rows_and_columns(count)
     x = width * ((np.arange(columns) + 0.5) / columns - 0.5)
     y = height * ((np.arange(rows) + 0.5) / rows - 0.5)
@@ -49,11 +49,14 @@ def plate(count: int) -> Scene:
 
 
 def tunnel(count: int) -> Scene:
-    """Each ray in the middle passes all holes: they overlap, and the narrow places are 0.8 of their radius wide."""
+    """Makes a row of holes. Each ray in the middle passes all of them: they overlap, and the narrow
+    places are 0.8 of their radius wide."""
     radius, step = 1.2, 0.72 * 2
     centers = np.array([(0, 0, step * i) for i in range(count)])
     block = Box((-2.003, -1.503, 0), (2.003, 1.503, step * (count - 1)), WOOD)
-    camera = Camera(position=(0, 0, -5), pointing=(0, 0, 0), orthographic_height=3.2, focal_distance=1)
+    camera = Camera(
+        position=(0, 0, -5), pointing=(0, 0, 0), orthographic_height=3.2, focal_distance=1
+    )
     lights = (PointLight((3, 4, -40)),)
     return Scene(f"a box minus {count} spheres in a row along the ray",
                  (Difference(block, (Spheres(centers, radius, HOLE),)),), camera, lights)
@@ -65,7 +68,9 @@ def lens_cloud(count: int) -> Lenses:
 
 
 def lens_union(count: int) -> Scene:
-    return Scene(f"one union of {count} lenses", (Union((lens_cloud(count),)), Plane(-4, FLOOR)), STUDIO)
+    return Scene(
+        f"one union of {count} lenses", (Union((lens_cloud(count),)), Plane(-4, FLOOR)), STUDIO
+    )
 
 
 def lens_cut(count: int) -> Scene:
@@ -83,7 +88,9 @@ def mirror_room() -> Scene:
     stream = Stream(5)
     balls = tuple(
         Sphere((stream.between(-4, 4), stream.between(-2.2, 1), stream.between(-3, 4)), 0.7,
-               Material(color=(0.6, 0.6, 0.6), diffuse=0.6, specular=0.3, shininess=40, reflectivity=0.4))
+               Material(
+                   color=(0.6, 0.6, 0.6), diffuse=0.6, specular=0.3, shininess=40, reflectivity=0.4
+               ))
         for _ in range(12))
     room = (
         Box((-6, -4, -6), (6, -3, 6), tiles), Box((-6, 3, -6), (6, 4, 6), WOOD),
@@ -99,17 +106,23 @@ def tori(count: int) -> Scene:
     stream = Stream(7)
     size = 3 / count ** (1 / 3)
     rings = tuple(
-        Torus(tuple(center), size, 0.3 * size, (stream.between(0, 180), stream.between(0, 180), 0), SHINY)
+        Torus(
+            tuple(center), size, 0.3 * size, (stream.between(0, 180), stream.between(0, 180), 0),
+            SHINY,
+        )
         for center in Stream(11).points(count, (-4, -3, -4), (4, 3, 4)))
     return Scene(f"{count} tori over a plane", rings + (Plane(-4, FLOOR),), STUDIO)
 
 
 def glass() -> Scene:
-    """No ambient light: in POV-Ray glass has no share of it, in CRT it has."""
+    """Has no ambient light: in POV-Ray glass has no share of it, in CRT it has."""
     crystal = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refractive_index=1.5)
     stream = Stream(13)
     balls = tuple(
-        Sphere((2.2 * (i % 4) - 3.3, 0.8 * (i // 4), 2.2 * (i // 4) - 2), stream.between(0.7, 1), crystal)
+        Sphere(
+            (2.2 * (i % 4) - 3.3, 0.8 * (i // 4), 2.2 * (i // 4) - 2), stream.between(0.7, 1),
+            crystal,
+        )
         for i in range(12))
     return Scene("12 glass spheres over tiles, 10 bounces", balls + (Plane(-1.5, TILES),),
                  Camera(position=(1, 4, -9), pointing=(0, 0, 0)), ambient=0, depth=10)
@@ -117,8 +130,12 @@ def glass() -> Scene:
 
 def depth_of_field() -> Scene:
     scene = spheres(100)
-    camera = Camera(position=STUDIO.position, pointing=STUDIO.pointing, aperture=0.3, focal_distance=11)
-    return Scene("100 spheres, a lens, 50 samples a pixel", scene.things, camera, lens_samples=50, noisy=True)
+    camera = Camera(
+        position=STUDIO.position, pointing=STUDIO.pointing, aperture=0.3, focal_distance=11
+    )
+    return Scene(
+        "100 spheres, a lens, 50 samples a pixel", scene.things, camera, lens_samples=50, noisy=True
+    )
 
 
 def antialiased() -> Scene:
@@ -126,7 +143,8 @@ def antialiased() -> Scene:
 
 
 def nested(levels: int) -> Scene:
-    """A plate to which balls are added and from which balls are cut, by turns, each level a place further."""
+    """Makes a plate to which balls are added and from which balls are cut, by turns, each level a
+    place further."""
     centers, side = cells(levels, 8, 6)
     parts = tuple(
         Sphere(tuple(center), 0.45 * side, SHINY if level % 2 == 0 else HOLE)
@@ -139,7 +157,7 @@ def powers(first: int, last: int) -> list[tuple[int, str]]:
     return [(10**k, f"1e{k}") for k in range(first, last + 1)]
 
 
-# Each scene by its name, made when asked for: a million spheres take a while.
+# Lists each scene by its name. It is made when asked for, as a million spheres take a while.
 SCENES = {
     **{f"spheres-{name}": (lambda n=n: spheres(n)) for n, name in powers(2, 6)},
     **{f"plate-{name}": (lambda n=n: plate(n)) for n, name in powers(1, 4)},
@@ -155,7 +173,7 @@ SCENES = {
     "nested-50": lambda: nested(50),
     "nested-500": lambda: nested(500),
 }
-QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4", "mirror-room", "tori-300",
-         "glass", "depth-of-field", "antialiased", "nested-50")
-# Those that POV-Ray is asked for with its other tree as well.
+QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4",
+         "mirror-room", "tori-300", "glass", "depth-of-field", "antialiased", "nested-50")
+# POV-Ray renders these with its other tree as well.
 BSP = ("spheres-1e4", "spheres-1e6", "lenses-1e4", "plate-1e3")

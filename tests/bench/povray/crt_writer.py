@@ -1,4 +1,4 @@
-"""Scenes in CRT's language."""
+"""Writes scenes in CRT's language."""
 
 import math
 from typing import TextIO
@@ -6,8 +6,8 @@ from typing import TextIO
 import numpy as np
 
 from .model import (
-    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus,
-    Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere,
+    Spheres, Torus, Union,
 )
 
 
@@ -24,12 +24,12 @@ def color(values) -> str:
 
 
 def rows(centers: np.ndarray, call: str) -> str:
-    """A call for each centre, a line each."""
+    """Returns a call for each centre, a line each."""
     return "\n".join(f"{call}({x:.5f}, {y:.5f}, {z:.5f})" for x, y, z in centers.tolist())
 
 
 class Writer:
-    """Names are given to materials and to bodies that an expression needs; all go before the Scene."""
+    """Gives names to materials and to bodies that an expression needs. All go before the Scene."""
 
     def __init__(self, scene: Scene) -> None:
         self.scene = scene
@@ -52,7 +52,9 @@ class Writer:
         scene, camera = self.scene, self.scene.camera
         fov, projection = camera.fov, ""
         if camera.orthographic_height is not None:
-            fov = 2 * math.degrees(math.atan(camera.orthographic_height / 2 / camera.focal_distance))
+            fov = 2 * math.degrees(
+                math.atan(camera.orthographic_height / 2 / camera.focal_distance)
+            )
             projection = '  projection -> "orthographic"\n'
         lights = ",\n    ".join(
             f"PointLight {{ origin -> {vector(light.origin)} color -> {color(light.color)}"
@@ -88,33 +90,40 @@ class Writer:
         if material not in self.materials:
             paint = material.color
             if isinstance(paint, Checker):
-                paint = (f"Checker {{ colorA -> {color(paint.color_a)} colorB -> {color(paint.color_b)}"
+                paint = (f"Checker {{ colorA -> {color(paint.color_a)}"
+                         f" colorB -> {color(paint.color_b)}"
                          f" scale -> {number(paint.scale)} offset -> {vector(paint.offset)} }}")
             else:
                 paint = color(paint)
             self.materials[material] = self.define("material", (
                 f"Material {{ color -> {paint} diffuse -> {number(material.diffuse)}"
-                f" specular -> {number(material.specular)} shininess -> {number(material.shininess)}"
-                f" reflectivity -> {number(material.reflectivity)} transparency -> {number(material.transparency)}"
+                f" specular -> {number(material.specular)} shininess ->"
+                f" {number(material.shininess)}"
+                f" reflectivity -> {number(material.reflectivity)} transparency ->"
+                f" {number(material.transparency)}"
                 f" refractiveindex -> {number(material.refractive_index)} }}"))
         return self.materials[material]
 
     def emitted(self, thing) -> str:
-        """Statements that emit the thing."""
+        """Returns statements that emit the thing."""
         if isinstance(thing, Spheres):
             ball = self.define("ball", (
-                f"Macro (x, y, z) {{ Sphere {{ center -> vec3(x, y, z) radius -> {number(thing.radius)}"
+                f"Macro (x, y, z)"
+                f" {{ Sphere {{ center -> vec3(x, y, z) radius -> {number(thing.radius)}"
                 f" material -> {self.material(thing.material)} }} }}"))
             return rows(thing.centers, ball)
         if isinstance(thing, Lenses):
             half = [
                 f"Sphere {{ center -> vec3(x, y, z {sign} {number(thing.half_gap)})"
-                f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}" for sign in "-+"]
-            return rows(thing.centers, self.define("lens", f"Macro (x, y, z) {{ {half[0]} ^ {half[1]} }}"))
+                f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}"
+                for sign in "-+"]
+            return rows(
+                thing.centers, self.define("lens", f"Macro (x, y, z) {{ {half[0]} ^ {half[1]} }}")
+            )
         return self.value(thing)
 
     def value(self, thing) -> str:
-        """An expression for the thing."""
+        """Returns an expression for the thing."""
         if isinstance(thing, (Spheres, Lenses)):
             calls = self.emitted(thing)
             return self.define("group", f"Macro () {{\n{calls}\n}}") + "()"
@@ -126,7 +135,8 @@ class Writer:
                     f" material -> {self.material(thing.material)} }}")
         if isinstance(thing, Cylinder):
             return (f"Cylinder {{ from -> {vector(thing.start)} to -> {vector(thing.end)}"
-                    f" radius -> {number(thing.radius)} material -> {self.material(thing.material)} }}")
+                    f" radius -> {number(thing.radius)} material ->"
+                    f" {self.material(thing.material)} }}")
         if isinstance(thing, Cone):
             return (f"Cone {{ from -> {vector(thing.start)} to -> {vector(thing.end)}"
                     f" radius -> {number(thing.start_radius)} radius2 -> {number(thing.end_radius)}"
@@ -135,8 +145,10 @@ class Writer:
             return (f"Plane {{ normal -> vec3(0, 1, 0) position -> {vector((0, thing.height, 0))}"
                     f" material -> {self.material(thing.material)} }}")
         if isinstance(thing, Torus):
-            return (f"Torus {{ center -> vec3(0, 0, 0) axis -> vec3(0, 1, 0) radius -> {number(thing.radius)}"
-                    f" thickness -> {number(thing.thickness)} material -> {self.material(thing.material)} }}"
+            return (f"Torus {{ center -> vec3(0, 0, 0) axis -> vec3(0, 1, 0)"
+                    f" radius -> {number(thing.radius)}"
+                    f" thickness -> {number(thing.thickness)} material ->"
+                    f" {self.material(thing.material)} }}"
                     f" <rotate {vector(thing.turn)}, translate {vector(thing.center)}>")
         if isinstance(thing, Union):
             return " + ".join(map(self.value, thing.parts))

@@ -21,14 +21,15 @@ LONGEST_PROBE = 120.0  # seconds
 
 @dataclass(frozen=True)
 class Plan:
-    """How to measure."""
+    """A Plan says how to measure."""
 
     crt: pathlib.Path
     folder: pathlib.Path
     size: Size
     rounds: int
     threads: tuple[int, ...]
-    longest: float  # seconds; what would take longer is measured on a smaller picture, in a quarter of that
+    # seconds; what would take longer is measured on a smaller picture, in a quarter of that
+    longest: float
     patience: float  # seconds: no further round begins after that
     say: Callable[[str], None]
     tree: int = 1  # POV-Ray's bounding method
@@ -49,7 +50,8 @@ def write_scripts(scene: Scene, name: str, plan: Plan) -> tuple[Crt, PovRay]:
 
 
 def fitting_divisor(program: Crt | PovRay, picture: pathlib.Path, plan: Plan) -> int:
-    """By what the picture's sides must be divided so that one thread does not take too long; 1 if it can be whole."""
+    """Returns by what the picture's sides must be divided so that one thread does not take too
+    long. It is 1 if the picture can be whole."""
     divisor = FIRST_DIVISOR
     while True:
         try:
@@ -83,12 +85,15 @@ def measure(name: str, scene: Scene, plan: Plan) -> dict:
     crt_divisor = fitting_divisor(crt, crt_picture, plan)
     pov_divisor = fitting_divisor(pov, pov_picture, plan)
 
-    # At the smaller of both sizes they are compared.
+    # They are compared at the smaller of both sizes.
     common = plan.size.divided(max(crt_divisor, pov_divisor))
     crt.trace(common, max(plan.threads), crt_picture)
     pov.trace(common, max(plan.threads), pov_picture)
     difference = compare(scene, crt_picture, pov_picture)
-    plan.say(f"{name}: {difference.share:.3%} of the pixels differ, {difference.mean:.3f} steps on average")
+    plan.say(
+        f"{name}: {difference.share:.3%} of the pixels differ, {difference.mean:.3f} steps on"
+        f" average"
+    )
     if difference.share > MOST_DIFFERENT:
         raise DifferentPictures(
             f"{name}: {difference.share:.2%} of the pixels differ by more than {STEPS} steps"
@@ -105,7 +110,9 @@ def measure(name: str, scene: Scene, plan: Plan) -> dict:
             pair = tuple(
                 program.trace(plan.size.divided(divisor), threads, picture)
                 * plan.size.pixels / plan.size.divided(divisor).pixels
-                for program, divisor, picture in ((crt, crt_divisor, crt_picture), (pov, pov_divisor, pov_picture)))
+                for program, divisor, picture in (
+                    (crt, crt_divisor, crt_picture), (pov, pov_divisor, pov_picture)
+                ))
             seconds[threads].append(pair)
             plan.say(f"{name}, round {turn + 1} of {plan.rounds}, {threads} thread(s):"
                      f" crt {pair[0]:.3f} s, povray {pair[1]:.3f} s")
@@ -115,5 +122,6 @@ def measure(name: str, scene: Scene, plan: Plan) -> dict:
             "povray": statistics.median(pair[1] for pair in pairs),
             "ratio": statistics.median(pair[1] / pair[0] for pair in pairs),
         }
-    result["crt_divisor"], result["pov_divisor"], result["rounds"] = crt_divisor, pov_divisor, len(pairs)
+    result["crt_divisor"], result["pov_divisor"] = crt_divisor, pov_divisor
+    result["rounds"] = len(pairs)
     return result

@@ -1,4 +1,4 @@
-"""What a scene is before it is written in either language. Both worlds are left-handed with y up."""
+"""Holds a scene before it is written in either language. Both worlds are left-handed with y up."""
 
 from dataclasses import dataclass
 
@@ -9,7 +9,7 @@ Vector = tuple[float, float, float]
 
 @dataclass(frozen=True)
 class Checker:
-    """Cubes of two colours. The offset keeps the borders off the surfaces."""
+    """A Checker is cubes of two colours. The offset keeps the borders off the surfaces."""
 
     color_a: Vector
     color_b: Vector
@@ -19,7 +19,8 @@ class Checker:
 
 @dataclass(frozen=True)
 class Material:
-    """A highlight is the same in both programs on grey only: CRT tints it by the colour, POV-Ray does not."""
+    """A highlight is the same in both programs on grey only: CRT tints it by the colour, POV-Ray
+    does not."""
 
     color: Vector | Checker = (0.5, 0.5, 0.5)
     diffuse: float = 1
@@ -49,7 +50,7 @@ class Box:
 
 @dataclass(frozen=True)
 class Cylinder:
-    """Solid, between the middles of its two caps."""
+    """A Cylinder is solid, between the middles of its two caps."""
 
     start: Vector
     end: Vector
@@ -59,7 +60,7 @@ class Cylinder:
 
 @dataclass(frozen=True)
 class Cone:
-    """Likewise, with a radius at either end."""
+    """A Cone is solid, with a radius at either end."""
 
     start: Vector
     end: Vector
@@ -70,7 +71,7 @@ class Cone:
 
 @dataclass(frozen=True)
 class Plane:
-    """All that lies below a height."""
+    """A Plane is all that lies below a height."""
 
     height: float
     material: Material = GREY
@@ -78,7 +79,7 @@ class Plane:
 
 @dataclass(frozen=True)
 class Torus:
-    """About y, before it is turned (degrees about x, then y, then z) and moved."""
+    """A Torus is about y, before it is turned (degrees about x, then y, then z) and moved."""
 
     center: Vector
     radius: float
@@ -89,7 +90,7 @@ class Torus:
 
 @dataclass(frozen=True)
 class Spheres:
-    """Many spheres of one kind, a centre in a row: written so that a million take little room."""
+    """Spheres are many of one kind, a centre in a row, so that a million take little memory."""
 
     centers: np.ndarray
     radius: float
@@ -98,7 +99,8 @@ class Spheres:
 
 @dataclass(frozen=True)
 class Lenses:
-    """Each what two spheres share, whose centres are `half_gap` along z from the lens's own."""
+    """Each lens is what two spheres share, whose centres are `half_gap` along z from the lens's
+    own."""
 
     centers: np.ndarray
     radius: float
@@ -119,7 +121,8 @@ class Difference:
 
 @dataclass(frozen=True)
 class Alternating:
-    """(((base + first) - second) + third) - ...: a level of nesting for each part."""
+    """Alternating is (((base + first) - second) + third) - ..., with a level of nesting for each
+    part."""
 
     base: object
     parts: tuple
@@ -133,7 +136,8 @@ class Camera:
     orthographic_height: float | None = None  # of what the picture shows, instead of fov
     aperture: float = 0  # radius of the lens, scene units
     focal_distance: float = 1
-    aperture_shape: str = "circle"  # in CRT alone: POV-Ray 3.7 has round lenses, and gets one of the same area
+    # in CRT alone: POV-Ray 3.7 has round lenses, and gets one of the same area
+    aperture_shape: str = "circle"
 
 
 @dataclass(frozen=True)

@@ -1,4 +1,4 @@
-"""Whether two pictures show the same."""
+"""Compares two pictures, to see whether they show the same."""
 
 import pathlib
 from dataclasses import dataclass
@@ -7,7 +7,7 @@ import numpy as np
 
 
 def read_ppm(path: pathlib.Path) -> np.ndarray:
-    """A binary PPM of 8 or 16 bits: height x width x 3."""
+    """Reads a binary PPM of 8 or 16 bits: height x width x 3."""
     data = path.read_bytes()
     fields, position = [], 0
     while len(fields) < 4:
@@ -33,7 +33,7 @@ class Difference:
 
 
 def averaged(picture: np.ndarray, side: int) -> np.ndarray:
-    """Blocks of side x side pixels, averaged: noise goes, what is shown stays."""
+    """Averages blocks of side x side pixels, so that noise goes and what is shown stays."""
     height, width = (length // side * side for length in picture.shape[:2])
     blocks = picture[:height, :width].astype(float)
     return blocks.reshape(height // side, side, width // side, side, 3).mean(axis=(1, 3))

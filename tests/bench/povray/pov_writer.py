@@ -1,16 +1,17 @@
-"""Scenes in POV-Ray's language, such that its formulas give what CRT's do."""
+"""Writes scenes in POV-Ray's language, such that its formulas give what CRT's do."""
 
 import math
 from typing import TextIO
 
 from .model import (
-    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere, Spheres, Torus,
-    Union,
+    Alternating, Box, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane, Scene, Sphere,
+    Spheres, Torus, Union,
 )
 
-# Of POV-Ray's `aperture` to the radius of its lens; found by the size of a spot out of focus.
+# The ratio of POV-Ray's `aperture` to the radius of its lens was found by the size of a spot out of
+# focus.
 APERTURE_FOR_RADIUS = 4.0
-# Of shapes that POV-Ray has not got, by the area of a circle around them.
+# The areas of shapes that POV-Ray lacks are relative to that of a circle around them.
 AREAS = {"circle": 1, "hexagon": 3 * math.sqrt(3) / (2 * math.pi)}
 
 
@@ -45,7 +46,8 @@ class Writer:
     def settings(self) -> str:
         scene = self.scene
         lights = "".join(
-            f"light_source {{ {vector(light.origin)}, rgb {vector(light.color)} }}\n" for light in scene.lights)
+            f"light_source {{ {vector(light.origin)}, rgb {vector(light.color)} }}\n"
+            for light in scene.lights)
         lens = ""
         if scene.camera.aperture > 0:  # both may be set on the command line
             lens = (f"#ifndef (BlurSamples) #declare BlurSamples = {scene.lens_samples}; #end\n"
@@ -76,16 +78,21 @@ background {{ rgb {vector(scene.background)} }}
             radius = camera.aperture * math.sqrt(AREAS[camera.aperture_shape])
             lens = (f" aperture {number(APERTURE_FOR_RADIUS * radius)} focal_point {vector(focus)}"
                     " blur_samples BlurSamples variance Variance")
-        return (f"camera {{ perspective location {vector(camera.position)} right x * {number(self.aspect)} up y"
+        return (f"camera {{ perspective location {vector(camera.position)}"
+                f" right x * {number(self.aspect)} up y"
                 f" direction z * {number(length)} look_at {vector(camera.pointing)}{lens} }}")
 
     def material(self, material: Material) -> str:
-        """CRT's ambient light is not tinted by the surface: here it is divided by the colour to that end."""
+        """Writes a material. CRT's ambient light is not tinted by the surface, so it is divided by
+        the colour here."""
         if material in self.materials:
             return self.materials[material]
         ambient = [0, 0, 0]
         if self.scene.lights:
-            ambient = [self.scene.ambient * (1 - material.reflectivity) * c for c in self.scene.lights[0].color]
+            ambient = [
+                self.scene.ambient * (1 - material.reflectivity) * c
+                for c in self.scene.lights[0].color
+            ]
         name = f"T{len(self.materials) + 1}"
         self.declarations.append(f"#declare {name} = texture {{ {self.paint(material, ambient)} }}")
         self.materials[material] = name
@@ -99,15 +106,18 @@ background {{ rgb {vector(scene.background)} }}
         return f"pigment {{ {kept} }} {self.finish(material, paint, ambient)}"
 
     def checker(self, material: Material, paint: Checker, ambient: list[float]) -> str:
-        tiles = (f"texture {{ pigment {{ rgb {vector(shade)} }} {self.finish(material, shade, ambient)} }}"
+        tiles = (f"texture {{ pigment {{ rgb {vector(shade)} }}"
+                 f" {self.finish(material, shade, ambient)} }}"
                  for shade in (paint.color_a, paint.color_b))
-        return f"checker {', '.join(tiles)} scale {number(paint.scale)} translate {vector(paint.offset)}"
+        return (f"checker {', '.join(tiles)} scale {number(paint.scale)}"
+                f" translate {vector(paint.offset)}")
 
     def finish(self, material: Material, shade, ambient: list[float]) -> str:
         tinted = [a / max(c, 1e-9) for a, c in zip(ambient, shade)]
         text = f"finish {{ ambient rgb {vector(tinted)} diffuse {number(material.diffuse)}"
         if material.specular:
-            text += f" phong {number(material.specular * shade[0])} phong_size {number(material.shininess)}"
+            text += (f" phong {number(material.specular * shade[0])}"
+                     f" phong_size {number(material.shininess)}")
         if material.transparency:
             text += " reflection { 0, 1 fresnel on } conserve_energy"
         elif material.reflectivity:
@@ -122,25 +132,36 @@ background {{ rgb {vector(scene.background)} }}
 
     def text(self, thing) -> str:
         if isinstance(thing, Spheres):
-            return rows(thing.centers, "sphere {", f", {number(thing.radius)}{self.look(thing.material)}}}")
+            return rows(
+                thing.centers, "sphere {", f", {number(thing.radius)}{self.look(thing.material)}}}"
+            )
         if isinstance(thing, Lenses):
-            half = (f"sphere {{ {sign}z * {number(thing.half_gap)}, {number(thing.radius)} }}" for sign in "-+")
-            self.declarations.append(f"#declare Lens = intersection {{ {' '.join(half)}{self.look(thing.material)} }}")
+            half = (
+                f"sphere {{ {sign}z * {number(thing.half_gap)}, {number(thing.radius)} }}"
+                for sign in "-+"
+            )
+            self.declarations.append(
+                f"#declare Lens = intersection {{ {' '.join(half)}{self.look(thing.material)} }}"
+            )
             return rows(thing.centers, "object { Lens translate ", " }")
         if isinstance(thing, Sphere):
-            return f"sphere {{ {vector(thing.center)}, {number(thing.radius)}{self.look(thing.material)} }}"
+            return (f"sphere {{ {vector(thing.center)}, {number(thing.radius)}"
+                    f"{self.look(thing.material)} }}")
         if isinstance(thing, Box):
             return f"box {{ {vector(thing.low)}, {vector(thing.high)}{self.look(thing.material)} }}"
         if isinstance(thing, Cylinder):
-            return (f"cylinder {{ {vector(thing.start)}, {vector(thing.end)}, {number(thing.radius)}"
+            return (f"cylinder {{ {vector(thing.start)}, {vector(thing.end)},"
+                    f" {number(thing.radius)}"
                     f"{self.look(thing.material)} }}")
         if isinstance(thing, Cone):
-            return (f"cone {{ {vector(thing.start)}, {number(thing.start_radius)}, {vector(thing.end)},"
+            return (f"cone {{ {vector(thing.start)}, {number(thing.start_radius)},"
+                    f" {vector(thing.end)},"
                     f" {number(thing.end_radius)}{self.look(thing.material)} }}")
         if isinstance(thing, Plane):
             return f"plane {{ y, {number(thing.height)}{self.look(thing.material)} }}"
         if isinstance(thing, Torus):
-            return (f"torus {{ {number(thing.radius)}, {number(thing.thickness)} rotate {vector(thing.turn)}"
+            return (f"torus {{ {number(thing.radius)}, {number(thing.thickness)}"
+                    f" rotate {vector(thing.turn)}"
                     f" translate {vector(thing.center)}{self.look(thing.material)} }}")
         if isinstance(thing, Union):
             return self.csg("union", thing.parts)

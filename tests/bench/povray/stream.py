@@ -1,4 +1,4 @@
-"""The random numbers that all scenes are made of: POV-Ray's own `rand`."""
+"""Makes the random numbers of all scenes: POV-Ray's own `rand`."""
 
 import numpy as np
 
@@ -6,7 +6,7 @@ MULTIPLIER, INCREMENT, MODULUS = 1812433253, 12345, 2**32
 
 
 class Stream:
-    """Numbers in [0, 1], as POV-Ray's rand(seed(n)) gives them."""
+    """A Stream gives numbers in [0, 1], as POV-Ray's rand(seed(n)) does."""
 
     def __init__(self, seed: int) -> None:
         self.state = seed
@@ -19,6 +19,6 @@ class Stream:
         return low + (high - low) * self.number()
 
     def points(self, count: int, low: tuple, high: tuple) -> np.ndarray:
-        """Points in a box, one in a row, each from three numbers of the stream."""
+        """Returns points in a box, one in a row, each from three numbers of the stream."""
         numbers = np.fromiter((self.number() for _ in range(3 * count)), float, 3 * count)
         return np.asarray(low) + (np.asarray(high) - np.asarray(low)) * numbers.reshape(count, 3)

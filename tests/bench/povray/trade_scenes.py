@@ -1,12 +1,15 @@
-"""Scenes for accuracy against time, by name: each is hard for samplers in a way of its own, or not hard at all."""
+"""Makes scenes for accuracy against time, by name. Each is hard for samplers for a reason of its
+own, or not hard at all."""
 
 from .catalogue import FLOOR, HOLE, SHINY, STUDIO, TILES, WOOD, mirror_room, spheres
 from .model import (
-    Box, Camera, Checker, Cone, Cylinder, Difference, Material, Plane, PointLight, Scene, Sphere, Torus,
+    Box, Camera, Checker, Cone, Cylinder, Difference, Material, Plane, PointLight, Scene, Sphere,
+    Torus,
 )
 from .stream import Stream
 
-HEIGHTS = {"glass": 120, "hard": 120, "mirrors": 120}  # of the full pictures, in pixels; 180 if not told
+# of the full pictures, in pixels; 180 for the others
+HEIGHTS = {"glass": 120, "hard": 120, "mirrors": 120}
 
 
 def height_of(name: str) -> int:
@@ -14,8 +17,11 @@ def height_of(name: str) -> int:
 
 
 def camera_of_pixels(name: str) -> Camera:
-    """A pixel of the full picture is a unit."""
-    return Camera(position=(0, 0, -500), pointing=(0, 0, 0), orthographic_height=height_of(name), focal_distance=1)
+    """Returns a camera for which a pixel of the full picture is a unit."""
+    return Camera(
+        position=(0, 0, -500), pointing=(0, 0, 0), orthographic_height=height_of(name),
+        focal_distance=1,
+    )
 
 
 FAR_LIGHT = (PointLight((400, 700, -900)),)
@@ -23,23 +29,30 @@ CRYSTAL = Material(color=(0.95, 0.95, 0.95), diffuse=0, transparency=1, refracti
 
 
 def cad() -> Scene:
-    """Looked at along z, so that all straight edges are parallel to the pixels' sides."""
+    """Looks along z, so that all straight edges are parallel to the pixels' sides."""
     drills = tuple(
-        Cylinder((-2.71 + 1.093 * i, 1.207 - 1.211 * j, -1), (-2.71 + 1.093 * i, 1.207 - 1.211 * j, 2),
+        Cylinder((-2.71 + 1.093 * i, 1.207 - 1.211 * j, -1),
+                 (-2.71 + 1.093 * i, 1.207 - 1.211 * j, 2),
                  0.11 + 0.05 * i, HOLE)
         for i in range(6) for j in range(2))
     slots = tuple(
-        Box((-2.903 + 1.313 * i, -2.107, -1), (-2.207 + 1.313 * i, -1.411 + 0.0531 * i, 2), HOLE) for i in range(5))
+        Box((-2.903 + 1.313 * i, -2.107, -1), (-2.207 + 1.313 * i, -1.411 + 0.0531 * i, 2), HOLE)
+        for i in range(5))
     plate = Difference(Box((-3.617, -2.503, 0), (3.607, 2.011, 0.3), WOOD), drills + slots)
     ribs = tuple(
-        Box((-3.41 + 0.857 * i, 2.203, -0.4), (-3.297 + 0.857 * i, 2.851, 0.6), SHINY) for i in range(9))
+        Box((-3.41 + 0.857 * i, 2.203, -0.4), (-3.297 + 0.857 * i, 2.851, 0.6), SHINY)
+        for i in range(9))
     back = Box((-5, -4, 1.2), (5, 4, 1.5), FLOOR)
     camera = Camera(position=(0.113, 0.071, -8), pointing=(0.113, 0.071, 0))
-    return Scene("plates with drilled holes, slots and ribs, edges along the pixels", (back, plate) + ribs, camera)
+    return Scene(
+        "plates with drilled holes, slots and ribs, edges along the pixels", (back, plate) + ribs,
+        camera,
+    )
 
 
 def wires() -> Scene:
-    """Cylinders 0.1 to 0.8 pixels wide, needles that end in less, and balls that cover 3 to 60 % of a pixel."""
+    """Makes cylinders 0.1 to 0.8 pixels wide, needles that end in less, and balls that cover 3 to
+    60 % of a pixel."""
     stream = Stream(17)
 
     def ends() -> tuple:
@@ -71,20 +84,23 @@ def silhouettes() -> Scene:
 
 
 def glass_rows() -> Scene:
-    """No ambient light: in POV-Ray glass has no share of it, in CRT it has."""
+    """Has no ambient light: in POV-Ray glass has no share of it, in CRT it has."""
     stream = Stream(23)
     balls = tuple(
         Sphere((1.9 * column - 2.85, 0.1, 2.1 * row - 3), stream.between(0.75, 0.95), CRYSTAL)
         for row in range(3) for column in range(4))
     camera = Camera(position=(0.4, 1.1, -11), pointing=(0, 0, 0), fov=35)
-    return Scene("three rows of glass spheres over tiles, 10 bounces", balls + (Plane(-1, TILES),), camera, ambient=0,
-                 depth=10)
+    return Scene("three rows of glass spheres over tiles, 10 bounces", balls + (Plane(-1, TILES),),
+                 camera, ambient=0, depth=10)
 
 
 def defocus() -> Scene:
-    camera = Camera(position=STUDIO.position, pointing=STUDIO.pointing, aperture=0.3, focal_distance=11,
-                    aperture_shape="hexagon")
-    return Scene("100 spheres behind a six-sided lens", spheres(100).things, camera, lens_samples=37, noisy=True)
+    camera = Camera(position=STUDIO.position, pointing=STUDIO.pointing, aperture=0.3,
+                    focal_distance=11, aperture_shape="hexagon")
+    return Scene(
+        "100 spheres behind a six-sided lens", spheres(100).things, camera, lens_samples=37,
+        noisy=True,
+    )
 
 
 def flat() -> Scene:
@@ -100,7 +116,7 @@ def hard() -> Scene:
 
 
 def scale() -> Scene:
-    """On a ball of radius 1e6 stand some of radius 1000, 100, 10 and 1."""
+    """Puts some balls of radius 1000, 100, 10 and 1 on a ball of radius 1e6."""
     stream = Stream(29)
     things = [Sphere((0, -1e6, 0), 1e6, FLOOR)]
     for size, far in ((1000, 6000), (100, 900), (10, 120), (1, 22)):
@@ -109,7 +125,9 @@ def scale() -> Scene:
             z = far * stream.between(0.8, 1.2)
             things.append(Sphere((x, size * stream.between(0.9, 1), z), size, SHINY))
     camera = Camera(position=(0, 6, -12), pointing=(0, 4.5, 10))
-    return Scene("spheres of radius 1 to 1e6", tuple(things), camera, (PointLight((8e6, 12e6, -1e7)),))
+    return Scene(
+        "spheres of radius 1 to 1e6", tuple(things), camera, (PointLight((8e6, 12e6, -1e7)),)
+    )
 
 
 SCENES = {

@@ -1,1 +1,1 @@
-"""What was measured, as tables and plots."""
+"""Reports what was measured, as tables and plots."""

@@ -1,4 +1,4 @@
-"""What the measurements were made on."""
+"""Describes what the measurements were made on."""
 
 import os
 import pathlib
@@ -18,7 +18,9 @@ def field(file: str, name: str, separator: str) -> str:
 
 def output(command: list[str], folder: pathlib.Path | None = None) -> str:
     try:
-        return subprocess.run(command, capture_output=True, text=True, check=True, cwd=folder).stdout.strip()
+        return subprocess.run(
+            command, capture_output=True, text=True, check=True, cwd=folder
+        ).stdout.strip()
     except (OSError, subprocess.CalledProcessError):
         return "unknown"
 
@@ -26,8 +28,11 @@ def output(command: list[str], folder: pathlib.Path | None = None) -> str:
 def described(source: pathlib.Path) -> str:
     memory = int(field("/proc/meminfo", "MemTotal", ":").split()[0]) / 2**20
     versions = ", ".join(
-        f"{name} {output(['dpkg-query', '-W', '-f=${Version}', package])}" for package, name in PACKAGES.items())
-    return (f"{field('/proc/cpuinfo', 'model name', ':')} (model {field('/proc/cpuinfo', 'model', ':')}),"
-            f" {os.cpu_count()} cores, {memory:.0f} GiB of memory; {field('/etc/os-release', 'PRETTY_NAME', '=')},"
+        f"{name} {output(['dpkg-query', '-W', '-f=${Version}', package])}"
+        for package, name in PACKAGES.items())
+    return (f"{field('/proc/cpuinfo', 'model name', ':')} (model"
+            f" {field('/proc/cpuinfo', 'model', ':')}),"
+            f" {os.cpu_count()} cores, {memory:.0f} GiB of memory;"
+            f" {field('/etc/os-release', 'PRETTY_NAME', '=')},"
             f" Linux {platform.release()}; {versions};"
             f" CRT at commit {output(['git', 'rev-parse', '--short', 'HEAD'], source)}.")

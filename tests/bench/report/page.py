@@ -1,4 +1,5 @@
-"""Puts tables into the pages of docs/, each between its own markers; the rest of a page is written by hand."""
+"""Puts tables into the pages of docs/, each between its own markers. The rest of a page is written
+by hand."""
 
 import pathlib
 import re
@@ -8,7 +9,8 @@ from . import plots, tables, trade_plots, trade_tables
 
 
 def wrapped(text: str) -> str:
-    """Breaks lines of prose that are longer than a page of docs/ has them; rows of tables and headings stay whole."""
+    """Breaks lines of prose that are longer than a page of docs/ has them. Rows of tables and
+    headings stay whole."""
     def lines_of(line: str) -> str:
         if len(line) <= 100 or line.startswith(("|", "#", "![")):
             return line
@@ -31,7 +33,7 @@ def with_plot(caption: str, file: str, table: str) -> str:
 
 
 def fill(path: pathlib.Path, texts: dict[str, str]) -> None:
-    """Texts that are not empty."""
+    """Puts in the texts that are not empty."""
     page = path.read_text()
     for name, text in texts.items():
         if text:
@@ -45,12 +47,15 @@ def write(folder: pathlib.Path, results: dict, machine: str) -> None:
 
 
 def write_speed(folder: pathlib.Path, results: dict, machine: str) -> None:
-    texts = {"povray": with_plot("How many times as long POV-Ray traces, for each scene", "speed.svg",
+    texts = {"povray": with_plot("How many times as long POV-Ray traces, for each scene",
+                                 "speed.svg",
                                  tables.povray_table(results)),
              "povray, scenes": tables.scene_list(results),
-             "povray, BSP tree": tables.bsp_table(results), "threads": tables.threads_table(results),
+             "povray, BSP tree": tables.bsp_table(results),
+             "threads": tables.threads_table(results),
              "embree": tables.embree_table(results),
-             "curves": with_plot("Nanoseconds a ray against the number of solids", "speed_curves.svg",
+             "curves": with_plot("Nanoseconds a ray against the number of solids",
+                                 "speed_curves.svg",
                                  tables.curves_table(results))}
     if not any(texts.values()):
         return
@@ -68,13 +73,15 @@ def write_trade(folder: pathlib.Path, results: dict, machine: str) -> None:
                                  trade_tables.named_table(results)),
              "povray, finest": trade_tables.finest_table(results),
              "vanished": trade_tables.vanished_text(results),
-             "honesty": with_plot("Achieved against claimed errors, by class of pixels", "trade_honesty.svg",
+             "honesty": with_plot("Achieved against claimed errors, by class of pixels",
+                                  "trade_honesty.svg",
                                   trade_tables.honesty_table(results))}
     if not any(texts.values()):
         return
     fill(folder / "trade_measured.md", {"machine": machine, **texts})
     fill(folder / "trade_scenes.md", {
-        "machine": machine, "scenes": with_plot("What 99.9 % of the pixels stay below, against time", "trade_p999.svg",
+        "machine": machine,
+        "scenes": with_plot("What 99.9 % of the pixels stay below, against time", "trade_p999.svg",
                                                 trade_tables.scene_tables(results))})
     if texts["povray"]:
         (folder / "trade_rmse.svg").write_text(trade_plots.error_against_time(results, "rmse"))

@@ -1,4 +1,4 @@
-"""Plots as SVG."""
+"""Draws plots as SVG."""
 
 import math
 import statistics
@@ -13,23 +13,37 @@ FAINT, FRAME = "#ddd", "#888"
 class Drawing:
     def __init__(self, width: float, height: float) -> None:
         self.parts = [f"<svg xmlns='http://www.w3.org/2000/svg' viewBox='0 0 {width:g} {height:g}'"
-                      " font-family='sans-serif' font-size='11'>", "<rect width='100%' height='100%' fill='white'/>"]
+                      " font-family='sans-serif' font-size='11'>", "<rect width='100%'"
+                                                                   " height='100%' fill='white'/>"]
 
-    def text(self, x: float, y: float, text: str, anchor: str = "start", weight: str = "normal") -> None:
+    def text(
+        self, x: float, y: float, text: str, anchor: str = "start", weight: str = "normal"
+    ) -> None:
         self.parts.append(
-            f"<text x='{x:.1f}' y='{y:.1f}' text-anchor='{anchor}' font-weight='{weight}'>{escape(text)}</text>")
+            f"<text x='{x:.1f}' y='{y:.1f}' text-anchor='{anchor}'"
+            f" font-weight='{weight}'>{escape(text)}</text>")
 
-    def line(self, x1: float, y1: float, x2: float, y2: float, color: str, width: float = 1) -> None:
-        self.parts.append(f"<line x1='{x1:.1f}' y1='{y1:.1f}' x2='{x2:.1f}' y2='{y2:.1f}' stroke='{color}'"
+    def line(
+        self, x1: float, y1: float, x2: float, y2: float, color: str, width: float = 1
+    ) -> None:
+        self.parts.append(f"<line x1='{x1:.1f}' y1='{y1:.1f}' x2='{x2:.1f}' y2='{y2:.1f}'"
+                          f" stroke='{color}'"
                           f" stroke-width='{width:g}'/>")
 
     def rectangle(self, x: float, y: float, width: float, height: float, color: str) -> None:
-        self.parts.append(f"<rect x='{x:.1f}' y='{y:.1f}' width='{width:.1f}' height='{height:.1f}' fill='{color}'/>")
+        self.parts.append(
+            f"<rect x='{x:.1f}' y='{y:.1f}' width='{width:.1f}' height='{height:.1f}'"
+            f" fill='{color}'/>"
+        )
 
     def curve(self, points: list[tuple[float, float]], color: str) -> None:
         places = " ".join(f"{x:.1f},{y:.1f}" for x, y in points)
-        self.parts.append(f"<polyline points='{places}' fill='none' stroke='{color}' stroke-width='2'/>")
-        self.parts += [f"<circle cx='{x:.1f}' cy='{y:.1f}' r='3' fill='{color}'/>" for x, y in points]
+        self.parts.append(
+            f"<polyline points='{places}' fill='none' stroke='{color}' stroke-width='2'/>"
+        )
+        self.parts += [
+            f"<circle cx='{x:.1f}' cy='{y:.1f}' r='3' fill='{color}'/>" for x, y in points
+        ]
 
     def svg(self) -> str:
         return "\n".join(self.parts) + "\n</svg>\n"
@@ -40,7 +54,7 @@ def power(exponent: int) -> str:
 
 
 def ratio_bars(results: dict) -> str:
-    """How many times as long POV-Ray takes, a bar for each number of threads."""
+    """Draws how many times as long POV-Ray takes, a bar for each number of threads."""
     scenes = tables.povray_results(results)
     threads = list(next(iter(scenes.values()))["threads"])
     bar, gap, left, top, wide = 12, 8, 120, 44, 560
@@ -67,15 +81,21 @@ def ratio_bars(results: dict) -> str:
         drawing.text(left - 6, y + row / 2, name, "end")
         for nth, count in enumerate(threads):
             x = place(scene["threads"][count]["ratio"])
-            drawing.rectangle(min(x, place(1)), y + bar * nth, abs(x - place(1)), bar - 1, COLORS[nth])
-            drawing.text(max(x, place(1)) + 4, y + bar * nth + 9, tables.rounded(scene["threads"][count]["ratio"]))
+            drawing.rectangle(
+                min(x, place(1)), y + bar * nth, abs(x - place(1)), bar - 1, COLORS[nth]
+            )
+            drawing.text(
+                max(x, place(1)) + 4, y + bar * nth + 9,
+                tables.rounded(scene["threads"][count]["ratio"]),
+            )
     return drawing.svg()
 
 
 def cost_curves(results: dict) -> str:
-    """Nanoseconds a ray against N, both logarithmic."""
+    """Draws nanoseconds a ray against N, both logarithmic."""
     curves = tables.curves_by_name(results)
-    points = {name: [(n, statistics.median(point["nanoseconds"])) for n, point in sorted(rows.items())]
+    points = {name: [(n, statistics.median(point["nanoseconds"]))
+                     for n, point in sorted(rows.items())]
               for name, rows in curves.items()}
     every = [point for line in points.values() for point in line]
     most_n = round(math.log10(max(n for n, _ in every)))
@@ -84,7 +104,10 @@ def cost_curves(results: dict) -> str:
     left, top, wide, tall = 60, 30, 520, 320
 
     def place(n: float, time: float) -> tuple[float, float]:
-        return (left + wide * math.log10(n) / most_n, top + tall * (high - math.log10(time)) / (high - low))
+        return (
+            left + wide * math.log10(n) / most_n,
+            top + tall * (high - math.log10(time)) / (high - low),
+        )
 
     drawing = Drawing(left + wide + 150, top + tall + 40)
     drawing.text(left, 18, "nanoseconds a ray against N, one thread", weight="bold")

@@ -1,4 +1,4 @@
-"""Plots of accuracy as SVG: small panels side by side, both axes logarithmic."""
+"""Draws plots of accuracy as SVG: small panels side by side, both axes logarithmic."""
 
 import math
 from dataclasses import dataclass
@@ -12,7 +12,8 @@ WIDE, TALL, GAP_X, GAP_Y, LEFT, TOP = 220, 170, 56, 58, 50, 52
 COLUMNS = 3
 HEADS = {"rmse": "RMSE", "p999": "99.9 % error"}
 FAMILY_COLORS = {
-    ladders.GRID: "#1f5fa8", ladders.ADAPTIVE: "#c0392b", ladders.LOW_START: "#e59866", ladders.ONE_RAY: "#888888",
+    ladders.GRID: "#1f5fa8", ladders.ADAPTIVE: "#c0392b", ladders.LOW_START: "#e59866",
+    ladders.ONE_RAY: "#888888",
     ladders.PLAIN: "#2e8b57", ladders.RECURSIVE: "#8e44ad", ladders.LENS: "#2e8b57",
     ladders.LENS_BY_VARIANCE: "#d68910",
 }
@@ -84,20 +85,24 @@ def drawn(title: str, axes: str, panels: list[Panel]) -> str:
 
 
 def error_against_time(results: dict, error: str) -> str:
-    """Of each scene with pixels that are not flat."""
+    """Draws each scene with pixels that are not flat."""
     panels = []
     for name, result in trade_tables.scenes_of(results).items():
         if name == "flat":
             continue
         lines = []
         for family, color in FAMILY_COLORS.items():
-            rows = sorted((row for row in result["rows"] if row["family"] == family), key=lambda row: row["seconds"])
+            rows = sorted(
+                (row for row in result["rows"] if row["family"] == family),
+                key=lambda row: row["seconds"],
+            )
             points = [(max(row["seconds"], 1e-3), row[error]) for row in rows if row[error] > 0]
             if points:
                 lines.append(Line(family, color, points))
         panels.append(Panel(f"{name} ({result['hard']:.0%} hard)", lines))
     return drawn(f"{HEADS[error]} against seconds",
-                 "across: seconds of tracing, one thread; up: 8-bit steps of what a display shows", panels)
+                 "across: seconds of tracing, one thread; up: 8-bit steps of what a display shows",
+                 panels)
 
 
 def achieved_against_claimed(results: dict) -> str:
@@ -107,10 +112,14 @@ def achieved_against_claimed(results: dict) -> str:
         if not bins:
             continue
         lines = [
-            Line("95 of 100 errors are below", "#c0392b", [(one["claimed"], one["within_95"]) for one in bins
+            Line("95 of 100 errors are below", "#c0392b",
+                 [(one["claimed"], one["within_95"]) for one in bins
                                                            if one["within_95"] > 0]),
-            Line("root of the mean square", "#1f5fa8", [(one["claimed"], one["rms"]) for one in bins]),
+            Line(
+                "root of the mean square", "#1f5fa8", [(one["claimed"], one["rms"]) for one in bins]
+            ),
         ]
         panels.append(Panel(name, lines, with_diagonal=True))
     return drawn("Achieved against claimed errors, where the renderer stopped",
-                 "across: the half-width that is claimed; up: errors; 8-bit steps of what a display shows", panels)
+                 "across: the half-width that is claimed; up: errors; 8-bit steps of what a"
+                 " display shows", panels)

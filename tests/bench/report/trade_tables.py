@@ -1,4 +1,4 @@
-"""Tables of accuracy against time, and of claimed against achieved errors."""
+"""Writes tables of accuracy against time, and of claimed against achieved errors."""
 
 import statistics
 
@@ -21,7 +21,7 @@ def classes_of(results: dict) -> dict[str, dict]:
     return povray_results(results, "honesty/")
 
 
-def told(need: Need) -> str:
+def text_of(need: Need) -> str:
     return need.bound + rounded(need.value)
 
 
@@ -32,7 +32,7 @@ def inverse(bound: str) -> str:
 # ---- each scene ---------------------------------------------------------------------------------
 
 
-def told_error(result: dict, row: dict, error: str) -> str:
+def text_of_error(result: dict, row: dict, error: str) -> str:
     return rounded(row[error]) + ("" if curves.is_sensible(result, row, error) else " (?)")
 
 
@@ -43,13 +43,17 @@ def pair(error: dict) -> str:
 def scene_table(name: str, result: dict) -> str:
     uncertain = result["uncertainty"]
     lines = [f"## `{name}`: {result['about']}", "",
-             f"{result['width']} x {result['height']} pixels, {result['hard']:.1%} of them hard. The references are"
-             f" uncertain by {pair(uncertain['CRT'])} (CRT) and {pair(uncertain['POV-Ray'])} (POV-Ray); they differ by"
+             f"{result['width']} x {result['height']} pixels, {result['hard']:.1%} of them hard."
+             f" The references are"
+             f" uncertain by {pair(uncertain['CRT'])} (CRT) and {pair(uncertain['POV-Ray'])}"
+             f" (POV-Ray); they differ by"
              f" {pair(result['apart'])}.", ""]
     rows = [[row["family"], f"`{row['name']}`", rounded(row["seconds"]), rounded(row["samples"]),
-             *(told_error(result, row, error) for error in ERRORS)]
+             *(text_of_error(result, row, error) for error in ERRORS)]
             for row in sorted(result["rows"], key=lambda row: row["family"])]
-    return "\n".join(lines) + "\n" + table(["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows)
+    return "\n".join(lines) + "\n" + table(
+        ["", "setting", "seconds", "rays a pixel", *ERRORS.values()], rows
+    )
 
 
 def scene_tables(results: dict) -> str:
@@ -60,7 +64,8 @@ def scene_tables(results: dict) -> str:
 
 
 def saved(result: dict, row: dict, error: str) -> Need | None:
-    """How many times as many samples the grid needs for the error of an adaptive setting."""
+    """Returns how many times as many samples the grid needs for the error of an adaptive
+    setting."""
     if not curves.is_sensible(result, row, error):
         return None
     grid = curves.need(curves.family(result, ladders.GRID), "samples", error, row[error])
@@ -72,13 +77,17 @@ def samples_cell(result: dict, row: dict) -> str:
 
 
 def saving_cell(result: dict, row: dict) -> str:
-    """How many times as many samples it takes for the same RMSE / for the same 99.9 % error."""
+    """Returns how many times as many samples it takes for the same RMSE / for the same 99.9 %
+    error."""
     both = [saved(result, row, error) for error in ERRORS]
-    return " / ".join("?" if one is None else told(one) for one in both)
+    return " / ".join("?" if one is None else text_of(one) for one in both)
 
 
 def cells_by_setting(result: dict, cell) -> list[str]:
-    found = [[row for row in curves.family(result, family) if row["name"] == target] for family, target in TOLD]
+    found = [
+        [row for row in curves.family(result, family) if row["name"] == target]
+        for family, target in TOLD
+    ]
     return [cell(result, rows[0]) if rows else "" for rows in found]
 
 
@@ -86,13 +95,18 @@ def saving_table(results: dict) -> str:
     scenes = {name: result for name, result in scenes_of(results).items() if name != "flat"}
     if not scenes:
         return ""
-    heads = [f"{target} from 4" if family == ladders.LOW_START else target for family, target in TOLD]
+    heads = [
+        f"{target} from 4" if family == ladders.LOW_START else target for family, target in TOLD
+    ]
     samples = [[f"`{name}`", f"{result['hard']:.0%}", *cells_by_setting(result, samples_cell)]
                for name, result in scenes.items()]
-    factors = [[f"`{name}`", *cells_by_setting(result, saving_cell)] for name, result in scenes.items()]
+    factors = [
+        [f"`{name}`", *cells_by_setting(result, saving_cell)] for name, result in scenes.items()
+    ]
     return ("Samples a pixel, by target error (*from 4*: with `minsamples` 4):\n\n"
             + table(["scene", "hard pixels", *heads], samples)
-            + "\n\nHow many times as many the grid needs for the same RMSE / the same 99.9 % error:\n\n"
+            + "\n\nHow many times as many the grid needs for the same RMSE / the same 99.9 %"
+              " error:\n\n"
             + table(["scene", *heads], factors))
 
 
@@ -118,7 +132,10 @@ def contest_row(result: dict, row: dict) -> tuple[list[str], list[float]]:
         need = crt_need(result, error, row[error])
         ratio = row["seconds"] / need.value
         ratios.append(ratio)
-        cells += [told_error(result, row, error), told(need), f"**{inverse(need.bound)}{rounded(ratio)}**"]
+        cells += [
+            text_of_error(result, row, error), text_of(need),
+            f"**{inverse(need.bound)}{rounded(ratio)}**"
+        ]
     return cells, ratios
 
 
@@ -137,11 +154,13 @@ def contest_table(results: dict, choose, heading: str) -> str:
         head += [f"its {error}", "CRT", "ratio"]
     medians = [rounded(statistics.median(ratios)) for ratios in zip(*all_ratios)]
     return (table(head, rows)
-            + f"\n\nTimes are in seconds; POV-Ray's are with {heading}. The median of the ratios is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error.")
+            + f"\n\nTimes are in seconds; POV-Ray's are with {heading}. The median of the ratios"
+              f" is {medians[0]} for the RMSE and {medians[1]} for the 99.9 % error.")
 
 
 def named_table(results: dict) -> str:
-    return contest_table(results, lambda result: curves.named(result, ladders.RECURSIVE, ladders.NAMED),
+    return contest_table(results,
+                         lambda result: curves.named(result, ladders.RECURSIVE, ladders.NAMED),
                          f"`{ladders.NAMED}`")
 
 
@@ -150,18 +169,26 @@ def finest_table(results: dict) -> str:
 
 
 def overhead_table(results: dict) -> str:
-    rows = [[f"`{name}`", str(at["samples"]), rounded(at["grid"]), rounded(at["passes"]), f"**{at['ratio']:.3f}**"]
+    rows = [[f"`{name}`", str(at["samples"]), rounded(at["grid"]), rounded(at["passes"]),
+             f"**{at['ratio']:.3f}**"]
             for name, result in scenes_of(results).items() for at in result.get("overhead", [])]
-    return table(["scene", "samples a pixel", "grid, seconds", "passes, seconds", "ratio"], rows) if rows else ""
+    return (
+        table(["scene", "samples a pixel", "grid, seconds", "passes, seconds", "ratio"], rows)
+        if rows else ""
+    )
 
 
 def vanished_text(results: dict) -> str:
     found = [result["vanished"] for result in scenes_of(results).values() if "vanished" in result]
     if not found:
         return ""
-    targets = " and ".join(f"{count} at a target error of {steps}/255" for steps, count in found[0]["targets"].items())
-    return (f"In `wires` {found[0]['pixels']} pixels are covered by more than 5 %. Of these, rendered with `minsamples`"
-            f" {found[0]['least_samples']} and each of {found[0]['seeds']} seeds, so many show the bare background:"
+    targets = " and ".join(
+        f"{count} at a target error of {steps}/255" for steps, count in found[0]["targets"].items()
+    )
+    return (f"In `wires` {found[0]['pixels']} pixels are covered by more than 5 %. Of these,"
+            f" rendered with `minsamples`"
+            f" {found[0]['least_samples']} and each of {found[0]['seeds']} seeds, so many show the"
+            f" bare background:"
             f" {targets}.")
 
 
@@ -172,8 +199,12 @@ def honesty_table(results: dict) -> str:
     rows = []
     for name, result in classes_of(results).items():
         targets = result["targets"]
-        rows.append([name, str(targets[0]["pixels"]), str(result["seeds"]), rounded(result["uncertainty"]),
-                     *(f"{row['within'] / row['trials']:.2%} ({row['low']:.2%})" for row in targets),
+        rows.append([name, str(targets[0]["pixels"]), str(result["seeds"]),
+                     rounded(result["uncertainty"]),
+                     *(
+                         f"{row['within'] / row['trials']:.2%} ({row['low']:.2%})"
+                         for row in targets
+                     ),
                      f"{min(row['worst_pixel'] for row in targets):.0%}"])
     if not rows:
         return ""
@@ -182,5 +213,8 @@ def honesty_table(results: dict) -> str:
 
 
 def all_tables(results: dict) -> str:
-    makers = (scene_tables, saving_table, named_table, finest_table, overhead_table, vanished_text, honesty_table)
+    makers = (
+        scene_tables, saving_table, named_table, finest_table, overhead_table, vanished_text,
+        honesty_table,
+    )
     return "\n\n".join(filter(None, (make(results) for make in makers)))

@@ -1,1 +1,1 @@
-"""Accuracy against time: CRT's plain grid, its adaptive rendering, and POV-Ray."""
+"""Measures accuracy against time: CRT's plain grid, its adaptive rendering, and POV-Ray."""

@@ -1,4 +1,5 @@
-"""What a family of settings takes for an accuracy, between its settings by straight lines in logarithms."""
+"""Says what a family of settings takes for an accuracy, between its settings by straight lines in
+logarithms."""
 
 import math
 from dataclasses import dataclass
@@ -9,7 +10,8 @@ SENSIBLE = 2  # times its reference's uncertainty: an error below that says noth
 @dataclass(frozen=True)
 class Need:
     value: float
-    bound: str = ""  # "<": it takes at most so much, there is nothing coarser; ">": there is nothing finer
+    # "<": it takes at most so much, there is nothing coarser; ">": there is nothing finer
+    bound: str = ""
 
 
 def family(result: dict, name: str) -> list[dict]:
@@ -26,7 +28,7 @@ def is_sensible(result: dict, row: dict, error: str) -> bool:
 
 
 def front(rows: list[dict], cost: str, error: str) -> list[tuple[float, float]]:
-    """(cost, error) of those that nothing cheaper beats, the cheapest first."""
+    """Returns (cost, error) of those that nothing cheaper beats, the cheapest first."""
     points: list[tuple[float, float]] = []
     for row in sorted(rows, key=lambda row: (row[cost], row[error])):
         if not points or row[error] < points[-1][1]:
@@ -48,6 +50,9 @@ def need(rows: list[dict], cost: str, error: str, wanted: float) -> Need:
 
 
 def least(needs: list[Need]) -> Need:
-    """Of several families the one that takes least; what no family reaches is told by the dearest."""
+    """Returns the need of the family that takes least. What no family reaches is the dearest's."""
     reached = [one for one in needs if one.bound != ">"]
-    return min(reached, key=lambda one: one.value) if reached else max(needs, key=lambda one: one.value)
+    return (
+        min(reached, key=lambda one: one.value) if reached
+        else max(needs, key=lambda one: one.value)
+    )

@@ -1,10 +1,12 @@
-"""How far a picture is from what its settings converge to, in steps of 8 bits of what a display shows."""
+"""Measures how far a picture is from what its settings converge to, in steps of 8 bits of what a
+display shows."""
 
 from dataclasses import dataclass
 
 import numpy as np
 
-GAMMA = 2.2  # of displays: both programs write value^(1/GAMMA), and CRT's target error is about that
+# of displays: both programs write value^(1/GAMMA), and CRT's target error is about that
+GAMMA = 2.2
 FULL = 255
 
 
@@ -15,7 +17,7 @@ class PictureError:
 
 
 def shown(linear: np.ndarray) -> np.ndarray:
-    """In 8-bit steps, not rounded."""
+    """Returns a picture in 8-bit steps, not rounded."""
     return FULL * np.clip(linear[..., :3].astype(float), 0, 1) ** (1 / GAMMA)
 
 
@@ -24,7 +26,7 @@ def linear(steps: np.ndarray) -> np.ndarray:
 
 
 def difference(a: np.ndarray, b: np.ndarray) -> PictureError:
-    """Of pictures in 8-bit steps."""
+    """Compares pictures in 8-bit steps."""
     apart = np.abs(a - b)
     worst = np.sort(apart.max(axis=2), axis=None)
     place = max(int(np.ceil(0.999 * worst.size)) - 1, 0)

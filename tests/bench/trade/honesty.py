@@ -1,4 +1,5 @@
-"""Parts of the scenes for each class of pixels, and the program that holds claims against the truth there."""
+"""Lists parts of the scenes for each class of pixels, and runs the program that compares claims
+with the truth there."""
 
 import json
 import pathlib
@@ -40,14 +41,25 @@ def mirrors(left: int, top: int) -> Part:
 
 # None of these scenes is among those that the rules of refinement were adjusted by.
 CLASSES = {
-    "flat": Class("flat", 4096, (Part("cad", 100, 60), Part("scale", 100, 60), Part("flat", 30, 30))),
+    "flat": Class(
+        "flat", 4096, (Part("cad", 100, 60), Part("scale", 100, 60), Part("flat", 30, 30))
+    ),
     "edge": Class("edge", 16384, (
-        Part("cad", 40, 62), Part("cad", 120, 40), Part("cad", 160, 100), Part("silhouettes", 60, 40),
+        Part("cad", 40, 62), Part("cad", 120, 40), Part("cad", 160, 100), Part(
+            "silhouettes", 60, 40
+        ),
         Part("silhouettes", 130, 80), Part("scale", 110, 70), Part("scale", 60, 90))),
-    "sub-pixel": Class("sub-pixel", 16384, tuple(Part("wires", x, y) for x, y in ((60, 50), (110, 100), (160, 60)))),
-    "defocused": Class("defocused", 32768, tuple(Part("defocus", x, y) for x, y in ((60, 50), (120, 80), (160, 110)))),
+    "sub-pixel": Class(
+        "sub-pixel", 16384, tuple(Part("wires", x, y) for x, y in ((60, 50), (110, 100), (160, 60)))
+    ),
+    "defocused": Class(
+        "defocused", 32768,
+        tuple(Part("defocus", x, y) for x, y in ((60, 50), (120, 80), (160, 110))),
+    ),
     "refractive": Class("special", 8192, (glass(40, 50), glass(80, 55), glass(110, 50)), side=10),
-    "mirrored": Class("special", 16384, (mirrors(40, 60), mirrors(80, 40), mirrors(110, 80)), side=12),
+    "mirrored": Class(
+        "special", 16384, (mirrors(40, 60), mirrors(80, 40), mirrors(110, 80)), side=12
+    ),
 }
 QUICK = ("flat", "edge", "sub-pixel")
 
@@ -62,6 +74,11 @@ def measure(name: str, program: pathlib.Path, folder: pathlib.Path, quick: bool)
         with open(script, "w") as out:
             crt_writer.Writer(trade_scenes.SCENES[part.scene]()).write(out)
         height = trade_scenes.height_of(part.scene)
-        arguments += [script, height * 4 // 3, height, errors.GAMMA, *part.entities, part.left, part.top, side, side]
-    done = subprocess.run([program, *map(str, arguments)], stdout=subprocess.PIPE, check=True, text=True)
+        arguments += [
+            script, height * 4 // 3, height, errors.GAMMA, *part.entities, part.left, part.top,
+            side, side,
+        ]
+    done = subprocess.run(
+        [program, *map(str, arguments)], stdout=subprocess.PIPE, check=True, text=True
+    )
     return json.loads(done.stdout)

@@ -1,4 +1,4 @@
-"""The settings that are tried, from the fastest to the slowest of each family."""
+"""Lists the settings that are tried, from the fastest to the slowest of each family."""
 
 from dataclasses import dataclass
 
@@ -7,9 +7,9 @@ STEP = 1 / 255  # of an 8-bit picture
 GRID, ADAPTIVE, LOW_START = "CRT, grid", "CRT, target error", "CRT, target error, minsamples 4"
 ONE_RAY, PLAIN, RECURSIVE = "POV-Ray -A", "POV-Ray +AM1", "POV-Ray +AM2"
 LENS, LENS_BY_VARIANCE = "POV-Ray, blur_samples", "POV-Ray, variance"
-NAMED = "+A0.1 +AM2 +R4"  # what others' accuracy is told by
+NAMED = "+A0.1 +AM2 +R4"  # the setting that represents others' accuracy
 
-# What POV-Ray's lens takes if nothing else is said.
+# POV-Ray's lens takes these by default.
 DEFAULT_VARIANCE = 1 / 128
 
 
@@ -28,16 +28,23 @@ class Rung:
 def crt_grid(with_lens: bool) -> list[Rung]:
     if with_lens:
         sizes = ((1, 4), (1, 16), (2, 16), (2, 64), (4, 64))
-        return [Rung(GRID, f"{n} x {n} x {m}", {"supersampling": n, "dofsamples": m}) for n, m in sizes]
-    return [Rung(GRID, f"{n} x {n}", {"supersampling": n}) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)]
+        return [
+            Rung(GRID, f"{n} x {n} x {m}", {"supersampling": n, "dofsamples": m}) for n, m in sizes
+        ]
+    return [
+        Rung(GRID, f"{n} x {n}", {"supersampling": n}) for n in (1, 2, 3, 4, 6, 8, 12, 16, 24, 32)
+    ]
 
 
 def crt_adaptive(family: str, least_samples: int, steps: tuple[float, ...]) -> list[Rung]:
-    return [Rung(family, f"{n:g}/255", {"targeterror": n * STEP, "minsamples": least_samples}) for n in steps]
+    return [
+        Rung(family, f"{n:g}/255", {"targeterror": n * STEP, "minsamples": least_samples})
+        for n in steps
+    ]
 
 
 def antialiasing(family: str, method: int, settings: tuple) -> list[Rung]:
-    """Of thresholds and depths; jitter is on, as it is if nothing is said."""
+    """Makes rungs of thresholds and depths. Jitter is on, which is the default."""
     rungs = []
     for threshold, depth in settings:
         options = (f"+A{threshold}", f"+AM{method}", f"+R{depth}")
@@ -53,12 +60,23 @@ def povray(with_lens: bool) -> list[Rung]:
     if not with_lens:
         return [
             Rung(ONE_RAY, "-A", options=("-A",)),
-            *antialiasing(PLAIN, 1, ((0.3, 2), (0.3, 3), (0.1, 3), (0.03, 4), (0.01, 4), (0.0, 4), (0.0, 9))),
-            *antialiasing(RECURSIVE, 2, ((0.3, 2), (0.3, 3), (0.1, 3), (0.1, 4), (0.03, 4), (0.01, 4), (0.0, 4))),
+            *antialiasing(
+                PLAIN, 1, ((0.3, 2), (0.3, 3), (0.1, 3), (0.03, 4), (0.01, 4), (0.0, 4), (0.0, 9))
+            ),
+            *antialiasing(
+                RECURSIVE, 2,
+                ((0.3, 2), (0.3, 3), (0.1, 3), (0.1, 4), (0.03, 4), (0.01, 4), (0.0, 4)),
+            ),
         ]
-    fixed = [Rung(LENS, f"blur_samples {n}", options=("-A", *lens_options(n, 0))) for n in (7, 19, 37, 128, 512)]
+    fixed = [
+        Rung(LENS, f"blur_samples {n}", options=("-A", *lens_options(n, 0)))
+        for n in (7, 19, 37, 128, 512)
+    ]
     by_variance = [
-        Rung(LENS_BY_VARIANCE, f"blur_samples {n} variance 1/{steps}", options=("-A", *lens_options(n, 1 / steps)))
+        Rung(
+            LENS_BY_VARIANCE, f"blur_samples {n} variance 1/{steps}",
+            options=("-A", *lens_options(n, 1 / steps)),
+        )
         for n, steps in ((128, 128), (128, 1000), (512, 10000), (512, 100000))]
     recursive = [
         Rung(RECURSIVE, rung.name, options=(*rung.options, *lens_options(37, DEFAULT_VARIANCE)))
@@ -67,13 +85,19 @@ def povray(with_lens: bool) -> list[Rung]:
 
 
 def all_rungs(with_lens: bool, quick: bool) -> list[Rung]:
-    """CRT's and POV-Ray's by turns."""
+    """Returns CRT's and POV-Ray's by turns."""
     own = [*crt_grid(with_lens), *crt_adaptive(ADAPTIVE, 16, (8, 4, 2, 1, 0.5, 0.25)),
            *crt_adaptive(LOW_START, 4, (64, 32, 16, 8, 4))]
     others = povray(with_lens)
     if quick:
-        own = [rung for rung in own if rung.name in ("1 x 1", "2 x 2", "4 x 4", "1 x 1 x 4", "1 x 1 x 16", "8/255")]
-        others = [rung for rung in others if rung.name in ("-A", "+A0.3 +AM1 +R3", "blur_samples 7", NAMED)]
+        own = [
+            rung for rung in own
+            if rung.name in ("1 x 1", "2 x 2", "4 x 4", "1 x 1 x 4", "1 x 1 x 16", "8/255")
+        ]
+        others = [
+            rung for rung in others
+            if rung.name in ("-A", "+A0.3 +AM1 +R3", "blur_samples 7", NAMED)
+        ]
     rungs = []
     for i in range(max(len(own), len(others))):
         rungs += own[i:i + 1] + others[i:i + 1]

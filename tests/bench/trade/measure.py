@@ -1,4 +1,4 @@
-"""Measures a scene: errors and times of all settings, and what is to be known of its pixels."""
+"""Measures a scene: errors and times of all settings, and what there is to know of its pixels."""
 
 import dataclasses
 import os
@@ -42,7 +42,7 @@ class Plan:
 
 @dataclass(frozen=True)
 class Contest:
-    """A scene written for both programs."""
+    """A Contest is a scene written for both programs."""
 
     name: str
     scene: Scene
@@ -68,33 +68,41 @@ def contest(name: str, plan: Plan) -> Contest:
         crt_writer.Writer(scene).write(out)
     with open(pov_script, "w") as out:
         pov_writer.Writer(scene, size.width / size.height).write(out)
-    return Contest(name, scene, Crt(binding(plan.library), crt_script, size), PovRay(pov_script, size), plan)
+    return Contest(
+        name, scene, Crt(binding(plan.library), crt_script, size), PovRay(pov_script, size), plan
+    )
 
 
 @dataclass
 class Measured:
-    """What a setting takes and gives."""
+    """Measured is what a setting takes and gives."""
 
     seconds: list[float] = dataclasses.field(default_factory=list)
     error: errors.PictureError = errors.PictureError(0, 0)
     samples: float = 0
 
     def row(self, rung: Rung) -> dict:
-        return {"family": rung.family, "name": rung.name, **dataclasses.asdict(self.error), "samples": self.samples,
+        return {"family": rung.family, "name": rung.name, **dataclasses.asdict(self.error),
+                "samples": self.samples,
                 "seconds": statistics.median(self.seconds), "rounds": len(self.seconds)}
 
 
 def hard_share(match: Contest) -> float:
-    """Of the pixels, by the rays that go through them: of the truth, not of what a renderer thinks of it."""
+    """Returns the share of hard pixels by the rays that go through them: by the truth, not by what
+    a renderer estimates."""
     side, size = RAYS_TO_JUDGE, match.crt.size
     rays = Size(side * size.width, side * size.height)
-    image, _ = match.crt.image({"supersampling": 1, "dofsamples": 2 if match.with_lens else 1}, size=rays)
+    image, _ = match.crt.image(
+        {"supersampling": 1, "dofsamples": 2 if match.with_lens else 1}, size=rays
+    )
     each = errors.shown(image.pixels).reshape(size.height, side, size.width, side, 3)
     ranges = (each.max(axis=(1, 3)) - each.min(axis=(1, 3))).max(axis=2)
     return float((ranges > HARD_STEPS).mean())
 
 
-def measured_rungs(match: Contest, own: references.Reference, other: references.Reference) -> list[dict]:
+def measured_rungs(
+    match: Contest, own: references.Reference, other: references.Reference
+) -> list[dict]:
     plan = match.plan
     rungs = {rung: Measured() for rung in ladders.all_rungs(match.with_lens, plan.quick)}
     too_slow: set[str] = set()
@@ -109,7 +117,9 @@ def measured_rungs(match: Contest, own: references.Reference, other: references.
             measured.seconds.append(rendered.seconds)
             if turn > 0:
                 continue
-            measured.error = errors.difference(rendered.picture, (own if rung.is_crt else other).picture)
+            measured.error = errors.difference(
+                rendered.picture, (own if rung.is_crt else other).picture
+            )
             measured.samples = rendered.samples
             if rendered.seconds > LONGEST:
                 too_slow.add(rung.family)
@@ -120,12 +130,16 @@ def measured_rungs(match: Contest, own: references.Reference, other: references.
 
 
 def overhead(match: Contest) -> list[dict]:
-    return [overhead_at(match, count) for count in (OVERHEAD_SAMPLES_QUICK if match.plan.quick else OVERHEAD_SAMPLES)]
+    return [
+        overhead_at(match, count)
+        for count in (OVERHEAD_SAMPLES_QUICK if match.plan.quick else OVERHEAD_SAMPLES)
+    ]
 
 
 def overhead_at(match: Contest, count: int) -> dict:
-    """Passes with as many samples in every pixel as the grid, by turns with it. The fastest of each counts: both do the
-    same each time, and all that makes it longer is what else the machine does."""
+    """Compares passes with as many samples in every pixel as the grid, by turns with it. The
+    fastest of each counts: both do the same each time, and only the rest of the machine makes it
+    longer."""
     side = round(count**0.5)
     passes = {"targeterror": 1e-6, "minsamples": count, "maxsamples": count}
     seconds: dict[str, list[float]] = {"grid": [], "passes": []}
@@ -137,7 +151,8 @@ def overhead_at(match: Contest, count: int) -> dict:
 
 
 def vanished(match: Contest) -> dict:
-    """Whether anything in front of the background is missing from adaptive pictures that covers enough of a pixel."""
+    """Counts what in front of the background is missing from adaptive pictures and covers enough of
+    a pixel."""
     glow = Material(color=(1, 1, 1), diffuse=0)
     things = tuple(dataclasses.replace(thing, material=glow) for thing in match.scene.things)
     bare = dataclasses.replace(match.scene, things=things, background=(0, 0, 0), ambient=1)
@@ -149,7 +164,9 @@ def vanished(match: Contest) -> dict:
     cover = image.pixels[..., 0]
     is_there = cover > VANISHING_SHARE
     background = np.asarray(match.scene.background, np.float32)
-    result: dict = {"pixels": int(is_there.sum()), "seeds": VANISHING_SEEDS, "least_samples": 16, "targets": {}}
+    result: dict = {
+        "pixels": int(is_there.sum()), "seeds": VANISHING_SEEDS, "least_samples": 16, "targets": {}
+    }
     for steps in (8, 1):
         missing = 0
         for seed in range(1, 2 if match.plan.quick else VANISHING_SEEDS + 1):
@@ -163,11 +180,15 @@ def measure(name: str, plan: Plan) -> dict:
     match = contest(name, plan)
     is_slow = name in references.SLOW
     own = references.crt_reference(match.crt, is_slow, plan.quick)
-    other = references.povray_reference(match.pov, os.cpu_count() or 1, match.with_lens, is_slow, plan.quick)
+    other = references.povray_reference(
+        match.pov, os.cpu_count() or 1, match.with_lens, is_slow, plan.quick
+    )
     apart = errors.difference(own.picture, other.picture)
-    plan.say(f"{name}: the references differ by {apart.rmse:.3f} (RMSE) and {apart.p999:.2f} (99.9 %) steps, and are"
+    plan.say(f"{name}: the references differ by {apart.rmse:.3f} (RMSE) and {apart.p999:.2f} (99.9"
+             f" %) steps, and are"
              f" uncertain by {own.uncertainty.rmse:.4f} and {other.uncertainty.rmse:.4f}")
-    result = {"about": match.scene.about, "width": match.crt.size.width, "height": match.crt.size.height,
+    result = {"about": match.scene.about, "width": match.crt.size.width,
+              "height": match.crt.size.height,
               "hard": hard_share(match), "apart": dataclasses.asdict(apart),
               "uncertainty": {"CRT": dataclasses.asdict(own.uncertainty),
                               "POV-Ray": dataclasses.asdict(other.uncertainty)},

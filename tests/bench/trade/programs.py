@@ -1,4 +1,5 @@
-"""Renders with CRT's library in this process, and with povray; tells pictures and the processor's time."""
+"""Renders with CRT's library in this process, and with povray. Returns pictures and the processor's
+time."""
 
 import os
 import pathlib
@@ -16,7 +17,9 @@ from povray.programs import Failed, Size, run
 from . import errors
 
 SOURCE = pathlib.Path(__file__).resolve().parents[3]
-TRACE_CPU = re.compile(r"Trace Time:.*?\n\s*using \d+ thread\(s\) with ([\d.]+) CPU-seconds", re.DOTALL)
+TRACE_CPU = re.compile(
+    r"Trace Time:.*?\n\s*using \d+ thread\(s\) with ([\d.]+) CPU-seconds", re.DOTALL
+)
 SHOT = re.compile(r"Pixels:\s*(\d+)\s+Samples:\s*(\d+)")
 
 
@@ -28,7 +31,7 @@ class Rendered:
 
 
 def binding(library: pathlib.Path) -> Any:
-    """CRT's Python package on top of this library."""
+    """Returns CRT's Python package on top of this library."""
     os.environ["CRT_LIBRARY"] = str(library)
     package = str(SOURCE / "examples/python")
     if package not in sys.path:
@@ -46,11 +49,17 @@ class Crt:
 
     def prepared(self, settings: dict, size: Size | None = None) -> Any:
         size = size or self.size
-        all_settings = {"width": size.width, "height": size.height, "gamma": errors.GAMMA, **settings}
-        return self.crt.Scene.from_script(self.script, settings=all_settings, max_steps=10**9).prepare()
+        all_settings = {
+            "width": size.width, "height": size.height, "gamma": errors.GAMMA, **settings
+        }
+        return self.crt.Scene.from_script(
+            self.script, settings=all_settings, max_steps=10**9
+        ).prepare()
 
-    def image(self, settings: dict, seed: int = 1, threads: int = 0, size: Size | None = None) -> tuple[Any, float]:
-        """A picture and the seconds it took."""
+    def image(
+        self, settings: dict, seed: int = 1, threads: int = 0, size: Size | None = None
+    ) -> tuple[Any, float]:
+        """Returns a picture and the seconds it took."""
         prepared = self.prepared(settings, size)
         begin = time.process_time()
         image = prepared.render(threads=threads, seed=seed)
@@ -68,14 +77,16 @@ class PovRay:
     size: Size
 
     def render(self, options: tuple[str, ...], threads: int = 1, enlarged: int = 1) -> Rendered:
-        """`enlarged`: the picture is so many times as wide and high."""
+        """Renders. `enlarged` says how many times as wide and high the picture is."""
         picture = self.script.with_suffix(".ppm")
-        output = run(["povray", f"+I{self.script.name}", f"+O{picture.name}", "+FP16", f"File_Gamma={errors.GAMMA}",
-                      f"+W{enlarged * self.size.width}", f"+H{enlarged * self.size.height}", f"+WT{threads}", *options,
+        output = run(["povray", f"+I{self.script.name}", f"+O{picture.name}", "+FP16",
+                      f"File_Gamma={errors.GAMMA}",
+                      f"+W{enlarged * self.size.width}", f"+H{enlarged * self.size.height}",
+                      f"+WT{threads}", *options,
                       "-D", "-V"], None, picture.parent)
         seconds, shot = TRACE_CPU.search(output), SHOT.search(output)
         if seconds is None or shot is None:
-            raise Failed(f"povray told no times: {output[-2000:]}")
+            raise Failed(f"povray printed no times: {output[-2000:]}")
         steps = pictures.read_ppm(picture).astype(float) * (errors.FULL / 65535)
         samples = (int(shot[1]) + int(shot[2])) / self.size.pixels
         return Rendered(steps, float(seconds[1]), samples)

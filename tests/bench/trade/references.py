@@ -1,4 +1,5 @@
-"""What each program's pictures converge to, each in two independent halves that tell how uncertain it is."""
+"""Renders what each program's pictures converge to, each in two independent halves that show how
+uncertain it is."""
 
 from dataclasses import dataclass
 
@@ -11,8 +12,8 @@ from .ladders import lens_options
 from .programs import Crt, PovRay
 
 FIRST_SEED = 1001  # other random numbers than the ladder's
-# POV-Ray's antialiasing has no more than 9 x 9 places in a pixel, always the same ones. So its references are pictures
-# of several times the size, with jitter, averaged down: (times, options).
+# POV-Ray's antialiasing has no more than 9 x 9 places in a pixel, always the same ones. So its
+# references are pictures of several times the size, with jitter, averaged down: (times, options).
 SLOW = ("glass", "mirrors")  # get a fourth of the rays
 ENLARGED = ((5, ("+AM1", "+A0.0", "+R4")), (7, ("+AM1", "+A0.0", "+R4")))
 ENLARGED_LENS = ((2, ("-A", *lens_options(256, 0))), (3, ("-A", *lens_options(114, 0))))
@@ -28,7 +29,7 @@ class Reference:
 
 
 def of_halves(halves: list[np.ndarray]) -> Reference:
-    """Of linear light."""
+    """Returns the mean of two halves, in linear light."""
     mean = errors.shown(sum(halves) / len(halves))
     apart = errors.difference(*(errors.shown(half) for half in halves))
     return Reference(mean, errors.PictureError(apart.rmse / 2, apart.p999 / 2))
@@ -44,7 +45,9 @@ def crt_reference(crt: Crt, is_slow: bool, quick: bool) -> Reference:
     return of_halves(halves)
 
 
-def povray_reference(pov: PovRay, threads: int, with_lens: bool, is_slow: bool, quick: bool) -> Reference:
+def povray_reference(
+    pov: PovRay, threads: int, with_lens: bool, is_slow: bool, quick: bool
+) -> Reference:
     if quick:
         kinds = QUICK_ENLARGED_LENS if with_lens else QUICK_ENLARGED
     else:

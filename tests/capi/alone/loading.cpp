@@ -1,4 +1,4 @@
-// libcrt as a plug-in: loaded, used, unloaded, loaded again; and twice at once.
+// These tests use libcrt as a plug-in: loaded, used, unloaded, loaded again; and twice at once.
 #include <crt/crt.h>
 #include <dlfcn.h>
 #include <doctest/doctest.h>
@@ -18,7 +18,7 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// The library's functions, found by name as a host of plug-ins finds them.
+/// A Library holds the library's functions, found by name as a host of plug-ins finds them.
 class Library {
  public:
   explicit Library(const std::string& file) : handle_(dlopen(file.c_str(), RTLD_NOW | RTLD_LOCAL)) {
@@ -41,7 +41,7 @@ class Library {
   void* handle_;
 };
 
-/// Renders a ball in an image file's bytes; the sum of its pixels.
+/// Renders a ball into an image file's bytes, and returns the sum of its pixels.
 double use(const Library& crt) {
   const double center[3] = {0, 0, 2};
   crt_entity* ball = nullptr;
@@ -111,12 +111,12 @@ TEST_CASE("load, unload and load again leaks nothing") {
   const std::ptrdiff_t threads = thread_count();
   constexpr int cycles = 20;
   for (int i = 0; i < cycles; ++i) CHECK(cycle() == expected);
-  // Less than a small block a cycle; and as many mappings and threads as before, give or take what
-  // the allocator and TBB keep in reserve.
+  // A cycle costs less than a small block. Mappings and threads stay as many, but for what the
+  // allocator and TBB keep in reserve.
   CHECK(static_cast<double>(mallinfo2().uordblks) - static_cast<double>(heap) < cycles * 1024.0);
 #ifdef __SANITIZE_THREAD__
   static_cast<void>(
-      mappings);  // ThreadSanitizer maps memory of its own for each thread that there ever was
+      mappings);  // ThreadSanitizer maps memory of its own for each thread that ever ran
 #else
   CHECK(maps().size() < mappings + cycles);
 #endif
@@ -132,11 +132,11 @@ TEST_CASE("a copy of the library is a second instance beside the first") {
   {
     const Library first(CRT_LIBRARY);
     const Library second(copy.string());
-    const bool apart = first.find<decltype(crt_version)>("crt_version") !=
-                       second.find<decltype(crt_version)>("crt_version");
-    CHECK(apart);
+    const bool distinct = first.find<decltype(crt_version)>("crt_version") !=
+                          second.find<decltype(crt_version)>("crt_version");
+    CHECK(distinct);
     CHECK(use(first) == use(second));
-    // What one says the other does not.
+    // A message in one copy does not appear in the other.
     crt_entity* none = nullptr;
     const double center[3] = {0, 0, 0};
     const double radius = -1;
@@ -144,7 +144,7 @@ TEST_CASE("a copy of the library is a second instance beside the first") {
           CRT_OK);
     CHECK(std::strlen(second.find<decltype(crt_error_message)>("crt_error_message")()) > 0);
     CHECK(std::strlen(first.find<decltype(crt_error_message)>("crt_error_message")()) == 0);
-    // At once.
+    // Both copies render at once.
     double sum = 0;
     std::thread other([&] { sum = use(second); });
     const double mine = use(first);

@@ -1,5 +1,5 @@
-// What happens when memory runs out: every allocation of a call is made to fail once, and each time
-// an error comes back and nothing is lost.
+// These tests let memory run out. Every allocation of a call fails once, and each time an error
+// comes back and nothing is lost.
 #include <dlfcn.h>
 #include <execinfo.h>
 
@@ -18,13 +18,13 @@ namespace {
 
 constexpr std::size_t usual_alignment = __STDCPP_DEFAULT_NEW_ALIGNMENT__;
 
-/// Blocks that are not given back yet, of all threads.
+/// Counts the blocks of all threads that are not given back yet.
 std::atomic<long> blocks = 0;
-/// How many more allocations this thread gets before one fails; negative: all.
+/// This thread gets so many more allocations before one fails. Negative means all.
 thread_local long until_failure = -1;
 thread_local bool failed = false;
 
-/// Whether any caller of this one is code of Embree.
+/// Says whether any caller of this one is code of Embree.
 bool called_by_embree() {
   std::array<void*, 64> callers;
   const int count = backtrace(callers.data(), static_cast<int>(callers.size()));
@@ -114,13 +114,14 @@ void operator delete[](void* block, std::size_t, std::align_val_t) noexcept {
 
 namespace {
 
-/// What a call came to, and how many blocks are left over when everything that it gave is released.
+/// An Outcome is the status of a call, and how many blocks are left over when everything that it
+/// gave is released.
 struct Outcome {
   crt_status status;
   long left;
 };
 
-/// Runs `call` with its allocation number `number` failing; negative: none.
+/// Runs `call` with its allocation number `number` failing. Negative means none.
 Outcome with_failure(const std::function<crt_status()>& call, long number) {
   const long before = blocks;
   failed = false;
@@ -132,7 +133,8 @@ Outcome with_failure(const std::function<crt_status()>& call, long number) {
 
 /// Lets each allocation of `call` fail in turn. `call` releases what it is given.
 void check_every_failure(const std::function<crt_status()>& call) {
-  // Once or twice without: what is made once and kept (workers of TBB, a module) is no loss.
+  // The call runs once or twice without a failure: what is made once and kept (workers of TBB, a
+  // module) is no loss.
   REQUIRE(with_failure(call, -1).status == CRT_OK);
   REQUIRE(with_failure(call, -1).left == 0);
   long failures = 0;
@@ -210,7 +212,7 @@ TEST_CASE("putting a scene together and copying it") {
   crt_light_init(&light, sizeof light);
   crt_settings settings;
   crt_settings_init(&settings, sizeof settings);
-  settings.title = "a title that is too long for the room that short texts have";
+  settings.title = "a title that is too long for the buffer that short texts have";
   check_every_failure([&] {
     return made_and_released<SceneHandle>([&](crt_scene** out) {
       crt_status status = crt_scene_create(out);
@@ -291,7 +293,7 @@ TEST_CASE("asking rays") {
 TEST_CASE("running scripts, good and bad") {
   const std::string good =
       "f = Macro (n) { Sphere { center -> vec3(n, 0, 0) radius -> 1 } }\nl = [1, 2.5, \"three\"]\n"
-      "Settings { title -> \"a title that is too long for the room that short texts have\" }\n"
+      "Settings { title -> \"a title that is too long for the buffer that short texts have\" }\n"
       "Scene { for (i in range(3)) { f(i) } Box { cornerA -> vec3(0, 0, 0) cornerB -> vec3(1, 1, "
       "1) } }\n";
   const std::string bad = "f = Macro (n) { g(n) }\nScene { f(2) }\n";

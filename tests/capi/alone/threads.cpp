@@ -1,4 +1,5 @@
-// What the C interface promises about threads and about the process that it lives in.
+// These tests check what the C interface promises about threads and about the process that it lives
+// in.
 #include <xmmintrin.h>
 
 #include <algorithm>
@@ -42,7 +43,7 @@ std::vector<float> pixels_of(const crt_image* image) {
   return {first, first + std::size_t{4} * crt_image_width(image) * crt_image_height(image)};
 }
 
-/// The threads from which a render's callbacks came.
+/// Callers are the threads from which a render's callbacks came.
 struct Callers {
   std::mutex mutex;
   std::set<std::thread::id> threads;
@@ -72,13 +73,13 @@ std::int32_t threads_of(const crt_image* image) {
 }
 
 #ifndef CRT_TASKS_THREADS
-/// What TBB may start in this process.
+/// Returns how many threads TBB may start in this process.
 std::size_t parallelism_allowed() {
   return tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism);
 }
 #endif
 
-/// What of the process a library could change behind its host's back.
+/// A ProcessState is what of the process a library could change without its host noticing.
 struct ProcessState {
   std::string locale = std::setlocale(LC_ALL, nullptr);
   std::filesystem::path folder = std::filesystem::current_path();
@@ -126,7 +127,7 @@ constexpr unsigned flush_to_zero = 0x8040;
 
 }  // namespace
 
-// The first test, while nothing has started a thread yet.
+// This is the first test, while nothing has started a thread yet.
 TEST_CASE("one thread means the caller's: none is started, and every callback comes from it") {
   const std::ptrdiff_t before = thread_count();
   const SceneHandle scene = small_scene(64, 48);
@@ -255,7 +256,7 @@ TEST_CASE("64 threads query one prepared scene") {
   for (int i = 0; i < 64; ++i) {
     threads.emplace_back([&, i] {
       std::vector<crt_hit> hits(rays.size());
-      // Some in one batch, some ray by ray.
+      // Some rays are asked in one batch, some one by one.
       crt_status status = CRT_OK;
       if (i % 2 == 0) {
         status = crt_intersect(prepared.get(), rays.data(), 0, rays.size(), hits.data(), 0);

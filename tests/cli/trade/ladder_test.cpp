@@ -1,4 +1,4 @@
-// Which settings `crt trade` tries.
+// These tests check which settings `crt trade` tries.
 #include "cli/trade_ladder.hpp"
 
 #include <doctest/doctest.h>

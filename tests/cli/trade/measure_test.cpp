@@ -1,4 +1,4 @@
-// The errors, parts and choices of `crt trade`.
+// These tests check the errors, parts and choices of `crt trade`.
 #include "cli/trade_measure.hpp"
 
 #include <doctest/doctest.h>
@@ -11,7 +11,7 @@ using namespace crt::cli;
 
 namespace {
 
-/// Grey all over.
+/// Makes a picture that is grey all over.
 Image plain(int width, int height, double level, double gamma = 1) {
   Image image(width, height);
   for (int y = 0; y < height; ++y) {
@@ -27,7 +27,7 @@ using Places = std::vector<std::size_t>;
 
 }  // namespace
 
-TEST_CASE("a difference is told in 8-bit steps of what a display shows") {
+TEST_CASE("a difference is measured in 8-bit steps of what a display shows") {
   const PictureError same = displayed_difference(plain(5, 4, 0.3), plain(5, 4, 0.3));
   CHECK(same.rmse == 0);
   CHECK(same.p999 == 0);
@@ -37,7 +37,7 @@ TEST_CASE("a difference is told in 8-bit steps of what a display shows") {
   // After gamma 2 a quarter shows as a half.
   CHECK(displayed_difference(plain(5, 4, 0, 2), plain(5, 4, 0.25, 2)).rmse ==
         doctest::Approx(127.5));
-  // Whiter than white is white, and less than nothing black.
+  // Whiter than white counts as white, and less than nothing as black.
   CHECK(displayed_difference(plain(2, 2, 7), plain(2, 2, 1)).rmse == 0);
   CHECK(displayed_difference(plain(2, 2, -3), plain(2, 2, 0)).rmse == 0);
 }
@@ -89,7 +89,7 @@ TEST_CASE("the mean of two pictures is that of their light") {
 }
 
 TEST_CASE(
-    "bands lie in the picture, apart, as wide as it is, with about the pixels that were asked "
+    "bands lie in the picture, disjoint, as wide as it is, with about the pixels that were asked "
     "for") {
   for (const int width : {1, 7, 640, 1920}) {
     for (const int height : {1, 23, 24, 100, 480, 1080, 65536}) {

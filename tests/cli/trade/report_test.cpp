@@ -1,4 +1,4 @@
-// What `crt trade` tells: texts, tables and drawings.
+// These tests check what `crt trade` reports: texts, tables and drawings.
 #include "cli/trade_report.hpp"
 
 #include <doctest/doctest.h>
@@ -70,7 +70,7 @@ TEST_CASE("the text answers what was asked, and says so where nothing is good en
               "nothing that was tried is so fast"));
 }
 
-TEST_CASE("errors that the reference cannot tell apart count as equal: the fastest is the best") {
+TEST_CASE("errors that the reference cannot distinguish count as equal: the fastest is the best") {
   TradeReport report = small_report();
   report.rungs.push_back({Family::target, "--targeterror 0.000001", 300, 900, {0.03, 0.1}});
   report.rungs.push_back({Family::target, "--targeterror 0.000002", 200, 800, {0.035, 0.1}});

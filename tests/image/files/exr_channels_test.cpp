@@ -1,5 +1,5 @@
-// EXR files with channels beside the colours, as OpenImageIO reads them: names, types, and every
-// number to the bit.
+// These tests read EXR files with channels beside the colours by OpenImageIO: names, types, and
+// every number to the bit.
 #include <OpenImageIO/imageio.h>
 #include <doctest/doctest.h>
 
@@ -20,7 +20,7 @@ constexpr int width = 5;
 constexpr int height = 130;  // more than what is written at once
 constexpr std::size_t pixel_count = std::size_t{width} * height;
 
-/// A channel of floats whose numbers all differ, and among them some that are hard to keep.
+/// Makes a channel of floats whose numbers all differ. Some of them are hard to keep.
 ImageChannel floats(const std::string& name, float first) {
   std::vector<float> values(pixel_count);
   for (std::size_t i = 0; i < pixel_count; ++i) values[i] = first + static_cast<float>(i) / 7;
@@ -30,7 +30,7 @@ ImageChannel floats(const std::string& name, float first) {
   return {name, values};
 }
 
-/// One of whole numbers over their whole range.
+/// Makes a channel of whole numbers over their whole range.
 ImageChannel integers(const std::string& name) {
   std::vector<std::uint32_t> values(pixel_count);
   for (std::size_t i = 0; i < pixel_count; ++i)
@@ -38,7 +38,7 @@ ImageChannel integers(const std::string& name) {
   return {name, values};
 }
 
-/// What a file holds: each number as the four bytes that it is, channel by channel.
+/// Content is what a file holds: each number as the four bytes that it is, channel by channel.
 struct Content {
   OIIO::ImageSpec spec;
   std::vector<std::uint32_t> numbers;

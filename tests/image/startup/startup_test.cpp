@@ -1,5 +1,5 @@
-// What a program pays for image files that it does not use. A program of its own, since what was
-// loaded once stays loaded.
+// A program pays nothing for image files that it does not use. This is a program of its own, as
+// what was loaded once stays loaded.
 #include <doctest/doctest.h>
 
 #include <filesystem>
@@ -30,7 +30,7 @@ TEST_CASE("OpenImageIO is loaded by the first image file and not before, and sta
   CHECK_FALSE(is_loaded("libOpenImageIO"));
   CHECK_FALSE(is_loaded("libOpenEXR"));
 
-  // A library that some builds of OpenImageIO come with starts threads when it is loaded; reading
+  // Some builds of OpenImageIO come with a library that starts threads when it is loaded. Reading
   // and writing start no more.
   crt::core::image_files();
   const long threads_before = threads();

@@ -1,5 +1,5 @@
-// A program of somebody else's that links crt::core and crt::lang: it asks a ray, renders a small
-// picture and writes it. usage: program picture.png
+// This is somebody else's program that links crt::core and crt::lang. It asks a ray, renders a
+// small picture and writes it. usage: program picture.png
 #include <crt/crt.hpp>
 #include <crt/script.hpp>
 #include <iostream>
