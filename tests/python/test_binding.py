@@ -126,7 +126,7 @@ class Structs(unittest.TestCase):
 
     def test_aovs_have_the_bits_of_the_header(self):
         bits = {
-            name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+) = (\d+)", HEADER)
+            name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+)\s*=\s*(\d+)", HEADER)
         }
         self.assertEqual(rendering._AOV_BITS, bits)
 
