@@ -1,4 +1,5 @@
-// The cheap tests of tori (intersect/bounding_proxy.hpp) against the oracle: what they call certain is true.
+// The conservative tests of tori (intersect/bounding_proxy.hpp) against the oracle: what they call
+// certain is true.
 #include <doctest/doctest.h>
 
 #include <algorithm>
