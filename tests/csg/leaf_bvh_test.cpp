@@ -146,15 +146,15 @@ TEST_CASE("a line's span in a box is the same by axes side by side, and by lines
         CHECK((by_axes.enter == alone[lane].enter && by_axes.leave == alone[lane].leave));
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        lines.origin[a][static_cast<int>(lane)] = origin[axis];
-        lines.direction[a][static_cast<int>(lane)] = direction[axis];
-        lines.inverse[a][static_cast<int>(lane)] = 1 / direction[axis];
+        lines.origin[a][lane] = origin[axis];
+        lines.direction[a][lane] = direction[axis];
+        lines.inverse[a][lane] = 1 / direction[axis];
       }
     }
     const LineSpanLanes side_by_side = RaySlabs::spans(lines, box, ~0u);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const double enter = side_by_side.enter[static_cast<int>(lane)];
-      const double leave = side_by_side.leave[static_cast<int>(lane)];
+      const double enter = side_by_side.enter[lane];
+      const double leave = side_by_side.leave[lane];
       CHECK((enter <= leave) == !alone[lane].empty());
       if (!alone[lane].empty()) CHECK((enter == alone[lane].enter && leave == alone[lane].leave));
     }

@@ -172,8 +172,7 @@ TEST_CASE("what floats say of rays among balls is true") {
         const WorldRay& ray = rays[k];
         const bool meets = (first.meeting >> k & 1u) != 0;
         if (!meets && (first.missing >> k & 1u) == 0) continue;
-        const double to =
-            meets ? first.to[k / lane_count][static_cast<int>(k % lane_count)] : ray.t_max;
+        const double to = meets ? first.to[k / lane_count][k % lane_count] : ray.t_max;
         for (std::size_t ball = 0; ball < balls.size(); ++ball) {
           const double t = first_after(exact_chord(ray, balls[ball]), ray.t_min);
           const bool is_first = meets && first.boxes[k] == ball;

@@ -11,7 +11,7 @@
 
 #include "core/csg/evaluate.hpp"
 #include "core/ray/ray_packet.hpp"
-#include "core/simd/float_octet.hpp"
+#include "core/simd/lanes.hpp"
 
 namespace crt::core {
 
@@ -103,8 +103,8 @@ class NearestSphereFilter {
     // The others start on it, as far as floats know.
     const OctetMask is_before = enters_from > 0.0F;
     const OctetMask is_inside = enters_to < 0.0F;
-    const FloatOctet from = is_inside ? leaves_from : enters_from;
-    const FloatOctet to = is_inside ? leaves_to : enters_to;
+    const FloatOctet from = select(is_inside, leaves_from, enters_from);
+    const FloatOctet to = select(is_inside, leaves_to, enters_to);
     const OctetMask sure =
         counts & (margin > 1.5F * slack) & (is_before | (is_inside & (leaves_from > 0.0F)));
     // Others that are so near may be at the same place.
@@ -113,13 +113,12 @@ class NearestSphereFilter {
 
     const auto first_from = lanes_at<FloatOctet>(&first_from_[first_ray]);
     const auto others_from = lanes_at<FloatOctet>(&others_from_[first_ray]);
-    const FloatOctet other = min(others_from, is_first ? first_from : from);
-    const auto first = lanes_at<OctetMask>(&first_[first_ray]);
-    put_lanes(counts ? other : others_from, others_from_, first_ray);
-    put_lanes(is_first ? from : first_from, first_from_, first_ray);
-    put_lanes(is_first ? OctetMask{} + static_cast<std::int32_t>(number) : first, first_,
-              first_ray);
-    put_lanes(is_first ? clear_of : end, rays.end, 0);
+    const FloatOctet other = min(others_from, select(is_first, first_from, from));
+    const auto first = lanes_at<BitOctet>(&first_[first_ray]);
+    put_lanes(select(counts, other, others_from), others_from_, first_ray);
+    put_lanes(select(is_first, from, first_from), first_from_, first_ray);
+    put_lanes(select(mask_cast<BitOctet::mask_type>(is_first), number, first), first_, first_ray);
+    put_lanes(select(is_first, clear_of, end), rays.end, 0);
   }
 
   /// What there is to say in the end of the first rays, as many as there are ends.
@@ -133,8 +132,7 @@ class NearestSphereFilter {
     for (std::size_t first = 0; first < Count; first += octet_size) {
       const auto others_from = lanes_at<FloatOctet>(&others_from_[first]);
       result.known |= mask_of(others_from > lanes_at<FloatOctet>(&ends[first])) << first;
-      const auto none = OctetMask{} + static_cast<std::int32_t>(nothing);
-      result.meeting |= mask_of(lanes_at<OctetMask>(&first_[first]) != none) << first;
+      result.meeting |= mask_of(lanes_at<BitOctet>(&first_[first]) != nothing) << first;
     }
     return result;
   }
@@ -146,8 +144,8 @@ class NearestSphereFilter {
   /// bits of a float are nearly its logarithm (Blinn, Floating-point tricks, IEEE Computer Graphics
   /// and Applications 17(4), 1997).
   static FloatOctet inverse_or_more(const FloatOctet& x) {
-    constexpr std::int32_t bits_of_one_twice = 0x7f000000;
-    return reinterpret_cast<FloatOctet>(bits_of_one_twice - reinterpret_cast<OctetMask>(x));
+    constexpr std::uint32_t bits_of_one_twice = 0x7f000000;
+    return std::bit_cast<FloatOctet>(bits_of_one_twice - std::bit_cast<BitOctet>(x));
   }
   static FloatOctet dot(const std::array<FloatOctet, 3>& a, const std::array<FloatOctet, 3>& b) {
     return multiply_add(a[2], b[2], multiply_add(a[1], b[1], a[0] * b[0]));

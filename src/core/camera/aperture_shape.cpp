@@ -55,11 +55,11 @@ PlanePointOf<Real> point_of_disc(const Real& u, const Real& v) {
   const Real x = 2.0 * u - 1.0;
   const Real y = 2.0 * v - 1.0;
   const auto beside = abs(x) > abs(y);
-  const Real radius = beside ? x : y;
-  const Real across = beside ? y : x;
+  const Real radius = select(beside, x, y);
+  const Real across = select(beside, y, x);
   const auto [sine, cosine] =
-      of_eighth_turns(across / (radius == 0.0 ? broadcast<Real>(1) : radius));
-  return {radius * (beside ? cosine : sine), radius * (beside ? sine : cosine)};
+      of_eighth_turns(across / select(radius == 0.0, broadcast<Real>(1), radius));
+  return {radius * select(beside, cosine, sine), radius * select(beside, sine, cosine)};
 }
 
 }  // namespace
@@ -132,8 +132,8 @@ LensPoint aperture_point(ApertureShape shape, double u, double v) {
 LensPointLanes aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v) {
   if (shape == ApertureShape::circle) return point_of_disc(u, v);
   LensPointLanes points;
-  for (int i = 0; i < lane_count; ++i) {
-    set_lane(points, static_cast<std::size_t>(i), aperture_point(shape, u[i], v[i]));
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    set_lane(points, i, aperture_point(shape, u[i], v[i]));
   }
   return points;
 }

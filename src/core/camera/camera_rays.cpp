@@ -145,12 +145,11 @@ void CameraRays::rays(std::size_t count, std::span<const PicturePlaceLanes> plac
     RayLanes& found = result[group];
     if (!turns_across(projection_) && rays_to_plane(at, through, found)) continue;
     for (std::size_t lane = 0; lane < lane_count && group * lane_count + lane < count; ++lane) {
-      const auto i = static_cast<int>(lane);
       CameraRay one;
       if (through != nullptr) {
-        ray(at.x[i], at.y[i], lane_of(*through, lane), one);
+        ray(at.x[lane], at.y[lane], lane_of(*through, lane), one);
       } else {
-        ray(at.x[i], at.y[i], one);
+        ray(at.x[lane], at.y[lane], one);
       }
       found.origin.set(lane, one.origin);
       found.direction.set(lane, one.direction);

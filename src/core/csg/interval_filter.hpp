@@ -59,14 +59,13 @@ struct BoundaryChanges {
 };
 
 inline BoundaryChanges<double> lane_of(const BoundaryChanges<Lanes>& changes, std::size_t lane) {
-  const auto i = static_cast<int>(lane);
-  return {.none = changes.none[i] != 0,
-          .one = changes.one[i] != 0,
-          .into_object = changes.into_object[i] != 0,
-          .into_leaf = changes.into_leaf[i] != 0,
-          .leaf = changes.leaf[i],
-          .from = changes.from[i],
-          .to = changes.to[i]};
+  return {.none = changes.none[lane],
+          .one = changes.one[lane],
+          .into_object = changes.into_object[lane],
+          .into_leaf = changes.into_leaf[lane],
+          .leaf = changes.leaf[lane],
+          .from = changes.from[lane],
+          .to = changes.to[lane]};
 }
 
 template <class Real>

@@ -23,36 +23,36 @@ struct LeafInterval {
 
   /// Returns the first t not before this one at which a line may be inside of the leaf.
   Real inside_from(const Real& t) const {
-    return t > leave_to ? broadcast<Real>(std::numeric_limits<double>::infinity())
-                        : max(t, enter_from);
+    return select(t > leave_to, broadcast<Real>(std::numeric_limits<double>::infinity()),
+                  max(t, enter_from));
   }
   /// Returns the first t not before this one at which a line may be outside of the leaf.
   Real outside_from(const Real& t) const {
-    return both(t > enter_to, t < leave_from) ? leave_from : t;
+    return select(t > enter_to && t < leave_from, leave_from, t);
   }
 
   /// Returns whether a line surely is inside of the leaf from one t to another.
   Mask is_inside(const Real& from, const Real& to) const {
-    return both(enter_to<from, leave_from> to);
+    return enter_to < from && leave_from > to;
   }
   /// Returns whether a line surely is outside of the leaf from one t to another.
   Mask is_outside(const Real& from, const Real& to) const {
-    return either(enter_from > to, leave_to < from);
+    return enter_from > to || leave_to < from;
   }
 
   /// Makes lines that leave the leaf where they start never be inside.
   void set_outside(const Mask& of_lines) {
     const Real never = broadcast<Real>(std::numeric_limits<double>::infinity());
-    *this = {.enter_from = of_lines ? never : enter_from,
-             .enter_to = of_lines ? never : enter_to,
-             .leave_from = of_lines ? -never : leave_from,
-             .leave_to = of_lines ? -never : leave_to};
+    *this = {.enter_from = select(of_lines, never, enter_from),
+             .enter_to = select(of_lines, never, enter_to),
+             .leave_from = select(of_lines, -never, leave_from),
+             .leave_to = select(of_lines, -never, leave_to)};
   }
   /// Makes lines that go into the leaf where they start be inside from the first.
   void set_inside_first(const Mask& of_lines) {
     const Real always = broadcast<Real>(-std::numeric_limits<double>::infinity());
-    enter_from = of_lines ? always : enter_from;
-    enter_to = of_lines ? always : enter_to;
+    enter_from = select(of_lines, always, enter_from);
+    enter_to = select(of_lines, always, enter_to);
   }
 };
 
@@ -69,11 +69,9 @@ class EnclosedLines {
         asked_(asked),
         limits_(min(limits, broadcast<Real>(std::numeric_limits<double>::max()))) {
     constexpr double steepest = 0x1p500;
-    asked_ =
-        both(asked_, both(lines.squared_length > 1 / steepest, lines.squared_length < steepest));
+    asked_ = asked_ && lines.squared_length > 1 / steepest && lines.squared_length < steepest;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      asked_ =
-          both(asked_, either(lines.direction[axis] == 0.0, abs(lines.inverse[axis]) < steepest));
+      asked_ = asked_ && (lines.direction[axis] == 0.0 || abs(lines.inverse[axis]) < steepest);
     }
   }
 
@@ -105,8 +103,8 @@ class EnclosedLines {
     const Real margin_error = margin_error_of(dot(offset, offset), squared_radius, sphere.radius);
     const Real margin = squared_radius - dot(across, across) + margin_error;
     const Mask rejected = margin < 0.0;
-    if (!any(without(asked_, rejected))) return false;
-    const Real outer = square_root(margin * lines_.inverse_squared_length);
+    if (!any(asked_ && !rejected)) return false;
+    const Real outer = sqrt(margin * lines_.inverse_squared_length);
     const Real inner = outer - 2.0 * lines_.inverse_squared_length * margin_error / outer;
     const Real error = slack * (abs(closest) + sphere.radius * lines_.inverse_length);
     interval.enter_from = closest - outer - error;
@@ -126,7 +124,7 @@ class EnclosedLines {
       const auto i = static_cast<int>(axis);
       const Real first = (box.lower[i] - lines_.origin[axis]) * lines_.inverse[axis];
       const Real second = (box.upper[i] - lines_.origin[axis]) * lines_.inverse[axis];
-      known = both(known, either(first <= second, first > second));
+      known = known && (first <= second || first > second);
       enter = max(enter, min(first, second));
       leave = min(leave, max(first, second));
     }
@@ -135,11 +133,11 @@ class EnclosedLines {
     const Real nothing_known = broadcast<Real>(std::numeric_limits<double>::quiet_NaN());
     const Real enter_from = min(enter * less, enter * more);
     const Real leave_to = max(leave * less, leave * more);
-    interval.enter_from = known ? enter_from : nothing_known;
-    interval.enter_to = known ? max(enter * less, enter * more) : nothing_known;
-    interval.leave_from = known ? min(leave * less, leave * more) : nothing_known;
-    interval.leave_to = known ? leave_to : nothing_known;
-    return restrict(both(known, enter_from > leave_to), interval);
+    interval.enter_from = select(known, enter_from, nothing_known);
+    interval.enter_to = select(known, max(enter * less, enter * more), nothing_known);
+    interval.leave_from = select(known, min(leave * less, leave * more), nothing_known);
+    interval.leave_to = select(known, leave_to, nothing_known);
+    return restrict(known && enter_from > leave_to, interval);
   }
 
   /// Returns whether the distance of a start from a sphere's surface is what rounding makes of 0.
@@ -150,23 +148,21 @@ class EnclosedLines {
     const Real off = abs(squared_offset - squared_radius);
     const Real most =
         share_of_start * margin_error_of(squared_offset, squared_radius, sphere.radius);
-    return any(both(lane_bit(lane), off < most));
+    return any(lane_bit(lane) && off < most);
   }
 
   /// Returns whether a ray comes at an upper face of a box across an axis from its outside, or else
   /// at a lower one.
   bool goes_into_box(std::size_t axis, bool upper, std::size_t lane) const {
     const Real& speed = lines_.direction[axis];
-    return any(both(lane_bit(lane), upper ? speed < 0.0 : speed > 0.0));
+    return any(lane_bit(lane) && (upper ? speed < 0.0 : speed > 0.0));
   }
-  bool starts_at_0(std::size_t lane) const {
-    return any(both(lane_bit(lane), lines_.begin == 0.0));
-  }
+  bool starts_at_0(std::size_t lane) const { return any(lane_bit(lane) && lines_.begin == 0.0); }
   /// Returns whether a ray that starts into a leaf is inside of it as soon as crossings count.
   bool is_inside_soon(const LeafInterval<Real>& interval, std::size_t lane) const {
     const Mask soon =
-        both(interval.enter_to <= lines_.certain_from, interval.leave_from > lines_.certain_from);
-    return any(both(lane_bit(lane), soon));
+        interval.enter_to <= lines_.certain_from && interval.leave_from > lines_.certain_from;
+    return any(lane_bit(lane) && soon);
   }
 
   static Mask lane_bit(std::size_t lane) { return lanes_of_mask<Real>(std::uint32_t{1} << lane); }
@@ -192,12 +188,12 @@ class EnclosedLines {
   /// Leaves what matters of an interval. What may be at the start may be before it as well.
   bool restrict(const Mask& rejected, LeafInterval<Real>& interval) const {
     const auto widened = [&](const Real& from) {
-      return from <= lines_.certain_from ? min(from, lines_.begin) : from;
+      return select(from <= lines_.certain_from, min(from, lines_.begin), from);
     };
     interval.enter_from = widened(interval.enter_from);
     interval.leave_from = widened(interval.leave_from);
-    const Mask outside = either(rejected, interval.is_outside(lines_.begin, limits_));
-    if (!any(without(asked_, outside))) return false;
+    const Mask outside = rejected || interval.is_outside(lines_.begin, limits_);
+    if (!any(asked_ && !outside)) return false;
     if (any(outside)) interval.set_outside(outside);
     return true;
   }

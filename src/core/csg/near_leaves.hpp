@@ -177,9 +177,9 @@ class NearLeaves {
   double first_enter(const Bounds& box) const {
     const FilterLine<Real>& lines = lines_.lines();
     const auto part = span_in(box);
-    const MaskOf<Real> near = both(both(part.enter <= part.leave, part.enter <= lines_.limits()),
-                                   part.leave >= lines.begin - lines.start_error);
-    return least(both(near, lines_.asked()) ? part.enter : broadcast<Real>(infinity));
+    const MaskOf<Real> near = part.enter <= part.leave && part.enter <= lines_.limits() &&
+                              part.leave >= lines.begin - lines.start_error;
+    return least(select(near && lines_.asked(), part.enter, broadcast<Real>(infinity)));
   }
 
   void add(std::uint32_t leaf) {

@@ -21,9 +21,9 @@ Real quarter_turn(const Real& x, const Real& y) {
   const Real longer = max(x, y);
   const Real shorter = min(x, y);
   const auto beyond = shorter > tangent_of_sixteenth * longer;
-  const Real across = beyond ? shorter - longer : shorter;
-  const Real along = beyond ? shorter + longer : longer;
-  const Real q = across / (along > Real{} ? along : broadcast<Real>(1));
+  const Real across = select(beyond, shorter - longer, shorter);
+  const Real along = select(beyond, shorter + longer, longer);
+  const Real q = across / select(along > Real{}, along, broadcast<Real>(1));
 
   constexpr std::array<double, 12> coefficients = {
       0x1.45f306dc9c883p-3, -0x1.b2995e7b7b5d5p-5, 0x1.04c26be3ad380p-5, -0x1.7483758ba87cep-6,
@@ -31,17 +31,17 @@ Real quarter_turn(const Real& x, const Real& y) {
       0x1.30f097ca5ef75p-7, -0x1.06a6a9f79c2a9p-7, 0x1.8c4a5c9966effp-8, -0x1.7410d2c7ce990p-9};
   constexpr double eighth = 0.125;
   const Real turned =
-      q * polynomial(coefficients, Real(q * q)) + (beyond ? broadcast<Real>(eighth) : Real{});
-  return y > x ? 2 * eighth - turned : turned;
+      q * polynomial(coefficients, Real(q * q)) + select(beyond, broadcast<Real>(eighth), Real{});
+  return select(y > x, 2 * eighth - turned, turned);
 }
 
 /// The same of any (x, y), in [0, 1).
 template <class Real>
 Real turn(const Real& x, const Real& y) {
   const Real quarter = quarter_turn(abs(x), abs(y));
-  const Real half = x < Real{} ? 0.5 - quarter : quarter;
-  const Real whole = y < Real{} ? 1.0 - half : half;
-  return whole < broadcast<Real>(1) ? whole : Real{};
+  const Real half = select(x < Real{}, 0.5 - quarter, quarter);
+  const Real whole = select(y < Real{}, 1.0 - half, half);
+  return select(whole < broadcast<Real>(1), whole, Real{});
 }
 
 /// How steeply (level, height) rises or falls, level >= 0, as a share of what there is from
@@ -49,7 +49,7 @@ Real turn(const Real& x, const Real& y) {
 template <class Real>
 Real latitude(const Real& level, const Real& height) {
   const Real half = 2.0 * quarter_turn(level, abs(height));
-  return height < Real{} ? 0.5 - half : 0.5 + half;
+  return select(height < Real{}, 0.5 - half, 0.5 + half);
 }
 
 template <class Real>

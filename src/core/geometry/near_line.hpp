@@ -48,7 +48,7 @@ struct NearLineOf {
     const auto is_far = abs(rest) > near;
     if (any(is_far)) {
       const Real step = rest * line.unit_ * line.direction_scale_;
-      line.move_to(ray, center, line.shift_, is_far ? step : Real{});
+      line.move_to(ray, center, line.shift_, select(is_far, step, Real{}));
       rest = line.closest();
     }
     return line;
@@ -112,7 +112,7 @@ template <class Real, class Reach>
 Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& reach,
                     const Real& approach, const Real& longest) {
   const Reach across = standard_error_across(reach);
-  const Real along = across < longest * approach ? across / approach : longest;
+  const Real along = select(across < longest * approach, across / approach, longest);
   return rounding_of(t) + line.to_t_length(along);
 }
 
@@ -121,7 +121,7 @@ Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& re
 template <class Real, class Reach, class Radius>
 Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, const Radius& radius) {
   constexpr double roundings = 8;
-  return square_root(2 * roundings * unit_roundoff * reach * radius / line.squared_length);
+  return sqrt(2 * roundings * unit_roundoff * reach * radius / line.squared_length);
 }
 
 /// What the other root of a x^2 + 2 b x + c is moved by when c, which is only the rounding of a
@@ -129,9 +129,9 @@ Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, const Radiu
 template <class Real>
 Real start_error(const Real& c, const Real& a, const Real& b) {
   const Real size = abs(c);
-  const Real grazing = square_root(size / abs(a));
+  const Real grazing = sqrt(size / abs(a));
   const Real slope = 2.0 * abs(b);
-  return size < slope * grazing ? size / slope : grazing;
+  return select(size < slope * grazing, size / slope, grazing);
 }
 
 }  // namespace crt::core

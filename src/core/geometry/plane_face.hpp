@@ -38,7 +38,7 @@ AxisMeeting<Real> AxisMeeting<Real>::of(const Real& position, const Real& origin
   const auto sum = two_sum(quotient, remainder / speed);
   // The computed value is within a few u^2 of the true one before its last rounding.
   constexpr double last_rounding = 1 + 0x1p-40;
-  return {.found = both(abs(quotient) <= largest, abs(sum.hi) <= largest),
+  return {.found = abs(quotient) <= largest && abs(sum.hi) <= largest,
           .t = sum.hi,
           .t_low = sum.lo,
           .error = rounding_of(sum.hi) * last_rounding};
@@ -136,7 +136,7 @@ void set_polar(const Vector& relative, const AxisFrame& frame, double radius,
   const Vector scaled = relative / broadcast<Real>(radius);
   point.u = turn(dot(relative, broadcast<Real>(frame.zero)),
                  dot(relative, broadcast<Real>(frame.quarter)));
-  point.v = min(broadcast<Real>(1), square_root(dot(scaled, scaled)));
+  point.v = min(broadcast<Real>(1), sqrt(dot(scaled, scaled)));
 }
 
 /// Two unit vectors in the plane across `normal`, along growing u and v: u is x projected (z where

@@ -54,8 +54,7 @@ using SurfacePoint = SurfacePointOf<double>;
 using SurfacePointLanes = SurfacePointOf<Lanes>;
 
 inline SurfacePoint lane_of(const SurfacePointLanes& points, std::size_t lane) {
-  const int i = static_cast<int>(lane);
-  return {points.position.lane(lane), points.normal.lane(lane), points.u[i], points.v[i]};
+  return {points.position.lane(lane), points.normal.lane(lane), points.u[lane], points.v[lane]};
 }
 
 /// A line through something long, and how far from the line that reaches at its ends; in between it

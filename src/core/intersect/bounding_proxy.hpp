@@ -126,21 +126,20 @@ auto test_sphere(const BoundingProxy& sphere, const FilterLine<Real>& line, cons
 
   const Real reach = abs(closest) + sphere.radius * line.inverse_length;
   const auto beyond_chord = [&](const Real& distance) {
-    return both(distance > 0.0, distance * distance * line.squared_length > longest);
+    return distance > 0.0 && distance * distance * line.squared_length > longest;
   };
   const auto from = [&](const Real& t) { return (closest - t) - slack * (reach + abs(t)); };
   const auto up_to = [&](const Real& t) { return (t - closest) - slack * (reach + abs(t)); };
 
   using Mask = decltype(margin < error);
   const Mask rejected =
-      either(longest < 0.0, beyond_chord(from(limit)), beyond_chord(up_to(line.begin)));
+      longest < 0.0 || beyond_chord(from(limit)) || beyond_chord(up_to(line.begin));
   if (sphere.encloses || !any_will_do) return Decision<Mask>{.rejected = rejected, .accepted = {}};
   const Real to_end = up_to(line.certain_to);
-  const auto before_end =
-      either(to_end > 0.0, to_end * to_end * line.squared_length < margin - error);
+  const auto before_end = to_end > 0.0 || to_end * to_end * line.squared_length < margin - error;
   return Decision<Mask>{
       .rejected = rejected,
-      .accepted = both(both(margin > error, beyond_chord(from(line.certain_from))), before_end)};
+      .accepted = margin > error && beyond_chord(from(line.certain_from)) && before_end};
 }
 
 /// A plane likewise; `last` is set to a t up to which it surely has been met, if it is met at all.
@@ -164,8 +163,8 @@ auto test_plane(const BoundingProxy& plane, const ProxyAxis& axis, const FilterL
   last = t + error;
   using Mask = decltype(t < error);
   return Decision<Mask>{
-      .rejected = both(known, either(last<line.begin, t - error> limit)),
-      .accepted = both(both(known, t - error > line.certain_from), last < line.certain_to)};
+      .rejected = known && (last < line.begin || t - error > limit),
+      .accepted = known && t - error > line.certain_from && last < line.certain_to};
 }
 
 /// From farther away than so many sizes the roundings are not covered by what proxies are larger
@@ -208,7 +207,7 @@ auto test_torus_closely(const TorusPass<Real>& pass, double ring, double tube, c
   const double squared_sphere = (ring + tube) * (ring + tube);
   const Real height = pass.height_at(middle);
   const Real squared_rho = pass.squared_distance_at(middle);
-  const Real rho = square_root(squared_rho > 0.0 ? squared_rho : 0.0 * squared_rho);
+  const Real rho = sqrt(select(squared_rho > 0.0, squared_rho, 0.0 * squared_rho));
   const Real outward = rho - ring;
   const Real level = outward * outward + height * height - tube * tube;
   const Real lateral = middle * pass.squared_length - height * pass.climb;
@@ -216,9 +215,10 @@ auto test_torus_closely(const TorusPass<Real>& pass, double ring, double tube, c
 
   const Real squared_lateral_speed = pass.squared_length - pass.climb * pass.climb;
   const Real next_to_axis = pass.height * pass.climb / squared_lateral_speed;
-  const Real after_from = next_to_axis > pass.from ? next_to_axis : pass.from;
-  const Real squared_least = pass.squared_distance_at(after_from < pass.to ? after_from : pass.to);
-  const Real least = square_root(squared_least);
+  const Real after_from = select(next_to_axis > pass.from, next_to_axis, pass.from);
+  const Real squared_least =
+      pass.squared_distance_at(select(after_from < pass.to, after_from, pass.to));
+  const Real least = sqrt(squared_least);
   // Roundings are less than a sixteenth of that.
   const double error = 0x1p-30 * squared_sphere;
   const Real turning =
@@ -227,7 +227,7 @@ auto test_torus_closely(const TorusPass<Real>& pass, double ring, double tube, c
       error * pass.squared_length;
   const Real bend = pass.squared_length - ring * turning / (squared_least * least);
   const Real half_length = (pass.to - pass.from) * 0.5;
-  const Real to_lowest = slope < bend * half_length ? slope / bend : half_length;
+  const Real to_lowest = select(slope < bend * half_length, slope / bend, half_length);
   const Real lowest = level - (2.0 * slope - bend * to_lowest) * to_lowest;
   using Mask = decltype(lowest > level);
   // The torus itself is thinner: its G is less than twice that error larger.
@@ -255,40 +255,38 @@ auto test_torus(const BoundingProxy& torus, const ProxyAxis& of_torus, const Fil
                        .from = {},
                        .to = {}};
   const Real margin = sphere * sphere - pass.squared_across;
-  const Real half =
-      square_root((margin > 0.0 ? margin : 0.0 * margin) * line.inverse_squared_length);
+  const Real half = sqrt(select(margin > 0.0, margin, 0.0 * margin) * line.inverse_squared_length);
   // The part of the line in the slab, as far as it is in the sphere. Where the line is parallel to
   // the slab the quotients are huge or no numbers, and comparing leaves the sphere's.
   const Real first = (-thickness - pass.height) / pass.climb;
   const Real second = (thickness - pass.height) / pass.climb;
-  const Real low = first < second ? first : second;
-  const Real high = first < second ? second : first;
-  pass.from = low > -half ? low : -half;
-  pass.to = high < half ? high : half;
+  const Real low = select(first < second, first, second);
+  const Real high = select(first < second, second, first);
+  pass.from = select(low > -half, low, -half);
+  pass.to = select(high < half, high, half);
   // Next to the axis the squared distance from it is little more than its rounding, and may be
   // negative.
   const double hole = std::max(torus.radius - thickness, 0.0);
   const double squared_hole = hole * hole - 0x1p-30 * sphere * sphere;
   using Mask = decltype(margin < half);
-  const Mask through_hole = both(pass.squared_distance_at(pass.from) < squared_hole,
-                                 pass.squared_distance_at(pass.to) < squared_hole);
+  const Mask through_hole = pass.squared_distance_at(pass.from) < squared_hole &&
+                            pass.squared_distance_at(pass.to) < squared_hole;
   // More than the bound on the error of a root that is grazed.
   const Real gap = 0x1p-20 * sphere * line.inverse_length;
   const Real squared_offset = dot(offset, offset);
   const Mask known = squared_offset < farthest_proxy * farthest_proxy * sphere * sphere;
-  const Mask rejected =
-      either(margin<0.0, pass.from> pass.to, through_hole, closest + pass.from - gap > limit,
-             closest + pass.to + gap < line.begin);
-  const Decision<Mask> roughly{.rejected = both(known, rejected), .accepted = {}};
+  const Mask rejected = margin < 0.0 || pass.from > pass.to || through_hole ||
+                        closest + pass.from - gap > limit || closest + pass.to + gap < line.begin;
+  const Decision<Mask> roughly{.rejected = known && rejected, .accepted = {}};
   if (all(roughly.rejected)) return roughly;
 
   const Real middle = (pass.from + pass.to) * 0.5;
   const TorusDecision<Mask> closely = test_torus_closely(pass, torus.radius, thickness, middle);
   // No bound on a root's error is larger than the whole offset through.
   const Real earliest = closest + pass.from - (pass.to - pass.from) - gap;
-  const Mask on_path = both(earliest > line.certain_from, closest + middle + gap < line.certain_to);
-  return Decision<Mask>{.rejected = either(roughly.rejected, both(known, closely.rejected)),
-                        .accepted = both(known, both(closely.enters, on_path))};
+  const Mask on_path = earliest > line.certain_from && closest + middle + gap < line.certain_to;
+  return Decision<Mask>{.rejected = roughly.rejected || (known && closely.rejected),
+                        .accepted = known && closely.enters && on_path};
 }
 
 /// Whether a ray that starts on a torus and goes outwards leaves it for good: it starts farther
@@ -301,7 +299,7 @@ auto leaves_torus(const BoundingProxy& torus, const ProxyAxis& of_torus,
   const std::array<Real, 3> offset = offset_to(line, torus.place);
   // Both negative, as is the offset to the center.
   const Real height = along(of_torus.normal, offset);
-  const Real rho = square_root(dot(offset, offset) - height * height);
+  const Real rho = sqrt(dot(offset, offset) - height * height);
   const Real climb = along(of_torus.normal, line.direction);
   const Real lateral = height * climb - dot(offset, line.direction);
   // Far more than what rounding can have done to the start.
@@ -309,7 +307,7 @@ auto leaves_torus(const BoundingProxy& torus, const ProxyAxis& of_torus,
   const double least = plainly * (torus.radius + of_torus.thickness);
   const Real outward = rho - torus.radius;
   const Real away = outward * lateral / rho - height * climb;
-  return both(both(outward > least, away * line.inverse_length > least), line.begin >= 0.0);
+  return outward > least && away * line.inverse_length > least && line.begin >= 0.0;
 }
 
 /// A cylinder, which is somewhere in the endless cylinder about its axis: only whether the line
@@ -334,7 +332,7 @@ auto test_cylinder(const BoundingProxy& cylinder, const ProxyAxis& of_cylinder,
   const double squared_radius = cylinder.radius * cylinder.radius;
   using Mask = decltype(distance > 0.0);
   return Decision<Mask>{
-      .rejected = both(distance > 0.0, distance * distance > squared_radius * dot(across, across)),
+      .rejected = distance > 0.0 && distance * distance > squared_radius * dot(across, across),
       .accepted = {}};
 }
 

@@ -68,8 +68,8 @@ BoxMeetings<Real> BoxMeetings<Real>::of(const Box& box, const FilterLine<Real>& 
     const Real lower = (box.lower[i] - line.origin[axis]) * inverse[axis];
     const Real upper = (box.upper[i] - line.origin[axis]) * inverse[axis];
     const Mask upwards = inverse[axis] > 0.0;
-    result.enter[axis] = upwards ? lower : upper;
-    result.leave[axis] = upwards ? upper : lower;
+    result.enter[axis] = select(upwards, lower, upper);
+    result.leave[axis] = select(upwards, upper, lower);
   }
   result.known = max(max(abs(inverse[0]), abs(inverse[1])), abs(inverse[2])) < steepest;
   if (all(result.known)) return result;
@@ -78,8 +78,8 @@ BoxMeetings<Real> BoxMeetings<Real>::of(const Box& box, const FilterLine<Real>& 
     const auto i = static_cast<int>(axis);
     const Real& origin = line.origin[axis];
     const Mask between =
-        both(line.direction[axis] == 0.0, both(origin > box.lower[i], origin < box.upper[i]));
-    result.known = both(result.known, either(between, abs(inverse[axis]) < steepest));
+        line.direction[axis] == 0.0 && origin > box.lower[i] && origin < box.upper[i];
+    result.known = result.known && (between || abs(inverse[axis]) < steepest);
   }
   return result;
 }
@@ -90,11 +90,11 @@ void BoxMeetings<Real>::start_on(std::size_t face, const Mask& lines,
   const std::size_t axis = face / 2;
   const bool is_upper = face % 2 != 0;
   const Mask upwards = line.inverse[axis] > 0.0;
-  const Mask enters = both(lines, is_upper ? line.inverse[axis] < 0.0 : upwards);
-  const Mask leaves = both(lines, is_upper ? upwards : line.inverse[axis] < 0.0);
-  known = without(known, both(lines, line.direction[axis] == 0.0));
-  enter[axis] = enters ? broadcast<Real>(before_start) : enter[axis];
-  leave[axis] = leaves ? broadcast<Real>(before_start) : leave[axis];
+  const Mask enters = lines && (is_upper ? line.inverse[axis] < 0.0 : upwards);
+  const Mask leaves = lines && (is_upper ? upwards : line.inverse[axis] < 0.0);
+  known = known && !(lines && line.direction[axis] == 0.0);
+  enter[axis] = select(enters, broadcast<Real>(before_start), enter[axis]);
+  leave[axis] = select(leaves, broadcast<Real>(before_start), leave[axis]);
 }
 
 /// A box against the part of a line up to `limit`: with the last of the three planes that it enters
@@ -110,12 +110,11 @@ auto test_box(const BoxMeetings<Real>& meetings, const FilterLine<Real>& line, c
   const Real leave_from = leave - leave_error;
   const Real leave_to = leave + leave_error;
   using Mask = typename BoxMeetings<Real>::Mask;
-  const Mask rejected = either(enter_from > leave_to, leave_to<line.begin, enter_from> limit);
-  const Mask enters = both(enter_from > line.certain_from, enter_to < line.certain_to);
-  const Mask leaves = both(leave_from > line.certain_from, leave_to < line.certain_to);
-  return Decision<Mask>{
-      .rejected = both(meetings.known, rejected),
-      .accepted = both(both(meetings.known, enter_to < leave_from), either(enters, leaves))};
+  const Mask rejected = enter_from > leave_to || leave_to < line.begin || enter_from > limit;
+  const Mask enters = enter_from > line.certain_from && enter_to < line.certain_to;
+  const Mask leaves = leave_from > line.certain_from && leave_to < line.certain_to;
+  return Decision<Mask>{.rejected = meetings.known && rejected,
+                        .accepted = meetings.known && enter_to < leave_from && (enters || leaves)};
 }
 
 }  // namespace crt::core

@@ -17,12 +17,12 @@ using PlanePoint = PlanePointOf<double>;
 using PlanePointLanes = PlanePointOf<Lanes>;
 
 inline void set_lane(PlanePointLanes& points, std::size_t lane, const PlanePoint& point) {
-  points.x[static_cast<int>(lane)] = point.x;
-  points.y[static_cast<int>(lane)] = point.y;
+  points.x[lane] = point.x;
+  points.y[lane] = point.y;
 }
 
 inline PlanePoint lane_of(const PlanePointLanes& points, std::size_t lane) {
-  return {points.x[static_cast<int>(lane)], points.y[static_cast<int>(lane)]};
+  return {points.x[lane], points.y[lane]};
 }
 
 }  // namespace crt::core

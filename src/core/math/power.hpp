@@ -104,8 +104,8 @@ Real power(const Real& base, const Real& exponent) {
   constexpr double smallest = 0x1p-1022;
   const Real result =
       exponential2<Real>(exponent * logarithm2<Real>(max(base, broadcast<Real>(smallest))));
-  const Real of_nothing = exponent > 0.0 ? base : broadcast<Real>(1);
-  return base > 0.0 ? result : of_nothing;
+  const Real of_nothing = select(exponent > 0.0, base, broadcast<Real>(1));
+  return select(base > 0.0, result, of_nothing);
 }
 
 /// base to the power of exponent, roughly: base from 0 to 1, exponent from 0.1 to 10. Within 10^-9
@@ -131,7 +131,7 @@ Real cube_root(const Real& x) {
   // A step of Newton's method.
   const Real square = near * near;
   const Real root = near - fma(square, near, -x) / (3.0 * square);
-  return x > 0.0 ? root : x;
+  return select(x > 0.0, root, x);
 }
 
 }  // namespace crt::core

@@ -9,30 +9,12 @@
 #include <cstddef>
 #include <cstdint>
 
-#ifdef __AVX2__
-#include <immintrin.h>
-#endif
-
-#include "core/math/lanes.hpp"
+#include "core/simd/bits.hpp"
 
 namespace crt::core {
 
 using PhiloxCounter = std::array<std::uint32_t, 4>;
 using PhiloxKey = std::array<std::uint32_t, 2>;
-
-/// The product of a number's lower 32 bits.
-constexpr std::uint64_t low_product(std::uint64_t number, std::uint32_t factor) {
-  return (number & 0xffffffffu) * factor;
-}
-/// The same of four numbers side by side.
-inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
-#ifdef __AVX2__
-  return reinterpret_cast<WordLanes>(
-      _mm256_mul_epu32(reinterpret_cast<__m256i>(numbers), _mm256_set1_epi64x(factor)));
-#else
-  return (numbers & 0xffffffffu) * factor;
-#endif
-}
 
 /// Philox on one place of the sequence, or on four side by side. Of each Word the lower 32 bits
 /// count.
@@ -91,16 +73,14 @@ inline Lanes to_unit_interval(const WordLanes& bits) {
   constexpr std::uint64_t exponent_of_2_to_52 = 0x4330000000000000u;
   const WordLanes high = bits >> 43 | exponent_of_2_to_84;
   const WordLanes low = (bits >> 11 & 0xffffffffu) | exponent_of_2_to_52;
-  return (reinterpret_cast<Lanes>(high) - (0x1p84 + 0x1p52) + reinterpret_cast<Lanes>(low)) *
-         0x1p-53;
+  return (std::bit_cast<Lanes>(high) - (0x1p84 + 0x1p52) + std::bit_cast<Lanes>(low)) * 0x1p-53;
 }
 
 /// The pairs of a sample and of the three that follow it: all first numbers, and all second ones.
 inline std::array<Lanes, 2> random_pairs(std::uint64_t seed, const RandomUse& first) {
-  const auto all = [](std::uint64_t word) { return WordLanes{word, word, word, word}; };
-  const WordLanes samples = all(first.sample) + WordLanes{0, 1, 2, 3};
-  const auto bits = philox_rounds<WordLanes>(
-      {all(first.x), all(first.y), samples, all(first.dimension)}, key_of(seed));
+  const WordLanes samples([&](std::uint64_t lane) { return first.sample + lane; });
+  const auto bits =
+      philox_rounds<WordLanes>({first.x, first.y, samples, first.dimension}, key_of(seed));
   return {to_unit_interval(bits[1] << 32 | (bits[0] & 0xffffffffu)),
           to_unit_interval(bits[3] << 32 | (bits[2] & 0xffffffffu))};
 }

@@ -17,7 +17,7 @@ Real certain_end(const PlainRay<Real>& ray, const Real& t_max, const Real& end_e
   constexpr double relative_width = 0x1p-26;
   const Real width =
       relative_width * fma(t_max, largest_component(ray.direction), largest_component(ray.origin));
-  return ends_on_surface ? t_max - width : t_max;
+  return select(ends_on_surface, t_max - width, t_max);
 }
 
 inline double certain_end(const WorldRay& ray) {
@@ -28,7 +28,7 @@ inline double certain_end(const WorldRay& ray) {
 template <class Real>
 Real finite_end(const Real& end) {
   constexpr double largest = 0x1p900;
-  return end > largest ? broadcast<Real>(largest) : end;
+  return select(end > largest, broadcast<Real>(largest), end);
 }
 
 }  // namespace crt::core

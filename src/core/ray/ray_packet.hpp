@@ -79,7 +79,7 @@ inline void RayBatch::set(std::size_t index, const Vec3& origin, const Vec3& dir
   const std::size_t lane = index % lane_count;
   lines[group].origin.set(lane, origin);
   lines[group].direction.set(lane, direction);
-  start_errors[group][static_cast<int>(lane)] = start.t_error;
+  start_errors[group][lane] = start.t_error;
   starts[index] = start;
   with_starts |= RayMask{1} << index;
 }
@@ -114,11 +114,9 @@ struct RayPacket {
   static RayMask all(std::size_t count) {
     return static_cast<RayMask>((std::uint64_t{1} << count) - 1);
   }
-  double limit(std::size_t ray) const {
-    return limits[ray / lane_count][static_cast<int>(ray % lane_count)];
-  }
+  double limit(std::size_t ray) const { return limits[ray / lane_count][ray % lane_count]; }
   void set_limit(std::size_t ray, double limit) {
-    limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
+    limits[ray / lane_count][ray % lane_count] = limit;
   }
 };
 

@@ -117,7 +117,7 @@ void AovTile::look(const CameraRays& camera, Tracer& tracer) {
   for (int y = 0; y < tile_.height; ++y) {
     for (std::size_t group = 0; group < places.size(); ++group) {
       const double first_x = tile_.x + static_cast<double>(group * lane_count) + middle;
-      places[group] = {first_x + Lanes{0, 1, 2, 3}, lanes_of(tile_.y + y + middle)};
+      places[group] = {first_x + lanes_of(0, 1, 2, 3), lanes_of(tile_.y + y + middle)};
     }
     camera.rays(width, places, {}, rays);
     tracer.look(rays, std::span(first_places_).subspan(static_cast<std::size_t>(y) * width, width));

@@ -62,7 +62,8 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
     frame.camera().rays(count, places, std::span(lens_points).first(with_lens), rays);
     tracer.trace(rays, samples);
     for (const Tracer::Sample& sample : samples) {
-      for (int channel = 0; channel < lane_count; ++channel) add(hash, sample.channels[channel]);
+      for (std::size_t channel = 0; channel < lane_count; ++channel)
+        add(hash, sample.channels[channel]);
     }
     count = 0;
   };

@@ -24,15 +24,14 @@ class HitFaces {
   HitFaces(const PreparedData& data, std::span<const RayHit, lane_count> hits)
       : data_(data),
         hits_(hits),
-        faces_{of(hits[0]), of(hits[1]), of(hits[2]), of(hits[3])},
-        entering_{hits[0].entering, hits[1].entering, hits[2].entering, hits[3].entering} {}
+        faces_([&](auto lane) { return of(hits[lane]); }),
+        entering_([&](auto lane) { return std::uint64_t{hits[lane].entering}; }) {}
 
   /// Of some rays those that are like the first of them.
   AlikeRays alike(RayMask some) const {
     const RayHit& first = hits_[first_ray(some)];
-    const LaneMask like_first =
-        (faces_ == of(first)) & (entering_ == static_cast<std::int64_t>(first.entering));
-    const RayMask on_face = mask_of(like_first) & some;
+    const RayMask on_face =
+        mask_of(faces_ == of(first) && entering_ == std::uint64_t{first.entering}) & some;
     const RayMask others = some & ~on_face;
     return {on_face, others == 0 ? 0 : data_.on_spheres_like(first, hits_, others)};
   }
@@ -48,14 +47,12 @@ class HitFaces {
   }
 
  private:
-  static std::int64_t of(const RayHit& hit) {
-    return static_cast<std::int64_t>(std::uint64_t{hit.face} << 32 | hit.leaf);
-  }
+  static std::uint64_t of(const RayHit& hit) { return std::uint64_t{hit.face} << 32 | hit.leaf; }
 
   const PreparedData& data_;
   std::span<const RayHit, lane_count> hits_;
-  LaneMask faces_;
-  LaneMask entering_;
+  WordLanes faces_;
+  WordLanes entering_;
 };
 
 }  // namespace crt::core

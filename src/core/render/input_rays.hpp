@@ -24,7 +24,7 @@ MaskOf<Real> are_plainly_valid(const Vec3Of<Real>& origin, const Vec3Of<Real>& d
   const auto sum_of = [](const auto& v) { return abs(v.x) + abs(v.y) + abs(v.z); };
   const Real extent = sum_of(direction);
   const auto finite = sum_of(origin) + extent <= std::numeric_limits<double>::max();
-  return both(both(extent > 0.0, finite), either(t_min <= t_max, t_min > t_max));
+  return extent > 0.0 && finite && (t_min <= t_max || t_min > t_max);
 }
 
 inline bool is_plainly_valid(const Ray& ray) {
@@ -42,10 +42,10 @@ struct UserRays {
     static_assert(std::is_standard_layout_v<Ray> && sizeof(Ray) == 2 * sizeof(Lanes));
     const auto half = [&](std::size_t begin) {
       const auto row = [&](std::size_t lane) {
-        Lanes numbers;
+        std::array<double, lane_count> numbers;
         std::memcpy(&numbers, reinterpret_cast<const std::byte*>(&rays[lane]) + begin,
                     sizeof numbers);
-        return numbers;
+        return lanes_at<Lanes>(numbers.data());
       };
       return transposed({row(0), row(1), row(2), row(3)});
     };

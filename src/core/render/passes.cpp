@@ -351,7 +351,7 @@ void Passes::find_half_widths(const Tile& tile, const Settling& how, const TileP
       return tile.samples[index].interval(has_more ? count_of_some : count_of_most);
     };
     const Lanes of_four = scale_.half_widths({interval(0), interval(1), interval(2), interval(3)});
-    for (std::size_t k = 0; k < count; ++k) half_widths[i + k] = of_four[static_cast<int>(k)];
+    for (std::size_t k = 0; k < count; ++k) half_widths[i + k] = of_four[k];
   }
 }
 

@@ -99,8 +99,8 @@ class GridRays {
     const TilePlace& place = tile_places[place_];
     if (place.x + 1 >= region_.width || place.y + 1 >= region_.height) return false;
     const PicturePlaceLanes& middle = frame_.subpixels().front();
-    places.picture[count / lane_count] = {region_.x + place.x + Lanes{0, 1, 0, 1} + middle.x[0],
-                                          region_.y + place.y + Lanes{0, 0, 1, 1} + middle.y[0]};
+    places.picture[count / lane_count] = {region_.x + place.x + lanes_of(0, 1, 0, 1) + middle.x[0],
+                                          region_.y + place.y + lanes_of(0, 0, 1, 1) + middle.y[0]};
     const auto pixel = static_cast<std::uint32_t>(place.y * region_.width + place.x);
     const auto below = pixel + static_cast<std::uint32_t>(region_.width);
     const std::array<std::uint32_t, lane_count> square = {pixel, pixel + 1, below, below + 1};

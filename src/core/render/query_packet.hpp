@@ -117,7 +117,7 @@ class QueryPacket {
       WorldRay ray;
       follow(rays[i], ray);
       const PowerOfTwo shorten(-exponent_of(largest_component(rays[i].direction)));
-      to_users_t_[index / lane_count][static_cast<int>(index % lane_count)] = shorten.factor();
+      to_users_t_[index / lane_count][index % lane_count] = shorten.factor();
       rays_.set(index, ray);
     }
   }
@@ -125,7 +125,7 @@ class QueryPacket {
   /// How far `count` rays from `first` on are from what they have found, and what that is.
   void find_distances(std::size_t first, std::size_t count) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
-    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    const Lanes t = lanes_of(group[0].t, group[1].t, group[2].t, group[3].t);
     // What has found nothing is nowhere.
     const RayMask found =
         mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
@@ -139,19 +139,18 @@ class QueryPacket {
     const Lanes& factors = to_users_t_[group];
     t_ = factors * t;
     for_each_ray(found & ~mask_of(has_all_digits(t_)), [&](std::size_t lane) {
-      const auto i = static_cast<int>(lane);
       const std::size_t index = group * lane_count + lane;
-      t_[i] = users_t(users_[index], t[i], hits_[index].t_low);
+      t_[lane] = users_t(users_[index], t_[lane], hits_[index].t_low);
     });
     const auto id = [&](std::size_t lane) {
       return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));
     };
-    ids_ = IntLanes{id(0), id(1), id(2), id(3)};
+    ids_ = lanes_of<IntLanes>(id(0), id(1), id(2), id(3));
   }
   void find_sides(std::size_t first) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const HitSide side = hits_[first + lane].entering ? HitSide::entering : HitSide::leaving;
-      sides_[static_cast<int>(lane)] = static_cast<std::int32_t>(side);
+      sides_[lane] = static_cast<std::int32_t>(side);
     }
   }
 
@@ -160,7 +159,7 @@ class QueryPacket {
     if (found_ == 0) return;
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     const RayLanes& lines = rays_.lines[first / lane_count];
-    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    const Lanes t = lanes_of(group[0].t, group[1].t, group[2].t, group[3].t);
     const HitFaces faces(data_, group);
     for (RayMask to_come = found_; to_come != 0;) {
       const AlikeRays alike = faces.alike(to_come);
@@ -170,22 +169,21 @@ class QueryPacket {
       to_come &= ~alike.all();
       if (&points == &points_) continue;
       const LaneMask lanes = lanes_with(alike.all());
-      points_.position = chosen(lanes, points.position, points_.position);
-      points_.normal = chosen(lanes, points.normal, points_.normal);
-      points_.u = lanes ? points.u : points_.u;
-      points_.v = lanes ? points.v : points_.v;
+      points_.position = select(lanes, points.position, points_.position);
+      points_.normal = select(lanes, points.normal, points_.normal);
+      points_.u = select(lanes, points.u, points_.u);
+      points_.v = select(lanes, points.v, points_.v);
     }
   }
 
   void tell(std::span<std::optional<Hit>> answers) const {
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
-      const auto i = static_cast<int>(lane);
       if ((found_ >> lane & 1u) == 0) {
         answers[lane].reset();
       } else {
-        const bool entering = sides_[i] == static_cast<std::int32_t>(HitSide::entering);
-        answers[lane] =
-            described(t_[i], lane_of(points_, lane), static_cast<std::uint32_t>(ids_[i]), entering);
+        const bool entering = sides_[lane] == static_cast<std::int32_t>(HitSide::entering);
+        answers[lane] = described(t_[lane], lane_of(points_, lane),
+                                  static_cast<std::uint32_t>(ids_[lane]), entering);
       }
     }
   }
@@ -197,14 +195,15 @@ class QueryPacket {
     static_assert(offsetof(PlainHit, v) == 40 && offsetof(PlainHit, entity_id) == 48 &&
                   offsetof(PlainHit, side) == 52);
     const LaneMask found = lanes_with(found_);
-    const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
+    const auto told = [&](const Lanes& value) { return select(found, value, Lanes{}); };
     const auto heads = transposed(
         {told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
     // Each with its side behind it.
-    using Pairs = std::int32_t __attribute__((vector_size(32)));
-    const Pairs ids_and_sides = __builtin_shufflevector(ids_, sides_, 0, 4, 1, 5, 2, 6, 3, 7);
+    constexpr std::uint64_t lower_half = 0xffffffffu;
+    const WordLanes ids_and_sides = (stdx::static_simd_cast<WordLanes>(ids_) & lower_half) |
+                                    stdx::static_simd_cast<WordLanes>(sides_) << 32;
     const auto tails = transposed(
-        {told(points_.u), told(points_.v), told(reinterpret_cast<Lanes>(ids_and_sides)), Lanes{}});
+        {told(points_.u), told(points_.v), told(std::bit_cast<Lanes>(ids_and_sides)), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
@@ -230,7 +229,7 @@ class QueryPacket {
   }
 
   Lanes told_t() const {
-    return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity());
+    return select(lanes_with(found_), t_, lanes_of(std::numeric_limits<double>::infinity()));
   }
 
   const PreparedData& data_;

@@ -17,7 +17,7 @@ constexpr int most_rays_per_sample = 65536;
 
 /// A bump may send a ray to the wrong side of the face; it then bounces off the face once more.
 VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) {
-  return chosen(dot(direction, side) < 0.0, mirrored(direction, side), direction);
+  return select(dot(direction, side) < 0.0, mirrored(direction, side), direction);
 }
 
 LaneMask is_weaker(const VectorLanes& weight, double least) {
@@ -163,9 +163,8 @@ void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split
   behind.color = surfaces.phong.color;
   for_each_ray(lanes, [&](std::size_t lane) {
     const std::size_t ray = group * lane_count + lane;
-    const auto i = static_cast<int>(lane);
     const bool solid = data_.is_solid(hits_[ray]);
-    Passage passage{.transparency = surfaces.transparency[i], .media = round_->paths[ray].media};
+    Passage passage{.transparency = surfaces.transparency[lane], .media = round_->paths[ray].media};
     const MediaLists& media = round_->works[ray]->media;
     if (hits_[ray].has_coincident) {
       passage.color = surface(ray).color();
@@ -174,9 +173,9 @@ void Tracer::look_behind(std::size_t group, RayMask lanes, Behind& behind, Split
     } else if (solid) {
       passage.media = media_behind(ray);
     }
-    behind.transparency[i] = passage.transparency;
-    behind.index_before[i] = refractive_index(media, round_->paths[ray].media);
-    behind.index_behind[i] = refractive_index(media, passage.media);
+    behind.transparency[lane] = passage.transparency;
+    behind.index_before[lane] = refractive_index(media, round_->paths[ray].media);
+    behind.index_behind[lane] = refractive_index(media, passage.media);
     split.media_behind[lane] = passage.media;
     split.into_volumes |= static_cast<RayMask>(solid) << lane;
   });
@@ -193,8 +192,7 @@ RayMask Tracer::worth_it(std::size_t group, RayMask lanes, RayMask deep,
                                                    const VectorLanes& weights) const {
   Lanes gains{};
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
-    gains[static_cast<int>(lane)] =
-        frame_.gain_behind(round_->paths[group * lane_count + lane].bounces);
+    gains[lane] = frame_.gain_behind(round_->paths[group * lane_count + lane].bounces);
   }
   return gains * weights;
 }

@@ -37,7 +37,7 @@ struct SurfaceLane {
   /// Of a ray that leaves to the viewer's side.
   StartPoint start() const {
     StartPoint start = group.starts[lane];
-    start.t_error = group.start_errors[static_cast<int>(lane)];
+    start.t_error = group.start_errors[lane];
     return start;
   }
   /// Of one that goes on behind the surface.

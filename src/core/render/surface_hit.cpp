@@ -38,9 +38,9 @@ struct AlikeHits {
   RayMask rays;
   LaneMask lanes = lanes_with(rays);
 
-  void set(Lanes& values, const Lanes& value) const { values = lanes ? value : values; }
+  void set(Lanes& values, const Lanes& value) const { values = select(lanes, value, values); }
   void set(VectorLanes& values, const VectorLanes& value) const {
-    values = chosen(lanes, value, values);
+    values = select(lanes, value, values);
   }
 };
 
@@ -73,7 +73,7 @@ void set_bumped_normals(const PreparedData& data, const AlikeHits& alike,
 void look_up(const PreparedData& data, const RayLanes& rays,
              std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group,
              Workspace& work) {
-  const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
+  const Lanes t = lanes_of(hits[0].t, hits[1].t, hits[2].t, hits[3].t);
   group.phong.view = rays.direction;
   group.sending_on = 0;
   const HitFaces faces(data, hits);
@@ -116,10 +116,10 @@ CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray,
 
 Rgb transmittance(const PreparedMaterial& medium, double length) {
   const Color& absorption = medium.description->absorption;
-  const Lanes by_channel = {absorption.r, absorption.g, absorption.b, 0};
+  const Lanes by_channel = lanes_of(absorption.r, absorption.g, absorption.b, 0);
   // Of a channel without absorption everything is left, be the way infinite.
-  const Lanes left =
-      by_channel > 0.0 ? exponential2<Lanes>(-std::numbers::log2e * (by_channel * length)) : 1.0;
+  const Lanes left = select(by_channel > 0.0,
+                            exponential2<Lanes>(-std::numbers::log2e * (by_channel * length)), 1.0);
   return {left[0], left[1], left[2]};
 }
 

@@ -28,7 +28,7 @@ Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
   const Lanes error =
       roundings * unit_roundoff *
       fma(light.distances, largest_component(light.directions), largest_component(points));
-  return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
+  return select(light.distances == std::numeric_limits<double>::infinity(), Lanes{}, error);
 }
 
 /// A surface as it is met: a primitive, the triangles of a mesh all alike.
@@ -137,8 +137,7 @@ void Tracer::look_up_each(RayMask on_surface) {
     look_up(data_, round_->rays.lines[i], hits, seen, group, work_);
     group.light = ambient_light(frame_.ambient(), group.reflectivity);
     const PathState* const paths = &round_->paths[first];
-    group.path_length = Lanes{paths[0].path_length + hits[0].t, paths[1].path_length + hits[1].t,
-                              paths[2].path_length + hits[2].t, paths[3].path_length + hits[3].t};
+    group.path_length = Lanes([&](auto lane) { return paths[lane].path_length + hits[lane].t; });
   });
 }
 
@@ -160,7 +159,7 @@ void Tracer::see_background(RayMask rays) {
     for_each_ray(lanes, [&](std::size_t lane) {
       Sample& sample = *round_->samples[first + lane];
       if (identifies_) note(sample, nothing);
-      if (are_camera_rays) sample.channels[3] = seen.alpha[static_cast<int>(lane)];
+      if (are_camera_rays) sample.channels[3] = seen.alpha[lane];
       sample.channels += light[lane];
     });
   });
@@ -184,7 +183,7 @@ RayMask Tracer::send_to(const PreparedLight& source, RayMask surfaces_lit) {
     lit &= source.sample(surfaces.position, surfaces.path_length, sample);
     lit &= dot(sample.directions, surfaces.face_normal) > 0.0;
     direct_light(surfaces.phong, sample, source.color(), lit, lights_[i]);
-    lit &= ~is_black(lights_[i]);
+    lit &= !is_black(lights_[i]);
     sent |= mask_of(lit) << (i * lane_count);
     shadow_rays_.lines[i] = {surfaces.position, sample.directions};
     shadow_rays_.t_max[i] = sample.distances;
@@ -219,7 +218,7 @@ void Tracer::add_light(RayMask on_surface) {
     const RayMask reached = sent & ~paths.blocked & ~filtered;
     RayPacket::for_each_group(reached, [&](std::size_t i, RayMask lanes) {
       VectorLanes& light = surfaces_[i].light;
-      light = chosen(lanes_with(lanes), light + lights_[i], light);
+      light = select(lanes_with(lanes), light + lights_[i], light);
     });
     for_each_ray(filtered, [&](std::size_t i) {
       const Rgb share = light_share(data_, shadow_rays_.ray(i), work_.rays.on_paths[i],

@@ -25,7 +25,8 @@ class Tracer {
   Tracer(const Frame& frame, Workspace& work, Progress& progress);
 
   struct Sample {
-    Lanes channels{0, 0, 0, 1};  ///< red, green and blue, premultiplied with the last: alpha
+    Lanes channels =
+        lanes_of(0, 0, 0, 1);  ///< red, green and blue, premultiplied with the last: alpha
     /// The weight of rays that were not followed, of the channel that lost most.
     double dropped = 0;
     /// If asked for: samples that meet the same things on the same paths have the same, others most
@@ -75,9 +76,7 @@ class Tracer {
   void tell_first_hits(std::span<FirstHit> first_hits);
 
   /// What a ray of this round meets, once it has been looked up.
-  SurfaceLane surface(std::size_t ray) {
-    return {surfaces_[ray / lane_count], ray % static_cast<std::size_t>(lane_count)};
-  }
+  SurfaceLane surface(std::size_t ray) { return {surfaces_[ray / lane_count], ray % lane_count}; }
   /// Looks up what the rays meet that are on a surface.
   void look_up_each(RayMask on_surface);
   /// Adds the light of all lights that these surfaces send back along the paths.

@@ -26,7 +26,7 @@ class FilterPlaces {
   }
   Lanes operator()(const Lanes& u) const {
     if (is_box_) return u;
-    return Lanes{(*this)(u[0]), (*this)(u[1]), (*this)(u[2]), (*this)(u[3])};
+    return Lanes([&](auto lane) { return (*this)(double{u[lane]}); });
   }
 
  private:

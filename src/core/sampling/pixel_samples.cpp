@@ -41,7 +41,7 @@ Lanes DisplayScale::shown(const Lanes& values, int channel) const {
 
 Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& intervals) const {
   const auto& [a, b, c, d] = intervals;
-  Lanes widest = {a.least_shown, b.least_shown, c.least_shown, d.least_shown};
+  Lanes widest = lanes_of(a.least_shown, b.least_shown, c.least_shown, d.least_shown);
   const auto has_width = [](const MeanInterval& interval) {
     return any(interval.half_width != 0.0);
   };
@@ -60,7 +60,7 @@ Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& inte
     Lanes farthest = middle - shown(mean - half_width, channel);
     if (!all(is_below)) {
       const Lanes above = shown(mean + half_width, channel) - middle;
-      farthest = is_below ? farthest : max(above, farthest);
+      farthest = select(is_below, farthest, max(above, farthest));
     }
     widest = max(widest, farthest);
   }

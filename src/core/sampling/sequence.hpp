@@ -14,8 +14,8 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/math/lanes.hpp"
 #include "core/math/random.hpp"
+#include "core/simd/bits.hpp"
 
 namespace crt::core {
 
@@ -46,42 +46,7 @@ struct Recurrence {
 };
 
 /// So many points are found at once, side by side.
-inline constexpr std::uint32_t points_at_once = 8;
-/// The bits of a coordinate of each of them. Vectors of GCC and Clang.
-using BitLanes = std::uint32_t __attribute__((vector_size(4 * points_at_once)));
-using SignedBitLanes = std::int32_t __attribute__((vector_size(4 * points_at_once)));
-using DoubleLanes = double __attribute__((vector_size(8 * points_at_once)));
-
-/// (Of one number, or of lanes.)
-template <class Bits>
-constexpr Bits reversed(Bits bits) {
-  bits = (bits >> 1 & 0x55555555u) | (bits & 0x55555555u) << 1;
-  bits = (bits >> 2 & 0x33333333u) | (bits & 0x33333333u) << 2;
-  bits = (bits >> 4 & 0x0f0f0f0fu) | (bits & 0x0f0f0f0fu) << 4;
-  bits = (bits >> 8 & 0x00ff00ffu) | (bits & 0x00ff00ffu) << 8;
-  return bits >> 16 | bits << 16;
-}
-#ifdef __AVX2__
-/// The same with the halves of bytes looked up.
-inline BitLanes reversed(const BitLanes& bits) {
-  const auto in_both_halves = [](const __m128i& bytes) {
-    return _mm256_broadcastsi128_si256(bytes);
-  };
-  const __m256i low_half = _mm256_set1_epi8(0x0f);
-  const __m128i of_a_half = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
-  const __m256i to_low_half = in_both_halves(of_a_half);
-  const __m256i to_high_half = in_both_halves(_mm_slli_epi32(of_a_half, 4));
-  const __m256i bytes_back =
-      in_both_halves(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
-  const auto all = reinterpret_cast<__m256i>(bits);
-  const __m256i from_low = _mm256_shuffle_epi8(to_high_half, _mm256_and_si256(all, low_half));
-  const __m256i from_high =
-      _mm256_shuffle_epi8(to_low_half, _mm256_and_si256(_mm256_srli_epi32(all, 4), low_half));
-  const __m256i bytes = _mm256_or_si256(from_low, from_high);
-  return reinterpret_cast<BitLanes>(_mm256_shuffle_epi8(bytes, bytes_back));
-}
-#endif
-
+inline constexpr std::uint32_t points_at_once = octet_size;
 constexpr std::array<Column, index_bits> columns() {
   // The first dimension's numbers are all 1: its coordinates are the index read backwards.
   constexpr std::array<Recurrence, sequence_dimensions - 1> recurrences = {
@@ -184,15 +149,14 @@ class PixelSequence {
     WordLanes x;
     WordLanes y;
     for (std::size_t i = 0; i < lane_count; ++i) {
-      x[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].x);
-      y[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].y);
+      x[i] = static_cast<std::uint32_t>(pixels[i].x);
+      y[i] = static_cast<std::uint32_t>(pixels[i].y);
     }
-    const auto words =
-        philox_rounds<WordLanes>({x, y, WordLanes{}, WordLanes{} + use}, key_of(seed));
+    const auto words = philox_rounds<WordLanes>({x, y, WordLanes{}, use}, key_of(seed));
     std::array<PixelSequence, lane_count> sequences;
     for (std::size_t i = 0; i < lane_count; ++i) {
       for (std::size_t d = 0; d < sequence_dimensions; ++d) {
-        sequences[i].seeds_[d] = static_cast<std::uint32_t>(words[d][static_cast<int>(i)]);
+        sequences[i].seeds_[d] = static_cast<std::uint32_t>(words[d][i]);
       }
     }
     return sequences;
@@ -262,17 +226,14 @@ class PixelSequence {
     using namespace sequence_detail;
     const std::uint32_t seed = seeds_[dimension];
     for (std::uint32_t i = first / points_at_once * points_at_once; i < end; i += points_at_once) {
-      BitLanes bits;
-      std::memcpy(&bits, &low_bit_table[dimension][i], sizeof bits);
-      bits = reversed(scrambled_upwards(bits ^ high_bits, seed));
+      const auto low_bits = lanes_at<BitOctet>(&low_bit_table[dimension][i]);
+      const BitOctet bits = reversed(scrambled_upwards(BitOctet(low_bits ^ high_bits), seed));
       // Processors turn only signed numbers into doubles side by side: from -1/2 to 1/2, exactly.
       constexpr std::uint32_t middle = 0x80000000u;
-      const auto from_middle =
-          __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
-      std::array<Lanes, points_at_once / lane_count> groups;
-      std::memcpy(&groups, &from_middle, sizeof groups);
+      const auto groups = stdx::split<IntLanes>(std::bit_cast<IntOctet>(BitOctet(bits ^ middle)));
       for (std::size_t k = 0; k < groups.size(); ++k) {
-        coordinates[i / lane_count + k] = fma(groups[k], lanes_of(0x1p-32), lanes_of(0.5));
+        const auto from_middle = stdx::static_simd_cast<Lanes>(groups[k]);
+        coordinates[i / lane_count + k] = fma(from_middle, lanes_of(0x1p-32), lanes_of(0.5));
       }
     }
   }

@@ -82,7 +82,7 @@ Lanes PreparedLight::way_in_cylinder(const VectorLanes& points) const {
   const VectorLanes from_origin = points - lanes_of(origin_);
   const Lanes along = dot(from_origin, axis);
   const VectorLanes from_axis = from_origin - along * axis;
-  return dot(from_axis, from_axis) <= radius_ * radius_ ? along : Lanes{};
+  return select(dot(from_axis, from_axis) <= radius_ * radius_, along, Lanes{});
 }
 
 Lanes PreparedLight::cone_share(const VectorLanes& to_light) const {
@@ -90,8 +90,8 @@ Lanes PreparedLight::cone_share(const VectorLanes& to_light) const {
   const Lanes versine = min(0.5 * dot(difference, difference), lanes_of(2));
   const Lanes share = (rim_versine_ - versine) / fading_versine_;
   const Lanes fading = share * share * (3.0 - 2.0 * share);
-  const Lanes within_rim = versine <= rim_versine_ - fading_versine_ ? lanes_of(1) : fading;
-  return versine > rim_versine_ ? Lanes{} : within_rim;
+  const Lanes within_rim = select(versine <= rim_versine_ - fading_versine_, lanes_of(1), fading);
+  return select(versine > rim_versine_, Lanes{}, within_rim);
 }
 
 }  // namespace crt::core

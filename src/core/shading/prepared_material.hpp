@@ -32,7 +32,7 @@ struct PreparedMaterial {
   template <class Real>
   Real transparency(const Real& alpha) const {
     const Real full = broadcast<Real>(description->transparency);
-    return alpha == 1.0 ? full : 1.0 - (1.0 - full) * alpha;
+    return select(alpha == 1.0, full, 1.0 - (1.0 - full) * alpha);
   }
 
   /// The strength of the diffuse light there.
@@ -40,7 +40,7 @@ struct PreparedMaterial {
   Real diffuse(const Real& transparency) const {
     if (description->diffuse) return broadcast<Real>(*description->diffuse);
     const Real rest = (1.0 - description->reflectivity) - transparency;
-    return rest > 0.0 ? rest : Real{};
+    return select(rest > 0.0, rest, Real{});
   }
 };
 

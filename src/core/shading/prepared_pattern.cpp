@@ -18,7 +18,7 @@ namespace {
 template <class Real>
 Real period_share(const Real& coordinate) {
   const Real share = coordinate - floor(coordinate);
-  return share < 1.0 ? share : Real{};  // also for NaN, of coordinates beyond all bounds
+  return select(share < 1.0, share, Real{});  // also for NaN, of coordinates beyond all bounds
 }
 
 /// Exact for every whole number. What is no number counts as odd, as its remainder is not 0.
@@ -40,7 +40,7 @@ Vec3Of<Real> under_surface(const SurfacePointOf<Real>& point, double scale) {
   constexpr double of_coordinates = 0x1p-48;
   const Real least = broadcast<Real>(scale * of_scale);
   const Real depth = of_coordinates * largest_component(point.position);
-  return point.position - (least < depth ? depth : least) * point.normal;
+  return point.position - select(least < depth, depth, least) * point.normal;
 }
 
 template <class Real = double, class Solid>
@@ -113,7 +113,7 @@ template <class Kind>
 ColorLanes colors_at(const Kind& kind, const Texture* texture, const SurfacePointLanes& points,
                      std::uint32_t lanes) {
   if constexpr (has_edges<Kind>) {
-    return chosen(is_second(kind, points), lanes_of(kind.color_b), lanes_of(kind.color_a));
+    return select(is_second(kind, points), lanes_of(kind.color_b), lanes_of(kind.color_a));
   } else {
     ColorLanes result;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {

@@ -59,7 +59,7 @@ struct ColorLanes {
 
   void set(std::size_t lane, const Color& one) {
     color.set(lane, rgb(one));
-    alpha[static_cast<int>(lane)] = one.a;
+    alpha[lane] = one.a;
   }
 };
 
@@ -67,8 +67,8 @@ inline ColorLanes lanes_of(const Color& color) {
   return {lanes_of(rgb(color)), lanes_of(color.a)};
 }
 
-inline ColorLanes chosen(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {
-  return {chosen(first, a.color, b.color), first ? a.alpha : b.alpha};
+inline ColorLanes select(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {
+  return {select(first, a.color, b.color), select(first, a.alpha, b.alpha)};
 }
 
 }  // namespace crt::core

@@ -18,7 +18,7 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
   for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
     const double alpha = values[pixel + 3];
     if (!(alpha > 0)) continue;
-    const Lanes shown = {values[pixel], values[pixel + 1], values[pixel + 2], 0};
+    const Lanes shown = lanes_of(values[pixel], values[pixel + 1], values[pixel + 2], 0);
     const Lanes light = alpha * power(max(Lanes{}, shown / alpha), lanes_of(gamma));
     for (int channel = 0; channel < 3; ++channel) {
       values[pixel + static_cast<std::size_t>(channel)] = static_cast<float>(light[channel]);
@@ -82,9 +82,9 @@ Texture::Texture(std::shared_ptr<const Image> image, double gamma)
     opaque_ = opaque_ && alpha == 1;
     if (!(alpha > 0)) continue;
     brightest =
-        max(brightest, Lanes{values[pixel], values[pixel + 1], values[pixel + 2], 0} / alpha);
+        max(brightest, lanes_of(values[pixel], values[pixel + 1], values[pixel + 2], 0) / alpha);
   }
-  brightest_ = std::max({brightest[0], brightest[1], brightest[2]});
+  brightest_ = std::max<double>({brightest[0], brightest[1], brightest[2]});
 }
 
 Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const {

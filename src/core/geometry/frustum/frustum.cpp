@@ -244,7 +244,7 @@ FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3
   Vector across = p - z * axis;
   across = across - dot(across, axis) * axis;
   const auto at_apex = largest_component(across) == 0.0;
-  radial = chosen(at_apex, broadcast<Real>(frustum.frame_.zero), unit_vector(across));
+  radial = select(at_apex, broadcast<Real>(frustum.frame_.zero), unit_vector(across));
   // Onto the ruling in this direction, straight.
   const double sine = frustum.sine_;
   const double cosine = frustum.cosine_;
@@ -256,7 +256,7 @@ FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3
       broadcast<Real>(frustum.narrow_) +
       broadcast<Real>(frustum.unit_) * (share * frustum.height_ * axis + radius * radial);
   point.normal = unit_vector(broadcast<Real>(cosine) * radial - broadcast<Real>(sine) * axis);
-  if (sine > 0) point.normal = chosen(at_apex, -axis, point.normal);
+  if (sine > 0) point.normal = select(at_apex, -axis, point.normal);
 }
 
 template <class Real>

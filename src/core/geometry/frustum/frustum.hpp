@@ -102,12 +102,11 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     /// where x = 0 is if the line is within there, whatever is left of a and b, else that of the
     /// middle between them.
     MaskOf<Real> is_on_other_nappe() const {
-      return either(both(is_within(), radius < 0.0),
-                    without(a * radius < b * radius_rate, is_within()));
+      return (is_within() && radius < 0.0) || (a * radius < b * radius_rate && !is_within());
     }
     /// Of a root that is on this nappe: not beyond the apex, whatever is left of a and b.
     Real on_nappe(const Real& x) const {
-      return radius + radius_rate * x < 0.0 ? -radius / radius_rate : x;
+      return select(radius + radius_rate * x < 0.0, -radius / radius_rate, x);
     }
     /// Whether a step along the line that ends at such a radius strays from the tangent there by no
     /// more than the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1
@@ -214,8 +213,8 @@ auto FrustumShape::side_equation(const NearLineOf<Real>& line, const SideRatesOf
     -> SideEquationOf<Real> {
   const Vec3Of<Real> axis = broadcast<Real>(axis_);
   const Vec3Of<Real> p = broadcast<Real>(cosine_) * accurate_cross(line.point, axis);
-  const Real m_length = square_root(rates.m_squared);
-  const Real p_length = square_root(dot(p, p));
+  const Real m_length = sqrt(rates.m_squared);
+  const Real p_length = sqrt(dot(p, p));
   SideEquationOf<Real> side{};
   side.radius = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
   side.radius_rate = rates.radius_rate;
@@ -238,10 +237,10 @@ MaskOf<Real> FrustumShape::passes_plainly(const NearLineOf<Real>& line,
 
 template <class Real>
 FrustumShape::SideRoots<Real>::SideRoots(const SideEquationOf<Real>& side) {
-  const Real half = square_root(max(side.discriminant, Real{}));
-  const Real sum = side.b >= 0.0 ? -(side.b + half) : half - side.b;
+  const Real half = sqrt(max(side.discriminant, Real{}));
+  const Real sum = select(side.b >= 0.0, -(side.b + half), half - side.b);
   const Real first = sum / side.a;
-  const Real second = sum != 0.0 ? side.c / sum : Real{};
+  const Real second = select(sum != 0.0, side.c / sum, Real{});
   low = min(first, second);
   high = max(first, second);
 }
@@ -251,7 +250,7 @@ RealOf<Vector> FrustumShape::distance_from_side(const Vector& p) const {
   using Real = RealOf<Vector>;
   const Vector axis = broadcast<Real>(axis_);
   const Vector across = accurate_cross(p, axis);
-  return cosine_ * (square_root(dot(across, across)) - narrow_radius_) -
+  return cosine_ * (sqrt(dot(across, across)) - narrow_radius_) -
          sine_ * accurate_dot(p, axis).value();
 }
 

@@ -50,12 +50,12 @@ inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius,
                                const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
                                bool with_uv, SurfacePointOf<Real>& point) {
   const auto is_apart = largest_component(offset) > 0.0;
-  const Vec3Of<Real> n = unit_vector(chosen(is_apart, offset, -direction));
+  const Vec3Of<Real> n = unit_vector(select(is_apart, offset, -direction));
   point.position = center + radius * n;
   point.normal = n;
   if (!with_uv) return;
   point.u = turn(n.z, n.x);
-  point.v = latitude(square_root(n.x * n.x + n.z * n.z), n.y);
+  point.v = latitude(sqrt(n.x * n.x + n.z * n.z), n.y);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count
                                  SurfacePointLanes& points) {
   const auto row = [&](std::size_t lane) {
     const SphereShape& sphere = *spheres[lane];
-    return Lanes{sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_};
+    return lanes_of(sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_);
   };
   const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});
   const VectorLanes center = {x, y, z};

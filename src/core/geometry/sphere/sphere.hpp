@@ -47,12 +47,12 @@ SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real
                                         const Size& r) {
   const Real a = line.squared_length;
   const Vec3Of<Real> nearest = line.at(closest);
-  const Real distance = square_root(dot(nearest, nearest));
+  const Real distance = sqrt(dot(nearest, nearest));
   const auto meets = distance < r;
   if (!any(meets)) return {};
 
   const Real squared_root = a * (r + distance) * (r - distance);
-  const Real root = square_root(squared_root);
+  const Real root = sqrt(squared_root);
   const Real half_chord = root / a;
   const Real enter = line.to_t(closest - half_chord);
   const Real leave = line.to_t(closest + half_chord);
@@ -62,11 +62,11 @@ SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real
   const Size across = standard_error_across(reach) * r;
   Real along = across / root;
   constexpr double flattest = 0x1p-40;
-  if (any(both(meets, squared_root <= flattest * r * r * a))) {
+  if (any(meets && squared_root <= flattest * r * r * a)) {
     const Real longest = grazing_error(line, reach, r);
-    along = across < longest * root ? along : longest;
+    along = select(across < longest * root, along, longest);
   }
-  return {both(meets, enter < leave), enter, leave, line.to_t_length(along)};
+  return {meets && enter < leave, enter, leave, line.to_t_length(along)};
 }
 
 /// Of lines that start on the surface, where they are on it once more.
@@ -91,7 +91,7 @@ SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center
   const double reach = 2 * r;
   const Real a = line.squared_length;
   const Real b = dot(line.point, line.direction);
-  const Real distance = square_root(dot(line.point, line.point));
+  const Real distance = sqrt(dot(line.point, line.point));
   const Real off_surface = abs((distance + r) * (distance - r));
   SphereOtherEnd end;
   end.t = line.to_t(-2.0 * b / a);

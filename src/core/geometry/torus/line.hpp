@@ -34,8 +34,8 @@ class TorusLineOf {
 
     /// Of each line that of `a` or that of `b`.
     static Level chosen(const Mask& first, const Level& a, const Level& b) {
-      return {first ? a.rho : b.rho, first ? a.value : b.value,
-              first ? a.half_slope : b.half_slope};
+      return {select(first, a.rho, b.rho), select(first, a.value, b.value),
+              select(first, a.half_slope, b.half_slope)};
     }
   };
   Level level(const Real& x) const;
@@ -98,7 +98,7 @@ class TorusLineOf {
   /// A line so near to the axis passes through it: of its square doubles would leave nothing.
   static Real without_what_vanishes(const Real& passing) {
     constexpr double smallest = 0x1p-500;
-    return passing > smallest ? passing : Real{};
+    return select(passing > smallest, passing, Real{});
   }
   Real value_from_start(const Real& x, const Vec3Of<Real>& p, const Real& rho) const;
   Real half_curvature(const Level& here) const;

@@ -41,7 +41,7 @@ template <class Real>
     const Real& length) const {
   const double size = ring_ + tube_;
   const Vec3Of<Real> place = line.at(x);
-  const Real reach = size + square_root(dot(place, place));
+  const Real reach = size + sqrt(dot(place, place));
   // |n . d| is |G'| / 2r, and no root moves by more than the span and the grazing error are long.
   return {.reach = reach,
           .approach = abs(torus.half_slope(x)) / tube_,
@@ -62,7 +62,7 @@ TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line,
   const Real inside = entry.bracket.negative;
   const Meeting<Real> at = meeting<Real>(line, torus, x, inside - x);
   const auto is_steep = standard_error_across(at.reach) < at.longest * at.approach;
-  result.known = both(entry.found, both(is_steep, result.t < line.to_t(inside)));
+  result.known = entry.found && is_steep && result.t < line.to_t(inside);
   result.error = standard_error(line, result.t, at.reach, at.approach, at.longest);
   return result;
 }
@@ -157,7 +157,7 @@ TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Rea
   // Twice: the second time removes what the first one's rounding left along the axis.
   Vec3Of<Real> across = p - height * along;
   across = across - dot(across, along) * along;
-  radial = chosen(largest_component(across) > 0.0, unit_vector(across),
+  radial = select(largest_component(across) > 0.0, unit_vector(across),
                   broadcast<Real>(torus.frame_.zero));
   outward = dot(across, radial) - torus.ring_;
 }
@@ -170,7 +170,7 @@ void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, st
   const Vec3Of<Real> from_ring =
       place.outward * radial + place.height * broadcast<Real>(frame_.along);
   const Vec3Of<Real> normal =
-      chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
+      select(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
   const Vec3Of<Real> from_center =
       broadcast<Real>(ring_) * radial + broadcast<Real>(tube_) * normal;
   point.position = broadcast<Real>(center_) + broadcast<Real>(unit_) * from_center;
