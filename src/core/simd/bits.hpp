@@ -37,13 +37,13 @@ using plain_bits::reversed;
 
 #ifdef __AVX2__
 
-inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
+[[gnu::always_inline]] inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
   return std::bit_cast<WordLanes>(
       _mm256_mul_epu32(std::bit_cast<__m256i>(numbers), _mm256_set1_epi64x(factor)));
 }
 
 /// Looks the halves of bytes up.
-inline BitOctet reversed(const BitOctet& bits) {
+[[gnu::always_inline]] inline BitOctet reversed(const BitOctet& bits) {
   const auto in_both_halves = [](const __m128i& bytes) {
     return _mm256_broadcastsi128_si256(bytes);
   };

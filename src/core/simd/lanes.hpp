@@ -15,9 +15,16 @@
 #include <experimental/simd>
 #include <type_traits>
 
+#ifdef __FMA__
+#include <immintrin.h>
+#endif
+
 namespace crt::core {
 
 namespace stdx = std::experimental;
+
+// GCC takes much of what follows for too large to be inlined, and does not see that its fma's are
+// one instruction: these two things are helped along.
 
 /// `count` numbers side by side.
 template <class Number, std::size_t count>
@@ -40,7 +47,7 @@ using BitOctet = SideBySide<std::uint32_t, octet_size>;
 
 /// Returns the lanes of a mask as bits, the first lane's in the lowest bit.
 template <class Number, class Abi>
-std::uint32_t mask_of(const stdx::simd_mask<Number, Abi>& mask) {
+[[gnu::always_inline]] inline std::uint32_t mask_of(const stdx::simd_mask<Number, Abi>& mask) {
   return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
@@ -49,7 +56,7 @@ template <class Mask>
 Mask mask_with(std::uint32_t bits) {
   return Mask::__from_bitset(bits);
 }
-inline LaneMask lanes_with(std::uint32_t bits) {
+[[gnu::always_inline]] inline LaneMask lanes_with(std::uint32_t bits) {
   return mask_with<LaneMask>(bits);
 }
 
@@ -61,11 +68,11 @@ Mask mask_cast(const stdx::simd_mask<Number, Abi>& mask) {
 
 /// Returns whether a mask is true in all of its lanes, or in any; of one number its own.
 template <class Number, class Abi>
-bool all(const stdx::simd_mask<Number, Abi>& mask) {
+[[gnu::always_inline]] inline bool all(const stdx::simd_mask<Number, Abi>& mask) {
   return stdx::all_of(mask);
 }
 template <class Number, class Abi>
-bool any(const stdx::simd_mask<Number, Abi>& mask) {
+[[gnu::always_inline]] inline bool any(const stdx::simd_mask<Number, Abi>& mask) {
   return stdx::any_of(mask);
 }
 inline bool all(bool a) {
@@ -77,17 +84,18 @@ inline bool any(bool a) {
 
 /// Returns in each lane the first value where the mask is true, else the second.
 template <class Number, class Abi>
-stdx::simd<Number, Abi> select(const stdx::simd_mask<Number, Abi>& mask,
-                               const std::type_identity_t<stdx::simd<Number, Abi>>& a,
-                               const std::type_identity_t<stdx::simd<Number, Abi>>& b) {
+[[gnu::always_inline]] inline stdx::simd<Number, Abi> select(
+    const stdx::simd_mask<Number, Abi>& mask,
+    const std::type_identity_t<stdx::simd<Number, Abi>>& a,
+    const std::type_identity_t<stdx::simd<Number, Abi>>& b) {
   stdx::simd<Number, Abi> result = b;
   stdx::where(mask, result) = a;
   return result;
 }
 template <class Number, class Abi>
-stdx::simd_mask<Number, Abi> select(const stdx::simd_mask<Number, Abi>& mask,
-                                    const stdx::simd_mask<Number, Abi>& a,
-                                    const stdx::simd_mask<Number, Abi>& b) {
+[[gnu::always_inline]] inline stdx::simd_mask<Number, Abi> select(
+    const stdx::simd_mask<Number, Abi>& mask, const stdx::simd_mask<Number, Abi>& a,
+    const stdx::simd_mask<Number, Abi>& b) {
   return (mask && a) || (!mask && b);
 }
 template <class Value>
@@ -138,7 +146,8 @@ inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t 
 }
 
 /// Returns the columns of four rows.
-inline std::array<Lanes, lane_count> transposed(const std::array<Lanes, lane_count>& rows) {
+[[gnu::always_inline]] inline std::array<Lanes, lane_count> transposed(
+    const std::array<Lanes, lane_count>& rows) {
   using Row = double __attribute__((vector_size(sizeof(Lanes))));  // it can be shuffled
   const auto [a, b, c, d] = std::bit_cast<std::array<Row, lane_count>>(rows);
   const Row even_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);
@@ -170,31 +179,38 @@ using std::min;
 
 // Of two doubles of which one is NaN, max() returns the first, as std::max() does, and min() the
 // second. Of two floats both return the first.
-inline Lanes min(const Lanes& a, const Lanes& b) {
+[[gnu::always_inline]] inline Lanes min(const Lanes& a, const Lanes& b) {
   return select(a < b, a, b);
 }
-inline Lanes max(const Lanes& a, const Lanes& b) {
+[[gnu::always_inline]] inline Lanes max(const Lanes& a, const Lanes& b) {
   return select(a < b, b, a);
 }
-inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
+[[gnu::always_inline]] inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
   return select(b < a, b, a);
 }
-inline FloatLanes max(const FloatLanes& a, const FloatLanes& b) {
+[[gnu::always_inline]] inline FloatLanes max(const FloatLanes& a, const FloatLanes& b) {
   return select(a < b, b, a);
 }
-inline Lanes clamp(const Lanes& v, const Lanes& low, const Lanes& high) {
+[[gnu::always_inline]] inline Lanes clamp(const Lanes& v, const Lanes& low, const Lanes& high) {
   return min(high, max(v, low));
 }
 
-inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
-  return Lanes([&](auto i) { return __builtin_fma(a[i], b[i], c[i]); });
+[[gnu::always_inline]] inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
+#ifdef __FMA__
+  return std::bit_cast<Lanes>(_mm256_fmadd_pd(std::bit_cast<__m256d>(a), std::bit_cast<__m256d>(b),
+                                              std::bit_cast<__m256d>(c)));
+#else
+  return Lanes([&](auto i) { return std::fma(a[i], b[i], c[i]); });
+#endif
 }
 
 /// Returns a b + c, rounded once or twice, whichever is faster: of use where a bound on the error
 /// covers both.
-inline FloatOctet multiply_add(const FloatOctet& a, const FloatOctet& b, const FloatOctet& c) {
-#ifdef FP_FAST_FMAF
-  return FloatOctet([&](auto i) { return __builtin_fmaf(a[i], b[i], c[i]); });
+[[gnu::always_inline]] inline FloatOctet multiply_add(const FloatOctet& a, const FloatOctet& b,
+                                                      const FloatOctet& c) {
+#ifdef __FMA__
+  return std::bit_cast<FloatOctet>(_mm256_fmadd_ps(
+      std::bit_cast<__m256>(a), std::bit_cast<__m256>(b), std::bit_cast<__m256>(c)));
 #else
   return a * b + c;
 #endif
