@@ -37,7 +37,7 @@ inline FloatLanes round_up_length(const Lanes& length) {
   const FloatLanes nearest = to_floats(length);
   const auto too_low = stdx::static_simd_cast<IntLanes>(
       select(to_doubles(nearest) < length, lanes_of(1), lanes_of(0)));
-  const auto rounded_up = std::bit_cast<FloatLanes>(std::bit_cast<IntLanes>(nearest) + too_low);
+  const auto rounded_up = bits_as<FloatLanes>(bits_as<IntLanes>(nearest) + too_low);
   return max(rounded_up, FloatLanes(shortest_way));
 }
 

@@ -145,7 +145,7 @@ class NearestSphereFilter {
   /// and Applications 17(4), 1997).
   static FloatOctet inverse_or_more(const FloatOctet& x) {
     constexpr std::uint32_t bits_of_one_twice = 0x7f000000;
-    return std::bit_cast<FloatOctet>(bits_of_one_twice - std::bit_cast<BitOctet>(x));
+    return bits_as<FloatOctet>(bits_of_one_twice - bits_as<BitOctet>(x));
   }
   static FloatOctet dot(const std::array<FloatOctet, 3>& a, const std::array<FloatOctet, 3>& b) {
     return multiply_add(a[2], b[2], multiply_add(a[1], b[1], a[0] * b[0]));

@@ -13,12 +13,12 @@ inline Lanes rounding_of(const Lanes& x) {
 inline Lanes power_of_two_below(const Lanes& x) {
   constexpr std::uint64_t exponent_bits = 0x7ff0000000000000;
   constexpr double smallest = 0x1p-1022;
-  const auto power = std::bit_cast<Lanes>(std::bit_cast<WordLanes>(x) & exponent_bits);
+  const auto power = bits_as<Lanes>(bits_as<WordLanes>(x) & exponent_bits);
   return max(power, lanes_of(smallest));
 }
 inline Lanes inverse_of_power(const Lanes& x) {
   constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;
-  return std::bit_cast<Lanes>(inverse_of_one - std::bit_cast<WordLanes>(x));
+  return bits_as<Lanes>(inverse_of_one - bits_as<WordLanes>(x));
 }
 inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes& c,
                                     const Lanes& d) {

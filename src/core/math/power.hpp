@@ -27,8 +27,8 @@ inline constexpr double whole = 0x1.8p52;
 /// 2^exponent, of a whole number for which that is a normal number.
 template <class Real>
 Real power_of_two(const Real& exponent) {
-  const auto biased = std::bit_cast<BitsOf<Real>>(Real(exponent + (whole + 1023)));
-  return std::bit_cast<Real>(BitsOf<Real>(biased << fraction_bits));
+  const auto biased = bits_as<BitsOf<Real>>(Real(exponent + (whole + 1023)));
+  return bits_as<Real>(BitsOf<Real>(biased << fraction_bits));
 }
 
 // ln m = 2 artanh(s), of which this is the series: 2 / ((2 n + 1) ln 2).
@@ -59,13 +59,13 @@ Real logarithm2_by(const Real& x) {
   // x is m 2^k with m from sqrt(1/2) to sqrt(2).
   constexpr std::uint64_t bits_of_root = 0x3fe6a09e667f3bcd;
   constexpr std::uint64_t exponent_bits = 0x7ff0000000000000;
-  const auto bits = std::bit_cast<Bits>(x);
+  const auto bits = bits_as<Bits>(x);
   const Bits exponent = (bits + (bits_of_one - bits_of_root)) & exponent_bits;
-  const Real m = std::bit_cast<Real>(bits - (exponent - bits_of_one));
+  const Real m = bits_as<Real>(bits - (exponent - bits_of_one));
   // As the lowest bits of a number that has no others below 2^52.
   constexpr std::uint64_t bits_of_2_52 = 0x4330000000000000;
   const Real k =
-      std::bit_cast<Real>(Bits((exponent >> fraction_bits) | bits_of_2_52)) - (0x1p52 + 1023);
+      bits_as<Real>(Bits((exponent >> fraction_bits) | bits_of_2_52)) - (0x1p52 + 1023);
 
   constexpr std::array<double, terms> coefficients = first<terms>(logarithm_series);
   const Real s = (m - 1.0) / (m + 1.0);

@@ -73,7 +73,7 @@ inline Lanes to_unit_interval(const WordLanes& bits) {
   constexpr std::uint64_t exponent_of_2_to_52 = 0x4330000000000000u;
   const WordLanes high = bits >> 43 | exponent_of_2_to_84;
   const WordLanes low = (bits >> 11 & 0xffffffffu) | exponent_of_2_to_52;
-  return (std::bit_cast<Lanes>(high) - (0x1p84 + 0x1p52) + std::bit_cast<Lanes>(low)) * 0x1p-53;
+  return (bits_as<Lanes>(high) - (0x1p84 + 0x1p52) + bits_as<Lanes>(low)) * 0x1p-53;
 }
 
 /// The pairs of a sample and of the three that follow it: all first numbers, and all second ones.

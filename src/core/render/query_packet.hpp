@@ -203,7 +203,7 @@ class QueryPacket {
     const WordLanes ids_and_sides = (stdx::static_simd_cast<WordLanes>(ids_) & lower_half) |
                                     stdx::static_simd_cast<WordLanes>(sides_) << 32;
     const auto tails = transposed(
-        {told(points_.u), told(points_.v), told(std::bit_cast<Lanes>(ids_and_sides)), Lanes{}});
+        {told(points_.u), told(points_.v), told(bits_as<Lanes>(ids_and_sides)), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);

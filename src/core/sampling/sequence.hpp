@@ -230,7 +230,7 @@ class PixelSequence {
       const BitOctet bits = reversed(scrambled_upwards(BitOctet(low_bits ^ high_bits), seed));
       // Processors turn only signed numbers into doubles side by side: from -1/2 to 1/2, exactly.
       constexpr std::uint32_t middle = 0x80000000u;
-      const auto groups = stdx::split<IntLanes>(std::bit_cast<IntOctet>(BitOctet(bits ^ middle)));
+      const auto groups = stdx::split<IntLanes>(bits_as<IntOctet>(BitOctet(bits ^ middle)));
       for (std::size_t k = 0; k < groups.size(); ++k) {
         const auto from_middle = stdx::static_simd_cast<Lanes>(groups[k]);
         coordinates[i / lane_count + k] = fma(from_middle, lanes_of(0x1p-32), lanes_of(0.5));

@@ -12,6 +12,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <cstring>
 #include <experimental/simd>
 #include <type_traits>
 
@@ -63,7 +64,11 @@ Mask mask_with(std::uint32_t bits) {
 /// Returns the mask for lanes of other numbers of the same size.
 template <class Mask, class Number, class Abi>
 Mask mask_cast(const stdx::simd_mask<Number, Abi>& mask) {
-  return std::bit_cast<Mask>(mask);
+  if constexpr (std::is_trivially_copyable_v<Mask>) {
+    return std::bit_cast<Mask>(mask);
+  } else {
+    return mask_with<Mask>(mask_of(mask));
+  }
 }
 
 /// Returns whether a mask is true in all of its lanes, or in any; of one number its own.
@@ -132,6 +137,20 @@ Numbers lanes_at(const Number* column) {
   return Numbers(column, stdx::element_aligned);
 }
 
+/// Returns the number or the lanes with the same bits.
+template <class To, class From>
+[[gnu::always_inline]] inline To bits_as(const From& from) {
+  if constexpr (std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>) {
+    return std::bit_cast<To>(from);
+  } else {
+    // More lanes than the machine has side by side.
+    std::array<typename From::value_type, From::size()> numbers;
+    from.copy_to(numbers.data(), stdx::element_aligned);
+    const auto bits = std::bit_cast<std::array<typename To::value_type, To::size()>>(numbers);
+    return To(bits.data(), stdx::element_aligned);
+  }
+}
+
 /// Returns each number rounded to the nearest float.
 inline FloatLanes to_floats(const Lanes& a) {
   return stdx::static_simd_cast<FloatLanes>(a);
@@ -148,17 +167,24 @@ inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t 
 /// Returns the columns of four rows.
 [[gnu::always_inline]] inline std::array<Lanes, lane_count> transposed(
     const std::array<Lanes, lane_count>& rows) {
-  using Row = double __attribute__((vector_size(sizeof(Lanes))));  // it can be shuffled
-  const auto [a, b, c, d] = std::bit_cast<std::array<Row, lane_count>>(rows);
+  using Row = double __attribute__((vector_size(sizeof(double) * lane_count)));  // to be shuffled
+  Row a, b, c, d;
+  std::memcpy(&a, &rows[0], sizeof a);
+  std::memcpy(&b, &rows[1], sizeof b);
+  std::memcpy(&c, &rows[2], sizeof c);
+  std::memcpy(&d, &rows[3], sizeof d);
   const Row even_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);
   const Row odd_low = __builtin_shufflevector(a, b, 1, 5, 3, 7);
   const Row even_high = __builtin_shufflevector(c, d, 0, 4, 2, 6);
   const Row odd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
-  return std::bit_cast<std::array<Lanes, lane_count>>(
-      std::array<Row, lane_count>{__builtin_shufflevector(even_low, even_high, 0, 1, 4, 5),
-                                  __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5),
-                                  __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7),
-                                  __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7)});
+  a = __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5);
+  b = __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5);
+  c = __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7);
+  d = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7);
+  const auto lanes = [](const Row& row) {
+    return Lanes(reinterpret_cast<const double*>(&row), stdx::vector_aligned);
+  };
+  return {lanes(a), lanes(b), lanes(c), lanes(d)};
 }
 
 // ---- formulas for one double or for lanes: templates over a Real, which is either ------------
