@@ -14,7 +14,7 @@ using crt::Vec3;
 
 namespace {
 
-/// Vectors of all sizes, with components that are far apart.
+/// Makes vectors of all sizes, with components of very different sizes.
 class Vectors {
  public:
   Vec3 next() {

@@ -13,25 +13,25 @@ namespace crt::core {
 
 namespace {
 
-/// In [0, 1]; 0 for what is not a number.
+/// Returns the value clamped to [0, 1], or 0 for NaN.
 template <class Real>
 Real clamped(const Real& value) {
   return select(value > 0.0, min(value, broadcast<Real>(1)), Real{});
 }
 
-/// A few roundings of floats, which colours carry that were divided by their alpha or raised to a
-/// power.
+/// This covers a few roundings of floats. Colours have them that were divided by their alpha or
+/// raised to a power.
 constexpr double float_rounding = 0x1p-20;
 
-/// Which of 256 levels values in [0, 1] get.
+/// A Levels gives values in [0, 1] one of 256 levels.
 class Levels {
  public:
   explicit Levels(int compat)
       : factor_(compat == compat_2015 ? 255 * (1 + float_rounding) : 255),
         shift_(compat == compat_2015 ? 0 : 0.5) {}
 
-  /// The nearest, of halves the upper one; in 2015 the last one below, but for what rounding has
-  /// taken from values that are one.
+  /// Returns the nearest level, and of two equally near ones the upper. In 2015 it is the level
+  /// below, but for what rounding has taken from values that are a level.
   Lanes operator()(const Lanes& values) const { return floor(values * factor_ + shift_); }
 
  private:
@@ -39,7 +39,7 @@ class Levels {
   double shift_;
 };
 
-/// Where a channel is past what a display can show.
+/// Returns where a channel is above what a display can show.
 LaneMask clips(const Lanes& values) {
   return values > 1 + float_rounding;
 }

@@ -1,4 +1,4 @@
-// Points of a plane, such as the picture's or the lens's.
+// Points of a plane, such as the picture's or the lens's, have two coordinates.
 #pragma once
 
 #include <cstddef>
@@ -13,7 +13,7 @@ struct PlanePointOf {
   Real y{};
 };
 using PlanePoint = PlanePointOf<double>;
-/// As many of them side by side as there are lanes.
+/// PlanePointLanes are as many points side by side as there are lanes.
 using PlanePointLanes = PlanePointOf<Lanes>;
 
 inline void set_lane(PlanePointLanes& points, std::size_t lane, const PlanePoint& point) {

@@ -1,4 +1,4 @@
-// The parts of the tracer that look at first hits alone.
+// These parts of the tracer look at first hits alone.
 #include "core/render/first_hit.hpp"
 
 #include "core/render/tracer.hpp"

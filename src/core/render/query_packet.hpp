@@ -1,4 +1,4 @@
-// Queries of several rays, answered together.
+// Queries of several rays are answered together.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace crt::core {
 
-/// At the user's t; where that is in the world a HitPoint says or a SurfacePoint.
+/// Makes a Hit at the input ray's t. `point` is a HitPoint or a SurfacePoint in the world.
 template <class Point>
 Hit described(double t, const Point& point, std::uint32_t entity_id, bool entering) {
   return {.t = t,
@@ -29,7 +29,7 @@ Hit described(double t, const Point& point, std::uint32_t entity_id, bool enteri
           .entering = entering};
 }
 
-/// Where distances are told, and of what, if anybody asks.
+/// Distances are where distances are written, and the ids of what was hit, if anybody asks.
 struct Distances {
   std::span<double> t;
   std::span<std::uint32_t> ids;
@@ -40,19 +40,20 @@ struct Distances {
   }
 };
 
-/// Up to packet_size queries at a time, asked together if they go nearly the same way.
+/// A QueryPacket has up to packet_size queries at a time. They are answered together if their
+/// directions are nearly the same.
 class QueryPacket {
  public:
   QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {}
 
-  /// `next` are to be taken after them: they come from memory meanwhile.
+  /// Takes rays. `next` are to be taken after them, and are prefetched meanwhile.
   void take(std::span<const Ray> rays, std::span<const Ray> next) {
     users_ = rays;
     count_ = rays.size();
     rays_.with_starts = 0;
     std::size_t done = 0;
     for (; done + lane_count <= count_; done += lane_count) {
-      // As many as are taken: all at once would be more than can be on their way.
+      // As many are prefetched as are taken, as all at once would be more than can be under way.
       const std::size_t end = std::min(next.size(), done + lane_count);
       for (std::size_t i = done; i < end; ++i) __builtin_prefetch(&next[i]);
       const auto group = rays.subspan(done).first<lane_count>();
@@ -61,7 +62,7 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  /// An answer is an std::optional<Hit> or a PlainHit.
+  /// Finds nearest hits. An answer is an std::optional<Hit> or a PlainHit.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
@@ -75,7 +76,7 @@ class QueryPacket {
     }
   }
 
-  /// Answers are columns.
+  /// Finds nearest hits, with answers in columns.
   void nearest(const Distances& answers) {
     FirstLeaves leaves;
     const bool are_told = data_.first_leaves(rays_, all(), leaves);
@@ -101,7 +102,7 @@ class QueryPacket {
  private:
   RayMask all() const { return RayPacket::all(count_); }
 
-  /// Those from `first` on side by side; false if that does not do for some.
+  /// Takes rays from `first` on side by side. Returns false if that is not possible for some.
   bool take_group(std::span<const Ray, lane_count> rays, std::size_t first) {
     const UserRays users(rays);
     Lanes factors;
@@ -122,16 +123,17 @@ class QueryPacket {
     }
   }
 
-  /// How far `count` rays from `first` on are from what they have found, and what that is.
+  /// Finds the distances of the hits of `count` rays from `first` on, and what was hit.
   void find_distances(std::size_t first, std::size_t count) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     const Lanes t = lanes_of(group[0].t, group[1].t, group[2].t, group[3].t);
-    // What has found nothing is nowhere.
+    // A ray that has found nothing has an infinite t.
     const RayMask found =
         mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
     set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
   }
-  /// The same of the crossings of a group with leaf_of(lane), at the followed rays' t.
+  /// Sets the distances of a group's hits, at the traced rays' t. leaf_of(lane) is the leaf that
+  /// was hit.
   template <class LeafOf>
   void set_distances(std::size_t group, const Lanes& t, RayMask found, const LeafOf& leaf_of) {
     found_ = found;
@@ -154,7 +156,7 @@ class QueryPacket {
     }
   }
 
-  /// Where that is, of hits that are alike side by side.
+  /// Finds the points of the hits. Those of hits that are alike are found side by side.
   void find_points(std::size_t first) {
     if (found_ == 0) return;
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
@@ -188,7 +190,7 @@ class QueryPacket {
     }
   }
 
-  /// By whole vectors.
+  /// Writes answers by whole vectors.
   void tell(std::span<PlainHit> answers) const {
     static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 &&
                   offsetof(PlainHit, u) == 32);
@@ -198,7 +200,7 @@ class QueryPacket {
     const auto told = [&](const Lanes& value) { return select(found, value, Lanes{}); };
     const auto heads = transposed(
         {told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
-    // Each with its side behind it.
+    // Each id has its side behind it.
     constexpr std::uint64_t lower_half = 0xffffffffu;
     const WordLanes ids_and_sides = (stdx::static_simd_cast<WordLanes>(ids_) & lower_half) |
                                     stdx::static_simd_cast<WordLanes>(sides_) << 32;
@@ -218,7 +220,7 @@ class QueryPacket {
     put(t, answers.t);
     if (!answers.ids.empty()) put(ids, answers.ids);
   }
-  /// A number for each lane, or for the first of them; to as many as there are mostly.
+  /// Writes a number for each lane, or for the first of them. The first case is the usual one.
   template <class Numbers, class Number>
   static void put(const Numbers& lanes, std::span<Number> places) {
     if (places.size() == lane_count) {
@@ -237,12 +239,13 @@ class QueryPacket {
   std::span<const Ray> users_;
   std::size_t count_ = 0;
   RayBatch rays_;
-  /// Turns a t of the rays into the user's where that has all its digits; 0 where no number does.
+  /// These turn a t of the rays into the input rays' t if that has all its digits. A factor is 0
+  /// where no number holds it.
   std::array<Lanes, packet_size / lane_count> to_users_t_{};
   std::array<RayHit, packet_size> hits_;
-  // Of a group of rays, by lane, those that have found something:
+  // These are of a group of rays, by lane, for those that have found something:
   RayMask found_ = 0;
-  Lanes t_{};  ///< the user's
+  Lanes t_{};  ///< the input rays'
   SurfacePointLanes points_;
   SurfacePointLanes others_;  ///< of hits that are not alike
   IntLanes ids_{};

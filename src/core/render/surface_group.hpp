@@ -1,4 +1,4 @@
-// Surfaces that rays meet, side by side: what light needs to know of them, by component.
+// Surfaces that rays meet are kept side by side: what lighting needs to know of them, by component.
 #pragma once
 
 #include <array>
@@ -8,9 +8,10 @@
 
 namespace crt::core {
 
-/// As many surfaces as there are lanes. What lanes hold whose rays have met none is of no use.
+/// A SurfaceGroup has as many surfaces as there are lanes. Lanes whose rays have met none mean
+/// nothing.
 struct SurfaceGroup {
-  /// Of rays that leave to the viewer's side; but for their errors.
+  /// These are the starts of rays that leave to the viewer's side, but for their errors.
   std::array<StartPoint, lane_count> starts;
   VectorLanes position;
   Lanes start_errors{};     ///< StartPoint::t_error of rays that start there
@@ -21,10 +22,10 @@ struct SurfaceGroup {
   RayMask sending_on = 0;  ///< those whose materials do not end paths
   RayMask like_first = 0;  ///< those on the same side of the same face as the first of them
   Lanes path_length{};     ///< from the camera
-  VectorLanes light;       ///< that they send back, as far as it has been added up
+  VectorLanes light;       ///< the light that they send back, as far as it is added up
 };
 
-/// One of them.
+/// A SurfaceLane is one surface of a group.
 struct SurfaceLane {
   SurfaceGroup& group;
   std::size_t lane;
@@ -34,13 +35,13 @@ struct SurfaceLane {
   Rgb color() const { return group.phong.color.lane(lane); }
   Rgb light() const { return group.light.lane(lane); }
 
-  /// Of a ray that leaves to the viewer's side.
+  /// Returns the start of a ray that leaves to the viewer's side.
   StartPoint start() const {
     StartPoint start = group.starts[lane];
     start.t_error = group.start_errors[lane];
     return start;
   }
-  /// Of one that goes on behind the surface.
+  /// Returns the start of a ray that continues behind the surface.
   StartPoint start_behind() const {
     StartPoint behind = start();
     behind.side = opposite(behind.side);

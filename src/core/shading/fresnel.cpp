@@ -6,16 +6,16 @@ namespace crt::core {
 
 namespace {
 
-/// The angle of incidence.
+/// An Incidence is the angle of incidence.
 template <class Real>
 struct Incidence {
   Real cosine;
   Real squared_sine;
 };
 
-/// The square of the cosine behind the boundary, below 0 under total internal reflection, by
-/// Snell's law: c2^2 = 1 - (n1/n2)^2 s1^2. For indices that are not far apart it is written so that
-/// nothing cancels at grazing incidence.
+/// Returns the square of the cosine behind the boundary, below 0 under total internal reflection,
+/// by Snell's law: c2^2 = 1 - (n1/n2)^2 s1^2. For indices that are close to each other it is
+/// written so that nothing cancels at grazing incidence.
 template <class Real>
 Real squared_cosine_behind(const Incidence<Real>& incidence, const Real& n1, const Real& n2) {
   constexpr double far_apart = 1.5;
@@ -25,9 +25,10 @@ Real squared_cosine_behind(const Incidence<Real>& incidence, const Real& n1, con
                 (n2 - n1) * (n2 + n1) / (n2 * n2) + scaled * scaled);
 }
 
-/// Born and Wolf, Principles of Optics, 1.5.2, with both amplitudes rewritten so that indices close
-/// to each other do not cancel: with N = n1 c1 + n2 c2,
-///   r_s = (n1^2 - n2^2) / N^2,   r_p = r_s (c1 c2 - s1 s2) / (c1 c2 + s1 s2).
+/// Returns the reflected share of light by Born and Wolf, Principles of Optics, 1.5.2. Both
+/// amplitudes are rewritten so that indices close to each other do not cancel. With N = n1 c1 + n2
+/// c2 they are
+///  r_s = (n1^2 - n2^2) / N^2,   r_p = r_s (c1 c2 - s1 s2) / (c1 c2 + s1 s2).
 template <class Real>
 Real reflectance(const Incidence<Real>& incidence, const Real& c2, const Real& n1, const Real& n2) {
   const Real c1 = incidence.cosine;

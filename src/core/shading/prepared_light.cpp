@@ -9,7 +9,7 @@ namespace crt::core {
 
 namespace {
 
-/// Keeps what is computed from it finite right at a light, where falloff / D^2 has no bound.
+/// This bound keeps results finite right at a light, where falloff / D^2 has no bound.
 constexpr double largest_intensity = 0x1p100;
 
 }  // namespace
@@ -39,7 +39,7 @@ PreparedLight::PreparedLight(const SpotLight& light)
       falloff_(light.falloff),
       origin_(light.origin),
       axis_(direction_and_length(light.pointing - light.origin).direction) {
-  // 1 - cos a = 2 sin^2(a / 2), and cos i - cos o = 2 sin((o + i) / 2) sin((o - i) / 2).
+  // These are 1 - cos a = 2 sin^2(a / 2), and cos i - cos o = 2 sin((o + i) / 2) sin((o - i) / 2).
   const double rim = light.angle / 2;
   const double full = rim - light.penumbra;
   rim_versine_ = 2 * std::sin(rim / 2) * std::sin(rim / 2);

@@ -11,7 +11,7 @@ namespace crt::core {
 
 namespace {
 
-/// Takes a display-encoded picture to linear light. The gamma curve is of the straight colours.
+/// Converts a display-encoded picture to linear light. The gamma curve applies to straight colours.
 std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma) {
   auto linear = std::make_shared<Image>(encoded);
   const std::span<float> values = linear->pixels();
@@ -28,7 +28,8 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
   return linear;
 }
 
-/// Two neighbouring texels along one side of the picture and the share of the second.
+/// Neighbours are two neighbouring texels along one side of the picture, and the share of the
+/// second.
 struct Neighbours {
   int first = 0;
   int second = 0;
@@ -74,7 +75,7 @@ Texture::Texture(std::shared_ptr<const Image> image, double gamma)
     image_ = to_linear_light(*image_, gamma);
     own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
   }
-  // What lies between texels is a mean of them, weighted by alpha, and no brighter.
+  // Colours between texels are means of these, weighted by alpha, and no brighter.
   Lanes brightest{};
   const std::span<const float> values = image_->pixels();
   for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {

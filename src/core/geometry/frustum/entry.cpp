@@ -1,6 +1,6 @@
-// Where rays plainly enter a cylinder or cone through its side: the way of
-// FrustumShape::crossings(), for as many of them side by side as there are lanes. What is not plain
-// is left to that.
+// first_entry() finds where rays plainly enter a cylinder or cone through its side. It computes as
+// FrustumShape::crossings() does, for as many rays side by side as there are lanes. What is not
+// plain is left to that function.
 #include "core/geometry/frustum/frustum.hpp"
 
 namespace crt::core {
@@ -17,8 +17,8 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   if (!any(is_near)) return {};
   line.move_to(ray, narrow_, closest);
 
-  // Between the caps by more than their own errors, so that they have no part in where the side is
-  // solved.
+  // These points are between the caps by more than the errors of the caps. So the caps have no part
+  // in where the side is solved.
   const Real margin = 0x1p-20 * height_ +
                       64.0 * unit_roundoff * abs(closest) / line.to_t_length(broadcast<Real>(1));
   const auto is_between = [&](const Real& x) {
@@ -44,19 +44,19 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   const Real t = line.to_t(x);
   entry.error = standard_error(line, t, reach, rate, longest);
 
-  // One step of Newton's iteration from the root itself.
+  // This is one step of Newton's iteration from the root itself.
   auto there = line;
   const auto precise = line.to_precise_t(x);
   there.move_to(ray, narrow_, precise.hi, precise.lo);
   const Real step = distance_from_side(there.point) / rate;
   entry.t = there.to_t(step);
-  // So squarely that no rounding takes one root near the other.
+  // The ray meets the side so squarely that no rounding takes one root near the other.
   constexpr double squarely = 0x1p-10;
   const Real most_reach = wide_radius_ + 2.0 * largest;
   const Real half_chord = root / side.a;
   const auto is_square =
       rate > squarely * ray_speed && half_chord * ray_speed > squarely * most_reach;
-  // And so that t tells where it enters from where it leaves.
+  // The chord is so long that t separates where the ray enters from where it leaves.
   const auto is_long = line.to_t_length(half_chord) > 4.0 * rounding_of(t);
   entry.known = meets && is_long && is_square && side.is_straight(step, at_root, most_reach);
   return entry;

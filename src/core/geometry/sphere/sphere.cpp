@@ -43,8 +43,8 @@ bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out
 
 namespace {
 
-/// On a sphere, or on one for each lane; next to where a line of that direction crosses it, which
-/// is at `offset` from the center.
+/// Writes the point of a sphere, or of a sphere for each lane, next to `offset` from the center. A
+/// line of the given direction crosses the sphere there.
 template <class Real>
 inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius,
                                const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,

@@ -19,7 +19,7 @@ template <class Real>
           .half_slope = outward * rho_rate + p.z * direction_.z};
 }
 
-/// G(x) - G(0) with x as a factor.
+/// Returns G(x) - G(0), computed with x as a factor.
 template <class Real>
 Real TorusLineOf<Real>::value_from_start(const Real& x, const Vec3Of<Real>& p,
                                          const Real& rho) const {
@@ -36,8 +36,8 @@ Real TorusLineOf<Real>::half_curvature(const Level& here) const {
   return select(here.rho > 0.0, bent, squared_length_);
 }
 
-/// Within the sphere and the slab that hold the torus, and a little more, so that both ends are
-/// outside whatever the rounding.
+/// Finds the range of the line within the sphere and the slab that hold the torus, and a little
+/// more. So both ends are outside whatever the rounding.
 template <class Real>
 auto TorusLineOf<Real>::range(const Mask& wanted, Range& result) const -> Mask {
   constexpr double margin = 1 + 0x1p-40;
@@ -64,7 +64,8 @@ auto TorusLineOf<Real>::range(const Mask& wanted, Range& result) const -> Mask {
   return in_sphere && in_slab && result.low < result.high;
 }
 
-/// Where rho'' > a / R, that is rho^3 < R D / a; an empty range at its end if nowhere.
+/// Returns the range where rho'' > a / R, that is rho^3 < R D / a, or an empty range at the end of
+/// `range` if there is none.
 template <class Real>
 auto TorusLineOf<Real>::concave_part(const Range& range) const -> Range {
   const Real lateral_speed = direction_.x * direction_.x + direction_.y * direction_.y;
@@ -87,7 +88,7 @@ auto TorusLineOf<Real>::concave_part(const Range& range) const -> Range {
           select(somewhere, clamp(middle + half, range.low, range.high), range.high)};
 }
 
-/// The gradient of G is twice the distance from the ring.
+/// Returns the error of G at x. The gradient of G is twice the distance from the ring.
 template <class Real>
 Real TorusLineOf<Real>::value_error(const Real& x) const {
   if (off_ == 0) return Real{};
@@ -101,14 +102,15 @@ Real TorusLineOf<Real>::slope_error() const {
   return 4 * off_ * sqrt(squared_length_);
 }
 
-/// How far above 0 a tangent must stay to show that all of a part of this length is.
+/// Returns how far above 0 a tangent must stay to show that all of a part of this length is above
+/// 0.
 template <class Real>
 Real TorusLineOf<Real>::margin(const Real& value_error, const Real& length) const {
   return off_ > 0 ? value_error + slope_error() * length + inflection_error_ : Real{};
 }
 
-/// In the convex part between a point outside and the concave part: a point inside, if there is
-/// one.
+/// Finds a point inside in the convex part between a point outside and the concave part, if there
+/// is one.
 template <class Real>
 auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mask& wanted) const
     -> Search {
@@ -123,7 +125,8 @@ auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mas
   result.certain = result.certain || result.found;
   Mask open = has_part && !result.found;
   if (!any(open)) return result;
-  // If G rises from here on, it rises all the step out. Next to the axis the slope is not known.
+  // If G increases from here outwards, it does so up to the outer end. Next to the axis the slope
+  // is not known.
   constexpr double next_to_axis = 0x1p-20;
   const Real rise = select(outer < inner, -here.half_slope, here.half_slope);
   const Mask rises = rise >= 0.0 && here.rho > next_to_axis;
@@ -138,8 +141,8 @@ auto TorusLineOf<Real>::find_dip(const Real& outer, const Real& inner, const Mas
           .level = Level::chosen(open, within.level, result.level)};
 }
 
-/// In a part where sign * G is convex, and not negative at its ends: a point where it is negative,
-/// if there is one. Newton's iteration for the minimum, kept between bounds; it stops when the
+/// Finds a point where sign * G is negative, if there is one, in a part where it is convex, and not
+/// negative at the ends. Newton's iteration looks for the minimum between bounds. It stops when the
 /// tangents show that all is positive.
 template <class Real>
 auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
@@ -179,7 +182,7 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
     const Real curvature = 2.0 * sign * half_curvature(here);
     const Real next = x - slope / curvature;
     const bool shrinks =
-        step % 4 != 3;  // now and then halve, so that the bounds close in from both sides
+        step % 4 != 3;  // every fourth step halves, so that the bounds close in from both sides
     const Mask by_newton = curvature > 0.0 && next > low && next < high;
     const Real middle = low + (high - low) / 2.0;
     const Real onwards = select(shrinks, select(by_newton, next, middle), middle);
@@ -188,13 +191,13 @@ auto TorusLineOf<Real>::find_sign(const Real& from, const Real& to, double sign,
   return result;
 }
 
-/// Where the parabola that osculates G at the bracket's inner end is 0; the outer end if that is
-/// not in between.
+/// Returns where the parabola that osculates G at the bracket's inner end is 0, or the outer end if
+/// that is not in between.
 template <class Real>
 Real TorusLineOf<Real>::first_guess(const Bracket& bracket) const {
   const Real step = bracket.positive - bracket.negative;
   const Level& inside = bracket.inside;
-  // `onwards` is half its slope on the step.
+  // `onwards` is half the slope of the parabola on the step.
   const Real bend = half_curvature(inside);
   const Mask backwards = step < 0.0;
   const Real onwards = select(backwards, -inside.half_slope, inside.half_slope);
@@ -206,9 +209,9 @@ Real TorusLineOf<Real>::first_guess(const Bracket& bracket) const {
   return select(is_within, bracket.negative + select(backwards, -length, length), bracket.positive);
 }
 
-/// Whether a step of Newton's leaves G at less than what its rounding is anyway. However the line
-/// slants, what is left is no more than the step's square times the largest |G'' / 2| on the step;
-/// with the root at the start divided out, G'(x) / x more.
+/// Returns whether a step of Newton's iteration leaves less of G than its rounding. However the
+/// line slants, at most the step's square times the largest |G'' / 2| on the step is left. With the
+/// root at the start divided out, |G'(x) / x| adds to that factor.
 template <class Real>
 auto TorusLineOf<Real>::is_last_step(const Real& x, const Level& from, const Real& step) const
     -> Mask {
@@ -216,15 +219,15 @@ auto TorusLineOf<Real>::is_last_step(const Real& x, const Level& from, const Rea
   const Real cube = from.rho * from.rho * from.rho;
   const Real bend = squared_length_ + turning_ / cube +
                     (on_surface_ ? Real(abs(2.0 * from.half_slope / x)) : Real{});
-  // Near enough that the distance from the axis does not shrink by more than a fourth, its cube to
-  // less than a third.
+  // The step is so short that the distance from the axis shrinks by no more than a fourth, and its
+  // cube to no less than a third.
   constexpr double change_of_bend = 3;
   const Mask is_near = 16.0 * squared_length_ * step * step < from.rho * from.rho;
   return is_near && change_of_bend * bend * step * step < rounding;
 }
 
-/// Newton, and bisection where it would leave the bounds or does not at least halve its steps, each
-/// beside the last but one.
+/// Finds the root by Newton's iteration. Bisection replaces steps that would leave the bounds or
+/// that are more than half of the last but one.
 template <class Real>
 Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
   Real negative = bracket.negative;
@@ -246,7 +249,7 @@ Real TorusLineOf<Real>::root(const Bracket& bracket, const Mask& wanted) const {
     const Mask is_below = height < 0.0;
     negative = select(is_below, x, negative);
     positive = select(is_below, positive, x);
-    // With the known root divided out, so is its slope: G = x H, H' = (G' - H) / x.
+    // With the known root divided out, its slope is divided out, too: G = x H, H' = (G' - H) / x.
     const Real slope = 2.0 * here.half_slope;
     const Real change = height / (on_surface_ ? Real(slope - height / x) : slope);
     const Real next = x - change;
@@ -284,8 +287,8 @@ auto TorusLineOf<Real>::first_entry(const Mask& wanted) const -> Entry {
            Level::chosen(first.found, first.level, second.level)}};
 }
 
-/// The last span ends behind the last point that is found to be inside; if that is not ahead of the
-/// start, at the start or before it.
+/// The last span ends after the last point that is found to be inside. If that point is not ahead
+/// of the start, the span ends at the start or before it.
 template <class Real>
 auto TorusLineOf<Real>::comes_back(const Mask& wanted) const -> Mask {
   Range whole;
