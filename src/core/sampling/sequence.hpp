@@ -46,6 +46,7 @@ struct Recurrence {
 
 /// This many points are found at once, side by side.
 inline constexpr std::uint32_t points_at_once = octet_size;
+
 constexpr std::array<Column, index_bits> columns() {
   // The first dimension's numbers are all 1: its coordinates are the index read backwards.
   constexpr std::array<Recurrence, sequence_dimensions - 1> recurrences = {

@@ -37,7 +37,8 @@ using plain_bits::reversed;
 
 #ifdef __AVX2__
 
-[[gnu::always_inline]] inline WordLanes low_product(const WordLanes& numbers, std::uint32_t factor) {
+[[gnu::always_inline]] inline WordLanes low_product(const WordLanes& numbers,
+                                                    std::uint32_t factor) {
   return std::bit_cast<WordLanes>(
       _mm256_mul_epu32(std::bit_cast<__m256i>(numbers), _mm256_set1_epi64x(factor)));
 }
