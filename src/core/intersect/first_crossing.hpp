@@ -117,8 +117,8 @@ FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const Pr
 /// Where lines that pass through a box enter it, or else leave it, if that is plainly on one face;
 /// next to an edge it is the exact test that says which face is met. The box has what ProxyBox
 /// calls lower and upper.
-template <class Real, class Box>
-FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings,
+template <class Real>
+FirstCrossing<Real> end_in_box(const EnclosedBox& box, const BoxMeetings<Real>& meetings,
                                const FilterLine<Real>& line, const MaskOf<Real>& enters) {
   // The greatest of three, of which the second must plainly be less.
   const std::array<Real, 3> t = {select(enters, meetings.enter[0], -meetings.leave[0]),
