@@ -19,9 +19,7 @@ class EnclosedLines {
   using Box = IntervalFilter::Box;
 
   EnclosedLines(const FilterLine<Real>& lines, const Real& limits, const Mask& asked)
-      : lines_(lines),
-        asked_(asked),
-        limits_(min(limits, broadcast<Real>(std::numeric_limits<double>::max()))) {
+      : lines_(lines), asked_(asked), limits_(finite(limits)) {
     constexpr double steepest = 0x1p500;
     asked_ = asked_ && lines.squared_length > 1 / steepest && lines.squared_length < steepest;
     for (std::size_t axis = 0; axis < 3; ++axis) {

@@ -135,9 +135,8 @@ Decision<MaskOf<Real>> test_proxy(const BoundingProxy& proxy, const BoundingProx
     return {.rejected = lanes_of_mask<Real>(~std::uint32_t{0}), .accepted = {}};
   }
   last = part.enter_to;
-  const bool may_accept =
-      proxy.kind == BoundingProxy::Kind::plane || (any_will_do && !proxy.encloses);
-  return decide(part, line, limit, may_accept);
+  if (proxy.encloses) return {.rejected = is_outside(part, line, limit), .accepted = {}};
+  return decide(part, line, limit, any_will_do || proxy.kind == BoundingProxy::Kind::plane);
 }
 
 }  // namespace crt::core

@@ -76,16 +76,28 @@ struct Decision {
   Mask accepted;  ///< one surely does
 };
 
+/// Returns a limit below infinity, which is where solids that lines never enter or leave are put.
+template <class Real>
+Real finite(const Real& limit) {
+  return min(limit, broadcast<Real>(std::numeric_limits<double>::max()));
+}
+
+/// Returns whether lines surely are outside between their begin and a limit. It is all that is
+/// certain of what is somewhere within the solid.
+template <class Real>
+MaskOf<Real> is_outside(const Enclosure<Real>& part, const FilterLine<Real>& line,
+                        const Real& limit) {
+  return part.is_outside(line.begin, finite(limit));
+}
+
 /// Decides whether crossings count between a line's begin and a limit. `may_accept` is false where
 /// nobody asks whether one surely does.
 template <class Real>
 auto decide(const Enclosure<Real>& part, const FilterLine<Real>& line, const Real& limit,
             bool may_accept) {
   using Mask = MaskOf<Real>;
-  // Of what never ends the end does not count.
-  const Real end = min(limit, broadcast<Real>(std::numeric_limits<double>::max()));
   Decision<Mask> decision{
-      .rejected = part.is_outside(line.begin, end) || part.is_inside(line.begin, end),
+      .rejected = is_outside(part, line, limit) || part.is_inside(line.begin, finite(limit)),
       .accepted = {}};
   if (!may_accept) return decision;
   const auto counts = [&](const Real& from, const Real& to) {
