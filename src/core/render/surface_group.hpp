@@ -21,18 +21,17 @@ struct SurfaceGroup {
   RayMask sending_on = 0;  ///< those whose materials do not end paths
   RayMask like_first = 0;  ///< those on the same side of the same face as the first of them
   Lanes path_length{};     ///< from the camera
-  VectorLanes light;       ///< that they send back, as far as it has been added up
 };
 
 /// One of them.
 struct SurfaceLane {
-  SurfaceGroup& group;
+  const SurfaceGroup& group;
   std::size_t lane;
 
   Vec3 position() const { return group.position.lane(lane); }
   Vec3 normal() const { return group.phong.normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
-  Rgb light() const { return group.light.lane(lane); }
+  double path_length() const { return group.path_length[static_cast<int>(lane)]; }
 
   /// Of a ray that leaves to the viewer's side.
   StartPoint start() const {
@@ -46,6 +45,14 @@ struct SurfaceLane {
     behind.side = opposite(behind.side);
     return behind;
   }
+};
+
+/// What the rays of a packet meet.
+struct Surfaces {
+  RayMask rays = 0;  ///< those that meet a surface
+  std::array<SurfaceGroup, RayPacket::group_count> groups;
+
+  SurfaceLane of(std::size_t ray) const { return {groups[ray / lane_count], ray % lane_count}; }
 };
 
 }  // namespace crt::core

@@ -1,0 +1,132 @@
+#include "core/render/direct_light.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "core/math/vector.hpp"
+#include "core/render/sample_identity.hpp"
+#include "core/render/shadow.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Returns how far rounding may put a light from surfaces that it is meant to be on.
+Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
+  constexpr double roundings = 16;
+  const Lanes error =
+      roundings * unit_roundoff *
+      fma(light.distances, largest_component(light.directions), largest_component(points));
+  return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
+}
+
+/// Returns the rays whose surfaces any light makes brighter.
+RayMask taking_light(const Surfaces& surfaces) {
+  RayMask taking = 0;
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
+    const PhongSurfaces& phong = surfaces.groups[i].phong;
+    taking |= (lanes & mask_of((phong.diffuse > 0.0) | (phong.specular > 0.0))) << (i * lane_count);
+  });
+  return taking;
+}
+
+/// Lets shadow rays start at some surfaces.
+void start_at(const Surfaces& surfaces, RayMask some, RayBatch& batch) {
+  RayPacket::for_each_group(some, [&](std::size_t i, RayMask) {
+    batch.start_errors[i] = surfaces.groups[i].start_errors;
+  });
+  for_each_ray(some, [&](std::size_t i) {
+    batch.starts[i] = surfaces.groups[i / lane_count].starts[i % lane_count];
+  });
+  batch.with_starts = some;
+}
+
+/// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
+RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
+               ShadowRays& rays) {
+  RayMask aimed = 0;
+  LightSamples& samples = rays.samples;
+  RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
+    const SurfaceGroup& group = surfaces.groups[i];
+    LaneMask lit = lanes_with(lanes);
+    lit &= source.sample(group.position, group.path_length, samples);
+    lit &= dot(samples.directions, group.face_normal) > 0.0;
+    direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
+    lit &= ~is_black(rays.light[i]);
+    aimed |= mask_of(lit) << (i * lane_count);
+    rays.batch.lines[i] = {group.position, samples.directions};
+    rays.batch.t_max[i] = samples.distances;
+    rays.batch.end_errors[i] = light_errors(group.position, samples);
+  });
+  return aimed;
+}
+
+/// Finds what is on the paths of some shadow rays.
+LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const PacketStarts& starts,
+                          RayMask some) {
+  const auto count = static_cast<unsigned>(std::popcount(some));
+  context.work.stats.shadow_rays += count;
+  context.count_rays(count);
+  const PreparedData& data = context.data;
+  RayWorkspace& work = context.work.rays;
+  if (data.features().transparency) return data.paths_to_light(batch, starts, some, work);
+  return {.blocked = data.occluded_each(batch, starts, some, work)};
+}
+
+/// Returns those of some rays that end in a medium, if any medium absorbs light.
+RayMask in_absorbing_media(const PreparedData& data, const PathRays& rays, RayMask some) {
+  RayMask absorbed = 0;
+  if (!data.features().absorption) return absorbed;
+  for_each_ray(some, [&](std::size_t i) {
+    absorbed |= static_cast<RayMask>(rays.states[i].media != MediaLists::empty) << i;
+  });
+  return absorbed;
+}
+
+/// Adds what gets through from all lights to some surfaces and is sent back.
+void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& surfaces, RayMask some,
+                ShadowRays& shadow_rays, PathLight& sum) {
+  Workspace& work = context.work;
+  RayBatch& batch = shadow_rays.batch;
+  start_at(surfaces, some, batch);
+  const PacketStarts starts = context.data.noted_starts(batch, some);
+  std::size_t light_index = 0;
+  for (const PreparedLight& source : context.frame.lights()) {
+    const RayMask sent = aim_at(source, surfaces, some, shadow_rays);
+    const LightPaths paths = paths_to_light(context, batch, starts, sent);
+    if (context.identifies) identify_shadows(rays, light_index, paths.blocked | paths.filtered);
+    ++light_index;
+    const RayMask unblocked = sent & ~paths.blocked;
+    const RayMask filtered = paths.filtered | in_absorbing_media(context.data, rays, unblocked);
+    RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
+      VectorLanes& light = sum.colors[i];
+      light = chosen(lanes_with(lanes), light + shadow_rays.light[i], light);
+    });
+    for_each_ray(filtered, [&](std::size_t i) {
+      const Rgb share = light_share(context.data, batch.ray(i), work.rays.on_paths[i],
+                                    rays.works[i]->media, rays.states[i].media, work);
+      const std::size_t lane = i % lane_count;
+      VectorLanes& light = sum.colors[i / lane_count];
+      light.set(lane, light.lane(lane) + shadow_rays.light[i / lane_count].lane(lane) * share);
+    });
+  }
+}
+
+}  // namespace
+
+PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
+                       ShadowRays& shadow_rays) {
+  PathLight light;
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask) {
+    light.colors[i] = ambient_light(context.frame.ambient(), surfaces.groups[i].reflectivity);
+  });
+  const RayMask taking = taking_light(surfaces);
+  if (taking != 0) add_lights(context, rays, surfaces, taking, shadow_rays, light);
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
+    light.rays |= (lanes & ~mask_of(is_black(light.colors[i]))) << (i * lane_count);
+    light.colors[i] = rays.weights[i] * light.colors[i];
+  });
+  return light;
+}
+
+}  // namespace crt::core
