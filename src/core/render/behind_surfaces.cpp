@@ -115,20 +115,18 @@ Behind behind_surfaces(TraceContext& context, const PathRays& rays, const PathHi
                          surfaces.of(ray),
                          rays.works[ray]->media,
                          rays.states[ray].media};
-    const bool solid = data.is_solid(at.hit);
     Passage passage{.transparency = at_group.transparency[i], .media = at.media};
     if (at.hit.has_coincident) {
       passage.color = at.surface.color();
       pass_coincident(context, at, passage);
       behind.color.set(lane, passage.color);
-    } else if (solid) {
+    } else if (data.is_solid(at.hit)) {
       passage.media = media_behind(context, at);
     }
     behind.transparency[i] = passage.transparency;
     behind.index_before[i] = refractive_index(data, at.lists, at.media);
     behind.index_behind[i] = refractive_index(data, at.lists, passage.media);
     behind.media[lane] = passage.media;
-    behind.into_volumes |= static_cast<RayMask>(solid) << lane;
   });
   return behind;
 }

@@ -12,7 +12,6 @@ struct Behind {
   Lanes index_before = lanes_of(1);  ///< refractive indices
   Lanes index_behind = lanes_of(1);
   std::array<MediaLists::List, lane_count> media{};
-  RayMask into_volumes = 0;  ///< rays that go through solids' surfaces
 };
 
 /// Looks behind some of a group of surfaces. Makes the lists of the media there.

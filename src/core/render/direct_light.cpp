@@ -20,25 +20,18 @@ Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
   return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
 }
 
-/// Returns the rays whose surfaces any light makes brighter.
-RayMask taking_light(const Surfaces& surfaces) {
-  RayMask taking = 0;
+/// Lets shadow rays start at the surfaces that any light makes brighter.
+void start_at(const Surfaces& surfaces, RayBatch& batch) {
+  batch.with_starts = 0;
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
-    const PhongSurfaces& phong = surfaces.groups[i].phong;
-    taking |= (lanes & mask_of((phong.diffuse > 0.0) | (phong.specular > 0.0))) << (i * lane_count);
+    const SurfaceGroup& group = surfaces.groups[i];
+    const LaneMask is_lit = (group.phong.diffuse > 0.0) | (group.phong.specular > 0.0);
+    batch.start_errors[i] = group.start_errors;
+    for_each_ray(lanes & mask_of(is_lit), [&](std::size_t lane) {
+      batch.starts[i * lane_count + lane] = group.starts[lane];
+      batch.with_starts |= RayMask{1} << (i * lane_count + lane);
+    });
   });
-  return taking;
-}
-
-/// Lets shadow rays start at some surfaces.
-void start_at(const Surfaces& surfaces, RayMask some, RayBatch& batch) {
-  RayPacket::for_each_group(some, [&](std::size_t i, RayMask) {
-    batch.start_errors[i] = surfaces.groups[i].start_errors;
-  });
-  for_each_ray(some, [&](std::size_t i) {
-    batch.starts[i] = surfaces.groups[i / lane_count].starts[i % lane_count];
-  });
-  batch.with_starts = some;
 }
 
 /// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
@@ -83,12 +76,14 @@ RayMask in_absorbing_media(const PreparedData& data, const PathRays& rays, RayMa
   return absorbed;
 }
 
-/// Adds what gets through from all lights to some surfaces and is sent back.
-void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& surfaces, RayMask some,
+/// Adds what gets through from all lights to surfaces and is sent back.
+void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
                 ShadowRays& shadow_rays, PathLight& sum) {
   Workspace& work = context.work;
   RayBatch& batch = shadow_rays.batch;
-  start_at(surfaces, some, batch);
+  start_at(surfaces, batch);
+  const RayMask some = batch.with_starts;
+  if (some == 0) return;
   const PacketStarts starts = context.data.noted_starts(batch, some);
   std::size_t light_index = 0;
   for (const PreparedLight& source : context.frame.lights()) {
@@ -120,8 +115,7 @@ PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfac
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask) {
     light.colors[i] = ambient_light(context.frame.ambient(), surfaces.groups[i].reflectivity);
   });
-  const RayMask taking = taking_light(surfaces);
-  if (taking != 0) add_lights(context, rays, surfaces, taking, shadow_rays, light);
+  add_lights(context, rays, surfaces, shadow_rays, light);
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
     light.rays |= (lanes & ~mask_of(is_black(light.colors[i]))) << (i * lane_count);
     light.colors[i] = rays.weights[i] * light.colors[i];
