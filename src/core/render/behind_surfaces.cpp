@@ -7,90 +7,86 @@ namespace crt::core {
 
 namespace {
 
-/// A path ray at its hit.
-struct RayAtHit {
-  const RayBatch& batch;
+/// A Passage is a path ray that goes on through the place of its hit, and what it finds there.
+struct Passage {
+  TraceContext& context;
+  const PathRays& rays;
   std::size_t ray;
   const RayHit& hit;
   SurfaceLane surface;
-  MediaLists& lists;
-  MediaLists::List media;  ///< before the hit
+  MediaLists& lists = rays.works[ray]->media;
+  MediaLists::List media = rays.states[ray].media;  ///< behind what has been passed
+  double transparency = surface.transparency();     ///< of all surfaces there together
+  Rgb color = surface.color();
 
-  /// Returns the ray that goes straight on.
-  WorldRay behind() const {
-    return {.origin = surface.position(),
-            .direction = batch.direction(ray),
-            .start = surface.start_behind()};
+  /// Asks whether the ray is in a solid just behind the hit, and where it leaves it.
+  Stay stay(std::uint32_t object) const {
+    const WorldRay behind = {.origin = surface.position(),
+                             .direction = rays.batch.direction(ray),
+                             .start = surface.start_behind()};
+    return context.data.stay(behind, object, context.work.rays);
   }
 };
 
-/// What a ray that goes on through a hit's place finds.
-struct Passage {
-  double transparency = 0;  ///< of all surfaces there together
-  Rgb color{1, 1, 1};
-  MediaLists::List media = MediaLists::empty;  ///< behind them
-};
-
-/// Returns the media behind the surface of a solid that is alone at its place.
-MediaLists::List media_behind(TraceContext& context, const RayAtHit& at) {
-  const PreparedData& data = context.data;
-  if (!at.hit.entering) return at.lists.left(at.media, at.hit.object);
-  return entered_in_order(
-      at.lists, at.media, {at.hit.object, data.hit_material(at.hit)},
-      [&](std::uint32_t object) { return data.stay(at.behind(), object, context.work.rays).exit; });
+/// Takes a crossing into the media behind the place.
+void cross(Passage& passage, const RayHit& crossing) {
+  if (!crossing.entering) {
+    passage.media = passage.lists.left(passage.media, crossing.object);
+  } else {
+    const Medium entered{crossing.object, passage.context.data.hit_material(crossing)};
+    passage.media =
+        entered_in_order(passage.lists, passage.media, entered,
+                         [&](std::uint32_t object) { return passage.stay(object).exit; });
+  }
 }
 
-/// Takes one of the crossings at or near a hit's place into what the ray finds. Solids that it
-/// enters there are put aside in Workspace::entered.
-void pass(TraceContext& context, const RayAtHit& at, const WorldRay& before, const WorldRay& behind,
-          const RayHit& crossing, bool is_at_place, Passage& passage) {
-  const PreparedData& data = context.data;
-  Workspace& work = context.work;
-  context.count_rays(1);
-  const bool solid = data.is_solid(crossing);
-  // A ray that starts at the hit finds some crossings next to it behind itself, whatever rounding
-  // makes of their order. What it starts inside of tells which of them it has passed.
-  const bool passed =
-      solid ? data.stay(behind, crossing.object, work.rays).inside == crossing.entering
-            : is_at_place || crossing.t - at.hit.t <= behind.start.t_error;
-  if (!passed) return;
-  if (crossing.leaf != at.hit.leaf || crossing.face != at.hit.face ||
-      crossing.root != at.hit.root) {
-    const CrossingFilter filter = crossing_filter(data, before, crossing, work.stats);
-    passage.transparency *= filter.transparency;
-    passage.color = bounded_share(passage.color * filter.color);
-  }
-  if (!solid) return;
-  if (!crossing.entering) {
-    passage.media = at.lists.left(passage.media, crossing.object);
-  } else if (!at.lists.holds(at.media, crossing.object) &&
-             work.entered.size() < most_media_at_once) {
-    work.entered.push_back(crossing);
-  }
+/// Returns the crossings at or near a hit that the ray passes when it goes on. A ray that starts at
+/// the hit finds some crossings next to it behind itself, whatever rounding makes of their order.
+/// What it starts inside of tells which of them it has passed.
+const std::vector<RayHit>& passed_crossings(const Passage& passage, const WorldRay& before) {
+  const PreparedData& data = passage.context.data;
+  Workspace& work = passage.context.work;
+  data.intersect(before, work.rays);  // Others have been asked for since it was.
+  std::vector<RayHit>& passed = work.crossings;
+  passed.clear();
+  const auto add_passed = [&](const RayHit& crossing, bool is_at_place) {
+    passage.context.count_rays(1);
+    const bool is_passed =
+        data.is_solid(crossing)
+            ? passage.stay(crossing.object).inside == crossing.entering
+            : is_at_place || crossing.t - passage.hit.t <= passage.surface.start().t_error;
+    if (is_passed) passed.push_back(crossing);
+  };
+  for (const RayHit& crossing : work.rays.here) add_passed(crossing, true);
+  for (const RayHit& crossing : work.rays.near) add_passed(crossing, false);
+  return passed;
 }
 
 /// Goes through the surfaces of several objects at one place.
-void pass_coincident(TraceContext& context, const RayAtHit& at, Passage& passage) {
-  const PreparedData& data = context.data;
-  Workspace& work = context.work;
-  const WorldRay before = at.batch.ray(at.ray);
-  const WorldRay behind = at.behind();
-  data.intersect(before, work.rays);  // Others have been asked for since it was.
+void pass_coincident(Passage& passage) {
+  const PreparedData& data = passage.context.data;
+  Workspace& work = passage.context.work;
+  const RayHit& hit = passage.hit;
+  const WorldRay before = passage.rays.batch.ray(passage.ray);
+  const MediaLists::List media_before = passage.media;
   work.entered.clear();
-  for (const RayHit& crossing : work.rays.here) {
-    pass(context, at, before, behind, crossing, true, passage);
+  for (const RayHit& crossing : passed_crossings(passage, before)) {
+    if (crossing.leaf != hit.leaf || crossing.face != hit.face || crossing.root != hit.root) {
+      const CrossingFilter filter = crossing_filter(data, before, crossing, work.stats);
+      passage.transparency *= filter.transparency;
+      passage.color = bounded_share(passage.color * filter.color);
+    }
+    if (!data.is_solid(crossing)) continue;
+    if (!crossing.entering) {
+      cross(passage, crossing);
+    } else if (!passage.lists.holds(media_before, crossing.object) &&
+               work.entered.size() < most_media_at_once) {
+      work.entered.push_back(crossing);
+    }
   }
-  for (const RayHit& crossing : work.rays.near) {
-    pass(context, at, before, behind, crossing, false, passage);
-  }
-  const auto exit_of = [&](std::uint32_t object) {
-    return data.stay(behind, object, work.rays).exit;
-  };
-  sort_outermost_first(work.entered, exit_of);
-  for (const RayHit& crossing : work.entered) {
-    const Medium medium{crossing.object, data.hit_material(crossing)};
-    passage.media = entered_in_order(at.lists, passage.media, medium, exit_of);
-  }
+  sort_outermost_first(work.entered,
+                       [&](std::uint32_t object) { return passage.stay(object).exit; });
+  for (const RayHit& crossing : work.entered) cross(passage, crossing);
 }
 
 double refractive_index(const PreparedData& data, const MediaLists& lists, MediaLists::List media) {
@@ -104,28 +100,21 @@ double refractive_index(const PreparedData& data, const MediaLists& lists, Media
 Behind behind_surfaces(TraceContext& context, const PathRays& rays, const PathHits& hits,
                        const Surfaces& surfaces, std::size_t group, RayMask lanes) {
   const PreparedData& data = context.data;
-  const SurfaceGroup& at_group = surfaces.groups[group];
-  Behind behind{.color = at_group.phong.color};
+  Behind behind;
+  behind.color = surfaces.groups[group].phong.color;
   for_each_ray(lanes, [&](std::size_t lane) {
     const std::size_t ray = group * lane_count + lane;
     const auto i = static_cast<int>(lane);
-    const RayAtHit at = {rays.batch,
-                         ray,
-                         hits.hits[ray],
-                         surfaces.of(ray),
-                         rays.works[ray]->media,
-                         rays.states[ray].media};
-    Passage passage{.transparency = at_group.transparency[i], .media = at.media};
-    if (at.hit.has_coincident) {
-      passage.color = at.surface.color();
-      pass_coincident(context, at, passage);
+    Passage passage{context, rays, ray, hits.hits[ray], surfaces.of(ray)};
+    behind.index_before[i] = refractive_index(data, passage.lists, passage.media);
+    if (passage.hit.has_coincident) {
+      pass_coincident(passage);
       behind.color.set(lane, passage.color);
-    } else if (data.is_solid(at.hit)) {
-      passage.media = media_behind(context, at);
+    } else if (data.is_solid(passage.hit)) {
+      cross(passage, passage.hit);
     }
     behind.transparency[i] = passage.transparency;
-    behind.index_before[i] = refractive_index(data, at.lists, at.media);
-    behind.index_behind[i] = refractive_index(data, at.lists, passage.media);
+    behind.index_behind[i] = refractive_index(data, passage.lists, passage.media);
     behind.media[lane] = passage.media;
   });
   return behind;

@@ -1,11 +1,11 @@
-// What is behind transparent surfaces, for the rays that go on through them.
+// This looks behind transparent surfaces, for the rays that go on through them.
 #pragma once
 
 #include "core/render/path_hits.hpp"
 
 namespace crt::core {
 
-/// What is behind a group of surfaces, and how much of the light from there gets through.
+/// Behind a group of surfaces are these media, and so much of the light from there gets through.
 struct Behind {
   Lanes transparency{};  ///< where it is 0, the rest means nothing
   VectorLanes color;

@@ -66,16 +66,6 @@ LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const Pa
   return {.blocked = data.occluded_each(batch, starts, some, work)};
 }
 
-/// Returns those of some rays that end in a medium, if any medium absorbs light.
-RayMask in_absorbing_media(const PreparedData& data, const PathRays& rays, RayMask some) {
-  RayMask absorbed = 0;
-  if (!data.features().absorption) return absorbed;
-  for_each_ray(some, [&](std::size_t i) {
-    absorbed |= static_cast<RayMask>(rays.states[i].media != MediaLists::empty) << i;
-  });
-  return absorbed;
-}
-
 /// Adds what gets through from all lights to surfaces and is sent back.
 void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
                 ShadowRays& shadow_rays, PathLight& sum) {
@@ -85,6 +75,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
   const RayMask some = batch.with_starts;
   if (some == 0) return;
   const PacketStarts starts = context.data.noted_starts(batch, some);
+  const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
   std::size_t light_index = 0;
   for (const PreparedLight& source : context.frame.lights()) {
     const RayMask sent = aim_at(source, surfaces, some, shadow_rays);
@@ -92,7 +83,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
     if (context.identifies) identify_shadows(rays, light_index, paths.blocked | paths.filtered);
     ++light_index;
     const RayMask unblocked = sent & ~paths.blocked;
-    const RayMask filtered = paths.filtered | in_absorbing_media(context.data, rays, unblocked);
+    const RayMask filtered = paths.filtered | (unblocked & absorbed);
     RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
       VectorLanes& light = sum.colors[i];
       light = chosen(lanes_with(lanes), light + shadow_rays.light[i], light);
@@ -112,6 +103,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
 PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
                        ShadowRays& shadow_rays) {
   PathLight light;
+  if (surfaces.rays == 0) return light;
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask) {
     light.colors[i] = ambient_light(context.frame.ambient(), surfaces.groups[i].reflectivity);
   });

@@ -1,11 +1,11 @@
-// The light that surfaces send back along paths, straight from the lights.
+// Direct light is what surfaces send back along paths of the light that comes straight from lights.
 #pragma once
 
 #include "core/render/path_hits.hpp"
 
 namespace crt::core {
 
-/// Memory for the rays from a round's surfaces to a light.
+/// ShadowRays are memory for the rays from a round's surfaces to a light.
 struct ShadowRays {
   RayBatch batch;
   std::array<VectorLanes, RayPacket::group_count> light;  ///< that comes if they meet nothing

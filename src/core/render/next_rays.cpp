@@ -14,14 +14,14 @@ namespace {
 /// recursion would not end in a lifetime. With weights that add up to 1 it is never reached.
 constexpr int most_rays_per_sample = 65536;
 
-/// Those rays of a group that go on in one way.
+/// A Branch is the rays of a group that go on in one way.
 struct Branch {
   RayMask rays = 0;
   VectorLanes directions;
   VectorLanes weights;
 };
 
-/// The rays that surfaces of a group send on.
+/// A Split is all rays that surfaces of a group send on.
 struct Split {
   Branch mirrored;
   Branch refracted;
@@ -76,101 +76,76 @@ bool is_worth_it(TraceContext& context, const PathState& before, const Rgb& weig
   return false;
 }
 
-/// Lets a sample follow a ray in the next round.
-void follow(RenderStats& stats, const PathRay& ray, SampleWork& work, Sample& sample,
-            PathRays& next) {
-  ++(ray.path.kind == RayKind::reflection ? stats.reflection_rays : stats.refraction_rays);
-  next.add(ray, work, sample);
-}
-
-/// Sends on what goes on from the surface that a ray meets. Returns whether the next round has a
-/// ray of it.
-bool send_on(TraceContext& context, const PathRays& rays, const RayHit& hit,
-             const SurfaceLane& from, std::size_t ray, const Split& split, PathRays& next) {
-  RenderStats& stats = context.work.stats;
-  const PathState& state = rays.states[ray];
-  SampleWork& work = *rays.works[ray];
-  Sample& sample = *rays.samples[ray];
-  const auto has = [&](const Branch& branch) {
-    return (branch.rays >> from.lane & 1u) != 0 &&
-           is_worth_it(context, state, branch.weights.lane(from.lane), sample);
-  };
-  const auto send = [&](const Branch& branch, const StartPoint& start, bool waits, RayKind kind,
-                        MediaLists::List media, std::uint32_t media_mark) {
-    const PathRay sent = {
-        .origin = from.position(),
-        .direction = branch.directions.lane(from.lane),
-        .start = start,
-        .weight = branch.weights.lane(from.lane),
-        .path = {kind, state.bounces + 1, from.path_length(), media, media_mark},
+/// Puts the rays that some of a group of surfaces send on onto their samples' stacks, that which
+/// goes through a surface last. Returns which samples got any.
+RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hits,
+                const Surfaces& surfaces, std::size_t group, RayMask some) {
+  const Split parts = split(context, rays, hits, surfaces, group, some);
+  RayMask sent = 0;
+  for_each_ray(some, [&](std::size_t lane) {
+    const std::size_t ray = group * lane_count + lane;
+    const SurfaceLane from = surfaces.of(ray);
+    const PathState& state = rays.states[ray];
+    SampleWork& work = *rays.works[ray];
+    const auto send = [&](const Branch& branch, RayKind kind, MediaLists::List media,
+                          std::uint32_t media_mark) {
+      if ((branch.rays >> lane & 1u) == 0) return false;
+      const Rgb weight = branch.weights.lane(lane);
+      if (!is_worth_it(context, state, weight, *rays.samples[ray])) return false;
+      PathRay& next = work.pending.push();
+      next.origin = from.position();
+      next.direction = branch.directions.lane(lane);
+      next.start = kind == RayKind::reflection ? from.start() : from.start_behind();
+      next.weight = weight;
+      next.path = {kind, state.bounces + 1, from.path_length(), media, media_mark};
+      sent |= RayMask{1} << lane;
+      return true;
     };
-    if (!waits) return follow(stats, sent, work, sample, next);
-    work.pending.push() = sent;
-    ++next.waiting;
-  };
-  const bool is_mirrored = has(split.mirrored);
-  const bool is_refracted = has(split.refracted);
-  const bool waits = work.rays == most_rays_per_sample;
-  // What goes through is followed first. Media lists made for it are dropped before the other's
-  // turn.
-  if (is_mirrored) {
-    if (!is_refracted) work.media.release(state.media_mark);
-    send(split.mirrored, from.start(), waits || is_refracted, RayKind::reflection, state.media,
-         state.media_mark);
-  }
-  if (is_refracted) {
-    stats.media_changes += context.data.is_solid(hit) ? 1 : 0;
-    send(split.refracted, from.start_behind(), waits, RayKind::refraction,
-         split.media_behind[from.lane], work.media.mark());
-  }
-  return !waits && (is_mirrored || is_refracted);
+    send(parts.mirrored, RayKind::reflection, state.media, state.media_mark);
+    const bool goes_through =
+        send(parts.refracted, RayKind::refraction, parts.media_behind[lane], work.media.mark());
+    const bool enters_or_leaves = goes_through && context.data.is_solid(hits.hits[ray]);
+    context.work.stats.media_changes += enters_or_leaves ? 1 : 0;
+  });
+  return sent;
 }
 
-/// Takes up the last ray that waits of a sample.
+/// Takes the last ray from a sample's stack, if there is one, into the next round.
 void pop(RenderStats& stats, SampleWork& work, Sample& sample, PathRays& next) {
+  PathStack& stack = work.pending;
+  if (stack.empty()) return;
   if (work.rays == most_rays_per_sample) {
     ++stats.samples_over_ray_bound;
-    for (const PathRay& dropped : work.pending.all()) {
-      sample.dropped += largest_component(dropped.weight);
-    }
-    next.waiting -= work.pending.all().size();
-    work.pending.clear();
+    for (const PathRay& dropped : stack.all()) sample.dropped += largest_component(dropped.weight);
+    stack.clear();
     return;
   }
-  const PathRay& last = work.pending.top();
-  follow(stats, last, work, sample, next);
+  const PathRay& last = stack.top();
+  const bool is_refracted = last.path.kind == RayKind::refraction;
+  ++(is_refracted ? stats.refraction_rays : stats.reflection_rays);
+  next.add(last, work, sample);
   work.media.release(last.path.media_mark);
-  work.pending.pop();
-  --next.waiting;
+  stack.pop();
 }
 
 }  // namespace
 
-PathRays& next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits,
-                    const Surfaces& surfaces, PathRays& next) {
-  RenderStats& stats = context.work.stats;
-  next.clear();
-  next.waiting = rays.waiting;
+void next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits,
+               const Surfaces& surfaces, PathRays& next) {
+  next.count = 0;
+  next.batch.with_starts = 0;
+  const Features& features = context.data.features();
+  if (!features.reflection && !features.transparency) return;
   for (std::size_t group = 0; group * lane_count < rays.count; ++group) {
-    RayMask done = RayPacket::lanes(rays.all(), group);
-    const SurfaceGroup& from = surfaces.groups[group];
-    const RayMask splitting = RayPacket::lanes(surfaces.rays, group) & from.sending_on;
-    if (splitting != 0) {
-      const Split parts = split(context, rays, hits, surfaces, group, splitting);
-      for_each_ray(splitting, [&](std::size_t lane) {
-        const std::size_t ray = group * lane_count + lane;
-        const bool goes_on = send_on(context, rays, hits.hits[ray], {from, lane}, ray, parts, next);
-        done &= ~(static_cast<RayMask>(goes_on) << lane);
-      });
-    }
-    if (next.waiting == 0) continue;
-    for_each_ray(done, [&](std::size_t lane) {
+    const RayMask some = RayPacket::lanes(surfaces.rays, group) & surfaces.groups[group].sending_on;
+    const RayMask sent = some == 0 ? 0 : send_on(context, rays, hits, surfaces, group, some);
+    const auto pop_of = [&](std::size_t lane) {
       const std::size_t ray = group * lane_count + lane;
-      SampleWork& work = *rays.works[ray];
-      if (!work.pending.empty()) pop(stats, work, *rays.samples[ray], next);
-    });
+      pop(context.work.stats, *rays.works[ray], *rays.samples[ray], next);
+    };
+    for_each_ray(sent, pop_of);
+    for_each_ray(RayPacket::lanes(rays.all(), group) & ~sent, pop_of);
   }
-  return next;
 }
 
 }  // namespace crt::core

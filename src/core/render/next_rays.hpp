@@ -5,11 +5,10 @@
 
 namespace crt::core {
 
-/// Fills `next` with one ray for each sample that has one left. Surfaces send mirrored and
-/// refracted rays on, but for those too deep or of too little weight. Where a surface sends two,
-/// the refracted one is followed first and the other waits on its sample's stack. Samples whose
-/// path ends take up what waits there last.
-PathRays& next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits,
-                    const Surfaces& surfaces, PathRays& next);
+/// Fills `next` with one ray for each sample that has one left. Surfaces put mirrored and refracted
+/// rays onto the samples' stacks, unless these are too deep or of too little weight. Then each
+/// sample takes the last ray from its stack.
+void next_rays(TraceContext& context, const PathRays& rays, const PathHits& hits,
+               const Surfaces& surfaces, PathRays& next);
 
 }  // namespace crt::core

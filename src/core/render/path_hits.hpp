@@ -1,4 +1,4 @@
-// What the rays of a round meet, and what of it is seen.
+// These steps of the loop find what the rays of a round meet, and what of it is seen.
 #pragma once
 
 #include "core/render/path_rays.hpp"
@@ -7,28 +7,26 @@
 
 namespace crt::core {
 
-/// Where the rays of a round end, each in one of the masks as long as light from there gets
-/// through.
+/// PathHits are where the rays of a round end.
 struct PathHits {
   std::array<RayHit, packet_size> hits;
-  RayMask on_surface = 0;
-  RayMask on_background = 0;
+  RayMask found = 0;  ///< rays that have met a surface
+  RayMask seen = 0;   ///< rays from whose ends light gets through
 
-  std::span<const RayHit, lane_count> of_group(std::size_t group) const {
-    return std::span(hits).subspan(group * lane_count).first<lane_count>();
-  }
+  RayMask on_surface() const { return found & seen; }
+  RayMask on_background() const { return seen & ~found; }
 };
 
 /// Finds what the rays meet first. Where several objects have surfaces at that place, the hit is of
 /// the one that lets the least light through, of equal ones the one that was written first.
 PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits);
 
-/// Takes from the rays' weights what the media around them absorb on the way to their hits, and
-/// from the masks those of which nothing is left.
+/// Takes from the rays' weights what the media around them absorb on the way to their hits. The
+/// hits of those of which nothing is left are not seen.
 void absorb(const TraceContext& context, PathRays& rays, PathHits& hits);
 
-/// Looks up the surfaces that the rays have met.
+/// Looks up the surfaces that are seen, and the others too if they are asked for.
 const Surfaces& surfaces_of(TraceContext& context, const PathRays& rays, const PathHits& hits,
-                            Surfaces& surfaces);
+                            bool with_unseen, Surfaces& surfaces);
 
 }  // namespace crt::core

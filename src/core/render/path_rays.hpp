@@ -1,4 +1,4 @@
-// The rays that samples follow side by side, and the light that comes along them.
+// Samples follow these rays side by side, and this light comes along them.
 #pragma once
 
 #include <array>
@@ -8,7 +8,7 @@
 
 namespace crt::core {
 
-/// What comes along a camera ray.
+/// A Sample is what comes along a camera ray.
 struct Sample {
   Lanes channels{0, 0, 0, 1};  ///< red, green and blue, premultiplied with the last: alpha
   /// The weight of rays that were not followed, of the channel that lost most.
@@ -16,11 +16,10 @@ struct Sample {
   std::uint64_t identity = 0;  ///< see sample_identity.hpp; 0 if nobody asks for it
 };
 
-/// The rays of one round: one for each sample that is not done. They are known by their numbers.
-/// Either all of them come from the camera, or none does.
+/// PathRays are those of one round: one for each sample that is not done. They are known by their
+/// numbers. Either all of them come from the camera, or none does.
 struct PathRays {
   std::size_t count = 0;
-  std::size_t waiting = 0;  ///< further rays, on the stacks of all samples
   RayBatch batch;
   std::array<VectorLanes, RayPacket::group_count> weights;  ///< shares of the pixels' light
   std::array<PathState, packet_size> states;
@@ -29,13 +28,16 @@ struct PathRays {
 
   bool empty() const { return count == 0; }
   RayMask all() const { return RayPacket::all(count); }
+  /// Returns those that start within a transparent solid.
+  RayMask in_media() const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      mask |= static_cast<RayMask>(states[i].media != MediaLists::empty) << i;
+    }
+    return mask;
+  }
   bool are_from_camera() const { return states[0].kind == RayKind::camera; }
 
-  /// Removes all rays that do not wait.
-  void clear() {
-    count = 0;
-    batch.with_starts = 0;
-  }
   /// Adds the ray that a sample follows next.
   void add(const PathRay& ray, SampleWork& work, Sample& sample) {
     batch.set(count, ray.origin, ray.direction, ray.start);
@@ -48,7 +50,7 @@ struct PathRays {
   }
 };
 
-/// Light that reaches the camera along some rays of a round.
+/// A PathLight reaches the camera along some rays of a round.
 struct PathLight {
   RayMask rays = 0;
   std::array<VectorLanes, RayPacket::group_count> colors;

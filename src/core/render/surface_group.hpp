@@ -19,7 +19,6 @@ struct SurfaceGroup {
   Lanes reflectivity{};     ///< of the materials
   Lanes transparency{};
   RayMask sending_on = 0;  ///< those whose materials do not end paths
-  RayMask like_first = 0;  ///< those on the same side of the same face as the first of them
   Lanes path_length{};     ///< from the camera
 };
 
@@ -31,6 +30,7 @@ struct SurfaceLane {
   Vec3 position() const { return group.position.lane(lane); }
   Vec3 normal() const { return group.phong.normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
+  double transparency() const { return group.transparency[static_cast<int>(lane)]; }
   double path_length() const { return group.path_length[static_cast<int>(lane)]; }
 
   /// Of a ray that leaves to the viewer's side.
@@ -47,7 +47,7 @@ struct SurfaceLane {
   }
 };
 
-/// What the rays of a packet meet.
+/// Surfaces are what the rays of a packet meet.
 struct Surfaces {
   RayMask rays = 0;  ///< those that meet a surface
   std::array<SurfaceGroup, RayPacket::group_count> groups;

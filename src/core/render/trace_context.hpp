@@ -1,4 +1,4 @@
-// What all steps of the tracer's loop share.
+// All steps of the tracer's loop share this context.
 #pragma once
 
 #include "core/render/frame.hpp"
@@ -6,7 +6,7 @@
 
 namespace crt::core {
 
-/// What is rendered, and the memory and the counts of the thread that renders it.
+/// The context holds what is rendered, and the memory and counts of the thread that renders it.
 struct TraceContext {
   const Frame& frame;
   const PreparedData& data;

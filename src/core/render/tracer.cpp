@@ -4,7 +4,6 @@
 
 #include "core/render/next_rays.hpp"
 #include "core/render/sample_identity.hpp"
-#include "core/render/surface_hit.hpp"
 
 namespace crt::core {
 
@@ -16,15 +15,13 @@ MediaLists::List nested(MediaLists& lists, const std::vector<Medium>& outermost_
   return list;
 }
 
-/// Adds what the rays see that hit nothing.
-void add_background(const PreparedBackground& background, const PathRays& rays, RayMask some) {
-  if (some == 0) return;
-  // Only to the camera the background may be transparent.
+/// Adds what the rays see that hit nothing. Only to the camera the background may be transparent.
+void add_background(const TraceContext& context, const PathRays& rays, const PathHits& hits) {
   const bool is_seen_through = rays.are_from_camera();
-  PathLight light;
-  light.rays = some;
-  RayPacket::for_each_group(some, [&](std::size_t group, RayMask lanes) {
-    const ColorLanes seen = background.colors(rays.batch.lines[group].direction, lanes);
+  PathLight light{.rays = hits.on_background(), .colors = {}};
+  RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
+    const ColorLanes seen =
+        context.data.background().colors(rays.batch.lines[group].direction, lanes);
     const VectorLanes& weights = rays.weights[group];
     light.colors[group] = (is_seen_through ? seen.alpha * weights : weights) * seen.color;
     if (!is_seen_through) return;
@@ -36,21 +33,12 @@ void add_background(const PreparedBackground& background, const PathRays& rays, 
   add(rays.samples, light);
 }
 
-/// Says what camera rays have met, also where a medium before it lets no light through.
-void report(TraceContext& context, const PathRays& rays, const PathHits& hits,
-            const Surfaces& surfaces, std::span<FirstHit> first_hits) {
-  SurfaceGroup unseen;
+/// Writes down what camera rays have met, also where a medium before it lets no light through.
+void report(const PathHits& hits, const Surfaces& surfaces, std::span<FirstHit> first_hits) {
   for (std::size_t i = 0; i < first_hits.size(); ++i) {
     first_hits[i] = {};
     if (!hits.hits[i].found()) continue;
-    const std::size_t lane = i % lane_count;
-    const bool is_seen = (surfaces.rays >> i & 1u) != 0;
-    if (!is_seen) {
-      look_up(context.data, rays.batch.lines[i / lane_count], hits.of_group(i / lane_count),
-              RayMask{1} << lane, unseen, context.work);
-    }
-    const SurfaceLane surface = {is_seen ? surfaces.groups[i / lane_count] : unseen, lane};
-    first_hits[i] = {.normal = surface.normal(), .color = surface.color()};
+    first_hits[i] = {.normal = surfaces.of(i).normal(), .color = surfaces.of(i).color()};
   }
 }
 
@@ -70,15 +58,17 @@ Tracer::Tracer(const Frame& frame, Workspace& work, Progress& progress)
 void Tracer::trace(std::span<const RayLanes> camera_rays, std::span<Sample> samples,
                    std::span<FirstHit> first_hits) {
   PathRays* rays = &start(camera_rays, samples);
+  PathRays* next = &rays_[1];
   while (!rays->empty()) {
     PathHits& hits = intersect(context_, *rays, hits_);
     absorb(context_, *rays, hits);
-    const Surfaces& surfaces = surfaces_of(context_, *rays, hits, surfaces_);
-    report(context_, *rays, hits, surfaces, std::exchange(first_hits, {}));
-    if (context_.identifies) identify_hits(context_.data, *rays, hits, surfaces);
-    add_background(context_.data.background(), *rays, hits.on_background);
+    const Surfaces& surfaces = surfaces_of(context_, *rays, hits, !first_hits.empty(), surfaces_);
+    report(hits, surfaces, std::exchange(first_hits, {}));
+    if (context_.identifies) identify_hits(context_.data, *rays, hits);
+    add_background(context_, *rays, hits);
     add(rays->samples, direct_light(context_, *rays, surfaces, shadow_rays_));
-    rays = &next_rays(context_, *rays, hits, surfaces, rays == &rays_[0] ? rays_[1] : rays_[0]);
+    next_rays(context_, *rays, hits, surfaces, *next);
+    std::swap(rays, next);
   }
 }
 
@@ -99,7 +89,6 @@ void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> p
 PathRays& Tracer::start(std::span<const RayLanes> camera_rays, std::span<Sample> samples) {
   PathRays& rays = rays_[0];
   rays.count = samples.size();
-  rays.waiting = 0;
   Frame::set_camera_rays(camera_rays, rays.batch);
   rays.weights.fill(lanes_of(Rgb(1)));
   for (std::size_t i = 0; i < rays.count; ++i) {
@@ -108,21 +97,22 @@ PathRays& Tracer::start(std::span<const RayLanes> camera_rays, std::span<Sample>
     rays.works[i] = &context_.work.samples[i];
     rays.works[i]->rays = 1;
     rays.states[i] = camera_state_;
-    if (context_.data.features().transparency) surround(rays, i);
   }
+  if (context_.data.features().transparency) start_media(rays);
   context_.work.stats.camera_rays += rays.count;
   return rays;
 }
 
-void Tracer::surround(PathRays& rays, std::size_t ray) {
-  MediaLists& lists = rays.works[ray]->media;
-  PathState& state = rays.states[ray];
-  lists.release(camera_state_.media_mark);
-  if (context_.frame.one_viewpoint()) return;
+void Tracer::start_media(PathRays& rays) {
   std::vector<Medium>& surrounding = context_.work.surrounding;
-  find_surrounding_media(context_.data, rays.batch.ray(ray), surrounding, context_.work);
-  state.media = nested(lists, surrounding);
-  state.media_mark = lists.mark();
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    MediaLists& lists = rays.works[i]->media;
+    lists.release(camera_state_.media_mark);
+    if (context_.frame.one_viewpoint()) continue;
+    find_surrounding_media(context_.data, rays.batch.ray(i), surrounding, context_.work);
+    rays.states[i].media = nested(lists, surrounding);
+    rays.states[i].media_mark = lists.mark();
+  }
 }
 
 }  // namespace crt::core

@@ -35,8 +35,8 @@ class Tracer {
  private:
   /// Returns the rays of the first round.
   PathRays& start(std::span<const RayLanes> camera_rays, std::span<Sample> samples);
-  /// Puts the media around a camera ray into its state.
-  void surround(PathRays& rays, std::size_t ray);
+  /// Finds what solids their rays start in.
+  void start_media(PathRays& rays);
 
   TraceContext context_;
   PathState camera_state_;  ///< of all rays that start in Frame::camera_media()
