@@ -1,7 +1,5 @@
 #include "core/render/next_rays.hpp"
 
-#include <tuple>
-
 #include "core/math/vector.hpp"
 #include "core/render/behind_surfaces.hpp"
 #include "core/shading/fresnel.hpp"
@@ -39,7 +37,8 @@ Split split(TraceContext& context, const PathRays& rays, const PathHits& hits,
             const Surfaces& surfaces, std::size_t group, RayMask some) {
   Split split;
   const SurfaceGroup& from = surfaces.groups[group];
-  const auto& [view, normal] = std::tie(from.phong.view, from.phong.normal);
+  const VectorLanes& view = from.phong.view;
+  const VectorLanes& normal = from.phong.normal;
   const VectorLanes& weights = rays.weights[group];
   Lanes mirrored_share = from.reflectivity;
   const RayMask transparent = some & mask_of(from.transparency > 0.0);
@@ -89,23 +88,21 @@ RayMask send_on(TraceContext& context, const PathRays& rays, const PathHits& hit
     SampleWork& work = *rays.works[ray];
     const auto send = [&](const Branch& branch, RayKind kind, MediaLists::List media,
                           std::uint32_t media_mark) {
-      if ((branch.rays >> lane & 1u) == 0) return false;
+      if ((branch.rays >> lane & 1u) == 0) return;
       const Rgb weight = branch.weights.lane(lane);
-      if (!is_worth_it(context, state, weight, *rays.samples[ray])) return false;
-      PathRay& next = work.pending.push();
+      if (!is_worth_it(context, state, weight, *rays.samples[ray])) return;
+      const bool goes_through = kind == RayKind::refraction;
+      PathRay& next = work.pending.push();  // Filled in place, which is faster than a copy.
       next.origin = from.position();
       next.direction = branch.directions.lane(lane);
-      next.start = kind == RayKind::reflection ? from.start() : from.start_behind();
+      next.start = goes_through ? from.start_behind() : from.start();
       next.weight = weight;
       next.path = {kind, state.bounces + 1, from.path_length(), media, media_mark};
       sent |= RayMask{1} << lane;
-      return true;
+      context.work.stats.media_changes += goes_through && context.data.is_solid(hits.hits[ray]);
     };
     send(parts.mirrored, RayKind::reflection, state.media, state.media_mark);
-    const bool goes_through =
-        send(parts.refracted, RayKind::refraction, parts.media_behind[lane], work.media.mark());
-    const bool enters_or_leaves = goes_through && context.data.is_solid(hits.hits[ray]);
-    context.work.stats.media_changes += enters_or_leaves ? 1 : 0;
+    send(parts.refracted, RayKind::refraction, parts.media_behind[lane], work.media.mark());
   });
   return sent;
 }

@@ -1,5 +1,5 @@
-// The tracer: what light comes along a camera ray. Source: Whitted, An improved illumination model
-// for shaded display, Communications of the ACM 23(6), 1980.
+// The tracer finds what light comes along a camera ray. Source: Whitted, An improved illumination
+// model for shaded display, Communications of the ACM 23(6), 1980.
 #pragma once
 
 #include <array>
@@ -10,10 +10,9 @@
 namespace crt::core {
 
 /// Traces camera rays on one thread, up to packet_size side by side. Each ray has its weight: its
-/// share of the light that the camera ray brings. In every round each sample follows one ray. Of
-/// those that go on from where that ends the last one is followed in the next round, and the other
-/// waits on the sample's stack. The rounds' rays, and the shadow rays of each light, travel as
-/// packets where they go nearly the same way. A sample does not depend on what is traced beside it.
+/// share of the light that the camera ray brings. In every round each sample follows one ray.
+/// These, and the shadow rays of each light, travel as packets where they go nearly the same way. A
+/// sample does not depend on what is traced beside it.
 class Tracer {
  public:
   /// All three must outlive the tracer, and nothing else may use the workspace meanwhile.
@@ -35,7 +34,7 @@ class Tracer {
  private:
   /// Returns the rays of the first round.
   PathRays& start(std::span<const RayLanes> camera_rays, std::span<Sample> samples);
-  /// Finds what solids their rays start in.
+  /// Finds the solids that these start in.
   void start_media(PathRays& rays);
 
   TraceContext context_;
