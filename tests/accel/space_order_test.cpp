@@ -1,4 +1,5 @@
-// The order along a curve: each object once, neighbours near each other, whatever the sizes.
+// Objects are ordered along a curve: each is there once, and neighbours are near each other,
+// whatever the sizes.
 #include "core/accel/space_order.hpp"
 
 #include <doctest/doctest.h>
@@ -67,7 +68,7 @@ TEST_CASE("in a cloud the way from object to object is that to near neighbours")
   const double before = boxes.way();
   boxes.sort();
   CHECK(boxes.has_each_once());
-  // In a cube with sides of 2 a neighbour is some 2 / 27 away, any other object 1.3.
+  // In a cube with sides of 2 a neighbour is some 2 / 27 away, and any other object 1.3.
   CHECK(before > 1.2 * count);
   CHECK(boxes.way() < 0.12 * count);
 }

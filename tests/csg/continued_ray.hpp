@@ -1,4 +1,4 @@
-// Rays that start where others have ended.
+// Some rays start where others have ended.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace crt::test {
 
-/// A ray that goes on from a hit, through it or back.
+/// Returns a ray that continues from a hit, through it or back.
 inline core::WorldRay continued(const core::CompiledScene& scene, const core::CsgProgram& program,
                                 const core::WorldRay& ray, const core::CsgHit& hit,
                                 const Vec3& direction, core::Side side) {

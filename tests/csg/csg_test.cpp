@@ -1,5 +1,5 @@
-// CSG against brute force: membership by definition, in quadruple precision, between every two
-// surfaces that a ray passes.
+// CSG is compared with brute force: membership by definition, in quadruple precision, between every
+// two surfaces that a ray passes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -45,7 +45,7 @@ WorldRay whole_line(const Vec3& origin, const Vec3& direction) {
       .origin = origin, .direction = direction, .t_min = -infinity, .t_max = infinity, .start = {}};
 }
 
-/// The crossings that must be there: where membership on both sides of a candidate differs.
+/// Returns the crossings that must be there: where membership on both sides of a candidate differs.
 std::vector<Quad> expected_crossings(const Solid& solid, const Vec3& o, const Vec3& d) {
   std::vector<Quad> ts;
   solid.candidate_ts(o, d, ts);
@@ -67,7 +67,7 @@ std::vector<Quad> expected_crossings(const Solid& solid, const Vec3& o, const Ve
   return result;
 }
 
-/// Compares along one ray; returns the number of crossings.
+/// Compares along one ray. Returns the number of crossings.
 std::size_t compare(const Solid& solid, const PreparedData& scene, const Vec3& o, const Vec3& d) {
   const std::vector<Quad> expected = expected_crossings(solid, o, d);
   const std::vector<RayHit> found = all_crossings(scene, whole_line(o, d));

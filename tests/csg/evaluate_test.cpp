@@ -1,4 +1,5 @@
-// The evaluation of CSG objects by trees of boxes against the plain one, and what it costs.
+// The evaluation of CSG objects by trees of boxes is compared with the plain one, and its cost is
+// checked.
 #include "core/csg/evaluate.hpp"
 
 #include <doctest/doctest.h>
@@ -30,7 +31,7 @@ CompiledScene compiled(const Entity& entity, Precision precision = Precision::st
   return core::compile(std::span(&entity, 1), precision);
 }
 
-/// Compares along one ray; returns how many hits there are.
+/// Compares along one ray. Returns how many hits there are.
 std::size_t compare(const CompiledScene& scene, const WorldRay& ray, CsgWorkspace& work) {
   std::size_t hits = 0;
   for (const CsgProgram& program : scene.programs) {
@@ -78,7 +79,7 @@ WorldRay random_ray(SolidMaker& make) {
   return ray;
 }
 
-/// A plate with n by n holes in it, across y.
+/// Returns a plate with n by n holes in it, across y.
 Entity plate_with_holes(int n) {
   std::vector<Entity> holes;
   for (int x = 0; x < n; ++x) {
@@ -91,7 +92,7 @@ Entity plate_with_holes(int n) {
   return csg_difference(Box{.corner_a = {0, -1, 0}, .corner_b = {n * 1.0, 1, n * 1.0}}, holes);
 }
 
-/// Spheres one within the other, every second one cut out of the one before.
+/// Returns spheres one within the other, every second one cut out of the one before.
 Entity shells(int n) {
   Entity solid = Sphere{.radius = 1};
   for (int i = 1; i < n; ++i) {
@@ -101,7 +102,7 @@ Entity shells(int n) {
   return solid;
 }
 
-/// Operations in one another, deep enough that paths take the place of counters.
+/// Returns nested operations, deep enough that paths take the place of counters.
 Entity chain(SolidMaker& make, int length) {
   Entity result = make.leaf().entity();
   for (int i = 0; i < length; ++i) {
@@ -125,7 +126,7 @@ Entity chain(SolidMaker& make, int length) {
   return result;
 }
 
-/// Deep shells with a hole down to the core.
+/// Returns deep shells with a hole down to the core.
 Entity alternating(int n) {
   return shells(n) - Cylinder{.from = {0, 0, 0}, .to = {0, 2.0 * n, 0}, .radius = 0.5};
 }
@@ -149,7 +150,7 @@ TEST_CASE(
                              std::vector<Entity>{hole})
             : hole ^ Sphere{corner, 20});
     const CsgProgram& program = scene.programs.front();
-    // On the hole's upper face, but for some last bits, and into it.
+    // The ray starts on the hole's upper face, but for some last bits, and goes into it.
     WorldRay ray;
     ray.origin = corner + Vec3(0.5, 1, 0.5) * size;
     const double away = trial % 3 == 0 ? -infinity : infinity;
@@ -269,7 +270,7 @@ TEST_CASE("a hundred shells agree with the plain evaluation to the bit") {
 }
 
 TEST_CASE("a ray asks the holes that it comes near, however many there are") {
-  // Slanted, through the top of the plate to a hole's wall.
+  // The ray goes slanted through the top of the plate to a hole's wall.
   const WorldRay ray{.origin = {5.1, 4, 5.5}, .direction = {0.4, -3, 0.1}};
   std::uint64_t events = 0;
   for (const int n : {10, 100}) {
@@ -286,7 +287,7 @@ TEST_CASE("a ray asks the holes that it comes near, however many there are") {
 
 TEST_CASE("what lies behind the first hit is not asked") {
   const CompiledScene scene = compiled(plate_with_holes(30));
-  // Along the plate, through all holes of a row; the first hit is its side.
+  // The ray goes along the plate, through all holes of a row. The first hit is its side.
   const WorldRay ray{.origin = {-5, 0.1, 3.5}, .direction = {1, 0, 0}};
   CsgWorkspace work;
   CsgEvaluation evaluation(scene.programs[0], scene.leaves, scene.face_surfaces, ray, work);

@@ -1,10 +1,9 @@
-// Crossings of the exact tier that are as close as one likes, or at one place by different
-// equations.
+// In the exact tier crossings may be arbitrarily close, or at one place by different equations.
 //
-// The truth is known without a root: along a line in the plane z = 0 beside the x axis, solids
-// about the z axis are crossed at one of four numbers that are not rational, +-sqrt(R^2 - y^2);
-// moved along x by k times a tiny step, at that and k steps more. Whole numbers k tell the order,
-// and which crossings are one.
+// The truth is known without a root. Along a line in the plane z = 0 beside the x axis, solids
+// about the z axis are crossed at one of four numbers that are not rational, +-sqrt(R^2 - y^2). If
+// they are moved along x by k times a tiny step, they are crossed k steps later. So whole numbers k
+// decide the order, and which crossings are one.
 #include "core/csg/exact_order.hpp"
 
 #include <doctest/doctest.h>
@@ -29,12 +28,12 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Which of the numbers -sqrt(9/4 - y^2), -sqrt(1/4 - y^2), sqrt(1/4 - y^2), sqrt(9/4 - y^2), or
-/// -5/4 and 5/4 between them; and k.
+/// A Where is one of the numbers -sqrt(9/4 - y^2), -sqrt(1/4 - y^2), sqrt(1/4 - y^2), sqrt(9/4 -
+/// y^2), or -5/4 and 5/4 between them, together with k.
 using Where = std::pair<int, int>;
 enum : int { outer_in = 0, flat_in = 1, inner_out = 2, inner_in = 3, flat_out = 4, outer_out = 5 };
 
-/// A solid that is told by where the line is in it.
+/// A Piece is a solid with the spans of the line in it.
 struct Piece {
   Entity entity = Sphere{};
   std::vector<std::pair<Where, Where>> spans;
@@ -60,7 +59,7 @@ struct Combined {
     if (kind == Kind::intersection) return csg_intersection(entities);
     return csg_difference(entities[0], std::span(entities).subspan(1));
   }
-  /// Between two places that follow one another.
+  /// Returns whether the line is inside between two consecutive places.
   bool contains(const Where& before, const Where& after) const {
     if (kind == Kind::piece) return piece.contains(before, after);
     const auto is_in = [&](const Combined& part) { return part.contains(before, after); };
@@ -97,7 +96,7 @@ std::vector<Flip> flips(const Combined& solid) {
   return result;
 }
 
-/// The line, and the step.
+/// A Setting is the line, and the step.
 struct Setting {
   double y = 0;
   double step = 0;
@@ -117,8 +116,8 @@ struct Setting {
   }
 };
 
-/// A solid whose side the line crosses where others' are crossed, by equations of degree 1, 2 and
-/// 4, moved by at most `most` steps: once or twice, alone or with its whole wrapping.
+/// Returns a solid whose side the line crosses where it crosses others', by equations of degree 1,
+/// 2 and 4. It is moved by at most `most` steps: once or twice, alone or with its whole wrapping.
 Piece piece(SolidMaker& make, const Setting& setting, int most) {
   Piece result;
   int k = 0;
@@ -157,7 +156,7 @@ Piece piece(SolidMaker& make, const Setting& setting, int most) {
       result.entity = Entity(Sphere{.radius = 0.75}).transformed(scale(2));
   }
   move();
-  // Turns that are exact.
+  // These turns are exact.
   if (make.integer(0, 2) == 0 && k == 0 && kind < 4) {
     result.entity = result.entity.transformed(rotate({0, 0, 90.0 * make.integer(1, 3)}));
   }
@@ -266,7 +265,7 @@ TEST_CASE(
       REQUIRE(data.entity_id(hits[i]) == truth[i].object);
     flipped += hits.size();
     if (hits.empty()) continue;
-    // Of several at the first place the one that was written first.
+    // If several crossings are at the first place, the one that was written first is seen.
     std::uint32_t first = truth[0].object;
     for (const Of& of : truth) {
       if (of.flip.where == truth[0].flip.where) first = std::min(first, of.object);
@@ -297,8 +296,8 @@ TEST_CASE("a ball less itself moved by 1e-40 is a crescent that is entered befor
 TEST_CASE(
     "a solid whose ends round to one t is entered before it is left, between solids that touch "
     "it") {
-  // 1e-17 thick, where an ulp is 2e-16; and balls from so far away that they are no longer than an
-  // ulp.
+  // The box is 1e-17 thick, where an ulp is 2e-16. The spheres are seen from so far away that they
+  // are no longer than an ulp.
   const Box thin{.corner_a = {0, 0, 0}, .corner_b = {1e-17, 1, 1}};
   const Box before{.corner_a = {-1, 0, 0}, .corner_b = {0, 1, 1}};
   const WorldRay near{.origin = {-1.5, 0.5, 0.5},
@@ -334,7 +333,7 @@ TEST_CASE(
 }
 
 TEST_CASE("surfaces that are equal but for a rounding are not one in the exact tier") {
-  // 0.1 + 0.2 rounds to what the other ball is at.
+  // 0.1 + 0.2 rounds to what the other sphere is at.
   const Entity one = Entity(Sphere{.center = {0.1, 0, 0}}).transformed(translate({0.2, 0, 0}));
   const Entity other = Sphere{.center = {0.1 + 0.2, 0, 0}};
   const WorldRay ray{.origin = {-3, 0, 0},
@@ -342,11 +341,11 @@ TEST_CASE("surfaces that are equal but for a rounding are not one in the exact t
                      .t_min = -infinity,
                      .t_max = infinity,
                      .start = {}};
-  // The first is the one further to the left: 0.1 + 0.2 was rounded up.
+  // The first is the one further to the left, as 0.1 + 0.2 was rounded up.
   CHECK(crossings(prepared({one - other}), ray).size() == 2);
   CHECK(crossings(prepared({other - one}), ray).size() == 2);
   CHECK(crossings(prepared({one - other}, Precision::standard), ray).empty());
-  // The same for planes: these are across directions that only nearly are the same.
+  // It holds for planes, too. These are across directions that are only nearly the same.
   const Entity plane = Plane{.normal = {1, 3, 0}, .position = {0, 0, 0}};
   const Entity tilted = Plane{.normal = {1.0 / 3, 1, 0}, .position = {0, 0, 0}};
   const WorldRay across{.origin = {7, 5, 0},

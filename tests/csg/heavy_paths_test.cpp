@@ -1,4 +1,4 @@
-// The values of the nodes of deep programs, against values by definition.
+// The values of the nodes of deep programs are compared with values by definition.
 #include "core/csg/heavy_paths.hpp"
 
 #include <doctest/doctest.h>
@@ -12,8 +12,8 @@ using namespace crt::core;
 
 namespace {
 
-/// A random program's nodes with leaves below them, all of which are outside, and so false unless
-/// complemented.
+/// A Tree has a random program's nodes with leaves below them. All leaves are outside, and so are
+/// false unless complemented.
 struct Tree {
   std::vector<CsgNode> nodes;
   std::vector<std::uint32_t> leaf_parents;
@@ -25,7 +25,7 @@ struct Tree {
         0, static_cast<std::uint32_t>(count - 1))(random);
   }
 
-  /// Each node hangs below one of the last `reach`: 1 is a chain, many are a bush.
+  /// Each node is put below one of the last `reach` nodes: 1 makes a chain, many make a bush.
   Tree(std::size_t count, std::size_t reach, std::uint32_t seed) : random(seed) {
     nodes.resize(count);
     std::vector<std::uint32_t> children(count, 0);
@@ -41,7 +41,7 @@ struct Tree {
       } while (children[i] < 2 || below(3) == 0);
     }
     for (std::size_t i = 0; i < count; ++i) {
-      // Alternating as programs do, seen from the root.
+      // AND and OR alternate as in programs, seen from the root.
       const bool parent_is_or = i > 0 && nodes[nodes[i].parent].needed == 1;
       nodes[i].needed = parent_is_or || (i == 0 && below(2) == 0) ? children[i] : 1;
     }
@@ -57,7 +57,7 @@ struct Tree {
     }
   }
 
-  /// By definition, from the present values of the leaves.
+  /// Returns the values by definition, from the present values of the leaves.
   std::vector<bool> values() {
     count_true_children();
     std::vector<bool> result;
@@ -74,7 +74,7 @@ struct Tree {
   }
 
   std::uint32_t flip(PathValues& paths) {
-    // Mostly of the lowest, whose changes have the longest way.
+    // Half of the time it is one of the lowest leaves, whose changes have the longest path.
     const std::uint32_t leaf =
         static_cast<std::uint32_t>(leaf_parents.size()) - 1 -
         below(below(2) == 0 ? leaf_parents.size() : std::min<std::size_t>(30, leaf_parents.size()));

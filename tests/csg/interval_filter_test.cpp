@@ -1,5 +1,5 @@
-// The interval filter of CSG objects against following all crossings: what it calls sure is so, to
-// the bit.
+// The interval filter of CSG objects is compared with following all crossings. What it reports as
+// sure is so, to the bit.
 #include "core/csg/interval_filter.hpp"
 
 #include <doctest/doctest.h>
@@ -28,7 +28,7 @@ constexpr std::uint32_t scene_count = 20'000;
 constexpr std::uint32_t scene_count = 500;
 #endif
 
-/// Trees of spheres and boxes, most of whose faces coincide, or all but.
+/// Makes trees of spheres and boxes, most of whose faces coincide, or all but.
 class Trees {
  public:
   explicit Trees(std::uint32_t seed) : make_(seed), grid_(make_.integer(0, 3)) {
@@ -78,7 +78,7 @@ class Trees {
     }
   }
 
-  /// A coordinate: of the grid, of the grid but for the last bits, or any.
+  /// Returns a coordinate: of the grid, of the grid but for the last bits, or any.
   double coordinate(double on_grid) {
     if (grid_ == 0) return on_grid;
     if (grid_ == 1) return on_grid + make_.real(-1, 1);
@@ -106,7 +106,8 @@ class Trees {
   double unit_ = 1;
 };
 
-/// Through the tree: anyhow, along the grid, or next to grazing one of its spheres.
+/// Returns a ray through the tree: at random, along the grid, or next to grazing one of its
+/// spheres.
 WorldRay random_ray(Trees& trees) {
   SolidMaker& random = trees.random();
   Vec3 origin(random.real(-9, 9), random.real(-9, 9), random.real(-9, 9));
@@ -159,14 +160,14 @@ class Comparison {
       : Comparison(compile(std::span(&tree, 1), precision)) {}
 
   const CompiledScene& scene() const { return accelerator_.compiled(); }
-  /// Whether the tree is one object that has a filter.
+  /// Returns whether the tree is one object that has a filter.
   bool has_filter() const {
     return scene().objects.size() == 1 && scene().objects.front().is_csg() &&
            scene().programs.size() == 1 && !program().filter.empty();
   }
   const CsgProgram& program() const { return scene().programs.front(); }
 
-  /// Side by side rays find what they find alone.
+  /// Checks that rays find side by side what they find alone.
   void compare_packet(std::span<const WorldRay> rays, RayMask some) {
     const RayBatch batch = batch_of(rays, some);
     std::array<RayHit, packet_size> hits;
@@ -219,7 +220,7 @@ class Comparison {
     }
   }
 
-  /// What comes of it; `hit` is the first, if there is one.
+  /// Compares the nearest hit with `hit`, the first crossing, if there is one.
   void compare_nearest(const WorldRay& ray, const CsgHit* hit) {
     const RayHit nearest = accelerator_.nearest(ray, work_);
     REQUIRE(nearest.found() == (hit != nullptr));
@@ -312,8 +313,8 @@ TEST_CASE("the filter of a large object is right about what it calls sure") {
 
 TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
   for_filtered_trees([&](Trees& trees, Comparison& comparison) {
-    // All but alike, so that the packet's rays meet the same leaves, or each its own; some start on
-    // a surface.
+    // The rays are all but alike, so that those of the packet meet the same leaves, or they have
+    // nothing in common. Some start on a surface.
     std::vector<WorldRay> rays;
     Counts counts;
     while (rays.size() < packet_size) {

@@ -16,7 +16,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 constexpr LineSpan whole_line = {-infinity, infinity};
 
-/// Where a line enters all leaves that it comes near within a part of it; NaN for others.
+/// Returns where a line enters all leaves that it comes near within a part of it, and NaN for
+/// others.
 std::vector<double> entries(const LeafBvh& tree, std::size_t count, const RaySlabs& slabs,
                             const LineSpan& part = whole_line) {
   std::vector<double> result(count, std::numeric_limits<double>::quiet_NaN());
@@ -120,7 +121,7 @@ TEST_CASE("a line's span in a box is the same by axes side by side, and by lines
   std::mt19937_64 random(5);
   std::uniform_real_distribution<double> real(-3, 3);
   std::uniform_int_distribution<int> grid(-2, 2);
-  // Steep ones, those along a side, and those next to one that is meant to be on it.
+  // Lines are steep, along a side of the box, or next to one that is meant to be on it.
   const std::array<double, 4> steps = {0, 0x1p-1022, 0x1p-52, -0x1p-50};
   const auto step = [&] {
     return steps[static_cast<std::size_t>(grid(random) + 2) % steps.size()];
@@ -146,15 +147,15 @@ TEST_CASE("a line's span in a box is the same by axes side by side, and by lines
         CHECK((by_axes.enter == alone[lane].enter && by_axes.leave == alone[lane].leave));
       for (int axis = 0; axis < 3; ++axis) {
         const auto a = static_cast<std::size_t>(axis);
-        lines.origin[a][static_cast<int>(lane)] = origin[axis];
-        lines.direction[a][static_cast<int>(lane)] = direction[axis];
-        lines.inverse[a][static_cast<int>(lane)] = 1 / direction[axis];
+        lines.origin[a][lane] = origin[axis];
+        lines.direction[a][lane] = direction[axis];
+        lines.inverse[a][lane] = 1 / direction[axis];
       }
     }
     const LineSpanLanes side_by_side = RaySlabs::spans(lines, box, ~0u);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const double enter = side_by_side.enter[static_cast<int>(lane)];
-      const double leave = side_by_side.leave[static_cast<int>(lane)];
+      const double enter = side_by_side.enter[lane];
+      const double leave = side_by_side.leave[lane];
       CHECK((enter <= leave) == !alone[lane].empty());
       if (!alone[lane].empty()) CHECK((enter == alone[lane].enter && leave == alone[lane].leave));
     }

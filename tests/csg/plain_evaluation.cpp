@@ -10,8 +10,8 @@ using core::CsgCrossing;
 using core::CsgProgram;
 using core::Leaf;
 
-/// The values of all nodes and leaves, the latter as the solid has them: true where complemented
-/// ones are not.
+/// Values are those of all nodes and leaves. The leaves' values are those that the solid sees: true
+/// where complemented ones are not.
 struct Values {
   std::vector<bool> nodes;
   std::vector<bool> leaves;
@@ -131,7 +131,7 @@ class Plain {
                    const Values& after) const {
     const bool now = after.nodes[0];
     const CsgCrossing* cause = nullptr;
-    const CsgCrossing* place = nullptr;  // known best
+    const CsgCrossing* place = nullptr;  // the one known best
     for (const CsgCrossing& crossing : cluster) {
       if (crossing.entering != inside_[crossing.leaf] || after.leaves[crossing.leaf] != now)
         continue;

@@ -1,5 +1,6 @@
-// CSG along a ray in the plainest way: every leaf is asked, all crossings are sorted, and the tree
-// is evaluated anew at each place. What the library's evaluation must agree with, to the bit.
+// CSG is evaluated along a ray in the plainest way. Every leaf is asked, all crossings are sorted,
+// and the tree is evaluated anew at each place. The library's evaluation must agree with it, to the
+// bit.
 #pragma once
 
 #include <vector>

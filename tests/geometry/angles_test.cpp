@@ -12,14 +12,14 @@ using namespace crt::core;
 
 namespace {
 
-/// Of (x, y), in [-1/2, 1/2], to more digits than a double has.
+/// Returns the turn of (x, y), in [-1/2, 1/2], to more digits than a double has.
 long double true_turn(double x, double y) {
   return std::atan2(static_cast<long double>(y), static_cast<long double>(x)) /
          (2 * std::numbers::pi_v<long double>);
 }
 
-/// Coordinates of all sizes that are at least 1e-290, of which the two of a point are alike or far
-/// apart.
+/// Coordinates are of all sizes that are at least 1e-290. The two of a point are alike or far from
+/// each other.
 class Coordinates {
  public:
   std::array<double, 2> next() {
@@ -78,7 +78,7 @@ TEST_CASE("angles of the axes and of what is half way between them are exact") {
   }
   CHECK(turn(0.0, 0.0) == 0);
   CHECK(turn(-0.0, -0.0) == 0);
-  // A whole turn is none.
+  // A whole turn counts as none.
   CHECK(turn(1.0, -1e-30) == 0);
 }
 

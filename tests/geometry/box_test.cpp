@@ -52,7 +52,7 @@ core::CrossingList crossings(const Box& box, const core::ObjectRay& ray) {
   return result;
 }
 
-/// One of each primitive that has a flat face, far from its rim, at height y.
+/// Returns one of each primitive that has a flat face, far from its edge, at height y.
 std::vector<Primitive> faces_across_y(double y) {
   constexpr double wide = 1e9;
   std::vector<Primitive> result;
@@ -96,19 +96,19 @@ TEST_CASE("box: a ray within the plane of a face does not enter") {
 }
 
 TEST_CASE("box: rays through edges and corners go through once, or only touch") {
-  // Into an edge and out of the opposite one; from corner to corner.
+  // The first ray goes into an edge and out of the opposite one, the second from corner to corner.
   CHECK(crossings(Box{}, {.origin = {-5, -5, 0.3}, .direction = {1, 1, 0}}).size() == 2);
   const auto diagonal = crossings(Box{}, {.origin = {-3, -3, -3}, .direction = {1, 1, 1}});
   REQUIRE(diagonal.size() == 2);
   CHECK(diagonal[0].t == 2);
   CHECK(diagonal[1].t == 4);
-  // Past an edge, past a corner.
+  // These rays pass an edge and a corner.
   CHECK(crossings(Box{}, {.origin = {0, -2, 0.3}, .direction = {1, 1, 0}}).empty());
   CHECK(crossings(Box{}, {.origin = {0, -2, 1}, .direction = {1, 1, 0}}).empty());
 }
 
 TEST_CASE("box: a ray along its surface starts inside or outside as it says") {
-  // In the plane of the face at y = 1.
+  // The ray is in the plane of the face at y = 1.
   core::ObjectRay ray{
       .origin = {0, 1, 0}, .direction = {1, 0, 0}, .start = {3, core::Side::outside}};
   CHECK(crossings(Box{}, ray).empty());
@@ -165,7 +165,7 @@ TEST_CASE("box: faces across the axes have the same t in every primitive") {
 }
 
 TEST_CASE("box: a ray that starts beside a face, on its plane, enters where it does") {
-  // On the plane of the top, on its side away from the box and on the other.
+  // The ray starts on the plane of the top, on its side away from the box and on the other.
   core::ObjectRay ray{.origin = {-3, 1, 0}, .direction = {1, -0.25, 0}};
   ray.start = {.face = 3, .side = core::Side::inside, .on_face = false};
   const auto found = crossings(Box{}, ray);

@@ -54,7 +54,7 @@ TEST_CASE("cone: a ray that starts on it obeys its side") {
 
 TEST_CASE("cone: rays through the apex") {
   const Cone cone{.from = {0, 0, 0}, .to = {0, 1, 0}, .radius = 1, .radius2 = 0};
-  // Down the axis: in at the apex, out at the base.
+  // Down the axis the ray goes in at the apex and out at the base.
   const core::ObjectRay down{.origin = {0, 3, 0}, .direction = {0, -1, 0}};
   const auto along = crossings(cone, down);
   REQUIRE(along.size() == 2);
@@ -63,11 +63,11 @@ TEST_CASE("cone: rays through the apex") {
   CHECK(along[0].error < 1e-14);
   CHECK(along[1].t == 3);
   CHECK(along[1].face == 1);
-  // Steeply through it: in there and out at the base; flatly: only a touch.
+  // A steep ray goes in at the apex and out at the base, and flat ones only touch it.
   CHECK(crossings(cone, {.origin = {-1, 3, 0}, .direction = {0.5, -1, 0}}).size() == 2);
   CHECK(crossings(cone, {.origin = {-3, 1, 0}, .direction = {1, 0, 0}}).empty());
   CHECK(crossings(cone, {.origin = {-4, 2, 0}, .direction = {4, -1, 0}}).empty());
-  // Along a ruling.
+  // This ray is along a ruling.
   CHECK(crossings(cone, {.origin = {-1, 2, 0}, .direction = {1, -1, 0}}).empty());
   const core::SurfacePoint apex = core::make_shape(cone)->surface_point(down, along[0]);
   CHECK(apex.position == Vec3(0, 1, 0));

@@ -1,5 +1,6 @@
-// What must hold of every primitive, checked over the list of all: a new one is tested by being
-// listed. Instances are made at random from the fields alone, so no primitive needs a line here.
+// These checks must hold of every primitive. They go over the list of all, so a new one is tested
+// by being listed. Instances are made at random from the fields alone, so no primitive needs a line
+// here.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -28,13 +29,13 @@ using namespace crt::test;
 
 namespace {
 
-/// Fields as a user writes them (small whole numbers, halves) or any, of either sign.
+/// Returns a field as a user writes it (a small whole number, or a half) or any, of either sign.
 double random_field(Random& random) {
   if (random.one_in(2)) return std::floor(random.uniform(-4, 5)) / 2;
   return random.uniform(-2, 2);
 }
 
-/// A valid instance of the primitive that stands at this place in the list.
+/// Returns a valid instance of the primitive that stands at this place in the list.
 Primitive random_instance(std::size_t kind, Random& random) {
   Primitive primitive;
   const auto make = [&]<std::size_t... places>(std::index_sequence<places...>) {
@@ -59,7 +60,7 @@ Primitive random_instance(std::size_t kind, Random& random) {
   }
 }
 
-/// From around the instance to near its middle; some along a coordinate axis.
+/// Returns a ray from around the instance to near its middle. Some are along a coordinate axis.
 core::ObjectRay random_ray(Random& random) {
   const Vec3 aim = 1.5 * random.in_cube();
   const Vec3 direction = random.direction() * random.power_of_ten(-1, 1);
@@ -105,7 +106,7 @@ PreparedScene scene_of(const Entity& entity, Precision precision = Precision::st
   return prepare(scene);
 }
 
-/// What it takes to say that two lengths of this instance are equal but for rounding.
+/// Returns how far apart two lengths of this instance may be that are equal but for rounding.
 double tolerance(const core::ObjectRay& ray, double t) {
   return 1e-12 * (1 + core::largest_component(ray.origin) +
                   std::abs(t) * core::largest_component(ray.direction));

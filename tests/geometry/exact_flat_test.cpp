@@ -1,4 +1,4 @@
-// Planes, half planes, discs, triangles and boxes of the exact tier against whole-number
+// Planes, half planes, discs, triangles and boxes of the exact tier are compared with whole-number
 // arithmetic.
 #include <doctest/doctest.h>
 
@@ -12,7 +12,8 @@ using namespace crt::test;
 
 namespace {
 
-/// Where a whole-number line meets a plane: t = numerator / denominator, with denominator > 0.
+/// A WholeMeeting is where a whole-number line meets a plane: t = numerator / denominator, with
+/// denominator > 0.
 struct WholeMeeting {
   bool found = false;
   Whole numerator = 0;
@@ -97,7 +98,7 @@ TEST_CASE("exact half plane: its edge belongs to it") {
     const WholeVec edge = cross(normal, direction);
     if (dot(edge, edge) == 0) continue;
     const WholeMeeting meeting(ray, normal, position);
-    // Across the normal: n x (direction x n).
+    // The direction's component across the normal is n x (direction x n).
     const Whole inward = dot(meeting.offset, cross(edge, normal));
     edges += meeting.found && inward == 0 ? 1 : 0;
     const HalfPlane half_plane{
@@ -117,7 +118,7 @@ TEST_CASE("exact triangle: its edges and corners belong to it") {
     const WholeVec normal = cross(corners[1] - corners[0], corners[2] - corners[0]);
     if (dot(normal, normal) == 0) continue;
     const WholeMeeting meeting(ray, normal, corners[0]);
-    // In the plane: on the inner side of all three edges.
+    // In the plane the point must be on the inner side of all three edges.
     bool inside = meeting.found;
     bool on_edge = false;
     for (std::size_t k = 0; k < 3 && meeting.found; ++k) {
@@ -144,7 +145,7 @@ TEST_CASE("exact box: lines along its faces and through its edges miss it, lines
     const WholeVec a = small_vector(random, 4);
     const WholeVec b = small_vector(random, 4);
     if (a[0] == b[0] || a[1] == b[1] || a[2] == b[2]) continue;
-    // The largest t of entering and the smallest of leaving, as fractions.
+    // These are the largest t of entering and the smallest of leaving, as fractions.
     bool parallel_outside = false;
     WholeVec enter{-1, 0, 0};
     WholeVec leave{1, 0, 0};

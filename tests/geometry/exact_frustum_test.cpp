@@ -38,8 +38,8 @@ WholeCone small_cone(Random& random) {
   return cone;
 }
 
-/// Where the line enters and leaves, found by asking on which side of every root of the two planes
-/// and of the double cone it is inside.
+/// A Span is where the line enters and leaves. It is found by asking on which side of every root of
+/// the two planes and of the double cone it is inside.
 struct Span {
   bool hit = false;
   Real enter = 0, leave = 0;
@@ -81,7 +81,7 @@ Span true_span(const WholeCone& cone, const WholeRay& ray) {
     return z > 0 && z < static_cast<Real>(ray.weight * length2) && g < 0;
   };
   Span result;
-  constexpr Real same = 1e-20;  // far less than any two roots of numbers so small are apart
+  constexpr Real same = 1e-20;  // far less than the distance of any two roots of numbers so small
   for (std::size_t i = 0; i + 1 < places.size(); ++i) {
     if (places[i + 1] - places[i] < same * (1 + magnitude(places[i]))) continue;
     if (!inside((places[i] + places[i + 1]) / 2)) continue;
@@ -117,10 +117,11 @@ TEST_CASE("exact cylinder and cone: whole-number lines that miss, touch and hit 
 TEST_CASE(
     "exact cylinder: one ulp decides at the silhouette and at the rim, in a turned space as well") {
   const Transform turn{
-      {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // by three, four, five, and five times
+      {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // a turn by the triangle of three, four and
+                                                     // five, and a scaling by five
   const Cylinder cylinder{.from = {0, 0, -1}, .to = {0, 0, 1}, .radius = 1};
   for (const double far : {1.0, 1e3, 1e9, 1e15}) {
-    // Past the side, across the axis.
+    // These rays pass the side, across the axis.
     const auto past = [&](double x, double z) {
       return exact_crossings(cylinder, turn, {x, -far, z}, {0, 1, 0}).size();
     };
@@ -128,7 +129,7 @@ TEST_CASE(
     CHECK(past(std::nextafter(5, 0), 0) == 2);
     CHECK(past(0, 5) == 0);
     CHECK(past(0, std::nextafter(5, 0)) == 2);
-    // Along the axis, three and four from it.
+    // These rays are along the axis, three and four from it.
     const auto along = [&](double x) {
       return exact_crossings(cylinder, turn, {x, 4, -far}, {0, 0, 1}).size();
     };

@@ -41,7 +41,8 @@ TEST_CASE("exact sphere: whole-number lines that miss, touch and hit are told ap
 }
 
 TEST_CASE("exact sphere: one ulp decides at the silhouette, in a turned space as well") {
-  // Three by four by five turns without rounding; the ball becomes one of radius 5.
+  // This turns by the triangle of three, four and five without rounding. The sphere becomes one of
+  // radius 5.
   const Transform turn{{3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};
   for (const double far : {1.0, 1e3, 1e9, 1e15}) {
     for (const double side : {1.0, -1.0}) {
@@ -72,7 +73,8 @@ TEST_CASE("exact sphere: t is right to the last bit at any distance, grazing too
         exact_crossings(Sphere{.center = center, .radius = radius}, {}, origin, direction);
     const RealVec d(direction);
     const RealVec offset = RealVec(origin) - RealVec(center);
-    // The distance from the axis of the line in a form that quadruple precision is enough for.
+    // This is the distance of the line from the centre, in a form that quadruple precision is
+    // enough for.
     const RealVec moment = cross(offset, d);
     const Real a = dot(d, d);
     const Real discriminant = a * Real{radius} * Real{radius} - dot(moment, moment);

@@ -1,5 +1,5 @@
-// What the tests of the exact tier share: rays through a placement, and whole-number geometry to
-// compare with.
+// The tests of the exact tier share rays through a placement, and whole-number geometry to compare
+// with.
 #pragma once
 
 #include <array>
@@ -30,8 +30,8 @@ inline Vec3 as_vec3(const WholeVec& v) {
   return {static_cast<double>(v[0]), static_cast<double>(v[1]), static_cast<double>(v[2])};
 }
 
-/// A ray of small whole numbers in the space of a map of small whole numbers, as the line
-/// (origin + t direction) / weight of object space, all whole.
+/// A WholeRay is a ray of small whole numbers in the space of a map of small whole numbers. It is
+/// the line (origin + t direction) / weight of object space, all whole.
 struct WholeRay {
   WholeVec world_origin, world_direction;
   std::array<WholeVec, 3> rows{WholeVec{1, 0, 0}, WholeVec{0, 1, 0}, WholeVec{0, 0, 1}};
@@ -62,7 +62,7 @@ struct WholeRay {
   }
 };
 
-/// Numbers so small that much of what they describe touches, meets in edges or coincides.
+/// Returns numbers so small that much of what they describe touches, meets in edges or coincides.
 inline WholeVec small_vector(Random& random, int most) {
   const auto next = [&] {
     return static_cast<Whole>(random.bits() % static_cast<unsigned>(2 * most + 1)) - most;
@@ -87,7 +87,7 @@ inline WholeRay small_ray(Random& random) {
   return ray;
 }
 
-/// The crossings of the exact tier with a ray in the world.
+/// Returns the crossings of the exact tier with a ray in the world.
 inline core::CrossingList exact_crossings(const Primitive& primitive, const Transform& to_world,
                                           const Vec3& origin, const Vec3& direction,
                                           const core::RayStart& start = {}) {
@@ -106,11 +106,11 @@ inline core::CrossingList exact_crossings(const Primitive& primitive, const Whol
                          as_vec3(ray.world_direction));
 }
 
-/// Whether t is within 0.51 ulp of the true value, and t + t_low within the error that is told.
+/// Returns whether t is within 0.51 ulp of the true value, and t + t_low within its error bound.
 inline bool is_last_bit(const core::Crossing& crossing, Real truth) {
   const Real ulp = std::nextafter(std::abs(crossing.t), HUGE_VAL) - std::abs(crossing.t);
   const Real tolerance =
-      magnitude(truth) * 0x1p-105;  // of the truth itself, in quadruple precision
+      magnitude(truth) * 0x1p-105;  // the error of the truth itself, in quadruple precision
   return magnitude(Real{crossing.t} - truth) <= 0.51 * ulp + tolerance &&
          magnitude(Real{crossing.t} + Real{crossing.t_low} - truth) <=
              Real{crossing.error} + tolerance;

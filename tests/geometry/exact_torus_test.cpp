@@ -10,7 +10,7 @@ using namespace crt::test;
 
 namespace {
 
-/// About the z axis, with a ring of radius 2.
+/// This torus is about the z axis, with a ring of radius 2.
 const Torus ring{.center = {0, 0, 0}, .axis = {0, 0, 1}, .radius = 2, .thickness = 1};
 
 std::size_t count(const Torus& torus, const Vec3& origin, const Vec3& direction,
@@ -28,7 +28,8 @@ std::size_t count(const Torus& torus, const Vec3& origin, const Vec3& direction,
 TEST_CASE("exact torus: lines that touch it miss, and an ulp decides") {
   for (const double far : {1.0, 1e3, 1e9, 1e15}) {
     CAPTURE(far);
-    // Over the top of the ring, along a tangent of the circle of highest points and across it.
+    // These go over the top of the ring, along a tangent of the circle of highest points and across
+    // it.
     const auto over = [&](double z) { return count(ring, {2, -far, z}, {0, 1, 0}); };
     CHECK(over(1) == 0);
     CHECK(over(std::nextafter(1, 2)) == 0);
@@ -36,14 +37,14 @@ TEST_CASE("exact torus: lines that touch it miss, and an ulp decides") {
     const auto across = [&](double z) { return count(ring, {-far, 0, z}, {1, 0, 0}); };
     CHECK(across(1) == 0);
     CHECK(across(std::nextafter(1, 0)) == 4);
-    // In the plane of the ring, past its outside, and past the hole.
+    // These are in the plane of the ring, past its outside, and past the hole.
     const auto past = [&](double x) { return count(ring, {x, -far, 0}, {0, 1, 0}); };
     CHECK(past(3) == 0);
     CHECK(past(std::nextafter(3, 0)) == 2);
     CHECK(past(1) == 2);
     CHECK(past(std::nextafter(1, 2)) == 2);
     CHECK(past(std::nextafter(1, 0)) == 4);
-    // Along the axis, touching the hole from within.
+    // These are along the axis, touching the hole from within.
     const auto down = [&](double x) { return count(ring, {x, 0, far}, {0, 0, -1}); };
     CHECK(down(1) == 0);
     CHECK(down(std::nextafter(1, 0)) == 0);
@@ -53,7 +54,8 @@ TEST_CASE("exact torus: lines that touch it miss, and an ulp decides") {
 
 TEST_CASE("exact torus: the same in a turned space") {
   const Transform turn{
-      {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // by three, four, five, and five times
+      {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // a turn by the triangle of three, four and
+                                                     // five, and a scaling by five
   for (const double far : {1.0, 1e9}) {
     const auto past = [&](double x) { return count(ring, {x, -far, 0}, {0, 1, 0}, turn); };
     CHECK(past(15) == 0);

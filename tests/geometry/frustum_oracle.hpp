@@ -1,4 +1,4 @@
-// The oracle of cylinders and cones.
+// This is the oracle of cylinders and cones.
 #pragma once
 
 #include <algorithm>

@@ -16,7 +16,7 @@ using core::Shape;
 using core::Side;
 
 constexpr double u = 0x1p-53;
-/// Stretches shorter than this share of the size are grazing: standard precision may miss them.
+/// Spans shorter than this share of the size are grazing: standard precision may miss them.
 constexpr double grazing = 1e-6;
 
 struct Root {
@@ -49,7 +49,7 @@ std::vector<Root> true_roots(const Subject& subject, const RealRay& ray) {
   return roots;
 }
 
-/// A ray at a random distance, with a direction of random length, aimed near the subject.
+/// Returns a ray at a random distance, with a direction of random length, aimed near the subject.
 ObjectRay random_ray(Random& random, const Subject& subject) {
   ObjectRay ray;
   ray.direction = random.direction();
@@ -79,7 +79,7 @@ RealVec gradient(const Subject& subject, const RealVec& p) {
   return result;
 }
 
-/// Whether the gradient is that of one smooth face around p, and has about unit length.
+/// Returns whether the gradient is that of one smooth face around p, and has about unit length.
 bool smooth_at(const Subject& subject, const RealVec& p) {
   const Real h = subject.size * Real(1e-9);
   for (int axis = 0; axis < 3; ++axis) {
@@ -111,7 +111,7 @@ void require_form(const Shape& shape, const CrossingList& crossings, bool inside
   }
 }
 
-/// Drops pairs of neighbours that are a grazing distance apart.
+/// Drops pairs of neighbours that are a grazing distance from each other.
 template <class List>
 void drop_grazing(List& list, const RealRay& ray, double size) {
   for (std::size_t i = 0; i + 1 < list.size();) {
@@ -241,7 +241,7 @@ void check_reversal(const MakeSubject& make, int count) {
 
 namespace {
 
-/// Rays side by side cross where each does by itself, to the last bit.
+/// Checks that rays side by side cross where each does by itself, to the last bit.
 void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
   ray.origin_low = ray.direction_low = Vec3(0);
   CrossingList crossings;
@@ -292,11 +292,11 @@ void check_surface_points(const MakeSubject& make, int count, bool unit_square) 
         REQUIRE(point.v >= 0);
         REQUIRE(point.v <= 1);
       }
-      // On the surface to the rounding of its coordinates.
+      // The point is on the surface to the rounding of its coordinates.
       const double reach = static_cast<double>(length(p)) + 4 * subject.size +
                            static_cast<double>(length(p - RealVec(subject.center)));
       REQUIRE(magnitude(subject.field(p)) <= 8 * u * reach);
-      // As far from the ray as t is from exact.
+      // It is as far from the ray as t is from exact.
       const RealRay real(ray);
       const Real off_ray = length(real.at(crossing.t) - p);
       REQUIRE(off_ray <= crossing.error * length(real.direction) + 16 * u * reach);
@@ -317,7 +317,7 @@ int count_after_start(const CrossingList& crossings) {
       std::count_if(crossings.begin(), crossings.end(), [](const Crossing& c) { return c.t > 0; }));
 }
 
-/// Whether the ray is inside just after its start.
+/// Returns whether the ray is inside just after its start.
 bool inside_after_start(const CrossingList& crossings, bool inside_before) {
   bool inside = inside_before;
   for (const Crossing& crossing : crossings) {
@@ -346,7 +346,8 @@ void check_start(const Shape& shape, const ObjectRay& ray, bool convex) {
   if (shape.bounds().finite()) REQUIRE((ahead % 2 == 1) == inside);
 }
 
-/// The roots that are left after the start's own was taken out are the true ones of this very ray.
+/// Checks that the roots that are left after the start's own was taken out are the true ones of
+/// this very ray.
 void require_true_roots(const Subject& subject, const ObjectRay& ray, const Vec3& normal,
                         const CrossingList& crossings) {
   constexpr double squarely = 0.01;
@@ -402,8 +403,8 @@ void check_starts(const MakeSubject& make, int count, bool convex) {
       ++starts;
     }
   }
-  // All but those within the surface (of a box, one in six), or next to an edge, have their start
-  // as a root.
+  // The start is a root for all but rays within the surface (of a box, one in six), or next to an
+  // edge.
   CHECK(exact >= starts - starts / 4);
 }
 

@@ -1,6 +1,6 @@
-// Checks that every primitive must pass, against an oracle in quadruple precision that shares
-// nothing with the library: candidate roots of the textbook equations, and of the stretches between
-// them those whose middle is inside by the textbook inequality.
+// Every primitive must pass these checks, against an oracle in quadruple precision that shares
+// nothing with the library. It takes candidate roots of the textbook equations. Of the spans
+// between them those count whose middle is inside by the textbook inequality.
 #pragma once
 
 #include <cstdint>
@@ -49,7 +49,7 @@ inline RealVec normalized(const RealVec& v) {
   return (1 / length(v)) * v;
 }
 
-/// A ray without rounding.
+/// A RealRay is a ray without rounding.
 struct RealRay {
   RealVec origin;
   RealVec direction;
@@ -59,12 +59,12 @@ struct RealRay {
   RealVec at(Real t) const { return origin + t * direction; }
 };
 
-/// The real roots of a x^2 + 2 b x + c.
+/// Returns the real roots of a x^2 + 2 b x + c.
 std::vector<Real> quadratic_roots(Real a, Real b, Real c);
-/// Where the ray meets the plane, if it does.
+/// Returns where the ray meets the plane, if it does.
 std::vector<Real> plane_roots(const RealRay& ray, const RealVec& normal, const RealVec& position);
 
-/// Reproducible random numbers.
+/// A Random makes reproducible random numbers.
 class Random {
  public:
   explicit Random(std::uint64_t seed) : state_(seed) {}
@@ -79,35 +79,36 @@ class Random {
   std::uint64_t state_;
 };
 
-/// A primitive with its oracle.
+/// A Subject is a primitive with its oracle.
 struct Subject {
   Primitive primitive;
   Vec3 center;  ///< rays are aimed near here
   double size;  ///< at about this distance from the center
-  /// All parameters at which the ray might go through the boundary.
+  /// Returns all parameters at which the ray might go through the boundary.
   std::function<std::vector<Real>(const RealRay&)> candidates;
-  /// Solids: the distance from the boundary as far as the gradient tells, negative inside.
-  /// Surfaces: the height over the plane, out of which `on_surface` cuts the surface.
+  /// Returns for solids the distance from the boundary, to first order, negative inside. For
+  /// surfaces it is the height over the plane, out of which `on_surface` cuts the surface.
   std::function<Real(const RealVec&)> field;
   std::function<bool(const RealVec&)> on_surface = nullptr;
 };
 using MakeSubject = std::function<Subject(Random&)>;
 
-/// Each of these makes `count` random subjects and rays and checks (with REQUIRE) that ...
-/// ... crossings are those of the oracle within their error bounds, which are as tight as promised;
+/// Checks that crossings are those of the oracle within their error bounds, which are as tight as
+/// promised. Like the checks below, it makes `count` random subjects and rays, and uses REQUIRE.
 void check_against_oracle(const MakeSubject& make, int count);
-/// ... scaling all lengths by a power of two gives the same bits;
+/// Checks that scaling all lengths by a power of two gives the same bits.
 void check_scaling(const MakeSubject& make, int count);
-/// ... a ray turned round has the same crossings in reverse, within the bounds;
+/// Checks that a ray turned round has the same crossings in reverse, within the bounds.
 void check_reversal(const MakeSubject& make, int count);
-/// ... points are on the surface and within the bounds, normals follow the gradient, (u, v) are
-/// finite (and, if `unit_square`, in [0, 1]);
+/// Checks that points are on the surface and within the bounds, and that normals follow the
+/// gradient. (u, v) must be finite, and in [0, 1] if `unit_square`.
 void check_surface_points(const MakeSubject& make, int count, bool unit_square);
-/// ... rays that start on the surface have a root at exactly 0 or graze, and agree with their side:
-/// convex solids and surfaces are never met again from outside, solids always left from inside.
+/// Checks that rays that start on the surface have a root at exactly 0 or graze, and agree with
+/// their side. Rays must never meet convex solids and surfaces again from outside, and must always
+/// leave solids from inside.
 void check_starts(const MakeSubject& make, int count, bool convex);
 
-/// The primitive with all lengths times `factor`.
+/// Returns the primitive with all lengths times `factor`.
 Primitive scaled(const Primitive& primitive, double factor);
 
 }  // namespace crt::test

@@ -1,4 +1,4 @@
-// Quadruple precision, random numbers and scaled primitives for the oracle.
+// The oracle needs quadruple precision, random numbers and scaled primitives.
 #include <cmath>
 
 #include "geometry/oracle.hpp"

@@ -1,4 +1,4 @@
-// What all primitives have in common: the list of them, and the checks of their parameters.
+// All primitives have in common that they are in the list, and that their parameters are checked.
 #include "core/geometry/shape.hpp"
 
 #include <doctest/doctest.h>
@@ -16,7 +16,7 @@ namespace {
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 constexpr double inf = std::numeric_limits<double>::infinity();
 
-/// "argument: message", or "" if the primitive is accepted.
+/// Returns "argument: message", or "" if the primitive is accepted.
 std::string fault(const Primitive& primitive) {
   try {
     validate(primitive);

@@ -90,7 +90,7 @@ TEST_CASE("sphere: directions of any length meet it where the unit direction doe
 TEST_CASE("sphere: the smallest and the largest may be seen from anywhere") {
   const auto tiny =
       crossings(Sphere{.radius = 1e-100}, {.origin = {0, 0, -1e100}, .direction = {0, 0, 1e-150}});
-  CHECK(tiny.empty());  // closer together than t can tell apart
+  CHECK(tiny.empty());  // closer to each other than t can resolve
   const auto near =
       crossings(Sphere{.radius = 1e-100}, {.origin = {0, 0, -1e-99}, .direction = {0, 0, 1e150}});
   REQUIRE(near.size() == 2);

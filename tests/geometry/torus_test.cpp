@@ -19,7 +19,7 @@ Real value(const std::vector<Real>& polynomial, Real x) {
   return result;
 }
 
-/// All real roots within [low, high], isolated by the roots of the derivative.
+/// Returns all real roots within [low, high], isolated by the roots of the derivative.
 std::vector<Real> polynomial_roots(const std::vector<Real>& polynomial, Real low, Real high) {
   if (polynomial.size() < 2) return {};
   std::vector<Real> derivative;
@@ -43,7 +43,8 @@ std::vector<Real> polynomial_roots(const std::vector<Real>& polynomial, Real low
   return roots;
 }
 
-/// The textbook quartic (|p|^2 + R^2 - r^2)^2 = 4 R^2 rho^2, about the closest approach.
+/// Returns the roots of the textbook quartic (|p|^2 + R^2 - r^2)^2 = 4 R^2 rho^2, about the closest
+/// approach.
 std::vector<Real> torus_candidates(const RealRay& ray, const RealVec& center, const RealVec& axis,
                                    Real ring, Real tube) {
   const RealVec d = normalized(ray.direction);
@@ -83,7 +84,7 @@ Subject torus_subject(const Torus& torus) {
               }};
 }
 
-/// Rings, now and then a horn or a spindle.
+/// Returns rings, and sometimes a horn or a spindle.
 Subject random_torus(Random& random) {
   const double radius = random.power_of_ten(-6, 6);
   const double share = random.one_in(4) ? random.uniform(1, 4)
@@ -165,7 +166,7 @@ TEST_CASE("torus: thin rings are met as often as they are crossed") {
     const double thickness = random.power_of_ten(-7, -2);
     const Subject subject = torus_subject({.axis = random.direction(), .thickness = thickness});
     const auto shape = core::make_shape(subject.primitive);
-    // Through a point of the ring, so that thin as it is it is hit.
+    // The ray goes through a point of the ring, so that it hits it, thin as it is.
     const core::AxisFrame frame = core::frame_about(std::get<Torus>(subject.primitive).axis);
     const double angle = random.uniform(0, 6.3);
     const Vec3 target = std::cos(angle) * frame.zero + std::sin(angle) * frame.quarter +
@@ -188,7 +189,7 @@ TEST_CASE("torus: thin rings are met as often as they are crossed") {
 }
 
 TEST_CASE("torus: rays through the middle and along the axis") {
-  // A ring: four crossings across, none through the hole.
+  // A ring has four crossings across, and none through the hole.
   const Torus ring{};
   const auto across = crossings(ring, {.origin = {-5, 0, 0}, .direction = {1, 0, 0}});
   REQUIRE(across.size() == 4);
@@ -201,7 +202,7 @@ TEST_CASE("torus: rays through the middle and along the axis") {
   CHECK(crossings(ring, {.origin = {0.75, -5, 0}, .direction = {0, 1, 0}}).empty());
   // A plane that lies on top of it touches a whole circle.
   CHECK(crossings(ring, {.origin = {-5, 0.25, 0.3}, .direction = {1, 0, 0}}).empty());
-  // A horn is touched at its middle, a spindle has no hollow.
+  // A horn is touched at its middle, and a spindle has no hollow.
   const Torus horn{.radius = 1, .thickness = 1};
   CHECK(crossings(horn, {.origin = {0, -5, 0}, .direction = {0, 1, 0}}).empty());
   const Torus spindle{.radius = 1, .thickness = 2};

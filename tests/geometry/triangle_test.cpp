@@ -68,7 +68,7 @@ TEST_CASE("triangle: a ray that starts on it does not meet it again") {
 TEST_CASE("triangle: no ray slips between triangles that share an edge or a corner") {
   Random random(17);
   for (int i = 0; i < 3000; ++i) {
-    // A fan of six about a middle corner, slightly out of plane.
+    // This is a fan of six about a middle corner, slightly out of plane.
     const Vec3 middle = random.in_cube();
     Vec3 rim[6];
     for (int k = 0; k < 6; ++k) {

@@ -1,4 +1,4 @@
-// Solids that keep apart, and the tree for few objects: what they spare changes no answer.
+// What isolated solids and the tree for few objects save changes no answer.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::uint64_t seed = 20261122;
 
-/// Solids of all kinds in a row, each in a box of half the size 1, with a gap between every two.
+/// Returns solids of all kinds in a row, each in a box of half the size 1, with a gap between every
+/// two.
 std::vector<Entity> row_of_solids(double gap, int count) {
   std::vector<Entity> row;
   for (int i = 0; i < count; ++i) {
@@ -59,7 +60,7 @@ Entity placed(const Entity& entity, double size, const Vec3& place) {
   return entity.transformed(scale(Vec3(size))).transformed(translate(place));
 }
 
-/// A ray that goes on from a hit: into the solid or out of it, some along its surface.
+/// Returns a ray that continues from a hit: into the solid or out of it, some along its surface.
 WorldRay onwards(const PreparedData& data, const WorldRay& ray, const RayHit& hit,
                  Numbers& numbers) {
   const HitPoint point = data.hit_point(ray, hit);
@@ -76,8 +77,8 @@ WorldRay onwards(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   return next;
 }
 
-/// Follows rays from surface to surface in two scenes of the same shapes. How many surfaces they
-/// met.
+/// Follows rays from surface to surface in two scenes of the same shapes. Returns how many surfaces
+/// they met.
 int check_alike(const Scene& first, const Scene& second, double size, const Vec3& place,
                 int count) {
   const PreparedData data(first);
@@ -116,7 +117,7 @@ const std::array<Entity, 3> planes = {Plane{.normal = {0, 1, 0}, .position = {0,
                                       Plane{.normal = {0.1, -1, 0.2}, .position = {0, 3, 0}},
                                       Plane{.normal = {0, 0, 1}, .position = {0, 0, -1 - 1e-7}}};
 
-/// The row, placed, of glass and not of glass.
+/// Returns the row, placed, of glass and not of glass.
 std::array<Scene, 2> glass_and_opaque(double gap, double size, const Vec3& place,
                                       Precision precision) {
   std::array<Scene, 2> scenes;

@@ -1,5 +1,4 @@
-// What is on the ways to a light is the same for rays in packets and alone, and is all that is
-// there.
+// Rays in packets and alone find the same things on their paths to a light, and all that is there.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -18,7 +17,7 @@ namespace {
 
 constexpr std::uint64_t seed = 20261123;
 
-/// Of which most let light through, and some objects only in part.
+/// Gives the scene materials of which most let light through, and some objects only in part.
 void make_clear(Scene& scene, Numbers& numbers) {
   const SharedMaterial glass = Material{.transparency = 0.9};
   const SharedMaterial wall = Material{};
@@ -33,7 +32,7 @@ void make_clear(Scene& scene, Numbers& numbers) {
   }
 }
 
-/// From surfaces or from anywhere, mostly side by side, to somewhere near.
+/// Returns paths from surfaces or from anywhere, mostly side by side, to somewhere near.
 std::vector<WorldRay> ways(const PreparedData& data, Numbers& numbers, RayWorkspace& work) {
   const Vec3 light = numbers.point(6);
   const Vec3 place = numbers.point(4);

@@ -1,4 +1,4 @@
-// The boxes that tell which leaves of a CSG object a ray can leave out.
+// Boxes show which leaves of a CSG object a ray can leave out.
 #include <doctest/doctest.h>
 
 #include "core/compile/compile.hpp"
@@ -53,7 +53,7 @@ TEST_CASE("the parts of a union matter all over") {
   CHECK(within(plate_box, boxes[0]));
   CHECK(within({{-2, -1, -2}, {2, 3, 2}}, boxes[1]));
 
-  // Cut from a plate, a union that is endless makes all of the plate matter, but no more.
+  // A union that is endless, cut from a plate, makes all of the plate matter, but no more.
   const auto cut = boxes_of_leaves(plate - (ball + slope));
   CHECK(within(cut[2], plate_box));
   CHECK(within(plate_box, cut[2]));

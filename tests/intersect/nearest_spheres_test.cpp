@@ -1,5 +1,5 @@
-// Which ball a ray crosses first, as floats tell it: what they say is true, and no answer hangs on
-// it.
+// The nearest-sphere filter finds in floats which sphere a ray crosses first. What it reports is
+// true, and no answer depends on it.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -24,7 +24,7 @@ namespace {
 constexpr std::uint64_t seed = 20261124;
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Where a crowd is, and how large: up to that far from its middle.
+/// A Room is where a crowd is, and how large: up to that far from its middle.
 struct Room {
   Vec3 middle{0, 0, 0};
   double extent = 1;
@@ -34,8 +34,8 @@ struct Room {
   }
 };
 
-/// Of very different sizes. Many have something to do with one before: they are the same, in it
-/// with the same center, touch it, or are next to the same.
+/// Returns spheres of very different sizes. Many are related to one before: they are equal, are in
+/// it with the same center, touch it, or are next to being equal.
 std::vector<BoundedSphere> crowd_of_balls(std::size_t count, const Room& room, double smallest,
                                           Numbers& numbers) {
   std::vector<BoundedSphere> balls;
@@ -55,8 +55,8 @@ std::vector<BoundedSphere> crowd_of_balls(std::size_t count, const Room& room, d
   return balls;
 }
 
-/// Rays that go nearly the same way to a ball, many of them along its very rim; from near or far,
-/// or from within.
+/// Returns rays in nearly the same direction to a sphere, many of them along its silhouette. They
+/// come from near or far, or from within.
 std::vector<WorldRay> rays_at(const BoundedSphere& ball, const Room& room, Numbers& numbers) {
   constexpr std::array<double, 6> distances = {1, 1.2, 1.9, 2.2, 30, 1e4};
   const Vec3 eye = numbers.below(6) == 0
@@ -78,7 +78,7 @@ std::vector<WorldRay> rays_at(const BoundedSphere& ball, const Room& room, Numbe
     if (kind == 1) ray.t_min = numbers.within(0, 1.2) * glm::length(way);
     if (kind == 2) ray.t_min = -numbers.within(0, 2) * glm::length(way);
     if (numbers.below(2) == 0) ray.direction *= 1 / largest_component(ray.direction);
-    // A camera's.
+    // Some are a camera's.
     if (numbers.below(2) == 0) ray.start.t_error = start_rounding * largest_component(eye);
   }
   return rays;
@@ -103,8 +103,8 @@ const BoundedSphere& any_of(const std::vector<BoundedSphere>& balls, Numbers& nu
   return balls[static_cast<std::size_t>(numbers.below(static_cast<int>(balls.size())))];
 }
 
-/// Where a line enters and leaves a ball, to many more digits than floats have; nothing if it does
-/// not.
+/// A Chord is where a line enters and leaves a sphere, to many more digits than floats have. It is
+/// not found if the line misses.
 struct Chord {
   bool found = false;
   double enter = infinity;
@@ -172,12 +172,11 @@ TEST_CASE("what floats say of rays among balls is true") {
         const WorldRay& ray = rays[k];
         const bool meets = (first.meeting >> k & 1u) != 0;
         if (!meets && (first.missing >> k & 1u) == 0) continue;
-        const double to =
-            meets ? first.to[k / lane_count][static_cast<int>(k % lane_count)] : ray.t_max;
+        const double to = meets ? first.to[k / lane_count][k % lane_count] : ray.t_max;
         for (std::size_t ball = 0; ball < balls.size(); ++ball) {
           const double t = first_after(exact_chord(ray, balls[ball]), ray.t_min);
           const bool is_first = meets && first.boxes[k] == ball;
-          // Beyond the ray's end it may be as it likes.
+          // Beyond the ray's end any answer will do.
           INFO(round, ' ', i, ' ', k, ' ', ball, " t ", t, " to ", to, " meets ", meets, " first ",
                first.boxes[k], " tmin ", ray.t_min, " tmax ", ray.t_max, " enter ",
                exact_chord(ray, balls[ball]).enter, " leave ", exact_chord(ray, balls[ball]).leave,
@@ -189,8 +188,8 @@ TEST_CASE("what floats say of rays among balls is true") {
       }
     }
   }
-  // Half of the rays have their aim's rim within a hundredth, and a third of the balls come in
-  // pairs.
+  // Half of the rays pass their sphere's silhouette within a hundredth, and a third of the spheres
+  // come in pairs.
   CHECK(known > asked / 2);
   CHECK(met > asked / 4);
   CHECK(missed > asked / 50);

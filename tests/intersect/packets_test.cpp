@@ -1,4 +1,4 @@
-// What spares rays exact tests, cheap tests and packets, changes no answer.
+// What saves rays exact tests, such as conservative tests and packets, changes no answer.
 #include <doctest/doctest.h>
 
 #include <array>
@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint64_t seed = 20261121;
 
-/// Along the surface of a torus or sphere, a little outside or inside.
+/// Returns a ray along the surface of a torus or sphere, a little outside or inside.
 WorldRay grazing_ray(const Target& target, Numbers& numbers) {
   const Vec3 radial = glm::normalize(glm::cross(target.axis, numbers.direction()));
   const bool is_cylinder = target.half_length > 0;
@@ -37,8 +37,8 @@ WorldRay grazing_ray(const Target& target, Numbers& numbers) {
   return {.origin = place - numbers.size(0.1, 100) * tangent, .direction = tangent};
 }
 
-/// Rays that go nearly the same way, some of them along the very rim of what they are aimed at, or
-/// from a surface.
+/// Returns rays in nearly the same direction, some of them along the silhouette of what they are
+/// aimed at, or from a surface.
 std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Numbers& numbers,
                                 RayWorkspace& work) {
   const Vec3 eye = numbers.point(numbers.below(4) == 0 ? 1000 : 8);
@@ -74,7 +74,7 @@ std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Nu
   return rays;
 }
 
-/// In crowds of so many at most.
+/// Checks packets in crowds of so many at most.
 void check_packets(Precision precision, int packets, std::size_t largest = 1000) {
   Numbers numbers(seed);
   for (int round = 0; round < 4; ++round) {
@@ -91,7 +91,7 @@ void check_packets(Precision precision, int packets, std::size_t largest = 1000)
       for (std::size_t k = 0; k < rays.size(); ++k) {
         const RayHit alone = data.intersect(rays[k], work);
         REQUIRE(same(alone, hits[k]));
-        // The crossings are found without any cheap test.
+        // The crossings are found without any conservative test.
         data.crossings(rays[k], line, work);
         REQUIRE(alone.found() == !line.empty());
         if (!alone.found()) continue;
@@ -132,8 +132,8 @@ TEST_CASE("so it does where there are few objects") {
 
 namespace {
 
-/// From anywhere to anywhere, some of them all but along an axis, and some that begin behind their
-/// origins.
+/// Returns a ray from anywhere to anywhere. Some are all but along an axis, and some begin behind
+/// their origins.
 WorldRay ray_anywhere(Numbers& numbers) {
   WorldRay ray{.origin = numbers.point(numbers.below(4) == 0 ? 1e6 : 5),
                .direction = numbers.direction()};
@@ -256,7 +256,7 @@ TEST_CASE("so it does at lenses however far from the origin they are") {
 
 namespace {
 
-/// Rays that are nasty for spheres and for planes across an axis.
+/// Returns a ray that is difficult for spheres and for planes across an axis.
 WorldRay ray_near(const Sphere& sphere, Numbers& numbers) {
   const Vec3 d = numbers.direction();
   const Vec3 across = glm::normalize(glm::cross(d, numbers.direction()));
@@ -265,12 +265,11 @@ WorldRay ray_near(const Sphere& sphere, Numbers& numbers) {
                      : kind == 1 ? 1 + numbers.size(1e-17, 1e-3) * (numbers.below(2) == 0 ? 1 : -1)
                      : kind == 2 ? numbers.size(1e-17, 1)
                                  : numbers.within(0, 1.5);
-  // From inside, from nearby, or from so far away that the way there has no digits left for the
-  // sphere.
+  // Rays start inside, nearby, or so far away that the distance leaves no digits for the sphere.
   const double away = numbers.below(3) == 0 ? numbers.within(0, 1) : numbers.size(1, 1e20);
   WorldRay ray{.origin = sphere.center + sphere.radius * (off * across - away * d), .direction = d};
   if (numbers.below(4) == 0) {
-    // All but along the planes, or just along them.
+    // Some are all but along the planes, or exactly along them.
     const int axis = numbers.below(3);
     ray.direction[axis] =
         numbers.below(3) == 0 ? 0 : ray.direction[axis] * numbers.size(1e-300, 1e-3);

@@ -1,4 +1,4 @@
-// Where one ray meets very many things: what it costs, and who may stop it.
+// One ray may meet very many things. These tests are about what it costs, and who may stop it.
 #include <doctest/doctest.h>
 #include <unistd.h>
 
@@ -17,7 +17,7 @@ namespace {
 
 struct Stopped {};
 
-/// Balls that all overlap, each a little farther on than the one before.
+/// Returns spheres that all overlap, each a little farther than the one before.
 std::vector<Entity> crowd(int count) {
   std::vector<Entity> balls;
   for (int i = 0; i < count; ++i) balls.emplace_back(Sphere{.center = {0, 0, 1e-7 * i}});
@@ -30,7 +30,7 @@ Scene scene_of(std::vector<Entity> entities) {
   return scene;
 }
 
-/// The same balls met by a ray through all of them, each an object or all of them one.
+/// These scenes have the spheres as objects of their own, or as one object. A ray meets them all.
 Scene lone(int count) {
   return scene_of(crowd(count));
 }
@@ -43,7 +43,7 @@ Scene common(int count) {
 
 const WorldRay through{.origin = {0.1, 0.2, -5}, .direction = {0, 0, 1}};
 
-/// What a ray for all crossings counts: objects, and crossings with parts of them.
+/// Returns what a ray for all crossings counts: objects, and crossings with parts of them.
 std::uint64_t work_of(const Scene& scene) {
   const PreparedData prepared(scene);
   RayWorkspace work;
@@ -107,7 +107,7 @@ TEST_CASE("a ray of too many steps ends with an error, alone and among others") 
     CHECK_NOTHROW(ask_for_any());
     CHECK_NOTHROW(ask_for_packet());
   }
-  // Where the nearest is behind all others.
+  // The nearest hit is behind all others here.
   const PreparedData prepared(common(count));
   RayWorkspace work;
   work.csg.steps.rules = &rules;
@@ -134,7 +134,7 @@ TEST_CASE("a ray through a crowd is stopped in its midst") {
     polls = 0;
     CHECK_THROWS_AS(prepared.crossings(through, hits, work), Stopped);
     CHECK(work.intersection_tests + work.interval_events() < count / 5);
-    // The workspace is as good as before.
+    // The workspace is still usable.
     work.csg.steps.rules = nullptr;
     prepared.crossings(through, hits, work);
     CHECK(hits.size() == (make == lone ? 2 * count : 2));

@@ -1,4 +1,4 @@
-// Boxes whose crossings the proxy tells (scene/proxy_box.hpp, scene/first_crossing.hpp) against
+// Boxes whose crossings the proxy resolves (proxy_box.hpp, first_crossing.hpp) are compared with
 // their shapes.
 #include <doctest/doctest.h>
 
@@ -35,7 +35,8 @@ Corners some_box(Numbers& numbers, double scale) {
   return {lower, lower + size};
 }
 
-/// The box, and others that touch it, coincide with it, or have a face in line with one of its.
+/// Returns a scene with the box, and others that touch it, coincide with it, or have a face in line
+/// with one of its.
 Scene neighbourhood(const Corners& box, Precision precision, Numbers& numbers) {
   Scene scene;
   scene.settings.precision = precision;
@@ -51,7 +52,7 @@ Scene neighbourhood(const Corners& box, Precision precision, Numbers& numbers) {
     lower[axis] = box.upper[axis];
     upper[axis] = box.upper[axis] + numbers.within(0.1, 2) * size[axis];
     if (numbers.below(2) == 0) add(lower, upper);
-    // In line with it, but elsewhere.
+    // This box is in line with it, but elsewhere.
     lower = box.at(numbers.point(5));
     upper = lower + numbers.size(1e-2, 3) * size;
     (numbers.below(2) == 0 ? lower : upper)[axis] =
@@ -59,7 +60,7 @@ Scene neighbourhood(const Corners& box, Precision precision, Numbers& numbers) {
     if (numbers.below(2) == 0) add(lower, upper);
   }
   if (numbers.below(4) == 0) add(box.lower, box.upper);
-  // One that holds it, and one that holds less.
+  // One box holds it, and one is within it.
   if (numbers.below(4) == 0) add(box.at(Vec3(-3)), box.at(Vec3(4)));
   if (numbers.below(4) == 0) add(box.at(Vec3(0.25)), box.at(Vec3(0.75)));
   Vec3 normal(0);
@@ -69,7 +70,8 @@ Scene neighbourhood(const Corners& box, Precision precision, Numbers& numbers) {
   return scene;
 }
 
-/// Rays to anywhere in and around the box, to its corners and edges and a little beside these.
+/// Returns a ray to anywhere in and around the box, or to its corners and edges and a little beside
+/// these.
 WorldRay ray_near(const Corners& box, Numbers& numbers) {
   Vec3 share =
       numbers.below(2) == 0 ? Vec3(0.5) + numbers.point(0.5) : Vec3(0.5) + numbers.point(2);
@@ -82,7 +84,8 @@ WorldRay ray_near(const Corners& box, Numbers& numbers) {
   const Vec3 place = box.at(share);
   Vec3 d = numbers.direction();
   if (numbers.below(4) == 0) {
-    // All but along the faces, or just along them; of two axes along an edge.
+    // Some are all but along the faces, or exactly along them. With two axes they are along an
+    // edge.
     for (int axes = 1 + numbers.below(2); axes > 0; --axes) {
       const int axis = numbers.below(3);
       d[axis] = numbers.below(3) == 0 ? 0 : d[axis] * numbers.size(1e-300, 1e-3);
@@ -91,8 +94,7 @@ WorldRay ray_near(const Corners& box, Numbers& numbers) {
     d = glm::normalize(d);
   }
   if (numbers.below(4) == 0) d *= numbers.size(1e-3, 1e3);
-  // From inside, from nearby, or from so far away that the way there has no digits left for the
-  // box.
+  // Rays start inside, nearby, or so far away that the distance leaves no digits for the box.
   const double size = largest_component(box.upper - box.lower);
   const double away = size * (numbers.below(3) == 0 ? numbers.within(0, 1) : numbers.size(1, 1e20));
   WorldRay ray{.origin = place - away * d, .direction = d};
@@ -101,7 +103,8 @@ WorldRay ray_near(const Corners& box, Numbers& numbers) {
   return ray;
 }
 
-/// From where rays hit something, to anywhere: or along the surface, or to the rim of a box.
+/// Continues rays from where they hit something, to anywhere, along the surface, or to the edge of
+/// a box.
 void go_on_around(const PreparedData& data, const Corners& box, Numbers& numbers,
                   RayWorkspace& work, std::vector<WorldRay>& rays) {
   const double size = largest_component(box.upper - box.lower);
@@ -115,7 +118,7 @@ void go_on_around(const PreparedData& data, const Corners& box, Numbers& numbers
   });
 }
 
-/// Whether rays to what they hit see it.
+/// Checks whether rays to what they hit see it.
 void check_to_surfaces(const PreparedData& data, std::vector<WorldRay> rays, RayWorkspace& work) {
   std::vector<RayHit> line;
   for (WorldRay& ray : rays) {

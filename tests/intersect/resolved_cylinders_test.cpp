@@ -1,5 +1,5 @@
-// Cylinders and cones whose first crossings are told side by side (scene/first_crossing.hpp)
-// against their shapes.
+// Cylinders and cones whose first crossings are found side by side (first_crossing.hpp) are
+// compared with their shapes.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -22,8 +22,8 @@ constexpr std::uint64_t seed = 20261123;
 
 using PlacedCone = Placed<Cone>;
 
-/// Thin or flat; a cylinder, nearly one, blunt or pointed; not moved, moved, turned, or scaled
-/// unevenly.
+/// Returns a cone that is thin or flat. It is a cylinder, nearly one, blunt or pointed. It is not
+/// moved, moved, turned, or scaled unevenly.
 PlacedCone some_cone(Numbers& numbers, double scale) {
   const Vec3 from = scale * numbers.point(numbers.below(2) == 0 ? 1 : 1e3);
   const Vec3 axis = numbers.below(3) == 0 ? Vec3(0, 1, 0) : numbers.direction();
@@ -42,7 +42,7 @@ PlacedCone some_cone(Numbers& numbers, double scale) {
   return placed;
 }
 
-/// Through its side or its caps, all but along its surface, or past it.
+/// Returns a ray through its side or its caps, all but along its surface, or past it.
 WorldRay ray_near(const PlacedCone& placed, Numbers& numbers) {
   const Cone& cone = placed.primitive;
   const Vec3 way = cone.to - cone.from;
@@ -74,7 +74,7 @@ void check_cones(Precision precision, int rounds) {
       scene.entities.emplace_back(
           Plane{.normal = numbers.direction(), .position = placed.to_place(middle)});
     }
-    // One that goes on where it ends, with a cap in common.
+    // This cone continues where the other ends, with a cap in common.
     PlacedCone next = placed;
     next.primitive.from = placed.primitive.to;
     next.primitive.to = 2.0 * placed.primitive.to - placed.primitive.from;

@@ -1,5 +1,5 @@
-// Spheres that are moved on the way to the world and whose first crossings are told
-// (scene/first_crossing.hpp) against their shapes.
+// Spheres that have a transform, and whose first crossings are found by first_crossing.hpp, are
+// compared with their shapes.
 #include <doctest/doctest.h>
 
 #include <cstdint>
@@ -21,18 +21,18 @@ constexpr std::uint64_t seed = 20261123;
 
 using PlacedSphere = Placed<Sphere>;
 
-/// About the origin, or anywhere.
+/// Returns a sphere about the origin, or anywhere.
 PlacedSphere some_sphere(Numbers& numbers, double scale) {
   PlacedSphere placed;
   placed.primitive.radius = scale * numbers.size(1e-2, 1);
   placed.primitive.center = numbers.below(2) == 0 ? Vec3(0) : scale * numbers.point(10);
   placed.steps = some_steps(numbers, scale);
-  // Where its centre may have all its digits.
+  // Its centre may have all its digits then.
   if (numbers.below(4) == 0) placed.steps = {translate(scale * glm::round(numbers.point(9)))};
   return placed;
 }
 
-/// Through the sphere, all but beside it, or past it.
+/// Returns a ray through the sphere, all but beside it, or past it.
 WorldRay ray_near(const PlacedSphere& placed, Numbers& numbers) {
   const Sphere& sphere = placed.primitive;
   const Vec3 d = numbers.direction();
@@ -70,7 +70,7 @@ void check_spheres(Precision precision, int rounds) {
   CHECK(met > 200 * rounds);
 }
 
-/// Whether the proxy of an object tells its crossings.
+/// Returns whether the proxy of an object resolves its crossings.
 bool is_resolved(const Entity& entity) {
   const Entity entities[] = {entity};
   const CompiledScene scene = compile(entities);

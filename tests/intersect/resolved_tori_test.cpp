@@ -1,5 +1,5 @@
-// Tori whose first crossings are told without their other ones (scene/first_crossing.hpp) against
-// their shapes.
+// Tori whose first crossings are found without their other ones (first_crossing.hpp) are compared
+// with their shapes.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -24,7 +24,8 @@ constexpr std::uint64_t seed = 20261123;
 
 using PlacedTorus = Placed<Torus>;
 
-/// Thin, fat or a spindle; not moved, moved, turned, or scaled unevenly.
+/// Returns a torus that is thin, fat or a spindle. It is not moved, moved, turned, or scaled
+/// unevenly.
 PlacedTorus some_torus(Numbers& numbers, double scale) {
   PlacedTorus placed;
   const double ring = scale * numbers.size(1e-2, 1);
@@ -40,7 +41,7 @@ PlacedTorus some_torus(Numbers& numbers, double scale) {
   return placed;
 }
 
-/// Through the torus, along its surface, through its hole, or past it.
+/// Returns a ray through the torus, along its surface, through its hole, or past it.
 WorldRay ray_near(const PlacedTorus& placed, Numbers& numbers) {
   const Torus& torus = placed.primitive;
   const Vec3 axis = glm::normalize(torus.axis);
@@ -71,7 +72,7 @@ void check_tori(Precision precision, int rounds) {
     if (numbers.below(2) == 0) {
       scene.entities.emplace_back(Plane{.normal = numbers.direction(), .position = center});
     }
-    // One that is turned about its axis only, and others that lie across it.
+    // One torus is turned about its axis only, and others lie across it.
     if (numbers.below(4) == 0) scene.entities.push_back(placed.entity());
     for (int i = numbers.below(3); i > 0; --i) {
       PlacedTorus other = placed;
@@ -85,7 +86,7 @@ void check_tori(Precision precision, int rounds) {
   CHECK(met > 300 * rounds);
 }
 
-/// A line in a torus's frame, with what lies beside it in the three other lanes.
+/// A LineInFrame is a line in a torus's frame, with what lies beside it in the three other lanes.
 struct LineInFrame {
   Vec3 point;
   Vec3 direction;

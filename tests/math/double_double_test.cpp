@@ -1,4 +1,4 @@
-// Double-double arithmetic against quadruple precision, which has a few more bits.
+// Double-double arithmetic is compared with quadruple precision, which has a few more bits.
 #include "core/math/double_double.hpp"
 
 #include <doctest/doctest.h>
@@ -50,7 +50,7 @@ TEST_CASE("sums and products of two doubles lose nothing") {
     REQUIRE(exact(two_product(a, b)) == Real(a) * Real(b));
     const double large = std::abs(a) > std::abs(b) ? a : b;
     const double small = std::abs(a) > std::abs(b) ? b : a;
-    // The sum may need more bits than quadruple precision has, its parts do not.
+    // The sum may need more bits than quadruple precision has, but its parts do not.
     const DoubleDouble sum = two_sum(a, b);
     REQUIRE(sum.hi == a + b);
     REQUIRE(Real(large) - Real(sum.hi) + Real(small) == Real(sum.lo));
@@ -60,8 +60,8 @@ TEST_CASE("sums and products of two doubles lose nothing") {
 
 TEST_CASE("double-double operations keep the proven bounds") {
   Numbers numbers;
-  // Joldes, Muller, Popescu 2017: 3u^2 + 13u^3 for the sum, 5u^2 for the product, 15u^2 for the
-  // quotient.
+  // By Joldes, Muller, Popescu 2017 the bounds are 3u^2 + 13u^3 for the sum, 5u^2 for the product,
+  // and 15u^2 for the quotient.
   const Real slack = 1 + 0x1p-4;  // quadruple precision is itself rounded
   for (int i = 0; i < rounds; ++i) {
     const DoubleDouble a = numbers.next_pair();

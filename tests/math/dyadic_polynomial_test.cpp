@@ -6,7 +6,7 @@ using namespace crt::core;
 
 namespace {
 
-/// The product of x - root over all roots.
+/// Returns the product of x - root over all roots.
 DyadicPolynomial with_roots(const std::vector<double>& roots) {
   DyadicPolynomial product({Dyadic(1)});
   for (const double root : roots) product = product * DyadicPolynomial({Dyadic(-root), Dyadic(1)});
@@ -40,11 +40,11 @@ TEST_CASE("separators have one root between each two") {
 }
 
 TEST_CASE("a refined root is good to 100 bits, whatever it is added to") {
-  // x^2 - 2 between 1 and 2, and the same taken from a number next to it.
+  // This is the root of x^2 - 2 between 1 and 2, and that root less a number next to it.
   const DyadicPolynomial polynomial({Dyadic(-2), Dyadic(0), Dyadic(1)});
   const auto is_beyond = [&](const Dyadic& x) { return polynomial.value(x).sign() > 0; };
   const auto error_of = [&](const Dyadic& root) {
-    // x^2 - 2 is 2 sqrt(2) times what x is off by.
+    // x^2 - 2 is 2 sqrt(2) times the error of x.
     const ScaledNumber height = polynomial.value(root).rounded();
     return std::abs(height.unscaled().hi) / 2.8;
   };

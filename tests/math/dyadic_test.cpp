@@ -12,7 +12,7 @@ using crt::core::ScaledNumber;
 
 namespace {
 
-/// A double of any size that makes sense, and now and then 0 or a small whole number.
+/// Returns a double of any size that makes sense, and sometimes 0 or a small whole number.
 double any_double(std::mt19937_64& random) {
   if (random() % 4 == 0) return static_cast<double>(random() % 5) - 2;
   const double fraction = static_cast<double>(static_cast<std::int64_t>(random()) >> 8);
@@ -79,7 +79,7 @@ TEST_CASE("a difference far below a double's rounding has the right sign") {
   CHECK((square(one + tiny) - one - tiny - tiny).sign() == 1);
   CHECK((square(one + tiny) - one - tiny - tiny - square(tiny)).sign() == 0);
   CHECK((one - square(one - tiny) - tiny - tiny).sign() == -1);
-  // Beyond the range of doubles.
+  // These are beyond the range of doubles.
   const Dyadic huge(0x1p1000);
   CHECK((huge * huge * huge - huge * huge).sign() == 1);
   CHECK((huge * huge * tiny * tiny - one).sign() == 0);

@@ -12,7 +12,7 @@ using namespace crt::core;
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// In units of 2^-52 of the true number.
+/// Returns the error in units of 2^-52 of the true number.
 long double error_of(double found, long double truth) {
   return std::abs(found - truth) / std::abs(truth) * 0x1p52L;
 }

@@ -14,7 +14,7 @@ TEST_CASE("Philox4x32-10 gives the known answers that Random123 publishes") {
         PhiloxCounter{0x6627e8d5, 0xe169c58d, 0xbc57ac4c, 0x9b00dbd8});
   CHECK(philox4x32_10({0xffffffff, 0xffffffff, 0xffffffff, 0xffffffff}, {0xffffffff, 0xffffffff}) ==
         PhiloxCounter{0x408f276d, 0x41c83b0e, 0xa20bc7c6, 0x6d5451fd});
-  // The digits of pi.
+  // These are the digits of pi.
   CHECK(philox4x32_10({0x243f6a88, 0x85a308d3, 0x13198a2e, 0x03707344}, {0xa4093822, 0x299f31d0}) ==
         PhiloxCounter{0xd16cfe09, 0x94fdcceb, 0x5001e420, 0x24126ea1});
 }
@@ -36,7 +36,7 @@ TEST_CASE("the unit interval is closed at 0, open at 1, and has 53 bits") {
 
 namespace {
 
-/// The pairs of a small picture with several samples and dimensions, all from neighbouring
+/// Returns the pairs of a small picture with several samples and dimensions, all from neighbouring
 /// counters.
 std::vector<std::array<double, 2>> many_pairs(std::uint64_t seed) {
   std::vector<std::array<double, 2>> pairs;
@@ -66,8 +66,8 @@ TEST_CASE("numbers for neighbouring uses fill the unit square evenly") {
     double chi_square = 0;
     for (const double count : counts)
       chi_square += (count - expected) * (count - expected) / expected;
-    // 255 degrees of freedom: mean 255, standard deviation sqrt(510) = 22.6; five of them either
-    // way.
+    // With 255 degrees of freedom the mean is 255, and the standard deviation is sqrt(510) = 22.6.
+    // Five of them are allowed on either side.
     CHECK(chi_square > 255 - 5 * 22.6);
     CHECK(chi_square < 255 + 5 * 22.6);
   }

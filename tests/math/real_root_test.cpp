@@ -8,14 +8,14 @@ using namespace crt::core;
 
 namespace {
 
-/// x^2 - c.
+/// Returns x^2 - c.
 DyadicPolynomial square_less(const Dyadic& c) {
   return DyadicPolynomial({-c, 0, 1});
 }
 DyadicPolynomial line_through(const Dyadic& root) {
   return DyadicPolynomial({-root, 1});
 }
-/// 2 to a power that doubles need not reach.
+/// Returns 2 to a power that may be beyond the range of doubles.
 Dyadic power_of_two(int exponent) {
   Dyadic result = 1;
   for (; exponent <= -1000; exponent += 1000) result = result * Dyadic(0x1p-1000);
@@ -42,7 +42,7 @@ TEST_CASE("roots are one if they are so by other equations, too") {
   CHECK(order(c, d) == 0);
   RealRoot e = *RealRoot::of_index(two, 0);
   CHECK(order(e, c) == -1);
-  // 3 as it is, and as a root of x^2 - 9.
+  // This is 3 as it is, and as a root of x^2 - 9.
   RealRoot three = RealRoot::at(3);
   RealRoot root = last_root(square_less(9));
   CHECK(order(three, root) == 0);
@@ -64,9 +64,9 @@ TEST_CASE("roots are told apart however close they are") {
     RealRoot e = last_root(square_less(Dyadic(9) - little));
     CHECK(order(e, c) == -1);
     CHECK(order(c, e) == 1);
-    // Both roots of one equation: (x - 3)(x - 3 - little).
+    // These are both roots of one equation: (x - 3)(x - 3 - little).
     const DyadicPolynomial both = line_through(3) * line_through(Dyadic(3) + little);
-    if (exponent < -300) continue;  // what root_separators() leaves together
+    if (exponent < -300) continue;  // which root_separators() does not separate
     RealRoot first = *RealRoot::of_index(both, 0);
     RealRoot second = *RealRoot::of_index(both, 1);
     CHECK(order(first, second) == -1);

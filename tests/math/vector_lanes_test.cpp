@@ -14,7 +14,7 @@ using crt::Vec3;
 
 namespace {
 
-/// Vectors of all sizes, with components that are far apart.
+/// Makes vectors of all sizes, with components of very different sizes.
 class Vectors {
  public:
   Vec3 next() {
@@ -92,7 +92,7 @@ TEST_CASE("lanes are chosen by mask") {
   const VectorLanes a = lanes_of(Vec3(1, 2, 3));
   const VectorLanes b = lanes_of(Vec3(4, 5, 6));
   for (std::uint32_t mask = 0; mask < 1u << lane_count; ++mask) {
-    const VectorLanes c = chosen(lanes_with(mask), a, b);
+    const VectorLanes c = select(lanes_with(mask), a, b);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       CHECK(c.lane(lane) == ((mask >> lane & 1u) != 0 ? Vec3(1, 2, 3) : Vec3(4, 5, 6)));
     }

@@ -173,7 +173,7 @@ TEST_CASE("several directions side by side see what each sees alone, to the last
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       if ((asked >> lane & 1u) == 0) continue;
       const Vec3 color = colors.color.lane(lane);
-      CHECK(Color{color.x, color.y, color.z, colors.alpha[static_cast<int>(lane)]} ==
+      CHECK(Color{color.x, color.y, color.z, colors.alpha[lane]} ==
             background.color(directions.lane(lane)));
     }
   }

@@ -180,12 +180,12 @@ TEST_CASE("four rays side by side are refracted as each alone, to the last bit")
       Lanes n2{};
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
         lanes.set(lane, lane % 2 == 0 ? direction : incoming(0.3));
-        n2[static_cast<int>(lane)] = indices[(i + lane) % indices.size()];
+        n2[lane] = indices[(i + lane) % indices.size()];
       }
       const auto together = refract(lanes, lanes_of(up), lanes_of(n1), n2);
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        const auto alone = refract(lanes.lane(lane), up, n1, n2[static_cast<int>(lane)]);
-        REQUIRE(together.reflectance[static_cast<int>(lane)] == alone.reflectance);
+        const auto alone = refract(lanes.lane(lane), up, n1, n2[lane]);
+        REQUIRE(together.reflectance[lane] == alone.reflectance);
         REQUIRE(together.direction.lane(lane) == alone.direction);
       }
     }

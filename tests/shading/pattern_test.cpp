@@ -156,7 +156,7 @@ TEST_CASE("points side by side have the colours that each has by itself") {
           if ((lanes >> lane & 1u) == 0) continue;
           const Color alone = pattern.color(lane_of(points, lane));
           REQUIRE(colors.color.lane(lane) == rgb(alone));
-          const double alpha = colors.alpha[static_cast<int>(lane)];
+          const double alpha = colors.alpha[lane];
           REQUIRE(alpha == alone.a);
         }
       }

@@ -30,7 +30,7 @@ std::optional<LightSample> sample_of(const crt::Light& light, const Vec3& point,
                                                -3.0 * point + Vec3(1e-3, 7, 1)};
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     points.set(lane, beside[lane]);
-    path_lengths[static_cast<int>(lane)] = lane == 2 ? path_length : 77;
+    path_lengths[lane] = lane == 2 ? path_length : 77;
   }
   LightSamples samples;
   const LaneMask lit = PreparedLight(light, model).sample(points, path_lengths, samples);

@@ -31,7 +31,7 @@ RayMask mask_of_valid(const int* valid, unsigned count) {
   if (!has_groups(count)) return valid[0] != 0 ? 1 : 0;
   RayMask mask = 0;
   for (unsigned i = 0; i < count; i += lane_count)
-    mask |= mask_of(lanes_at<IntLanes>(valid + i)) << i;
+    mask |= mask_of(lanes_at<IntLanes>(valid + i) != 0) << i;
   return mask;
 }
 
@@ -53,7 +53,7 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
       if (has_groups(count)) {
         put_lanes(min(lanes_at<FloatLanes>(far_ends), ends), far_ends, 0);
       } else {
-        *far_ends = std::min(*far_ends, ends[static_cast<int>(first % lane_count)]);
+        *far_ends = std::min(*far_ends, ends[first % lane_count]);
       }
     });
   } catch (...) {
@@ -80,8 +80,8 @@ void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays
           .origin = {&of_part.org_x[first], &of_part.org_y[first], &of_part.org_z[first]},
           .direction = {&of_part.dir_x[first], &of_part.dir_y[first], &of_part.dir_z[first]},
           .end = &of_part.tfar[first]};
-      search.meet(sphere, arguments.primID, first, lanes_at<OctetMask>(arguments.valid + first),
-                  octet);
+      const auto valid = lanes_at<IntOctet>(arguments.valid + first) != 0;
+      search.meet(sphere, arguments.primID, first, mask_cast<OctetMask>(valid), octet);
     }
   };
   if (count == packet_size) return meet_octets(*reinterpret_cast<RTCRay16*>(rays));
@@ -104,7 +104,7 @@ void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays
                                         column(5, RTCRayN_dir_z(rays, count, i))},
                           .end = column(6, RTCRayN_tfar(rays, count, i))};
     OctetMask only{};
-    only[ray % octet_size] = -1;
+    only[ray % octet_size] = true;
     search.meet(sphere, arguments.primID, first, only, octet);
     RTCRayN_tfar(rays, count, i) = columns[6][ray % octet_size];
   }

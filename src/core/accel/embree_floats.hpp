@@ -35,11 +35,10 @@ inline float round_up_length(double length) {
 /// The same of each, if it is not negative.
 inline FloatLanes round_up_length(const Lanes& length) {
   const FloatLanes nearest = to_floats(length);
-  // -1 where it is true.
-  const auto too_low = __builtin_convertvector(to_doubles(nearest) < length, IntLanes);
-  const auto rounded_up =
-      reinterpret_cast<FloatLanes>(reinterpret_cast<IntLanes>(nearest) - too_low);
-  return max(rounded_up, FloatLanes{} + shortest_way);
+  const auto too_low = stdx::static_simd_cast<IntLanes>(
+      select(to_doubles(nearest) < length, lanes_of(1), lanes_of(0)));
+  const auto rounded_up = bits_as<FloatLanes>(bits_as<IntLanes>(nearest) + too_low);
+  return max(rounded_up, FloatLanes(shortest_way));
 }
 
 /// Of a packet's directions. What is all but 0 Embree takes for a small number above 0, yet sorts
@@ -47,7 +46,7 @@ inline FloatLanes round_up_length(const Lanes& length) {
 /// boxes.
 inline FloatLanes direction_floats(const Lanes& component) {
   constexpr double least = 0x1p-59;  // Embree's is 1e-18
-  return to_floats(abs(component) > least ? component : Lanes{});
+  return to_floats(select(abs(component) > least, component, Lanes{}));
 }
 
 }  // namespace crt::core

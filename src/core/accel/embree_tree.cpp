@@ -189,7 +189,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   traversal.scale = scale_ * length;
 
   // Axes side by side, and the start as ObjectRay::from_center() has it.
-  const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, 0}; };
+  const auto by_axis = [](const Vec3& v) { return lanes_of(v.x, v.y, v.z, 0); };
   const Lanes along = by_axis(direction);
   const DoubleDoubleLanes offset = two_sum(by_axis(origin), -by_axis(center_));
   const Lanes place = (fma(lanes_of(t_start), along, offset.hi) + offset.lo) * scale_;

@@ -29,10 +29,8 @@ class FlatBoxList {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
       Group& group = groups_[i / lane_count];
       for (std::size_t axis = 0; axis < 3; ++axis) {
-        group.lower[axis][static_cast<int>(i % lane_count)] =
-            boxes[i].lower[static_cast<int>(axis)];
-        group.upper[axis][static_cast<int>(i % lane_count)] =
-            boxes[i].upper[static_cast<int>(axis)];
+        group.lower[axis][i % lane_count] = boxes[i].lower[static_cast<int>(axis)];
+        group.upper[axis][i % lane_count] = boxes[i].upper[static_cast<int>(axis)];
       }
     }
   }
@@ -54,7 +52,7 @@ class FlatBoxList {
       const FilterLine<Lanes>& lines = packet.groups[group];
       const Lanes steepest =
           max(max(abs(lines.inverse[0]), abs(lines.inverse[1])), abs(lines.inverse[2]));
-      const LaneMask is_taken = both(lines.begin >= 0.0, steepest < RaySlabs::largest_inverse);
+      const LaneMask is_taken = lines.begin >= 0.0 && steepest < RaySlabs::largest_inverse;
       taken |= (lanes & mask_of(is_taken)) << (group * lane_count);
     });
     return taken;
@@ -98,9 +96,7 @@ class FlatBoxList {
   struct BoxTimes {
     alignas(sizeof(Lanes)) std::array<double, most_boxes> of;
 
-    void set(std::size_t group, const Lanes& times) {
-      std::memcpy(&of[group * lane_count], &times, sizeof times);
-    }
+    void set(std::size_t group, const Lanes& times) { put_lanes(times, of, group * lane_count); }
   };
 
   /// When lines are in boxes.
@@ -188,7 +184,7 @@ class FlatBoxList {
 
   RayMask rays_meeting(std::uint32_t box, const RayPacket& packet, RayMask rays) const {
     const Group& boxes = groups_[box / lane_count];
-    const auto i = static_cast<int>(box % lane_count);
+    const std::size_t i = box % lane_count;
     Group same;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       same.lower[axis] = lanes_of(boxes.lower[axis][i]);

@@ -13,8 +13,8 @@ namespace crt::core {
 class Extent {
  public:
   void include(const Lanes& values, const LaneMask& lanes) {
-    low_ = min(low_, lanes ? values : low_);
-    high_ = max(high_, lanes ? values : high_);
+    low_ = min(low_, select(lanes, values, low_));
+    high_ = max(high_, select(lanes, values, high_));
   }
   double low() const { return std::min(std::min(low_[0], low_[1]), std::min(low_[2], low_[3])); }
   double high() const {

@@ -16,16 +16,16 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// As many as Linux itself follows.
+/// Linux itself follows as many symbolic links.
 constexpr int most_links = 40;
 
 fs::path folder_of(const fs::path& path) {
   return path.has_parent_path() ? path.parent_path() : fs::path(".");
 }
 
-/// The number that the file system shows one of this process's own descriptors under. The name is a
-/// link to the file that is open, but whoever names the descriptor means what is open, with its
-/// place in the file.
+/// Returns the number of the descriptor of this process that the file system shows under `path`.
+/// The name there is a link to the file that is open. But whoever names the descriptor means what
+/// is open, with its place in the file.
 std::optional<int> own_descriptor(const fs::path& path) {
   const std::string name = path.filename().string();
   int number = -1;
@@ -40,7 +40,7 @@ std::optional<int> own_descriptor(const fs::path& path) {
   return std::nullopt;
 }
 
-/// There is nothing at a path: whether there can be.
+/// Checks that a file can be made at a path where there is nothing. Throws Error (io) otherwise.
 void check_folder(const fs::path& path) {
   if (path.empty()) fail_to_write(path, "a file needs a name");
   const fs::path folder = folder_of(path);

@@ -9,7 +9,7 @@ namespace crt::core {
 
 namespace {
 
-/// More than the largest picture takes that can be rendered pass by pass.
+/// This is more than the largest picture takes that can be rendered pass by pass.
 constexpr std::size_t most_bytes = std::size_t{1} << 34;
 
 }  // namespace
@@ -60,7 +60,7 @@ StateReader::StateReader(const std::filesystem::path& path)
   if (content_.size() < sizeof expected) fail();
   rest_ = rest_.first(content_.size() - sizeof expected);
   std::memcpy(&expected, content_.data() + rest_.size(), sizeof expected);
-  constexpr std::size_t piece = std::size_t{1} << 16;  // as it was written
+  constexpr std::size_t piece = std::size_t{1} << 16;  // the bytes that StateWriter hashes at once
   ByteHash hash;
   for (std::size_t first = 0; first < rest_.size(); first += piece) {
     hash.add(rest_.subspan(first, std::min(piece, rest_.size() - first)));

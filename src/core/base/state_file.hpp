@@ -1,4 +1,4 @@
-// Numbers one after the other in a file that tells whether it is whole.
+// A state file holds numbers one after the other, with a hash that shows whether it is whole.
 #pragma once
 
 #include <array>
@@ -53,7 +53,7 @@ class StateWriter {
   ByteHash hash_;
 };
 
-/// Writes such a file in place of the one that is there, whole or not at all. Throws Error (io).
+/// Writes a state file in place of the file that is there, whole or not at all. Throws Error (io).
 void write_state_file(const std::filesystem::path& path,
                       const std::function<void(StateWriter&)>& store);
 
@@ -75,7 +75,7 @@ class StateReader {
   }
 
   bool at_end() const { return rest_.empty(); }
-  /// For what cannot be in a file that was written here.
+  /// Throws the Error (io) for content that a state file cannot have.
   [[noreturn]] void fail() const;
 
  private:

@@ -27,7 +27,7 @@ namespace fs = std::filesystem;
   throw Error(ErrorCode::io, fmt::format("cannot read '{}': {}", path.string(), reason));
 }
 
-/// Closes a file on the way out.
+/// A Descriptor closes its file when it goes out of scope.
 class Descriptor {
  public:
   explicit Descriptor(int value) : value_(value) {}
@@ -41,7 +41,7 @@ class Descriptor {
 
   int get() const { return value_; }
   bool valid() const { return value_ >= 0; }
-  /// Whether all that was written has been taken.
+  /// Closes the file. Returns whether the system has taken all that was written.
   bool close() { return ::close(std::exchange(value_, -1)) == 0; }
 
  private:
@@ -78,7 +78,7 @@ class NoPipeSignal {
   bool was_pending_ = false;
 };
 
-/// How many bytes there were, 0 at the end.
+/// Reads some bytes and returns how many there were, 0 at the end.
 std::size_t read_some(const Descriptor& file, std::span<std::byte> bytes, const fs::path& path) {
   for (;;) {
     const ssize_t count = ::read(file.get(), bytes.data(), bytes.size());
@@ -87,13 +87,13 @@ std::size_t read_some(const Descriptor& file, std::span<std::byte> bytes, const 
   }
 }
 
-/// Waits until a file that was opened not to wait takes more.
+/// Waits until a file that was opened with O_NONBLOCK takes more.
 void wait_to_write(int file) {
   pollfd ready = {.fd = file, .events = POLLOUT, .revents = 0};
   ::poll(&ready, 1, -1);
 }
 
-/// `path` is for messages.
+/// Writes all of `content`. `path` is for messages.
 void write_all(const Descriptor& file, std::span<const std::byte> content, const fs::path& path) {
   while (!content.empty()) {
     const ssize_t written = ::write(file.get(), content.data(), content.size());
@@ -107,7 +107,7 @@ void write_all(const Descriptor& file, std::span<const std::byte> content, const
   }
 }
 
-/// Writes to what is open, without going about by another file.
+/// Writes to the open file directly, without a temporary file.
 void write_straight(Descriptor file, const fs::path& path, const FilePieces& produce) {
   if (!file.valid()) fail_to_write(path, system_message(errno));
   const NoPipeSignal no_signal;
@@ -119,12 +119,12 @@ Descriptor open_as_it_is(const fs::path& path, int further_flags = 0) {
   return Descriptor(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NOCTTY | further_flags));
 }
 
-/// Whether the system refuses to change a folder, which says nothing of the files in it.
+/// Returns whether the system refuses to change a folder, which says nothing of the files in it.
 bool is_refusal(int error) {
   return error == EACCES || error == EPERM || error == EROFS || error == EBUSY;
 }
 
-/// A new file in the folder of a place that vanishes unless it is moved there.
+/// A TemporaryFile is a new file in the folder of a place. It vanishes unless it is moved there.
 class TemporaryFile {
  public:
   explicit TemporaryFile(const OutputPlace& place)
@@ -135,7 +135,7 @@ class TemporaryFile {
     if (is_made_ && !is_moved_) ::unlink(name_.c_str());
   }
 
-  /// If not, errno says why.
+  /// Returns whether the file could be made. If not, errno says why.
   bool is_made() const { return is_made_; }
 
   void write(std::span<const std::byte> content) { write_all(file_, content, place_.path); }
@@ -152,11 +152,11 @@ class TemporaryFile {
  private:
   bool is_replacement() const { return place_.kind == OutputPlace::Kind::regular_file; }
 
-  /// Tries names until there is none of it: O_EXCL makes each attempt safe from other writers.
+  /// Tries names until one is free. O_EXCL makes each attempt safe from other writers.
   Descriptor create() {
     constexpr int most_attempts = 10000;
     constexpr mode_t readable_by_all = 0666;
-    // What replaces a file that others may not read must not be read by them while it is written.
+    // A file that others may not read is not to be read by them while its replacement is written.
     constexpr mode_t private_at_first = 0600;
     for (int attempt = 0; attempt < most_attempts; ++attempt) {
       name_ = place_.path.parent_path() / fmt::format(".crt-{}-{}.part", ::getpid(), attempt);
@@ -167,7 +167,8 @@ class TemporaryFile {
     return Descriptor(-1);
   }
 
-  /// As far as the system lets us, which it need not: the content is what counts.
+  /// Copies owner and permissions from the replaced file. The system may refuse, which is no error,
+  /// as the content is what counts.
   void keep_owner_and_permissions() const {
     constexpr mode_t permissions = 0777;
     constexpr auto same_owner = static_cast<uid_t>(-1);
@@ -177,7 +178,7 @@ class TemporaryFile {
     std::ignore = ::fchmod(file_.get(), old.st_mode & permissions);
   }
 
-  /// Where nothing takes the place of the file that is there, but it takes other content.
+  /// Copies the content into the file that is there, for places where no file can be replaced.
   void copy_to_place() const {
     const Descriptor source(::open(name_.c_str(), O_RDONLY | O_CLOEXEC));
     if (!source.valid()) fail_to_write(place_.path, system_message(errno));
@@ -196,12 +197,12 @@ class TemporaryFile {
   bool is_moved_ = false;
 };
 
-/// For a file that may be written though its folder may not.
+/// Returns whether to overwrite the file itself, as it may be writable though its folder is not.
 bool may_write_in_place(const OutputPlace& place, int refusal) {
   return place.kind == OutputPlace::Kind::regular_file && is_refusal(refusal);
 }
 
-/// A new file is not to take the place of one that is protected.
+/// Throws Error (io) if the file that a new one would replace is protected.
 void check_protection(const OutputPlace& place) {
   if (place.kind == OutputPlace::Kind::new_file || place.kind == OutputPlace::Kind::descriptor)
     return;
@@ -213,7 +214,7 @@ void check_protection(const OutputPlace& place) {
 }  // namespace
 
 std::vector<std::byte> read_whole_file(const fs::path& path, std::size_t max_bytes) {
-  // O_NONBLOCK: a pipe without a writer must not hang us; for a regular file it means nothing.
+  // With O_NONBLOCK a pipe without a writer does not hang us. For a regular file it means nothing.
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK));
   if (!file.valid()) fail_to_read(path, system_message(errno));
   struct stat status {};

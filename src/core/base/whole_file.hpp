@@ -1,4 +1,4 @@
-// Files as a whole: all of one into memory, all of memory into one.
+// Whole files are read into memory, and written from it, at once.
 #pragma once
 
 #include <cstddef>
@@ -9,15 +9,15 @@
 
 namespace crt::core {
 
-/// The content of a regular file; throws Error (io) if there is none or it is longer than
-/// `max_bytes`.
+/// Returns the content of a regular file. Throws Error (io) if there is none or if it is longer
+/// than `max_bytes`.
 std::vector<std::byte> read_whole_file(const std::filesystem::path& path, std::size_t max_bytes);
 
-/// Makes `path` hold `content`: crt/file.hpp tells how. Throws Error (io).
+/// Makes `path` hold `content`, as crt/file.hpp describes. Throws Error (io).
 void write_whole_file(const std::filesystem::path& path, std::span<const std::byte> content);
 
-/// The same for content that comes piece by piece: `produce` hands each to the function that it
-/// gets.
+/// A FilePieces function produces content piece by piece. It passes each piece to the function that
+/// it gets.
 using FilePieces = std::function<void(const std::function<void(std::span<const std::byte>)>&)>;
 void write_whole_file(const std::filesystem::path& path, const FilePieces& produce);
 

@@ -12,8 +12,8 @@ namespace crt::core {
 
 namespace {
 
-// Corners clockwise from the top. They are written out, as the sines that libraries and compilers
-// compute need not agree in the last bit.
+// Corners go clockwise from the top. They are written out, as the sines that libraries and
+// compilers compute need not agree in the last bit.
 constexpr double sin_60 = 0.86602540378443865;
 constexpr double sin_45 = 0.70710678118654752;
 constexpr double sin_72 = 0.95105651629515357;
@@ -35,8 +35,9 @@ constexpr std::array<LensPoint, 8> octagon = {{{0, 1},
                                                {-1, 0},
                                                {-sin_45, sin_45}}};
 
-/// The polygon as a fan of equal triangles about the origin. `u` picks one; what of `u` is left
-/// over is uniform again and, by its root, tells how far out the point lies; `v` tells where along.
+/// Returns a point of a polygon, as a fan of equal triangles about the origin. `u` picks one of
+/// them. What is left over of `u` is uniform again, and its root is how far out the point lies. `v`
+/// is where it lies along the side.
 template <std::size_t sides>
 LensPoint polygon_point(const std::array<LensPoint, sides>& corners, double u, double v) {
   const double scaled = u * double{sides};
@@ -49,17 +50,17 @@ LensPoint polygon_point(const std::array<LensPoint, sides>& corners, double u, d
   return {outwards * (a.x + v * (b.x - a.x)), outwards * (a.y + v * (b.y - a.y))};
 }
 
-/// See circle_point().
+/// Computes circle_point() for a point or for lanes.
 template <class Real>
 PlanePointOf<Real> point_of_disc(const Real& u, const Real& v) {
   const Real x = 2.0 * u - 1.0;
   const Real y = 2.0 * v - 1.0;
   const auto beside = abs(x) > abs(y);
-  const Real radius = beside ? x : y;
-  const Real across = beside ? y : x;
+  const Real radius = select(beside, x, y);
+  const Real across = select(beside, y, x);
   const auto [sine, cosine] =
-      of_eighth_turns(across / (radius == 0.0 ? broadcast<Real>(1) : radius));
-  return {radius * (beside ? cosine : sine), radius * (beside ? sine : cosine)};
+      of_eighth_turns(across / select(radius == 0.0, broadcast<Real>(1), radius));
+  return {radius * select(beside, cosine, sine), radius * select(beside, sine, cosine)};
 }
 
 }  // namespace
@@ -73,8 +74,8 @@ LensPoint uniform_point(double u, double v) {
 }
 
 LensPoint gaussian_point(double u, double v) {
-  // The distance r of a point of the normal distribution is at most R with probability
-  // 1 - exp(-R^2 / (2 sigma^2)); here divided by its value at the cut, and solved for r.
+  // The distance r of a point of the normal distribution is at most R with probability 1 - exp(-R^2
+  // / (2 sigma^2)). This is divided by its value at the cut, and solved for r.
   constexpr double two_variances = 2 * 0.5 * 0.5;
   constexpr double cut_radius = 2;
   const double share_within_cut = -std::expm1(-cut_radius * cut_radius / two_variances);
@@ -132,8 +133,8 @@ LensPoint aperture_point(ApertureShape shape, double u, double v) {
 LensPointLanes aperture_points(ApertureShape shape, const Lanes& u, const Lanes& v) {
   if (shape == ApertureShape::circle) return point_of_disc(u, v);
   LensPointLanes points;
-  for (int i = 0; i < lane_count; ++i) {
-    set_lane(points, static_cast<std::size_t>(i), aperture_point(shape, u[i], v[i]));
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    set_lane(points, i, aperture_point(shape, u[i], v[i]));
   }
   return points;
 }

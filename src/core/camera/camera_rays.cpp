@@ -16,8 +16,8 @@ Vec3 unit(const Vec3& v) {
   return direction_and_length(v).direction;
 }
 
-/// Where "up" comes from. Within a billionth of a radian of straight up or down the direction's
-/// share across y is more rounding than intention, and z takes the place of y.
+/// Returns the direction that is up. That is y, but z within a billionth of a radian of straight up
+/// or down. There the direction's component across y is more rounding than intention.
 Vec3 reference_up(const Vec3& forward) {
   constexpr double vertical_angle = 1e-9;
   const bool vertical = std::hypot(forward.x, forward.z) < vertical_angle;
@@ -124,8 +124,8 @@ void CameraRays::ray(double x, double y, CameraRay& ray) const {
 
 void CameraRays::ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const {
   ray(x, y, result);
-  // A pinhole camera's direction along `forward` is 1: times the focal distance it ends on the
-  // focal plane.
+  // A pinhole camera's direction has the component 1 along `forward`. Times the focal distance it
+  // ends on the focal plane.
   const bool is_pinhole = projection_ == Projection::pinhole;
   const Vec3 in_focus =
       focal_distance_ * (is_pinhole ? to_plane(across(x), upwards(y)) : result.direction);
@@ -145,12 +145,11 @@ void CameraRays::rays(std::size_t count, std::span<const PicturePlaceLanes> plac
     RayLanes& found = result[group];
     if (!turns_across(projection_) && rays_to_plane(at, through, found)) continue;
     for (std::size_t lane = 0; lane < lane_count && group * lane_count + lane < count; ++lane) {
-      const auto i = static_cast<int>(lane);
       CameraRay one;
       if (through != nullptr) {
-        ray(at.x[i], at.y[i], lane_of(*through, lane), one);
+        ray(at.x[lane], at.y[lane], lane_of(*through, lane), one);
       } else {
-        ray(at.x[i], at.y[i], one);
+        ray(at.x[lane], at.y[lane], one);
       }
       found.origin.set(lane, one.origin);
       found.direction.set(lane, one.direction);

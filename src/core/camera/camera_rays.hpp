@@ -1,4 +1,4 @@
-// From a place in the picture to a ray in the world.
+// A camera turns a place in the picture into a ray in the world.
 //
 // Notation: a pixel position (x, y) counts pixels from the picture's top left corner, so the middle
 // of the first pixel is (0.5, 0.5). nx and ny are the same place from -1 to 1, to the right and up.
@@ -21,49 +21,49 @@ struct CameraRay {
   Vec3 direction{0, 0, 1};  ///< unit length
 };
 
-/// A place in the picture, as above.
+/// A PicturePlace is a pixel position.
 using PicturePlace = PlanePoint;
 using PicturePlaceLanes = PlanePointLanes;
 
-/// A camera made ready for a picture of some size. Immutable.
+/// A CameraRays is a camera prepared for a picture of some size. It is immutable.
 class CameraRays {
  public:
   /// Takes a camera whose values are valid (crt::validate), a picture of at least one pixel, and
-  /// Settings::compat: a lens of 2015 reaches aperture / width across and aperture / height up, in
+  /// Settings::compat. A lens of 2015 reaches aperture / width across and aperture / height up, in
   /// units.
   CameraRays(const Camera& camera, int width, int height, int compat = 0);
 
-  /// The ray through the middle of the lens.
+  /// Returns the ray through the middle of the lens.
   CameraRay ray(double x, double y) const;
   void ray(double x, double y, CameraRay& ray) const;
 
-  /// The ray from a point of the lens (see aperture_point) to where the ray through its middle is
-  /// in focus: on the plane at the focal distance for pinhole and orthographic cameras. Spherical
-  /// and cylindrical ones look backwards too, where no such plane is; they are in focus at the
-  /// focal distance along each ray, that is on a sphere.
+  /// Returns the ray from a point of the lens (see aperture_point) to where the ray through its
+  /// middle is in focus. For pinhole and orthographic cameras that is on the plane at the focal
+  /// distance. Spherical and cylindrical ones look backwards too, where no such plane is. They are
+  /// in focus at the focal distance along each ray, that is, on a sphere.
   void ray(double x, double y, const LensPoint& lens_point, CameraRay& result) const;
   CameraRay ray(double x, double y, const LensPoint& lens_point) const;
 
-  /// `count` of the same rays, as many side by side as there are lanes; without points of the lens
-  /// those through its middle. What lanes beyond the last ray get is of no use.
+  /// Computes `count` such rays, as many side by side as there are lanes. Without points of the
+  /// lens the rays pass through its middle. Lanes beyond the last ray get values of no meaning.
   void rays(std::size_t count, std::span<const PicturePlaceLanes> places,
             std::span<const LensPointLanes> lens_points, std::span<RayLanes> result) const;
 
-  /// Where a point appears, be it beside the picture, of a camera without a lens; nothing behind a
-  /// camera that does not look there.
+  /// Returns where a point appears to a camera without a lens, which may be beside the picture.
+  /// Returns nothing for a point behind a camera that does not look there.
   std::optional<PicturePlace> place_of(const Vec3& point) const;
 
-  /// How many pixels there are at least to a unit of length across the view, at a point.
+  /// Returns how many pixels there are at least to a unit of length across the view, at a point.
   double least_pixels_per_unit(const Vec3& point) const;
 
-  /// The lens point of two numbers in [0, 1).
+  /// Returns the lens point of two numbers in [0, 1).
   LensPoint lens_point(double u, double v) const { return aperture_point(aperture_shape_, u, v); }
 
   LensPointLanes lens_points(const Lanes& u, const Lanes& v) const {
     return aperture_points(aperture_shape_, u, v);
   }
 
-  /// Whether the lens has any size.
+  /// Returns whether the lens has any size.
   bool has_lens() const { return lens_radius_ > 0; }
 
   const Vec3& right() const { return right_; }
@@ -71,13 +71,14 @@ class CameraRays {
   const Vec3& forward() const { return forward_; }
 
  private:
-  /// Leads from the lens's middle to the plane at distance 1.
+  /// Returns the vector from the lens's middle to the plane at distance 1.
   Vec3 to_plane(double nx, double ny) const;
   void spherical_ray(double nx, double ny, CameraRay& ray) const;
   void cylindrical_ray(double nx, double ny, CameraRay& ray) const;
   void orthographic_ray(double nx, double ny, CameraRay& ray) const;
-  /// Of a pinhole or an orthographic camera; no lens points for the rays through its middle. False
-  /// if lengths are so extreme that each must be found by itself.
+  /// Computes the rays of a pinhole or an orthographic camera. Without lens points they pass
+  /// through the middle of the lens. Returns false if lengths are so extreme that each ray must be
+  /// computed by itself.
   bool rays_to_plane(const PicturePlaceLanes& places, const LensPointLanes* lens_points,
                      RayLanes& result) const;
   template <class Real>
@@ -97,14 +98,13 @@ class CameraRays {
   ApertureShape aperture_shape_;
   double width_;
   double height_;
-  /// What nx = 1 and ny = 1 stand for: angles in radians where the projection turns, otherwise
-  /// lengths on the plane at distance 1.
+  /// These are what nx = 1 and ny = 1 stand for: angles in radians where the projection turns,
+  /// otherwise lengths on the plane at distance 1.
   double half_across_;
   double half_up_;
   double focal_distance_;
   double lens_radius_;
-  Vec3 lens_right_;  ///< `right`, or as much shorter or longer as the lens is narrower or wider
-                     ///< than high
+  Vec3 lens_right_;  ///< `right`, scaled by the lens's width over its height
 };
 
 }  // namespace crt::core

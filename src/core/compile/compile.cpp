@@ -12,7 +12,7 @@ namespace crt::core {
 
 namespace {
 
-/// Counts children, and their values where every leaf is outside.
+/// Counts each node's children, and those that are true where every leaf is outside.
 void finish_nodes(CsgProgram& program, std::span<const Leaf> leaves) {
   std::vector<CsgNode>& nodes = program.nodes;
   std::vector<std::uint32_t> children(nodes.size(), 0);
@@ -31,8 +31,8 @@ void finish_nodes(CsgProgram& program, std::span<const Leaf> leaves) {
   }
 }
 
-/// Numbers the surfaces that several faces of a program are on; so far they are called by the first
-/// such face.
+/// Numbers the surfaces that several faces of a program are on. Until then `shared` is the first
+/// face of the program on the surface.
 std::uint32_t number_shared(std::span<const Leaf> leaves, std::span<FaceSurface> faces) {
   std::uint32_t count = 0;
   for (const Leaf& leaf : leaves) {
@@ -45,13 +45,13 @@ std::uint32_t number_shared(std::span<const Leaf> leaves, std::span<FaceSurface>
   return count;
 }
 
-/// Narrows the boxes of the leaves to where they matter; returns the box around the object.
+/// Narrows the boxes of the leaves to where they matter. Returns the box around the object.
 //
-// Every node has a box outside of which it has the value that it has where all leaves are outside
-// of their primitives, whatever its leaves do there. If one child's having that value is enough for
-// it, the boxes of such children are all boxes of the node, and so is what they have in common.
-// What a leaf does outside of the boxes of all nodes above it does not matter: a ray that misses
-// what they leave of the leaf's own box may leave out the leaf.
+// Every node has a box outside of which its value is its outside value: the one that it has where
+// all leaves are outside of their primitives. If one child's outside value is enough for that, the
+// boxes of all such children are boxes of the node, and so is their intersection. What a leaf does
+// outside of the boxes of all nodes above it does not matter. So the leaf's own box is clipped by
+// these, and a ray that misses the rest may leave out the leaf.
 Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
   const auto outside_value = [&](std::size_t node) {
     return program.nodes[node].count_outside >= program.nodes[node].needed;
@@ -114,7 +114,7 @@ class Compiler {
 
 CompiledScene Compiler::compile() {
   make_placements();
-  // They may take half of all memory, and nothing looks at them again.
+  // The placements may take half of all memory, and are not needed again.
   flat_.placements = {};
   flat_.transforms = {};
   make_leaves();
@@ -184,7 +184,7 @@ void Compiler::make_faces() {
 }
 
 void Compiler::finish_programs() {
-  // A large one uses all threads by itself, many small ones are done side by side.
+  // A large program uses all threads by itself, and many small ones are done side by side.
   constexpr std::uint32_t large = 2 * items_for_a_thread;
   std::vector<CsgProgram*> small;
   for (CsgProgram& program : result_.programs) {

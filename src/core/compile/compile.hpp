@@ -1,4 +1,4 @@
-// From the tree of entities that a user built to flat lists of leaves and objects.
+// The tree of entities that a user built is compiled to flat lists of leaves and objects.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +16,8 @@
 
 namespace crt::core {
 
-/// What the acceleration structure holds: a lone primitive, or a CSG object with several leaves.
+/// A SceneObject is what the acceleration structure holds: a lone primitive, or a CSG object with
+/// several leaves.
 struct SceneObject {
   std::uint32_t first_leaf = 0;
   std::uint32_t program = 0xffffffffu;  ///< index of its CSG program, if it has more than one leaf
@@ -33,7 +34,7 @@ struct CompiledScene {
   std::vector<SceneObject> objects;
   std::vector<CsgProgram> programs;
   std::vector<SharedMaterial> materials;
-  /// What the placements of the exact tier are made of.
+  /// The placements of the exact tier refer to these.
   TransformPool transforms;
   std::vector<std::shared_ptr<const EntityNode>> entities;
   std::uint64_t shape_bytes = 0;  ///< of all leaves together
@@ -44,9 +45,9 @@ struct CompiledScene {
   }
 };
 
-/// Flattens entities: unions at the top become objects of their own as far as their parts keep
-/// apart, transforms are composed once, materials and ids are resolved, faces that coincide get one
-/// surface. O(n log n), by as many threads as `workers` says; what comes out is always the
+/// Compiles entities. Unions at the top become objects of their own where their parts are disjoint.
+/// Transforms are composed once, materials and ids are resolved, and faces that coincide get one
+/// surface. It takes O(n log n) on as many threads as `workers` says, and the result is always the
 /// same. Throws Error (limit) if there are more than 2^25 primitives.
 CompiledScene compile(std::span<const Entity> entities, Precision precision = Precision::standard,
                       const Workers& workers = {});

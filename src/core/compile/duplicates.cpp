@@ -38,11 +38,11 @@ class Duplicates {
     std::uint64_t hash;
     std::uint32_t leaf;
   };
-  /// A leaf or a node below a node.
+  /// A Child is a leaf or a node below a node.
   struct Child {
-    std::uint32_t equal = 0;       ///< the class of what is equal to it
-    std::uint32_t first_leaf = 0;  ///< of it, in the program
-    std::uint32_t node = nothing;  ///< if it is one
+    std::uint32_t equal = 0;       ///< the class of all that is equal to it
+    std::uint32_t first_leaf = 0;  ///< its first leaf in the program
+    std::uint32_t node = nothing;  ///< the node, if it is one
   };
 
   // ---- leaves ----
@@ -58,7 +58,7 @@ class Duplicates {
   std::uint32_t leaf_count(const SceneObject& object) const {
     return object.is_csg() ? scene_.programs[object.program].leaf_count() : 1;
   }
-  /// Drops equal children of nodes; returns the class of what is left.
+  /// Drops equal children of nodes. Returns the class of what is left.
   std::uint32_t reduce(const CsgProgram& program);
   std::uint32_t class_of(std::vector<std::uint32_t> signature) {
     const auto [entry, added] = classes_.try_emplace(std::move(signature), next_class_);
@@ -79,15 +79,16 @@ class Duplicates {
   std::map<std::vector<std::uint32_t>, std::uint32_t> classes_;
 };
 
-/// Equal leaves have equal first faces, which lie on one surface: of most leaves this tells that
-/// there is no other.
+/// Finds equal leaves and returns whether there are any. Their first faces are equal and lie on one
+/// surface, which shows for most leaves that there is no other.
 bool Duplicates::find_equal_leaves() {
   const auto first_surface = [&](const Leaf& leaf) { return faces_[leaf.first_face].surface; };
   const bool all_differ = std::all_of(leaves_.begin(), leaves_.end(), [&](const Leaf& leaf) {
     return leaf.face_count == 0 || first_surface(leaf) == leaf.first_face;
   });
   if (all_differ) return false;
-  std::vector<std::uint8_t> begun(faces_.size(), 0);  // so many leaves begin there, 2 for more
+  std::vector<std::uint8_t> begun(faces_.size(), 0);  // how many leaves begin with that surface, 2
+                                                      // for more
   for (const Leaf& leaf : leaves_) {
     if (leaf.face_count == 0) continue;
     std::uint8_t& count = begun[first_surface(leaf)];
@@ -107,7 +108,7 @@ bool Duplicates::find_equal_leaves() {
   });
   bool any = false;
   for (std::size_t i = 1; i < hashed.size(); ++i) {
-    // (Of leaves that differ though their hashes do not some may be overlooked.)
+    // Where leaves differ though their hashes do not, some equal ones may be overlooked.
     workers_.poll_at(i);
     const std::uint32_t first = equal_[hashed[i - 1].leaf];
     const std::uint32_t leaf = hashed[i].leaf;
@@ -154,7 +155,7 @@ bool Duplicates::is_involved(const SceneObject& object) const {
 }
 
 void Duplicates::choose() {
-  constexpr std::uint32_t opaque = nothing;  // in the place of a material's number
+  constexpr std::uint32_t opaque = nothing;  // stands in for a material's number
   std::vector<std::uint32_t> looks;
   for (std::uint32_t i = 0; i < scene_.materials.size(); ++i) {
     looks.push_back(lets_light_in(*scene_.materials[i]) ? i : opaque);
@@ -177,7 +178,7 @@ void Duplicates::choose() {
 
 std::uint32_t Duplicates::reduce(const CsgProgram& program) {
   const std::vector<CsgNode>& nodes = program.nodes;
-  // The children of each node side by side, those of the first node first.
+  // The children of each node are side by side, those of the first node first.
   std::vector<std::uint32_t> ends(nodes.size() + 1, 0);
   for (std::size_t node = 1; node < nodes.size(); ++node) ++ends[nodes[node].parent + 1];
   for (const std::uint32_t parent : program.leaf_parents) ++ends[parent + 1];
@@ -265,7 +266,7 @@ void Duplicates::compact(CsgProgram& program) {
     leaf_parents.push_back(program.leaf_parents[i]);
     keeps[program.leaf_parents[i]] = true;
   }
-  // A node is kept for what is below it; children come after their parents.
+  // A node is kept for what is below it. Children come after their parents.
   for (std::size_t node = program.nodes.size(); node-- > 1;) {
     if (keeps[node]) keeps[program.nodes[node].parent] = true;
   }

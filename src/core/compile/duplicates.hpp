@@ -1,4 +1,4 @@
-// What a scene has twice at one place counts once: the second step of compile().
+// What a scene has twice at one place counts once. This is the second step of compile().
 #pragma once
 
 #include <span>
@@ -7,14 +7,17 @@
 
 namespace crt::core {
 
-/// Takes out of a flat scene every object that is there before, and of each node of a CSG tree the
-/// children that are equal to an earlier child (a + a = a, a ^ a = a): no ray ever sees them. Equal
-/// are primitives with the same numbers and the same map to the world, and trees of equal ones. In
-/// a tree the first is seen whatever the others are made of; of objects those count as equal that
-/// are made of the same materials, or of such as let no light through. `leaves` and `faces` are the
-/// scene's, with their surfaces numbered; they are no longer of it if this returns true, which says
-/// that something was taken out. O(n log n), and O(n) where no two leaves begin with the same
-/// surface.
+/// Removes duplicates from a flat scene: objects that are there already, and children of a CSG node
+/// that are equal to an earlier child (a + a = a, a ^ a = a). No ray ever sees them. Primitives are
+/// equal if they have the same numbers and the same map to the world, and trees are equal if their
+/// parts are.
+///
+/// In a tree the first child is seen whatever the others are made of. Objects count as equal only
+/// if they are made of the same materials, or of materials that let no light through.
+///
+/// `leaves` and `faces` are the scene's, with their surfaces numbered. If this returns true,
+/// something was removed, and they do not belong to the scene any more. It takes O(n log n), and
+/// O(n) where no two leaves begin with the same surface.
 bool remove_duplicates(FlatScene& scene, std::span<const Leaf> leaves,
                        std::span<const FaceSurface> faces, const Workers& workers = {});
 

@@ -12,8 +12,8 @@ namespace crt::core {
 
 namespace {
 
-/// Whether a part is the one before it once more: without this a = a + a, done n times, would be
-/// 2^n parts.
+/// Returns whether a part is the one before it once more. Without this test a = a + a, done n
+/// times, would be 2^n parts.
 bool repeats(const CsgOperation& operation, std::size_t part) {
   const std::size_t first = operation.op == CsgOperator::difference ? 1 : 0;
   return part > first && operation.parts[part] == operation.parts[part - 1];
@@ -26,8 +26,8 @@ class Flattening {
   FlatScene flatten(std::span<const Entity> entities);
 
  private:
-  /// A place in a program still to be filled: `part`, negated if `complemented`, below node
-  /// `parent`.
+  /// A Pending is a place in a program that is still to be filled: with `part`, negated if
+  /// `complemented`, below node `parent`.
   struct Pending {
     Part part;
     std::uint32_t parent = 0;
@@ -47,12 +47,12 @@ class Flattening {
   FlatScene result_;
   std::uint32_t program_ = no_program;  ///< that leaves are added to
   Transform last_map_;                  ///< of the last placement
-  bool last_is_all_ = true;             ///< whether it is no more than that
+  bool last_is_all_ = true;             ///< whether last_map_ is all of it
   std::unordered_map<const Material*, std::uint32_t> material_numbers_;
   const Material* last_material_ = nullptr;
   std::uint32_t last_material_number_ = 0;
   std::optional<SharedMaterial> default_material_;
-  // Reused from one entity to the next.
+  // These are reused from one entity to the next.
   std::vector<Pending> stack_;
   std::vector<Part> open_;
   std::vector<Part> solids_;
@@ -81,7 +81,7 @@ void Flattening::add_entity(const Part& entity) {
     add_group(std::span(&entity, 1));
     return;
   }
-  // The parts of nested unions, left to right.
+  // These are the parts of nested unions, left to right.
   solids_.clear();
   surfaces_.clear();
   open_.assign(1, entity);
@@ -145,7 +145,7 @@ void Flattening::build_program(std::span<const Part> parts, CsgProgram& program)
 
 void Flattening::expand(const Pending& pending, CsgProgram& program) {
   const CsgOperation& operation = *pending.part.operation();
-  // De Morgan: a complement turns OR into AND and moves on to the children; a - b is a AND NOT b.
+  // By De Morgan a complement turns OR into AND and moves to the children. a - b is a AND NOT b.
   const bool is_or = (operation.op == CsgOperator::set_union) != pending.complemented;
   const std::uint32_t needed = is_or ? 1 : all_children;
   std::uint32_t node = pending.parent;

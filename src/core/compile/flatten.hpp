@@ -1,4 +1,4 @@
-// From the tree of entities to flat lists: the first step of compile().
+// The tree of entities is flattened to lists. This is the first step of compile().
 #pragma once
 
 #include <span>
@@ -11,7 +11,7 @@
 
 namespace crt::core {
 
-/// What a leaf is to be made of.
+/// A LeafSource is what a leaf is to be made of.
 struct LeafSource {
   const Primitive* primitive = nullptr;
   std::uint32_t placement = 0;  ///< index into FlatScene::placements

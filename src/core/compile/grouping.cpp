@@ -11,14 +11,14 @@ namespace crt::core {
 
 namespace {
 
-/// A part, by its number, and its extent along the axis that is looked along.
+/// An Extent is a part, by its number, with its extent along the axis to be cut.
 struct Extent {
   double lower = 0;
   double upper = 0;
   std::size_t part = 0;
 };
 
-/// A set of parts that lie side by side in a list of extents, and how it is to be cut next.
+/// A PartSet is a set of parts side by side in a list of extents, and how it is to be cut next.
 struct PartSet {
   std::size_t begin = 0;
   std::size_t end = 0;
@@ -29,7 +29,8 @@ struct PartSet {
   std::size_t size() const { return end - begin; }
 };
 
-/// So many cuts into a set are enough: each is O(n log n), and some sets lose but one part by each.
+/// This many cuts into a set are enough. Each is O(n log n), and some sets lose but one part by
+/// each.
 constexpr int most_cuts = 64;
 
 class Grouping {
@@ -39,7 +40,7 @@ class Grouping {
     for (std::size_t i = 0; i < extents_.size(); ++i) extents_[i].part = i;
   }
 
-  /// Groups, each a list of parts, in the order of their first parts.
+  /// Returns the groups, each a list of parts, in the order of their first parts.
   std::vector<std::span<const Extent>> groups() {
     std::vector<std::span<const Extent>> result;
     std::vector<PartSet> open{{.end = extents_.size()}};

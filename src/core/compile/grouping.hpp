@@ -10,13 +10,14 @@
 
 namespace crt::core {
 
-/// Brings the parts of a union into groups such that a plane across an axis separates any two:
-/// their boxes do not even touch, so the union of the groups is just all of them side by side. The
-/// order within a group is kept; groups come in the order of their first parts. Returns where each
-/// ends. O(n log n), by as many threads as `workers` says; what comes out is always the same.
+/// Brings the parts of a union into groups such that a plane across an axis separates any two of
+/// them. Their boxes do not even touch, so the union of the groups is all of them side by side. The
+/// order within a group is kept, and groups come in the order of their first parts. Returns where
+/// each ends. It takes O(n log n) on as many threads as `workers` says, and the result is always
+/// the same.
 std::vector<std::size_t> disjoint_groups(std::vector<Part>& parts, const Workers& workers);
 
-/// A box around a part in the world.
+/// Returns a box around a part in the world.
 Bounds part_bounds(const Part& part);
 
 }  // namespace crt::core

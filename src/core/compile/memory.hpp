@@ -1,4 +1,4 @@
-// How many bytes the parts of a prepared scene take.
+// The parts of a prepared scene are measured in bytes.
 #pragma once
 
 #include <cstdint>
@@ -13,10 +13,10 @@ std::uint64_t bytes_of(const std::vector<Item>& items) {
   return items.capacity() * sizeof(Item);
 }
 
-/// Primitives in their places.
+/// Returns the bytes of primitives in their places.
 std::uint64_t primitive_bytes(const CompiledScene& scene);
 
-/// Programs and their trees.
+/// Returns the bytes of programs and their trees.
 std::uint64_t csg_bytes(const CompiledScene& scene);
 
 }  // namespace crt::core

@@ -7,8 +7,8 @@
 
 namespace crt::core {
 
-/// The transforms that come about where one is applied after another. A null pointer is none at
-/// all.
+/// A TransformPool has the products of transforms that are applied one after another. A null
+/// pointer is no transform at all.
 class TransformPool {
  public:
   const TransformChain* composed(const TransformChain* second, const TransformChain* first) {
@@ -16,22 +16,22 @@ class TransformPool {
     return first == nullptr ? second : &transforms_.emplace_back(compose(*second, *first));
   }
 
-  /// Of memory.
+  /// Returns the bytes of memory it takes.
   std::size_t bytes() const { return transforms_.size() * sizeof(TransformChain); }
 
  private:
   std::deque<TransformChain> transforms_;
 };
 
-/// A subtree of an entity with all that was decided above it.
+/// A Part is a subtree of an entity with all that was decided above it.
 struct Part {
   const EntityNode* node = nullptr;
   const TransformChain* to_world = nullptr;  ///< of a TransformPool or of the entity
   const SharedMaterial* material = nullptr;  ///< for leaves without one of their own
   std::uint32_t id = 0;
-  bool id_is_final = false;  ///< a with_id above: inner ones no longer count
+  bool id_is_final = false;  ///< a with_id above overrides inner ones
 
-  /// The part with wrappers around its node opened and applied.
+  /// Returns the part with the wrappers around its node removed and applied.
   Part unwrapped(TransformPool& pool) const {
     Part inner = *this;
     while (const auto* wrapper = std::get_if<EntityWrapper>(&inner.node->content)) {
@@ -47,14 +47,14 @@ struct Part {
     return inner;
   }
 
-  /// A child of this part's operation.
+  /// Returns a child of this part's operation.
   Part child(const EntityPointer& pointer, TransformPool& pool) const {
     Part result = *this;
     result.node = pointer.get();
     return result.unwrapped(pool);
   }
 
-  /// The operation that the part is, if it is none of them a null pointer.
+  /// Returns the operation that the part is, or null if it is none.
   const CsgOperation* operation() const { return std::get_if<CsgOperation>(&node->content); }
 };
 

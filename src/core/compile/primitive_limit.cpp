@@ -13,11 +13,11 @@
 namespace crt::core {
 namespace {
 
-/// Faces, leaves and nodes have numbers of 32 bits, some per primitive.
+/// Faces, leaves and nodes have numbers of 32 bits, and a primitive may have some of each.
 constexpr std::uint64_t most_numbered = std::uint64_t{1} << 25;
 
-/// Bytes that a process may have: of the machine, of its container (Linux's control groups, of
-/// either version) and of itself, whichever are the fewest.
+/// Returns the bytes that a process may have. The limits are those of the machine, of its container
+/// (Linux's control groups, of either version) and of itself, whichever is the lowest.
 std::uint64_t memory_limit() {
   std::uint64_t bytes = static_cast<std::uint64_t>(::sysconf(_SC_PHYS_PAGES)) *
                         static_cast<std::uint64_t>(::sysconf(_SC_PAGESIZE));
@@ -33,7 +33,7 @@ std::uint64_t memory_limit() {
   return bytes;
 }
 
-/// Stops at more than can be numbered.
+/// Counts primitives, but stops at more than can be numbered.
 std::uint64_t count(std::span<const Entity> entities) {
   std::uint64_t result = 0;
   for (const Entity& entity : entities) {
@@ -47,7 +47,7 @@ std::uint64_t count(std::span<const Entity> entities) {
 
 void check_primitive_count(std::span<const Entity> entities, Precision precision,
                            std::uint64_t most) {
-  constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which nobody needs to be asked
+  constexpr std::uint64_t few = std::uint64_t{1} << 16;  // for which the limit is not computed
   const std::uint64_t primitives = count(entities);
   if (primitives > most_numbered) {
     throw Error(ErrorCode::limit,

@@ -12,7 +12,7 @@ namespace crt::core {
 
 namespace {
 
-/// Equal numbers have equal bits: there is no -0.
+/// Returns the number without -0, so that equal numbers have equal bits.
 double positive_zero(double value) {
   return value == 0 ? 0.0 : value;
 }
@@ -22,8 +22,9 @@ struct CanonicalPlane {
   bool flipped = false;
 };
 
-/// The plane's equation in the world, divided by the normal's largest component: exact to about 100
-/// bits before it is rounded, so that planes that are equal but described differently agree.
+/// Returns the plane's equation in the world, divided by the normal's largest component. It is
+/// exact to about 100 bits before it is rounded. So planes that are equal but described differently
+/// agree.
 CanonicalPlane canonical_plane(const Surface& plane, const Placement& placement) {
   const PreciseVec3 normal{plane.direction.x, plane.direction.y, plane.direction.z};
   const DoubleDouble offset = normal[0] * DoubleDouble(plane.position.x) +
@@ -46,10 +47,11 @@ CanonicalPlane canonical_plane(const Surface& plane, const Placement& placement)
   return result;
 }
 
-/// The words of a key that a placement fills which does more than move come last.
+/// A key begins with the words of the surface. Those of a placement come last, and are filled if it
+/// does more than move.
 constexpr std::size_t words_of_surface = 9;
 
-/// The surface in the world, without rounding.
+/// Returns the surface in the world, without rounding.
 ExactSurface in_world(const ExactSurface& surface, const Placement& placement) {
   if (placement.is_identity()) return surface;
   ExactSurface result = surface;
@@ -63,8 +65,8 @@ ExactSurface in_world(const ExactSurface& surface, const Placement& placement) {
     }
     return result;
   }
-  // With the inverse as rows / weight, n . p = c is (n rows) . q = weight c + (n rows) .
-  // translation.
+  // With the inverse as rows / weight, the plane n . p = c becomes
+  // (n rows) . q = weight c + (n rows) . translation.
   const DyadicInverse inverse(map);
   const DyadicVector normal = surface.numbers[0] * inverse.rows[0] +
                               surface.numbers[1] * inverse.rows[1] +
@@ -78,7 +80,7 @@ int compared(const Dyadic& a, const Dyadic& b) {
   return (a - b).sign();
 }
 
-/// As numbers of which only ratios count.
+/// Compares the equations of planes, of which only the ratios of numbers count.
 int compared_planes(std::span<const Dyadic> a, std::span<const Dyadic> b) {
   std::size_t pivot = 0;
   while (a[pivot].sign() == 0 && b[pivot].sign() == 0) ++pivot;
@@ -91,7 +93,7 @@ int compared_planes(std::span<const Dyadic> a, std::span<const Dyadic> b) {
   return 0;
 }
 
-/// An order of surfaces of equal keys, in which equal ones are equal.
+/// Orders surfaces of equal keys, so that equal surfaces compare equal.
 int compared(const ExactSurface& a, const ExactSurface& b) {
   if (a.is_plane) return compared_planes(a.numbers, b.numbers);
   for (std::size_t i = 0; i < a.numbers.size(); ++i) {
@@ -105,7 +107,7 @@ int compared(const ExactSurface& a, const ExactSurface& b) {
   return 0;
 }
 
-/// A face among all, and what equal surfaces have in common.
+/// A HashedFace is a face among all, with a hash that equal surfaces have in common.
 struct HashedFace {
   std::uint64_t hash;
   std::uint32_t face;
@@ -159,7 +161,7 @@ class Numbering {
     }
   }
 
-  /// Equal hashes are nearly always those of equal surfaces, but only their keys say so.
+  /// Equal hashes are nearly always those of equal surfaces, but only their keys prove it.
   void number_equal_hashes(std::span<const HashedFace> faces) {
     if (faces.size() == 1) return;
     const auto key_of = [&](const HashedFace& hashed) {
@@ -186,7 +188,7 @@ class Numbering {
     }
   }
 
-  /// In the exact tier equal keys are not all there is to surfaces that are equal.
+  /// In the exact tier surfaces with equal keys need not be equal.
   void number_equal_keys(std::span<const HashedFace> faces) {
     if (faces.size() == 1) return;
     if (!leaves_[faces[0].leaf].exact) {
@@ -213,7 +215,7 @@ class Numbering {
     }
   }
 
-  /// Of faces on one surface, in ascending order: those of one program follow one another.
+  /// Numbers faces on one surface, in ascending order. Those of one program follow one another.
   void number_equal(std::span<const HashedFace> faces) {
     const auto program_of = [&](const HashedFace& face) { return programs_[face.leaf]; };
     std::size_t begin = 0;
@@ -268,8 +270,8 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
 }
 
 std::uint64_t CanonicalSurface::hash() const {
-  // FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits. Most
-  // placements leave their words 0.
+  // This is FNV-1a over 64-bit words, mixed once more as words differ mostly in their high bits.
+  // Most placements leave their words 0.
   std::uint64_t hash = 0xcbf29ce484222325u;
   const auto mix = [&](std::uint64_t word) {
     hash = (hash ^ word) * 0x100000001b3u;

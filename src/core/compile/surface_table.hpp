@@ -1,4 +1,4 @@
-// Which faces of a scene lie on one surface.
+// Faces of a scene that lie on one surface get one number.
 #pragma once
 
 #include <array>
@@ -13,10 +13,11 @@
 
 namespace crt::core {
 
-/// A surface in a canonical form in the world: surfaces are equal if their forms are, bit for bit.
-/// Opposite planes are the same surface, one of them turned round.
+/// A CanonicalSurface is a surface in a canonical form in the world. Surfaces are equal if their
+/// forms are, bit for bit. Opposite planes are the same surface, one of them turned round.
 struct CanonicalSurface {
-  /// Kind, then up to 8 numbers of the surface and 12 of a placement that does more than move.
+  /// A Key has the kind, then up to 8 numbers of the surface and 12 of a placement that does more
+  /// than move.
   using Key = std::array<std::uint64_t, 21>;
 
   Key key{};
@@ -28,11 +29,11 @@ struct CanonicalSurface {
 CanonicalSurface canonical_surface(const Surface& surface, const Placement& placement);
 
 /// Fills in the surfaces of all faces: `faces` holds those of the first leaf, then those of the
-/// next, and so on. A surface is called by the number of the first face on it. Where several faces
-/// of one program are on it, their `shared` is the number of the first of those. `programs` has the
+/// next, and so on. The number of a surface is that of the first face on it. Where several faces of
+/// one program are on it, their `shared` is the number of the first of those. `programs` has the
 /// program of each leaf, or no_program. In the exact tier surfaces whose canonical forms are equal
-/// are one only if they are so without any rounding. O(n log n), by as many threads as `workers`
-/// says.
+/// are one only if they are equal without any rounding. It takes O(n log n) on as many threads as
+/// `workers` says.
 void number_surfaces(std::span<const Leaf> leaves, std::span<const std::uint32_t> programs,
                      std::span<FaceSurface> faces, const Workers& workers);
 

@@ -1,4 +1,4 @@
-// Checks of all descriptions but those of primitives, which geometry/ knows.
+// All descriptions are checked here but those of primitives, which geometry/ knows.
 #include "crt/validate.hpp"
 
 #include <fmt/format.h>
@@ -24,7 +24,7 @@ constexpr double pi = std::numbers::pi;
   throw Error(ErrorCode::invalid_argument, fmt::format("{} {}", field, what), std::string(field));
 }
 
-/// A number in [lowest, highest].
+/// Checks that a number is in [lowest, highest].
 void require_between(std::string_view field, double value, double lowest, double highest) {
   if (value >= lowest && value <= highest) return;
   if (!std::isfinite(value))
@@ -36,7 +36,7 @@ void require_between(std::string_view field, double value, double lowest, double
   reject(field, fmt::format("must be between {} and {} (it is {})", lowest, highest, value));
 }
 
-/// 2^n, in [lowest, highest].
+/// Checks that a number is a power of two in [lowest, highest].
 void require_power_of_two(std::string_view field, int value, int lowest, int highest) {
   require_between(field, value, lowest, highest);
   if (!std::has_single_bit(static_cast<unsigned>(value))) {
@@ -44,7 +44,7 @@ void require_power_of_two(std::string_view field, int value, int lowest, int hig
   }
 }
 
-/// A number in (0, highest].
+/// Checks that a number is in (0, highest].
 void require_positive(std::string_view field, double value, double highest) {
   if (value > 0 && value <= highest) return;
   if (!std::isfinite(value))
@@ -72,7 +72,7 @@ void require_different(const Vec3& from, const Vec3& pointing, std::string_view 
   }
 }
 
-/// Channels in [0, highest], alpha in [0, 1].
+/// Checks that channels are in [0, highest], and alpha is in [0, 1].
 void require_color(std::string_view field, const Color& color, double highest) {
   for (const double channel : {color.r, color.g, color.b}) {
     if (!std::isfinite(channel)) reject(field, "must consist of finite numbers");
@@ -164,7 +164,7 @@ struct LightCheck {
     common(light);
     falloff(light.falloff);
   }
-  // Falloff goes with the square of a length; 0 or less is none.
+  // Falloff is proportional to the square of a length. There is none if it is 0 or less.
   static void falloff(double value) { require_between("falloff", value, -1e200, 1e200); }
 };
 
@@ -200,7 +200,7 @@ void validate(const Material& material) {
   if (material.diffuse) require_between("diffuse", *material.diffuse, 0, largest_factor);
   require_between("specular", material.specular, 0, largest_factor);
   require_between("shininess", material.shininess, 0, largest_factor);
-  // Absorption goes with the inverse of a length.
+  // Absorption is proportional to the inverse of a length.
   require_color("absorption", material.absorption, largest_coordinate);
   if (material.bump) validate(*material.bump);
   require_between("bump_height", material.bump_height, -largest_coordinate, largest_coordinate);

@@ -26,7 +26,7 @@ std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
   const Surface surface = leaf.shape->surface(0);
   const std::optional<Vec3> place = leaf.placement->exactly_to_world(surface.position);
   if (!place || !has_fair_size(surface.sizes[0])) return {};
-  return IntervalFilter::Sphere{*place, surface.sizes[0]};
+  return IntervalFilter::Sphere{{*place, surface.sizes[0]}};
 }
 
 /// Returns a leaf in the world; nothing if it is no box. A box's faces are two across each axis.
@@ -93,7 +93,7 @@ const IntervalFilter::Box* IntervalFilter::box(std::uint32_t leaf) const {
 
 template <class Real>
 bool IntervalFilter::enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
-                             LeafInterval<Real>& interval) const {
+                             Enclosure<Real>& interval) const {
   const Place& place = places_[leaf];
   return place.is_box ? lines.enclose(boxes_[place.index], interval)
                       : lines.enclose(spheres_[place.index], interval);
@@ -115,21 +115,21 @@ class IntervalFilter::Search {
 
   BoundaryChanges<Real> find(std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
                              std::uint32_t first_leaf) {
-    gather(-least(lines_.asked() ? -lines_.lines().certain_from : broadcast<Real>(infinity)));
+    gather(-least(select(lines_.asked(), -lines_.lines().certain_from, broadcast<Real>(infinity))));
     if (is_too_much()) return changes_;
     Mask asked = lines_.asked();
     for (std::uint32_t starting = rays_.on_surface & rays_.asked; starting != 0;
          starting &= starting - 1) {
       const auto lane = static_cast<std::uint32_t>(std::countr_zero(starting));
       if (!set_start(rays_.starts[lane], lane, leaves, faces, first_leaf)) {
-        asked = without(asked, EnclosedLines<Real>::lane_bit(lane));
+        asked = asked && !(EnclosedLines<Real>::lane_bit(lane));
       }
     }
     const Real& begin = rays_.lines.begin;
     const Real from = root_possible_from(begin, true);
-    const Mask may_be_inside = both(asked, from == begin);
+    const Mask may_be_inside = asked && from == begin;
     if (any(may_be_inside)) advance(false, root_possible_from(begin, false), may_be_inside);
-    const Mask outside = without(asked, may_be_inside);
+    const Mask outside = asked && !may_be_inside;
     if (any(outside)) advance(true, from, outside);
     return changes_;
   }
@@ -152,18 +152,18 @@ class IntervalFilter::Search {
   /// rays that are going.
   void advance(bool value, Real t, Mask going) {
     while (true) {
-      const Mask beyond = without(going, t <= lines_.limits());
-      changes_.none = either(changes_.none, beyond);
-      going = without(going, beyond);
+      const Mask beyond = going && !(t <= lines_.limits());
+      changes_.none = changes_.none || beyond;
+      going = going && !beyond;
       if (!any(going) || is_too_much()) return;
-      if (any(both(going, t >= horizon()))) {
+      if (any(going && t >= horizon())) {
         gather(-infinity);
       } else {
         const Real next = root_possible_from(t, value);
-        const Mask there = both(going, next == t);
+        const Mask there = going && next == t;
         if (any(there)) {
           const Mask unseen = set_change(value, t, there);
-          going = either(without(going, there), unseen);
+          going = (going && !there) || unseen;
           if (any(unseen)) gather(-infinity);
         }
         t = next;
@@ -175,28 +175,27 @@ class IntervalFilter::Search {
   /// is certain. Returns the rays of which that end reaches beyond the horizon.
   Mask set_change(bool value, const Real& from, Mask rays) {
     Mask unseen{};
-    rays = both(rays, from > lines_.lines().certain_from);
+    rays = rays && from > lines_.lines().certain_from;
     for (const NearLeaf<Real>& leaf : near_.leaves()) {
       if (!any(rays)) break;
-      const LeafInterval<Real>& interval = leaf.interval;
+      const Enclosure<Real>& interval = leaf.interval;
       const bool leaving = wants_outside(leaf, value);
-      Mask here = both(rays, (leaving ? interval.leave_from : interval.enter_from) == from);
+      Mask here = rays && (leaving ? interval.leave_from : interval.enter_from) == from;
       if (!any(here)) continue;
-      rays = without(rays, here);
+      rays = rays && !here;
       const Real to = leaving ? interval.leave_to : interval.enter_to;
-      const Mask is_seen = either(to < horizon(), to >= lines_.limits());
-      unseen = either(unseen, without(here, is_seen));
-      here = both(here, is_seen);
+      const Mask is_seen = to < horizon() || to >= lines_.limits();
+      unseen = unseen || (here && !is_seen);
+      here = here && is_seen;
       // Next to grazing it, the leaf may not be met at all.
       const Mask is_isolated = leaving ? interval.enter_to < from : interval.leave_from > to;
-      const Mask sure =
-          both(both(here, to < lines_.limits()), both(is_isolated, depends_on(leaf, from, to)));
-      changes_.one = either(changes_.one, sure);
-      if (value) changes_.into_object = either(changes_.into_object, sure);
-      if (!leaving) changes_.into_leaf = either(changes_.into_leaf, sure);
-      changes_.leaf = sure ? broadcast<Real>(leaf.leaf) : changes_.leaf;
-      changes_.from = sure ? from : changes_.from;
-      changes_.to = sure ? to : changes_.to;
+      const Mask sure = here && to < lines_.limits() && is_isolated && depends_on(leaf, from, to);
+      changes_.one = changes_.one || sure;
+      if (value) changes_.into_object = changes_.into_object || sure;
+      if (!leaving) changes_.into_leaf = changes_.into_leaf || sure;
+      changes_.leaf = select(sure, broadcast<Real>(leaf.leaf), changes_.leaf);
+      changes_.from = select(sure, from, changes_.from);
+      changes_.to = select(sure, to, changes_.to);
     }
     return unseen;
   }
@@ -275,9 +274,9 @@ class IntervalFilter::Search {
     for (const NearLeaf<Real>& leaf : near_.leaves()) {
       if (&leaf == &open) continue;
       const NearNode& parent = near_.node(leaf.node);
-      result = both(result, parent.is_on_path ? has_value(leaf, parent.all, from, to)
-                                              : either(leaf.interval.is_inside(from, to),
-                                                       leaf.interval.is_outside(from, to)));
+      result = result && (parent.is_on_path ? has_value(leaf, parent.all, from, to)
+                                            : leaf.interval.is_inside(from, to) ||
+                                                  leaf.interval.is_outside(from, to));
       if (!any(result)) break;
     }
     for (std::uint32_t i = open.node; i != no_item; i = near_.node(i).parent) {
@@ -287,7 +286,7 @@ class IntervalFilter::Search {
     for (std::uint32_t i = open.node; i != no_item && any(result); i = near_.node(i).parent) {
       const NearNode& node = near_.node(i);
       for (std::uint32_t k = node.first_node; k != no_item; k = near_.node(k).next) {
-        if (k != on_path) result = both(result, has_value(near_.node(k), node.all, from, to));
+        if (k != on_path) result = result && has_value(near_.node(k), node.all, from, to);
       }
       on_path = i;
     }
@@ -306,7 +305,7 @@ class IntervalFilter::Search {
     if (node.deciding > 0) return needs_all ? Mask{} : everywhere;
     Mask result = needs_all ? everywhere : Mask{};
     const auto take = [&](const Mask& of_child) {
-      result = needs_all ? both(result, of_child) : either(result, of_child);
+      result = needs_all ? (result && of_child) : result || of_child;
     };
     for (std::uint32_t i = node.first_leaf; i != no_item; i = near_.leaves()[i].next) {
       take(has_value(near_.leaves()[i], value, from, to));

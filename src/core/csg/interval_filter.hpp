@@ -23,7 +23,8 @@
 #include <span>
 #include <vector>
 
-#include "core/ray/filter_line.hpp"
+#include "core/geometry/box/enclose.hpp"
+#include "core/geometry/sphere/enclose.hpp"
 
 namespace crt::core {
 
@@ -59,20 +60,17 @@ struct BoundaryChanges {
 };
 
 inline BoundaryChanges<double> lane_of(const BoundaryChanges<Lanes>& changes, std::size_t lane) {
-  const auto i = static_cast<int>(lane);
-  return {.none = changes.none[i] != 0,
-          .one = changes.one[i] != 0,
-          .into_object = changes.into_object[i] != 0,
-          .into_leaf = changes.into_leaf[i] != 0,
-          .leaf = changes.leaf[i],
-          .from = changes.from[i],
-          .to = changes.to[i]};
+  return {.none = changes.none[lane],
+          .one = changes.one[lane],
+          .into_object = changes.into_object[lane],
+          .into_leaf = changes.into_leaf[lane],
+          .leaf = changes.leaf[lane],
+          .from = changes.from[lane],
+          .to = changes.to[lane]};
 }
 
 template <class Real>
 class EnclosedLines;
-template <class Real>
-struct LeafInterval;
 class NearLeavesWorkspace;
 class RaySteps;
 
@@ -80,14 +78,10 @@ class RaySteps;
 /// have none.
 class IntervalFilter {
  public:
-  struct Sphere {
-    Vec3 center;
-    double radius;
+  struct Sphere : EnclosedSphere {
     std::uint32_t leaf = 0;  ///< its number within the object
   };
-  struct Box {
-    Vec3 lower{0, 0, 0};
-    Vec3 upper{0, 0, 0};
+  struct Box : EnclosedBox {
     std::uint32_t leaf = 0;
   };
 
@@ -124,7 +118,7 @@ class IntervalFilter {
   /// Encloses the part of lines in a leaf, as EnclosedLines has it.
   template <class Real>
   bool enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
-               LeafInterval<Real>& interval) const;
+               Enclosure<Real>& interval) const;
 
  private:
   template <class Real>

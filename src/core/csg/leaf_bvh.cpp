@@ -17,8 +17,8 @@ constexpr double infinity = std::numeric_limits<double>::infinity();
 
 /// A box in vector lanes: x, y, z and one that is not used.
 struct LaneBox {
-  Lanes lower = {infinity, infinity, infinity, infinity};
-  Lanes upper = {-infinity, -infinity, -infinity, -infinity};
+  Lanes lower = infinity;
+  Lanes upper = lanes_of(-infinity, -infinity, -infinity, -infinity);
 
   void include(const Lanes& other_lower, const Lanes& other_upper) {
     lower = min(lower, other_lower);
@@ -38,8 +38,8 @@ struct Item {
   LaneBox box;  ///< with the leaf's number in the lane that is not used
 
   Item(const Bounds& bounds, std::uint32_t leaf)
-      : box{.lower = {bounds.lower.x, bounds.lower.y, bounds.lower.z, static_cast<double>(leaf)},
-            .upper = {bounds.upper.x, bounds.upper.y, bounds.upper.z, static_cast<double>(leaf)}} {}
+      : box{.lower = lanes_of(bounds.lower.x, bounds.lower.y, bounds.lower.z, leaf),
+            .upper = lanes_of(bounds.upper.x, bounds.upper.y, bounds.upper.z, leaf)} {}
 
   std::uint32_t leaf() const { return static_cast<std::uint32_t>(box.lower[3]); }
   Lanes middle() const { return 0.5 * box.lower + 0.5 * box.upper; }
@@ -190,8 +190,8 @@ class LeafBvh::Builder {
 
   static void set_child(Node& node, std::size_t index, const Part& part, Child child) {
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      node.lower[axis][index] = part.box.lower[static_cast<int>(axis)];
-      node.upper[axis][index] = part.box.upper[static_cast<int>(axis)];
+      node.lower[axis][index] = part.box.lower[axis];
+      node.upper[axis][index] = part.box.upper[axis];
     }
     node.children[index] = child;
     node.count = std::max(node.count, static_cast<std::uint32_t>(index + 1));

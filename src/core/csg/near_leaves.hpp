@@ -20,7 +20,7 @@ inline constexpr std::uint32_t no_item = 0xffffffffu;
 /// A leaf that some line comes near.
 template <class Real>
 struct NearLeaf {
-  LeafInterval<Real> interval;
+  Enclosure<Real> interval;
   std::uint32_t leaf = 0;        ///< its number within the object
   std::uint32_t node = 0;        ///< the node above it
   std::uint32_t next = no_item;  ///< the next leaf below the same node
@@ -177,9 +177,9 @@ class NearLeaves {
   double first_enter(const Bounds& box) const {
     const FilterLine<Real>& lines = lines_.lines();
     const auto part = span_in(box);
-    const MaskOf<Real> near = both(both(part.enter <= part.leave, part.enter <= lines_.limits()),
-                                   part.leave >= lines.begin - lines.start_error);
-    return least(both(near, lines_.asked()) ? part.enter : broadcast<Real>(infinity));
+    const MaskOf<Real> near = part.enter <= part.leave && part.enter <= lines_.limits() &&
+                              part.leave >= lines.begin - lines.start_error;
+    return least(select(near && lines_.asked(), part.enter, broadcast<Real>(infinity)));
   }
 
   void add(std::uint32_t leaf) {

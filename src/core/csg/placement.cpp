@@ -180,7 +180,7 @@ void set(VectorLanes& high, VectorLanes& low, const Component& component) {
 
 /// Rays of a camera without a lens have one origin.
 bool is_one_point(const VectorLanes& v) {
-  return all(both(both(v.x == lanes_of(v.x[0]), v.y == lanes_of(v.y[0])), v.z == lanes_of(v.z[0])));
+  return all(v.x == lanes_of(v.x[0]) && v.y == lanes_of(v.y[0]) && v.z == lanes_of(v.z[0]));
 }
 
 }  // namespace

@@ -6,7 +6,6 @@
 #include <bit>
 #include <cmath>
 #include <cstdint>
-#include <cstring>
 #include <limits>
 
 #include "core/geometry/bounds.hpp"
@@ -76,7 +75,7 @@ class RaySlabs {
       const Lanes second = (box.upper[axis] - lines.origin[i]) * inverse;
       const Lanes low = min(first, second);
       const Lanes high = max(first, second);
-      const Lanes error = origin_errors > 0.0 ? origin_errors * abs(inverse) : Lanes{};
+      const Lanes error = select(origin_errors > 0.0, origin_errors * abs(inverse), Lanes{});
       span.enter = max(span.enter, low - slack * abs(low) - error);
       span.leave = min(span.leave, high + slack * abs(high) + error);
       LaneMask is_steep = abs(inverse) > largest_inverse;
@@ -85,7 +84,7 @@ class RaySlabs {
         // above.
         const LaneMask between =
             (lines.origin[i] > box.lower[axis]) & (lines.origin[i] < box.upper[axis]);
-        is_steep &= ~(between & (lines.direction[i] == 0.0));
+        is_steep &= !(between & (lines.direction[i] == 0.0));
       }
       steep |= is_steep;
     }
@@ -102,7 +101,7 @@ class RaySlabs {
 
   /// The span of a line whose origin is what is meant, axes side by side.
   static LineSpan span(const Vec3& origin, const Vec3& direction, const Bounds& box) {
-    const auto by_axis = [](const Vec3& v) { return Lanes{v.x, v.y, v.z, v.z}; };
+    const auto by_axis = [](const Vec3& v) { return lanes_of(v.x, v.y, v.z, v.z); };
     const Lanes inverse = 1.0 / by_axis(direction);
     if (!all(abs(inverse) <= largest_inverse)) return RaySlabs(origin, direction).span(box);
     const Lanes first = (by_axis(box.lower) - by_axis(origin)) * inverse;
@@ -119,9 +118,7 @@ class RaySlabs {
   static std::array<double, 3> by_axis(const Vec3& v) { return {v.x, v.y, v.z}; }
   static double loaded(double number) { return number; }
   static Lanes loaded(const std::array<double, lane_count>& numbers) {
-    Lanes lanes;
-    std::memcpy(&lanes, &numbers, sizeof lanes);
-    return lanes;
+    return lanes_at<Lanes>(numbers.data());
   }
 
   /// Of one box, or of as many as a Real has lanes: the same bits as of each alone.
@@ -153,8 +150,8 @@ class RaySlabs {
     const Real safe_low = low - slack * abs(low) - error;
     const Real safe_high = high + slack * abs(high) + error;
     // What is no number, as infinity less infinity, says nothing.
-    enter = safe_low > enter ? safe_low : enter;
-    leave = safe_high < leave ? safe_high : leave;
+    enter = select(safe_low > enter, safe_low, enter);
+    leave = select(safe_high < leave, safe_high, leave);
   }
 
   template <class Real>
@@ -162,8 +159,8 @@ class RaySlabs {
     const double o = origin_[axis];
     const double d = direction_[axis];
     if (d == 0) {
-      const auto beside = either(o<lower - origin_slack_, o> upper + origin_slack_);
-      leave = beside ? broadcast<Real>(-std::numeric_limits<double>::infinity()) : leave;
+      const auto beside = o < lower - origin_slack_ || o > upper + origin_slack_;
+      leave = select(beside, broadcast<Real>(-std::numeric_limits<double>::infinity()), leave);
       return;
     }
     clip((lower - o) / d, (upper - o) / d, origin_error_ / std::abs(d), enter, leave);

@@ -1,4 +1,4 @@
-// Angles about an axis as texture coordinates, for one double or for lanes.
+// Angles about an axis serve as texture coordinates. They are computed for one double or for lanes.
 #pragma once
 
 #include <array>
@@ -10,20 +10,22 @@
 
 namespace crt::core {
 
-/// The angle of (x, y) from x towards y as a share of a whole turn, of x, y >= 0: in [0, 1/4], and
-/// 0 for (0, 0). Within 2^-53 of a turn and 2^-51 of itself, where neither is below 1e-290. Beyond
-/// 1/16 it is told from 1/8: atan a = pi/4 + atan((a - 1) / (a + 1)). The polynomial is the best
-/// one of its degree in q^2 for atan(q) / (2 pi q) up to q = tan(pi / 8), to 2^-59 (Remez'
-/// algorithm).
+/// Returns the angle of (x, y) from x towards y as a share of a whole turn, for x, y >= 0. It is in
+/// [0, 1/4], and 0 for (0, 0). The error is within 2^-53 of a turn and 2^-51 of the angle, where
+/// neither coordinate is below 1e-290.
+///
+/// Beyond 1/16 the angle is computed from 1/8: atan a = pi/4 + atan((a - 1) / (a + 1)). The
+/// polynomial is the best one of its degree in q^2 for atan(q) / (2 pi q) up to q = tan(pi / 8), to
+/// 2^-59 (Remez' algorithm).
 template <class Real>
 Real quarter_turn(const Real& x, const Real& y) {
   constexpr double tangent_of_sixteenth = std::numbers::sqrt2 - 1;
   const Real longer = max(x, y);
   const Real shorter = min(x, y);
   const auto beyond = shorter > tangent_of_sixteenth * longer;
-  const Real across = beyond ? shorter - longer : shorter;
-  const Real along = beyond ? shorter + longer : longer;
-  const Real q = across / (along > Real{} ? along : broadcast<Real>(1));
+  const Real across = select(beyond, shorter - longer, shorter);
+  const Real along = select(beyond, shorter + longer, longer);
+  const Real q = across / select(along > Real{}, along, broadcast<Real>(1));
 
   constexpr std::array<double, 12> coefficients = {
       0x1.45f306dc9c883p-3, -0x1.b2995e7b7b5d5p-5, 0x1.04c26be3ad380p-5, -0x1.7483758ba87cep-6,
@@ -31,25 +33,25 @@ Real quarter_turn(const Real& x, const Real& y) {
       0x1.30f097ca5ef75p-7, -0x1.06a6a9f79c2a9p-7, 0x1.8c4a5c9966effp-8, -0x1.7410d2c7ce990p-9};
   constexpr double eighth = 0.125;
   const Real turned =
-      q * polynomial(coefficients, Real(q * q)) + (beyond ? broadcast<Real>(eighth) : Real{});
-  return y > x ? 2 * eighth - turned : turned;
+      q * polynomial(coefficients, Real(q * q)) + select(beyond, broadcast<Real>(eighth), Real{});
+  return select(y > x, 2 * eighth - turned, turned);
 }
 
-/// The same of any (x, y), in [0, 1).
+/// Returns the angle of any (x, y) as a share of a whole turn, in [0, 1).
 template <class Real>
 Real turn(const Real& x, const Real& y) {
   const Real quarter = quarter_turn(abs(x), abs(y));
-  const Real half = x < Real{} ? 0.5 - quarter : quarter;
-  const Real whole = y < Real{} ? 1.0 - half : half;
-  return whole < broadcast<Real>(1) ? whole : Real{};
+  const Real half = select(x < Real{}, 0.5 - quarter, quarter);
+  const Real whole = select(y < Real{}, 1.0 - half, half);
+  return select(whole < broadcast<Real>(1), whole, Real{});
 }
 
-/// How steeply (level, height) rises or falls, level >= 0, as a share of what there is from
-/// straight down, 0, to straight up, 1.
+/// Returns the latitude of (level, height), with level >= 0. It goes from 0, straight down, to 1,
+/// straight up.
 template <class Real>
 Real latitude(const Real& level, const Real& height) {
   const Real half = 2.0 * quarter_turn(level, abs(height));
-  return height < Real{} ? 0.5 - half : 0.5 + half;
+  return select(height < Real{}, 0.5 - half, 0.5 + half);
 }
 
 template <class Real>
@@ -58,7 +60,8 @@ struct SineAndCosine {
   Real cosine;
 };
 
-/// Of q eighths of a turn, -1 <= q <= 1: within 2^-52 each. By their power series.
+/// Returns sine and cosine of q eighths of a turn, -1 <= q <= 1, within 2^-52 each, by their power
+/// series.
 template <class Real>
 SineAndCosine<Real> of_eighth_turns(const Real& q) {
   constexpr std::array<double, 8> odd = {
@@ -77,9 +80,10 @@ SineAndCosine<Real> of_eighth_turns(const Real& q) {
   return {.sine = q * sine, .cosine = fma(cosine, square, broadcast<Real>(1))};
 }
 
-/// Unit vectors that make a frame with `along`, a unit vector. `zero`, where angles about the axis
-/// start, is +z as far as that is across the axis (+x, if the axis is mostly along z); `quarter` is
-/// along x zero, a quarter of a turn on. Exact for the coordinate axes.
+/// An AxisFrame has unit vectors that make a frame with `along`, a unit vector. Angles about the
+/// axis start at `zero`, which is +z as far as that is across the axis, or +x if the axis is mostly
+/// along z. `quarter` is along x zero, a quarter of a turn further. The frame is exact for
+/// coordinate axes.
 struct AxisFrame {
   Vec3 zero;
   Vec3 quarter;

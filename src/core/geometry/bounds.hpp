@@ -9,7 +9,8 @@
 
 namespace crt::core {
 
-/// An axis-parallel box; empty if lower > upper in any coordinate, possibly infinite.
+/// Bounds are an axis-parallel box. It is empty if lower > upper in any coordinate, and may be
+/// infinite.
 struct Bounds {
   Vec3 lower{std::numeric_limits<double>::infinity()};
   Vec3 upper{-std::numeric_limits<double>::infinity()};
@@ -41,7 +42,7 @@ struct Bounds {
     }
   }
 
-  /// Takes in center +- extents, rounded outwards by a few ulps of both.
+  /// Includes center +- extents, rounded outwards by a few ulps of both.
   void include_around(const Vec3& center, const Vec3& extents) {
     constexpr double roundings = 0x1p-50;
     for (int axis = 0; axis < 3; ++axis) {
@@ -51,13 +52,13 @@ struct Bounds {
     }
   }
 
-  /// The largest size of a coordinate in it.
+  /// Returns the largest absolute value of a coordinate in the box.
   double farthest() const { return std::max(largest_component(lower), largest_component(upper)); }
 
-  /// With a margin on all sides.
+  /// Returns the box with a margin on all sides.
   Bounds grown(double margin) const { return {lower - Vec3(margin), upper + Vec3(margin)}; }
 
-  /// What both have in common; may be empty.
+  /// Returns what both boxes have in common, which may be empty.
   Bounds clipped(const Bounds& other) const {
     Bounds result;
     for (int axis = 0; axis < 3; ++axis) {
@@ -67,7 +68,7 @@ struct Bounds {
     return result;
   }
 
-  /// Whether the two have a point in common (touching counts).
+  /// Returns whether the boxes have a point in common. Touching counts.
   bool touches(const Bounds& other) const { return !clipped(other).empty(); }
 };
 

@@ -1,27 +1,27 @@
-// The checks of parameters that the primitives share. Each throws Error (invalid_argument) naming
-// the field.
+// Primitives share these checks of parameters. Each throws Error (invalid_argument) naming the
+// field.
 #pragma once
 
 #include "crt/vec.hpp"
 
 namespace crt::core {
 
-/// What any size is at least.
+/// Every size is at least this.
 inline constexpr double smallest_length = 1e-100;
 
 /// Throws for the field: "<argument> <rule>".
 [[noreturn]] void reject(const char* argument, const char* rule);
 
-/// Finite and at most 1e100 in each coordinate.
+/// Checks that each coordinate is finite and at most 1e100 in magnitude.
 void check_coordinates(const char* argument, const Vec3& value);
 
-/// As coordinates, and not (0, 0, 0).
+/// Checks a direction like coordinates. It must not be (0, 0, 0).
 void check_direction(const char* argument, const Vec3& value);
 
-/// The end of an axis, at least 1e-100 from where that starts at `from`.
+/// Checks the end of an axis, which must be at least 1e-100 from its begin at `from`.
 void check_end(const char* argument, const Vec3& from, const Vec3& to);
 
-/// Between 1e-100 and 1e100.
+/// Checks that a radius is between 1e-100 and 1e100.
 void check_radius(const char* argument, double value);
 
 }  // namespace crt::core

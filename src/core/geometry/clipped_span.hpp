@@ -1,5 +1,5 @@
-// The span of a line inside a convex solid: the whole line at first, then cut by one face after
-// another. It also keeps the promises about rays that start on a surface (Shape::crossings).
+// A span is the part of a line inside a convex solid. It is the whole line at first, and is then
+// cut by one face after another.
 #pragma once
 
 #include <algorithm>
@@ -9,19 +9,20 @@
 
 namespace crt::core {
 
-/// (All inline, so that crossings stay in registers.) A ray that starts on a face starts within
-/// what the other faces bound: where rounding says otherwise (next to an edge), it is corrected to
-/// t = 0, and the face it starts on goes first.
+/// A ClippedSpan also keeps the promises about rays that start on a surface (Shape::crossings). A
+/// ray that starts on a face starts within what the other faces bound. Where rounding says
+/// otherwise (next to an edge), it is corrected to t = 0, and the face it starts on goes first. All
+/// is inline, so that crossings stay in registers.
 class ClippedSpan {
  public:
-  /// `shortest` is what a ray still has to go, in units of t, when it starts into the solid and
-  /// rounding (or a direction at odds with its side) would have it leave at once.
+  /// `shortest` is the length in t that remains for a ray that starts into the solid, if rounding
+  /// would have it leave at once. A direction at odds with its side may do so, too.
   ClippedSpan(const RayStart& start, double shortest) : start_(start), shortest_(shortest) {
     enter_.t = -infinity;
     leave_.t = infinity;
   }
 
-  /// The line is inside only after this crossing.
+  /// Says that the line is inside only after this crossing.
   void enter(const Crossing& crossing) {
     const bool is_start = crossing.face == start_.face;
     const double t = starts_on_face() ? std::min(crossing.t, 0.0) : crossing.t;
@@ -31,7 +32,7 @@ class ClippedSpan {
     }
   }
 
-  /// The line is inside only before this crossing.
+  /// Says that the line is inside only before this crossing.
   void leave(const Crossing& crossing) {
     const bool is_start = crossing.face == start_.face;
     const double t = starts_on_face() ? std::max(crossing.t, 0.0) : crossing.t;
@@ -41,14 +42,15 @@ class ClippedSpan {
     }
   }
 
-  /// The line is nowhere inside.
+  /// Says that the line is nowhere inside.
   void clear() { empty_ = true; }
 
   bool empty() const { return empty_ || !(enter_.t < leave_.t); }
   double enter_t() const { return enter_.t; }
   double leave_t() const { return leave_.t; }
 
-  /// Appends the finite ends; whether the line is inside at t = -inf. There is no more to come.
+  /// Appends the finite ends and returns whether the line is inside at t = -inf. It must be called
+  /// last.
   bool finish(CrossingList& out) {
     if (empty_) return false;
     if (starts_on_face() && start_.side == Side::inside && !(leave_.t > 0)) leave_.t = shortest_;

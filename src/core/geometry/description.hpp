@@ -1,4 +1,4 @@
-// What a primitive is, as bytes: to find equal ones.
+// Equal primitives are found by comparing their descriptions as bytes.
 #pragma once
 
 #include <cstddef>
@@ -9,8 +9,8 @@
 
 namespace crt::core {
 
-/// The fields of a primitive but for its material. All are doubles, so that there are no gaps among
-/// them, and equal bytes are equal shapes. (0 and -0 are told apart.)
+/// Returns the fields of a primitive but for its material. All are doubles, so that there are no
+/// gaps among them, and equal bytes are equal shapes. 0 and -0 differ.
 inline std::span<const std::byte> description_of(const Primitive& primitive) {
   return std::visit(
       [](const auto& shape) {

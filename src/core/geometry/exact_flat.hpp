@@ -1,5 +1,5 @@
-// What discs, half planes and triangles of the exact tier have in common: a plane, and on which
-// side of its edges the line meets it. Edges belong to the surface.
+// Discs, half planes and triangles of the exact tier have in common a plane, and the question on
+// which side of its edges the line meets it. Edges belong to the surface.
 #pragma once
 
 #include "core/geometry/exact_plane.hpp"
@@ -9,19 +9,19 @@
 
 namespace crt::core {
 
-/// Far more roundings than any of the filters below has. Rays that pass an edge more closely are
-/// few.
+/// These are far more roundings than any of the filters below has. Rays that pass an edge more
+/// closely are few.
 inline constexpr double filter_roundings = 0x1p8;
 inline constexpr double filter_rounding = filter_roundings * unit_roundoff;
 
-/// Where a line meets a plane, without rounding: as ExactShape::place() has it.
+/// Returns where a line meets a plane, without rounding, as ExactShape::place() does.
 inline std::optional<RealRoot> place_on(const ExactPlane& plane, const ExactRay& ray,
                                         const Crossing& crossing) {
   if (is_start(ray, crossing)) return RealRoot::at(0);
   return root_at(ray, crossing, plane.equation(ray.exact()));
 }
 
-/// A piece of a plane.
+/// An ExactFlatShape is a piece of a plane.
 class ExactFlatShape : public ExactShape {
  public:
   explicit ExactFlatShape(ExactPlane plane) : plane_(std::move(plane)) {}
@@ -49,7 +49,7 @@ class ExactFlatShape : public ExactShape {
 
   const ExactPlane& plane() const { return plane_; }
 
-  /// The meeting relative to `center`, and what each of its components may be off by.
+  /// A NearPoint is the meeting relative to `center`, with a bound on the error of each component.
   struct NearPoint {
     Vec3 offset;
     double error;
@@ -62,8 +62,8 @@ class ExactFlatShape : public ExactShape {
                         meeting.error * largest_component(ray.near.direction)};
   }
 
-  /// The meeting without rounding. A ray that starts on the plane meets it at its start, whatever
-  /// its rounded origin says.
+  /// Returns the meeting without rounding. A ray that starts on the plane meets it at its start,
+  /// whatever its rounded origin says.
   ExactPoint exact_meeting(const ExactRay& ray, const Meeting& meeting) const {
     const ExactLine line = ray.exact();
     const bool at_start = meeting.t.hi == 0 && meeting.error == 0;

@@ -5,7 +5,7 @@
 namespace crt::core {
 namespace {
 
-/// At least the sum of a plane's normal's components: none is larger than 1.
+/// This is at least the sum of a plane's normal's components, as none is larger than 1.
 constexpr double normal_size = 3;
 
 }  // namespace
@@ -50,7 +50,7 @@ ExactPlane::Meeting ExactPlane::meet(const ExactRay& ray) const {
   return settled(ray, axis_ >= 0 ? estimate_across_axis(ray) : estimate(ray));
 }
 
-/// One quotient, and a correction by what it leaves.
+/// Estimates t by one quotient, and corrects it by the remainder.
 ExactPlane::Meeting ExactPlane::estimate_across_axis(const ExactRay& ray) const {
   const ObjectRay& near = ray.near;
   const double speed = near.direction[axis_];
@@ -63,8 +63,8 @@ ExactPlane::Meeting ExactPlane::estimate_across_axis(const ExactRay& ray) const 
   const double drift = quotient * near.direction_low[axis_];
   const double remainder = std::fma(-quotient, speed, offset.hi) + (low - drift);
   result.t = two_sum(quotient, remainder / speed);
-  // Besides the ray's own errors: the roundings of what is added, each far below that of the
-  // quotient.
+  // Besides the ray's own errors there are the roundings of these summands, each far below that of
+  // the quotient.
   constexpr double roundings = 4;
   const double rounding = roundings * unit_roundoff *
                           (std::abs(offset.lo) + std::abs(near.origin_low[axis_]) +
@@ -113,7 +113,7 @@ ExactPlane::Meeting ExactPlane::estimate(const ExactRay& ray) const {
   return result;
 }
 
-/// The estimate, if it leaves nothing open.
+/// Returns the estimate if it decides everything, and the exact meeting otherwise.
 ExactPlane::Meeting ExactPlane::settled(const ExactRay& ray, const Meeting& estimate) const {
   const double t = estimate.t.hi;
   if (estimate.side != 0 && ray.is_settled(t, estimate.error) && std::isfinite(t)) return estimate;

@@ -1,4 +1,4 @@
-// A plane of the exact tier: what flat primitives and faces have in common.
+// Flat primitives and faces of the exact tier have a plane in common.
 #pragma once
 
 #include "core/geometry/exact_ray.hpp"
@@ -10,21 +10,21 @@ namespace crt::core {
 
 class ExactPlane {
  public:
-  /// Through `position`, across `normal`.
+  /// Makes the plane through `position` across `normal`.
   ExactPlane(const Vec3& normal, const Vec3& position);
-  /// Through `position`, across to - from as it is without rounding.
+  /// Makes the plane through `position` across to - from, which is not rounded.
   static ExactPlane across_axis(const Vec3& from, const Vec3& to, const Vec3& position);
-  /// Through three points.
+  /// Makes the plane through three points.
   static ExactPlane through(const Vec3& a, const Vec3& b, const Vec3& c);
 
-  /// Where a line meets the plane.
+  /// A Meeting is where a line meets the plane.
   struct Meeting {
     int side = 0;    ///< the sign of n . d: 1 if the line leaves the half-space behind the plane
     DoubleDouble t;  ///< if the line is not parallel
     double error = 0;
-    bool behind = false;  ///< of parallel lines: whether they are behind the plane, and not on it
+    bool behind = false;  ///< for parallel lines: whether they are behind the plane, and not on it
 
-    /// False if the line is parallel, or so nearly that t has no finite value.
+    /// Returns false if the line is parallel, or so nearly that t has no finite value.
     bool found() const { return side != 0; }
     Crossing crossing(std::uint32_t face = 0) const {
       return {.t = t.hi, .error = error, .t_low = t.lo, .face = face, .entering = side < 0};
@@ -32,14 +32,16 @@ class ExactPlane {
   };
   Meeting meet(const ExactRay& ray) const;
 
-  /// Only the sign of n . d.
+  /// Returns only the sign of n . d.
   int side(const ExactRay& ray) const;
 
-  /// As meet(); if the ray starts on this plane, exactly 0 and to the side it is said to leave.
+  /// Returns what meet() does. But if the ray starts on this plane, t is exactly 0, and the side is
+  /// the one that the ray is known to leave to.
   Meeting meet_surface(const ExactRay& ray) const;
 
-  /// t without rounding: numerator / denominator, with denominator >= 0 (0 for parallel lines, of
-  /// which the numerator has the sign of the way to the plane along the normal).
+  /// A Fraction is t without rounding: numerator / denominator, with denominator >= 0. For parallel
+  /// lines the denominator is 0. The numerator then has the sign of the distance to the plane along
+  /// the normal.
   struct Fraction {
     Dyadic numerator;
     Dyadic denominator;
@@ -47,13 +49,13 @@ class ExactPlane {
   };
   Fraction meet_exactly(const ExactLine& line) const;
 
-  /// The equation of t whose root that is.
+  /// Returns the equation whose root is t.
   DyadicPolynomial equation(const ExactLine& line) const {
     const Fraction t = meet_exactly(line);
     return DyadicPolynomial({-t.numerator, t.denominator});
   }
 
-  /// The normal, and its product with a point of the plane.
+  /// Returns the normal, and its product with a point of the plane.
   std::vector<Dyadic> numbers() const {
     const auto& [x, y, z] = exact_normal_;
     return {x, y, z, dot(exact_normal_, exactly(position_))};
@@ -61,7 +63,7 @@ class ExactPlane {
 
   const Vec3& position() const { return position_; }
 
-  /// Of memory, beside the object itself.
+  /// Returns the bytes of memory it takes beside the object itself.
   std::size_t more_bytes() const {
     std::size_t bytes = 0;
     for (const Dyadic& component : exact_normal_) bytes += component.more_bytes();
@@ -70,7 +72,7 @@ class ExactPlane {
 
  private:
   ExactPlane() = default;
-  /// n . d up to a positive factor, and what it may be off by.
+  /// A Rate is n . d up to a positive factor, with a bound on its error.
   struct Rate {
     DoubleDouble value;
     double error;
@@ -89,11 +91,12 @@ class ExactPlane {
   Vec3 position_{0, 0, 0};
 };
 
-/// The sign of t of the first less t of the second meeting of a ray with two planes.
+/// Returns the sign of the first t less the second, for the meetings of a ray with two planes.
 int order(const ExactRay& ray, const ExactPlane& first_plane, const ExactPlane::Meeting& first,
           const ExactPlane& second_plane, const ExactPlane::Meeting& second);
 
-/// A point of a line relative to a center, without rounding: offset / weight, with weight > 0.
+/// An ExactPoint is a point of a line relative to a center, without rounding: offset / weight, with
+/// weight > 0.
 struct ExactPoint {
   DyadicVector offset;
   Dyadic weight;

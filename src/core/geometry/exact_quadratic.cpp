@@ -5,7 +5,7 @@
 namespace crt::core {
 
 std::array<DoubleDouble, 2> ExactQuadratic::roots() const {
-  // q = -(b + sign(b) sqrt(discriminant)) adds what has one sign: nothing cancels.
+  // In q = -(b + sign(b) sqrt(discriminant)) both summands have one sign, so nothing cancels.
   const ScaledNumber half = sqrt(discriminant().rounded());
   const ScaledNumber q = b.sign() > 0 ? -(b.rounded() + half) : half + -b.rounded();
   if (q.value.hi == 0) return {};

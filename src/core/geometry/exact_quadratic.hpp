@@ -1,4 +1,4 @@
-// Roots of quadratics whose coefficients are known without rounding.
+// Quadratics whose coefficients are known without rounding are solved for their roots.
 #pragma once
 
 #include <array>
@@ -7,7 +7,7 @@
 
 namespace crt::core {
 
-/// a t^2 + 2 b t + c, exactly.
+/// An ExactQuadratic is a t^2 + 2 b t + c, exactly.
 struct ExactQuadratic {
   Dyadic a;
   Dyadic b;
@@ -17,14 +17,14 @@ struct ExactQuadratic {
 
   DyadicPolynomial polynomial() const { return DyadicPolynomial({c, b + b, a}); }
 
-  /// If c is taken as 0, what is left when the root at 0 is divided out.
+  /// Returns what is left when c is taken as 0 and the root at 0 is divided out.
   DyadicPolynomial beside_zero() const { return DyadicPolynomial({b + b, a}); }
 
-  /// Both roots in ascending order, each to about 100 bits. a must not be 0, the discriminant not
-  /// negative.
+  /// Returns both roots in ascending order, each to about 100 bits. a must not be 0, and the
+  /// discriminant must not be negative.
   std::array<DoubleDouble, 2> roots() const;
 
-  /// If c is taken as 0, the root beside 0, to about 100 bits. a must not be 0.
+  /// Returns the root beside 0 if c is taken as 0, to about 100 bits. a must not be 0.
   DoubleDouble root_beside_zero() const { return (-(b + b).rounded() / a.rounded()).unscaled(); }
 };
 

@@ -1,4 +1,4 @@
-// A ray as the exact tier takes it: nearly exact at once, and exactly where that is not enough.
+// A ray of the exact tier is known nearly exactly at once, and exactly where that is not enough.
 #pragma once
 
 #include <array>
@@ -11,38 +11,38 @@
 
 namespace crt::core {
 
-/// A line in object space without any rounding: (origin + t direction) / weight, with weight > 0.
-/// The division that the inverse of a transform needs is never carried out.
+/// An ExactLine is a line in object space without any rounding: (origin + t direction) / weight,
+/// with weight > 0. The division that the inverse of a transform needs is never carried out.
 struct ExactLine {
   DyadicVector origin;
   DyadicVector direction;
   Dyadic weight = 1;
 };
 
-/// How exactly t must be known for its rounding to be within 0.51 ulp.
+/// t must be known so exactly for its rounding to be within 0.51 ulp.
 inline constexpr double last_bit_tolerance = 0x1p-60;
 
 struct ExactRay {
-  /// In object space, to about 100 bits; must outlive this.
+  /// This is the ray in object space, to about 100 bits. It must outlive the ExactRay.
   const ObjectRay& near;
-  /// What each component of origin and direction may be off by at most.
+  /// Each component of origin and direction has at most this error.
   double origin_error = 0;
   double direction_error = 0;
-  // The same in the world, and the map from object space (none for the identity).
+  // The ray is kept in the world, too, with the map from object space (none for the identity).
   Vec3 world_origin{0, 0, 0};
   Vec3 world_direction{0, 0, 1};
   const Transform* to_world = nullptr;
   const TransformChain* chain = nullptr;  ///< that map, if it is more than twelve doubles
-  /// A ray that starts on a surface has a rounded origin: what it meets at |t| below this is at the
-  /// start for all that is known.
+  /// A ray that starts on a surface has a rounded origin. What it meets at |t| below this cannot be
+  /// distinguished from the start.
   double start_error = 0;
-  /// Counts how often exact() is asked.
+  /// Counts the exact fallbacks: the calls of exact().
   std::uint64_t* escalations = nullptr;
 
   ExactLine exact() const;
 
-  /// Whether a t that may be off by `error` is known well enough: its last bit, or of what is at
-  /// the start for all that is known the side.
+  /// Returns whether a t with at most this error is known well enough. That is to its last bit, or
+  /// only to its side where it cannot be distinguished from the start.
   bool is_settled(double t, double error) const {
     constexpr double at_start_tolerance = 0x1p-20;
     const double size = std::abs(t);
@@ -50,7 +50,7 @@ struct ExactRay {
            (size < start_error && error <= at_start_tolerance * size);
   }
 
-  /// What each component of a point p(t) - center is off by at most, where it is computed in
+  /// Returns a bound on the error of each component of a point p(t) - center that is computed in
   /// double-double.
   double point_error(const Vec3& center, double t) const;
 };
@@ -61,10 +61,10 @@ inline PreciseVec3 precise_direction(const ObjectRay& ray) {
           DoubleDouble(ray.direction.z, ray.direction_low.z)};
 }
 
-/// p(t + t_low) - center to about 100 bits.
+/// Returns p(t + t_low) - center to about 100 bits.
 PreciseVec3 precise_from_center(const ObjectRay& ray, const Vec3& center, DoubleDouble t);
 
-/// a . b to about 100 bits of the largest product.
+/// Returns a . b to about 100 bits of the largest product.
 /// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2), for factors of two
 /// doubles each.
 inline DoubleDouble precise_dot(const PreciseVec3& a, const PreciseVec3& b) {
@@ -78,7 +78,7 @@ inline DoubleDouble precise_dot(const PreciseVec3& a, const PreciseVec3& b) {
   return two_sum(xyz.hi, low);
 }
 
-/// a x b, each component to about 100 bits of the larger product.
+/// Returns a x b, each component to about 100 bits of the larger product.
 inline PreciseVec3 precise_cross(const PreciseVec3& a, const PreciseVec3& b) {
   const auto component = [&](std::size_t i, std::size_t j) {
     const DoubleDouble x = two_product(a[i].hi, b[j].hi);
@@ -95,7 +95,7 @@ inline double sum_of_sizes(const PreciseVec3& v) {
   return std::abs(v[0].hi) + std::abs(v[1].hi) + std::abs(v[2].hi);
 }
 
-/// What double-double arithmetic leaves as an error of its result: a few of its roundings of
+/// This is the relative error of results of double-double arithmetic: a few of its roundings of
 /// 2^-105.
 inline constexpr double precise_roundoff = 0x1p-100;
 

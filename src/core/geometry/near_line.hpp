@@ -1,7 +1,8 @@
-// A ray as a round primitive solves for it: shifted to the primitive, in the primitive's own units.
+// A NearLine is a ray as a round primitive solves for it: shifted to the primitive, in the
+// primitive's own units.
 //
-// The line is (point + x direction) * unit, relative to the primitive's centre, where unit is a
-// power of two near the primitive's size and direction is the ray's times a power of two: both
+// The line is (point + x direction) * unit, relative to the primitive's centre. There unit is a
+// power of two near the primitive's size, and direction is the ray's times a power of two. Both
 // scalings are exact, and neither the scene's size nor the length of the ray's direction matters
 // after them.
 #pragma once
@@ -14,15 +15,15 @@
 
 namespace crt::core {
 
-/// One line, or as many side by side as a Real has lanes. (A Ray has what ObjectRay has, of such a
-/// Real.)
+/// A NearLineOf is one line, or as many side by side as a Real has lanes. A Ray has the members of
+/// ObjectRay, for such a Real.
 template <class Real>
 struct NearLineOf {
   Vec3Of<Real> point;
   Vec3Of<Real> direction;  ///< its largest component is in [1, 2)
   Real squared_length;     ///< direction . direction
 
-  /// The line with `point` where the ray is at t = 0. Center and unit may be by lane.
+  /// Makes the line with `point` where the ray is at t = 0. Center and unit may differ by lane.
   template <class Ray, class Center, class Unit>
   static NearLineOf at_origin(const Ray& ray, const Center& center, const Unit& unit) {
     NearLineOf line(ray, unit);
@@ -30,25 +31,25 @@ struct NearLineOf {
     return line;
   }
 
-  /// The line with `point` (nearly) where the ray comes closest to the centre.
+  /// Makes the line with `point` (nearly) where the ray comes closest to the centre.
   template <class Ray, class Center, class Unit>
   static NearLineOf at_closest(const Ray& ray, const Center& center, const Unit& unit) {
     Real rest;
     return at_closest(ray, center, unit, rest);
   }
-  /// The same, and its closest().
+  /// Makes the line at its closest, and also returns its closest() in `rest`.
   template <class Ray, class Center, class Unit>
   static NearLineOf at_closest(const Ray& ray, const Center& center, const Unit& unit, Real& rest) {
     NearLineOf line = at_origin(ray, center, unit);
     line.move_to(ray, center, line.to_t(line.closest()));
-    // One step leaves an error of one rounding of the way. From beyond 1 / u sizes that is still
-    // far: a second step, which t alone could not hold, brings it near.
+    // One step leaves an error of one rounding of the distance. From beyond 1 / u sizes that is
+    // still far. A second step, which t alone could not hold, brings it near.
     constexpr double near = 4;
     rest = line.closest();
     const auto is_far = abs(rest) > near;
     if (any(is_far)) {
       const Real step = rest * line.unit_ * line.direction_scale_;
-      line.move_to(ray, center, line.shift_, is_far ? step : Real{});
+      line.move_to(ray, center, line.shift_, select(is_far, step, Real{}));
       rest = line.closest();
     }
     return line;
@@ -65,18 +66,18 @@ struct NearLineOf {
     move_to(ray, center, t.hi, t.lo);
   }
 
-  /// The ray's t at x.
+  /// Returns the ray's t at x.
   Real to_t(const Real& x) const { return shift_ + (shift_low_ + to_t_length(x)); }
 
-  /// The same before its last rounding.
+  /// Returns the ray's t at x before its last rounding.
   auto to_precise_t(const Real& x) const { return two_sum(shift_, shift_low_ + to_t_length(x)); }
 
-  /// A difference of x as a difference of t.
+  /// Converts a difference of x to a difference of t.
   Real to_t_length(const Real& x) const { return x * unit_ * direction_scale_; }
 
   Vec3Of<Real> at(const Real& x) const { return point + x * direction; }
 
-  /// x of the point closest to the centre.
+  /// Returns x of the point closest to the centre.
   Real closest() const { return -dot(point, direction) / squared_length; }
 
  private:
@@ -96,42 +97,42 @@ struct NearLineOf {
 };
 using NearLine = NearLineOf<double>;
 
-/// How far a crossing may be off the surface in the standard tier, in the units of the line:
-/// `reach` is that of standard_error().
+/// Returns how far a crossing may be off the surface in the standard tier, in the units of the
+/// line. `reach` is that of standard_error().
 template <class Reach>
 Reach standard_error_across(const Reach& reach) {
   constexpr double roundings = 8;
   return roundings * unit_roundoff * reach;
 }
 
-/// The standard tier's bound on the error of t at a crossing (docs/numerics.md), in units of t:
-/// half an ulp of t and 8u (R + |x|) / |n . d|. All but t in the units of the line: `reach` is R +
-/// |x|, `approach` is |n . d|, and `longest` what the error of x can be at most where the ray
-/// grazes.
+/// Returns the standard tier's bound on the error of t at a crossing (docs/numerics.md), in units
+/// of t: half an ulp of t and 8u (R + |x|) / |n . d|. All but t are in the units of the line.
+/// `reach` is R + |x|, and `approach` is |n . d|. `longest` is the largest possible error of x
+/// where the ray grazes.
 template <class Real, class Reach>
 Real standard_error(const NearLineOf<Real>& line, const Real& t, const Reach& reach,
                     const Real& approach, const Real& longest) {
   const Reach across = standard_error_across(reach);
-  const Real along = across < longest * approach ? across / approach : longest;
+  const Real along = select(across < longest * approach, across / approach, longest);
   return rounding_of(t) + line.to_t_length(along);
 }
 
-/// How far apart two roots next to a grazing ray can be moved by the rounding that standard_error
-/// allows, on a surface of the given radius of curvature.
+/// Returns how far the rounding that standard_error allows can move two roots from each other. They
+/// are next to a grazing ray, on a surface of the given radius of curvature.
 template <class Real, class Reach, class Radius>
 Real grazing_error(const NearLineOf<Real>& line, const Reach& reach, const Radius& radius) {
   constexpr double roundings = 8;
-  return square_root(2 * roundings * unit_roundoff * reach * radius / line.squared_length);
+  return sqrt(2 * roundings * unit_roundoff * reach * radius / line.squared_length);
 }
 
-/// What the other root of a x^2 + 2 b x + c is moved by when c, which is only the rounding of a
-/// start on the surface, is taken as 0.
+/// Returns how far the other root of a x^2 + 2 b x + c moves when c is taken as 0. That c is only
+/// the rounding of a start on the surface.
 template <class Real>
 Real start_error(const Real& c, const Real& a, const Real& b) {
   const Real size = abs(c);
-  const Real grazing = square_root(size / abs(a));
+  const Real grazing = sqrt(size / abs(a));
   const Real slope = 2.0 * abs(b);
-  return size < slope * grazing ? size / slope : grazing;
+  return select(size < slope * grazing, size / slope, grazing);
 }
 
 }  // namespace crt::core

@@ -18,12 +18,12 @@ PlaneFace::Meeting PlaneFace::meet(const ObjectRay& ray) const {
   result.rate = rate.value();
   if (result.rate == 0) return result;
 
-  // In double-double, as from afar or nearly along the plane the rounding of any point on the way
-  // would be larger than what decides.
+  // This is in double-double. From afar or nearly along the plane, the rounding of any point on the
+  // way would be larger than what decides.
   DoubleDouble t = -(height_at_origin(ray) / rate);
   if (!std::isfinite(t.hi)) return result;
-  // For a position next to the line's point even that leaves something, which is measured there;
-  // unless it is no more than the rounding of the measurement.
+  // For a position next to the line's point even that leaves a remainder, which is measured there.
+  // A remainder within the rounding of the measurement is ignored.
   Vec3 near = ray.from_center(position_, t.hi, t.lo);
   const double rest = accurate_dot(normal_, near).value();
   constexpr double measurable = 12 * unit_roundoff;

@@ -1,6 +1,6 @@
-// From the public description of a primitive to its shape. The variant Primitive is the one list of
-// all primitives; each has overloads of validate(), is_solid(), make_shape() and make_exact_shape()
-// of its own.
+// The public description of a primitive becomes its shape here. The variant Primitive is the one
+// list of all primitives. Each has overloads of validate(), is_solid(), make_shape() and
+// make_exact_shape() of its own.
 #include "core/geometry/shape.hpp"
 
 #include "core/geometry/box/box.hpp"
@@ -25,8 +25,8 @@ namespace core {
 
 namespace {
 
-/// Holds if all functions of a primitive are declared for its own struct. (An overload that is
-/// missing would else be found in those for a Primitive below, which would call themselves.)
+/// Says whether all functions of a primitive are declared for its own struct. If an overload were
+/// missing, those for a Primitive below would be taken, which would call themselves.
 template <class Description>
 constexpr bool has_all_functions = requires {
   static_cast<void (*)(const Description&)>(&validate);

@@ -1,10 +1,10 @@
-// What every primitive can be asked once a scene is prepared: the one interface between geometry
-// and everything that follows rays.
+// A Shape is what every primitive can be asked once a scene is prepared. It is the one interface
+// between geometry and everything that follows rays.
 //
-// Notation: a ray is the *whole line* o + t d, with t in (-inf, inf) and d of any length but 0; t
+// Notation: a ray is the *whole line* o + t d, with t in (-inf, inf) and d of any length but 0. t
 // is never rescaled. "Object space" is the space of the primitive's own public parameters, before
-// any transform of the entity. Faces of a primitive are numbered from 0 in the order its header
-// tells.
+// any transform of the entity. Faces of a primitive are numbered from 0 in the order that its
+// header gives.
 #pragma once
 
 #include <algorithm>
@@ -23,26 +23,28 @@
 
 namespace crt::core {
 
-/// A point where a ray passes through a face of a primitive.
+/// A Crossing is a point where a ray passes through a face of a primitive.
 struct Crossing {
   double t = 0;
   /// |t - true t| is at most this: the standard tier's bound of docs/numerics.md, in units of t.
   double error = 0;
-  /// In the exact tier t + t_low is the crossing to about 100 bits, and `error` that of the sum.
+  /// In the exact tier t + t_low is the crossing to about 100 bits, and `error` bounds the error of
+  /// that sum.
   double t_low = 0;
   std::uint32_t face = 0;
-  /// The how-manieth meeting of this ray with this face's surface (the whole plane, the whole
-  /// quadric), in order of t from 0, counted over the whole line. Two primitives with an equal
-  /// surface give its crossings equal numbers.
+  /// The root number counts the meetings of this ray with this face's surface (the whole plane, the
+  /// whole quadric). It counts from 0 in order of t over the whole line. Two primitives with an
+  /// equal surface give its crossings equal numbers.
   std::uint8_t root = 0;
-  /// Into the solid; for a mere surface: against its normal.
+  /// The ray enters the solid; a surface without an inside is met against its normal.
   bool entering = false;
 };
 
-/// Crossings along one ray. Reused from ray to ray so that no ray allocates.
+/// A CrossingList has crossings along one ray. It is reused from ray to ray so that no ray
+/// allocates.
 using CrossingList = std::vector<Crossing>;
 
-/// What is known of a point on a face, or of as many as a Real has lanes.
+/// A SurfacePointOf is what is known of a point on a face, or of as many as a Real has lanes.
 template <class Real>
 struct SurfacePointOf {
   Vec3Of<Real> position{};  ///< in object space, on the surface to rounding
@@ -54,12 +56,11 @@ using SurfacePoint = SurfacePointOf<double>;
 using SurfacePointLanes = SurfacePointOf<Lanes>;
 
 inline SurfacePoint lane_of(const SurfacePointLanes& points, std::size_t lane) {
-  const int i = static_cast<int>(lane);
-  return {points.position.lane(lane), points.normal.lane(lane), points.u[i], points.v[i]};
+  return {points.position.lane(lane), points.normal.lane(lane), points.u[lane], points.v[lane]};
 }
 
-/// A line through something long, and how far from the line that reaches at its ends; in between it
-/// reaches as far as a straight line from one to the other.
+/// A CoreSegment is a line through something long, with the largest distance from it at both ends.
+/// In between that distance is interpolated linearly.
 struct CoreSegment {
   Vec3 from;
   Vec3 to;
@@ -76,64 +77,66 @@ class Shape {
   Shape& operator=(const Shape&) = delete;
   virtual ~Shape() = default;
 
-  /// False for mere surfaces, which have no inside.
+  /// Returns false for surfaces without an inside.
   virtual bool is_solid() const = 0;
 
-  /// Whether no line that has left it outwards meets it again; a flat surface is left to either
-  /// side.
+  /// Returns whether no line that has left the shape outwards meets it again. A flat surface is
+  /// left to either side.
   virtual bool is_convex() const { return true; }
 
-  /// A box in object space that holds the shape, rounded outwards; infinite where the shape is.
+  /// Returns a box in object space that holds the shape, rounded outwards. It is infinite where the
+  /// shape is.
   virtual Bounds bounds() const = 0;
 
-  /// Itself, if there are fast tests for its type. A shape without is asked for its crossings
-  /// wherever a ray comes near.
+  /// Returns the shape itself, if there are conservative tests for its type. A shape without one is
+  /// asked for its crossings wherever a ray comes near.
   virtual TypedShape typed() const { return {}; }
 
-  /// In object space; none of shapes that are about as long as wide.
+  /// Returns a core segment in object space, or nothing for shapes that are about as long as wide.
   virtual std::optional<CoreSegment> core_segment() const { return std::nullopt; }
 
-  /// Appends every crossing of the whole line in ascending t. For a solid they alternate between
-  /// entering and leaving, and what is returned is whether the line is inside at t = -inf; a
-  /// tangent (double) root is left out, so is a span of length zero. For a surface: false.
+  /// Appends every crossing of the whole line in ascending t. The crossings of a solid alternate
+  /// between entering and leaving. Returns whether the line is inside at t = -inf. A tangent
+  /// (double) root is left out, and so is a span of length zero. For a surface without an inside it
+  /// returns false.
   ///
-  /// If ray.start.face is not no_face the ray starts on the surface of that face: the root there is
-  /// *exactly* t = 0, by removing it from the equation and not by comparing; ray.start.side says to
-  /// which side of the surface (as the face's outward normal has it) the ray leaves, and the
+  /// If ray.start.face is not no_face, the ray starts on the surface of that face. The root there
+  /// is *exactly* t = 0, by removing it from the equation and not by comparing. ray.start.side says
+  /// to which side of the surface (as the face's outward normal has it) the ray leaves, and the
   /// crossings agree with that. If it starts on the face itself (on_face), it also starts within
-  /// what the other faces bound, whatever rounding says next to an edge: leaving a convex solid
-  /// outwards it has no crossing at t > 0, inwards exactly one.
+  /// what the other faces bound, whatever rounding says next to an edge. Then it has no crossing at
+  /// t > 0 if it leaves a convex solid outwards, and exactly one if inwards.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
 
-  /// Position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of this ray.
-  /// Without `with_uv`, u and v need not be set: they may cost more than the rest.
+  /// Returns position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of
+  /// this ray. Without `with_uv`, u and v need not be set, as they may cost more than the rest.
   SurfacePoint surface_point(const ObjectRay& ray, const Crossing& crossing,
                              bool with_uv = true) const {
     return point_on(ray.from_center(anchor(crossing.face), crossing.t), ray.direction,
                     crossing.face, with_uv);
   }
 
-  /// The same by where rays of that direction cross a face, relative to the face's anchor:
-  /// from_center(anchor, t) of an ObjectRay or of ObjectRayLanes. Of each lane it is that of one,
-  /// to the last bit.
+  /// These compute the surface point from where rays cross a face, relative to the face's anchor:
+  /// from_center(anchor, t) of an ObjectRay or of ObjectRayLanes. Each lane gets what one ray
+  /// would, to the last bit.
   virtual Vec3 anchor(std::uint32_t face) const = 0;
   virtual SurfacePoint point_on(const Vec3& offset, const Vec3& direction, std::uint32_t face,
                                 bool with_uv) const = 0;
   virtual void points_on(const VectorLanes& offsets, const VectorLanes& directions,
                          std::uint32_t face, bool with_uv, SurfacePointLanes& points) const = 0;
 
-  /// How many faces there are, and the surface that a face is a piece of (for finding faces that
-  /// coincide).
+  /// Faces are counted, and each has the surface that it is a piece of, to find faces that
+  /// coincide.
   virtual std::uint32_t face_count() const = 0;
   virtual Surface surface(std::uint32_t face) const = 0;
 
-  /// Of memory.
+  /// Returns the bytes of memory it takes.
   virtual std::size_t bytes() const = 0;
 };
 
-/// A shape with one formula for one point and for lanes:
-/// void Derived::write_point<Real>(offset, direction, face, with_uv, point), to where it stays: a
-/// copy of what has just been written waits until that has reached the cache.
+/// A ShapeOfPoints has one formula for one point and for lanes: void
+/// Derived::write_point<Real>(offset, direction, face, with_uv, point). It writes directly into
+/// `point`, as copying what was just written waits until that has reached the cache.
 template <class Derived>
 class ShapeOfPoints : public Shape {
  public:
@@ -154,19 +157,19 @@ class ShapeOfPoints : public Shape {
 
 class ExactShape;
 
-// Each primitive's header has these four for its own public struct; shape.cpp checks that none is
+// Each primitive's header has these four for its own public struct. shape.cpp checks that none is
 // missing.
 
-/// Checks a primitive's parameters; throws Error (invalid_argument) naming the field.
+/// Checks a primitive's parameters. Throws Error (invalid_argument) naming the field.
 void validate(const Primitive& primitive);
 
-/// Whether a primitive is a solid, without making its shape.
+/// Returns whether a primitive is a solid, without making its shape.
 bool is_solid(const Primitive& primitive);
 
 /// Makes the shape of a (valid) primitive.
 std::unique_ptr<const Shape> make_shape(const Primitive& primitive);
 
-/// Makes what the exact tier asks (exact_shape.hpp) of a (valid) primitive.
+/// Makes the shape of a (valid) primitive for the exact tier (exact_shape.hpp).
 std::unique_ptr<const ExactShape> make_exact_shape(const Primitive& primitive);
 
 }  // namespace crt::core

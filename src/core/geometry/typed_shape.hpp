@@ -1,4 +1,4 @@
-// What the fast tests of a scene may take a shape for.
+// Some shapes have conservative tests for their own type.
 #pragma once
 
 #include <variant>
@@ -11,11 +11,12 @@ class PlaneShape;
 class SphereShape;
 class TorusShape;
 
-/// A shape by its own type, where there are fast tests for that; nothing for all others.
+/// A TypedShape is a shape by its own type where there are conservative tests for that, and nothing
+/// for all others.
 using TypedShape = std::variant<std::monostate, const SphereShape*, const BoxShape*,
                                 const PlaneShape*, const FrustumShape*, const TorusShape*>;
 
-/// Returns the shape of that type; null if it is another.
+/// Returns the shape of that type, or null if it is another.
 template <class Kind>
 const Kind* shape_as(const TypedShape& typed) {
   const auto* shape = std::get_if<const Kind*>(&typed);

@@ -1,8 +1,8 @@
-// What of an image file its pixels need. The libraries behind OpenImageIO are good at pixels and
-// less so at the rest: OpenImageIO 2.4 reads beyond its memory for some IPTC records (which JPEG
-// and TIFF files carry) and run-length encoded BMP files, and the PNG library prints its complaints
-// to the standard error output, and the EXR library makes room for whatever a header claims. So
-// they get no metadata, and no file that is cut short or whose structure is broken.
+// Image files are reduced to what their pixels need. The libraries behind OpenImageIO are good at
+// pixels and less so at the rest. OpenImageIO 2.4 reads beyond its memory for some IPTC records
+// (which JPEG and TIFF files carry) and run-length encoded BMP files. The PNG library prints its
+// complaints to the standard error output, and the EXR library allocates whatever a header claims.
+// So they get no metadata, and no file that is cut short or whose structure is broken.
 #pragma once
 
 #include <cstddef>
@@ -16,17 +16,18 @@ namespace crt::core {
 using FileBytes = std::vector<std::byte>;
 using FileView = std::span<const std::byte>;
 
-/// Why a file is refused, as in "cannot read 'a.png': ...".
+/// A RefusedFile says why a file is refused, as in "cannot read 'a.png': ...".
 class RefusedFile : public std::runtime_error {
  public:
   using std::runtime_error::runtime_error;
 };
 
-/// The file of the given format (see format_of_content) without all that its pixels do not need.
+/// Returns the file of the given format (see format_of_content) without all that its pixels do not
+/// need.
 FileBytes essential_bytes(std::string_view format, FileBytes content);
 
-// The formats that something is left out of, or refused of. Each takes a file that begins with the
-// signature of its format.
+// These are the formats that something is left out of, or refused of. Each function takes a file
+// that begins with the signature of its format.
 FileBytes essential_png(FileView content);
 FileBytes essential_jpeg(FileView content);
 FileBytes essential_tiff(FileBytes content);

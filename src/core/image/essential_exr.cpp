@@ -1,6 +1,7 @@
-// Source: The OpenEXR File Layout (openexr.com). A header is a list of attributes (name, type,
-// size, value) and ends with an empty name; a file of several parts has a list of headers that ends
-// with an empty one.
+// A header of an EXR file is a list of attributes (name, type, size, value) and ends with an empty
+// name. A file of several parts has a list of headers that ends with an empty one.
+//
+// Source: The OpenEXR File Layout (openexr.com).
 #include <algorithm>
 #include <cstdint>
 #include <optional>
@@ -19,7 +20,7 @@ struct Attribute {
   FileView value;
 };
 
-/// Reads the file from its beginning; what is not there any more makes it refuse.
+/// A Reader reads the file from its beginning, and refuses the file if it ends too early.
 class Reader {
  public:
   explicit Reader(FileView rest) : rest_(rest) {}
@@ -33,7 +34,7 @@ class Reader {
 
   std::uint64_t number() { return little_endian(bytes(4)); }
 
-  /// Up to and without a zero byte.
+  /// Reads up to a zero byte, and returns what is before it.
   std::string_view text() {
     const auto end = std::find(rest_.begin(), rest_.end(), std::byte{0});
     const auto length = static_cast<std::size_t>(end - rest_.begin());
@@ -41,7 +42,7 @@ class Reader {
     return {reinterpret_cast<const char*>(taken.data()), length};
   }
 
-  /// The next attribute; none at the end of the header.
+  /// Reads the next attribute, or nothing at the end of the header.
   std::optional<Attribute> attribute() {
     const std::string_view name = text();
     if (name.empty()) return {};
@@ -58,7 +59,7 @@ std::int64_t signed_number(FileView value, std::size_t index) {
   return static_cast<std::int32_t>(little_endian(value.subspan(4 * index, 4)));
 }
 
-/// Whether a picture of this size may be in a file of so many bytes.
+/// Returns whether a picture of this size may be in a file of so many bytes.
 bool is_plausible(std::int64_t width, std::int64_t height, std::size_t file_size) {
   if (width < 1 || height < 1) return false;
   if (static_cast<std::uint64_t>(width) > max_image_pixels / static_cast<std::uint64_t>(height))

@@ -1,3 +1,5 @@
+// A JPEG file is a list of markers and segments.
+//
 // Source: ITU-T T.81, Digital compression and coding of continuous-tone still images, annex B (the
 // order of markers and segments).
 #include <algorithm>
@@ -14,13 +16,13 @@ constexpr unsigned start_of_image = 0xd8;
 constexpr unsigned end_of_image = 0xd9;
 constexpr unsigned start_of_scan = 0xda;
 
-/// Restart markers and one for private use: nothing follows them.
+/// Returns whether nothing follows a marker: restart markers and one for private use.
 bool stands_alone(unsigned marker) {
   return (marker >= 0xd0 && marker <= 0xd7) || marker == 0x01;
 }
 
-/// Comments and the segments of applications, but for those of JFIF and Adobe, which tell how the
-/// channels make colours.
+/// Returns whether a segment is a comment or an application's. Those of JFIF and Adobe are kept, as
+/// they say how the channels make colours.
 bool is_metadata(unsigned marker) {
   constexpr unsigned comment = 0xfe;
   constexpr unsigned first_application = 0xe0;
@@ -31,8 +33,9 @@ bool is_metadata(unsigned marker) {
   return marker == comment || (application && marker != jfif && marker != adobe);
 }
 
-/// How long the coded data is that follows the header of a scan: up to a marker that does not
-/// belong to it (0xff 0x00 stands for the number 0xff, restart markers are part of the data).
+/// Returns how long the coded data is that follows the header of a scan. It ends at a marker that
+/// does not belong to it: 0xff 0x00 stands for the number 0xff, and restart markers are part of the
+/// data.
 std::size_t scan_length(FileView data) {
   for (std::size_t i = 0; i + 1 < data.size(); ++i) {
     const auto next = std::to_integer<unsigned>(data[i + 1]);

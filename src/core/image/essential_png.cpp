@@ -1,3 +1,5 @@
+// A PNG file is a list of chunks with checksums.
+//
 // Source: W3C, Portable Network Graphics, 2nd edition, chapter 5 (chunks) and annex D (their sums).
 #include <fmt/format.h>
 
@@ -37,7 +39,8 @@ bool is_letter(std::byte byte) {
   return lower >= 'a' && lower <= 'z';
 }
 
-/// Chunks whose name begins with a capital may not be skipped by who does not know them.
+/// Returns whether a chunk must not be skipped by readers that do not know it. The names of such
+/// chunks begin with a capital.
 bool is_critical(const std::string& name) {
   return name[0] >= 'A' && name[0] <= 'Z';
 }

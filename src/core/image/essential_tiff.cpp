@@ -1,3 +1,5 @@
+// A TIFF file has directories of tagged entries.
+//
 // Sources: Adobe, TIFF revision 6.0, section 2 (structure) and appendix A (tags); the BigTIFF
 // design of the TIFF library, which widens counts and offsets to 8 bytes.
 #include <algorithm>
@@ -12,7 +14,7 @@ namespace crt::core {
 
 namespace {
 
-/// What tells how to get pixels from the data, in ascending order.
+/// These tags say how to get pixels from the data. They are in ascending order.
 constexpr auto pixel_tags = std::to_array<std::uint64_t>({
     254,    // NewSubfileType
     256,    // ImageWidth
@@ -60,7 +62,8 @@ constexpr auto pixel_tags = std::to_array<std::uint64_t>({
     32996,  // DataType, an older SampleFormat
 });
 
-/// Where the parts of a file's first directory are, in bytes. BigTIFF differs in widths alone.
+/// A Layout says where the parts of a file's first directory are, in bytes. BigTIFF differs in
+/// widths alone.
 struct Layout {
   std::size_t first_offset_at;
   std::size_t count_size;
@@ -94,7 +97,7 @@ FileBytes essential_tiff(FileBytes content) {
     throw RefusedFile("it is cut short");
   }
 
-  // The entries that stay move up, and the directory ends after them: no other picture follows.
+  // The entries that stay move up, and the directory ends after them. No other picture follows.
   std::uint64_t kept = 0;
   for (std::uint64_t entry = 0; entry < count; ++entry) {
     const std::size_t from = entries + entry * layout.entry_size;

@@ -24,7 +24,7 @@ constexpr std::array<WritableFormat, 9> writable_formats = {{
     {.ending = "hdr", .name = "hdr", .floats = true, .alpha = false, .free_texts = false},
 }};
 
-/// The bytes that files of a format begin with.
+/// A Signature has the bytes that files of a format begin with.
 struct Signature {
   std::string_view start;
   const char* name;
@@ -97,7 +97,7 @@ const char* format_of_content(std::span<const std::byte> content) {
   for (const Signature& signature : signatures) {
     if (text.substr(0, signature.start.size()) == signature.start) return signature.name;
   }
-  // A RIFF container with its length between the two marks.
+  // A WebP file is a RIFF container with its length between the two marks.
   if (text.substr(0, 4) == "RIFF" && text.size() >= 12 && text.substr(8, 4) == "WEBP")
     return "webp";
   return nullptr;

@@ -1,4 +1,4 @@
-// The formats of image files: what each can hold, and how it is told.
+// Image formats differ in what they can hold, and are recognised by how files begin.
 #pragma once
 
 #include <cstddef>
@@ -8,7 +8,7 @@
 
 namespace crt::core {
 
-/// A format that pictures are written in.
+/// A WritableFormat is a format that pictures are written in.
 struct WritableFormat {
   std::string_view ending;  ///< without the dot, in lower case
   const char* name;         ///< OpenImageIO's
@@ -18,17 +18,17 @@ struct WritableFormat {
   bool channels = false;    ///< holds channels beside the colours
 };
 
-/// The format for a file name, by its ending in any case; null if there is none.
+/// Returns the format for a file name, by its ending in any case, or null if there is none.
 const WritableFormat* writable_format(std::string_view file_name);
 
-/// The endings that can be written: "png, tif, ...".
+/// Returns the endings that can be written: "png, tif, ...".
 std::string writable_endings();
 
-/// Those of formats that hold channels beside the colours.
+/// Returns the endings of formats that hold channels beside the colours.
 std::string endings_with_channels();
 
-/// OpenImageIO's name of the format that a file's first bytes tell, or null. What the file is
-/// called does not matter, and formats whose readers are little tested are left out.
+/// Returns OpenImageIO's name of the format that a file's first bytes show, or null. The name of
+/// the file does not matter. Formats whose readers are little tested are left out.
 const char* format_of_content(std::span<const std::byte> content);
 
 }  // namespace crt::core

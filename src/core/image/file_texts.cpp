@@ -13,8 +13,8 @@ namespace crt::core {
 
 namespace {
 
-// OpenImageIO's names, which it turns into those of the format: in PNG into Title, Author,
-// Description and Software. "Creation Time" is PNG's own for a date in free form.
+// These are OpenImageIO's names, which it turns into those of the format. In PNG they become Title,
+// Author, Description and Software. "Creation Time" is PNG's own for a date in free form.
 constexpr std::string_view title_name = "DocumentName";
 constexpr std::string_view author_name = "Artist";
 constexpr std::string_view notes_name = "ImageDescription";
@@ -25,7 +25,7 @@ void add(FileTexts& texts, std::string_view name, std::string value) {
   if (!value.empty()) texts.emplace_back(name, std::move(value));
 }
 
-/// How pixels were sampled, of what differs from the defaults.
+/// Adds how pixels were sampled, as far as that differs from the defaults.
 void add_sampling(FileTexts& texts, const Settings& settings) {
   if (settings.target_error > 0)
     add(texts, "crt:targeterror", fmt::format("{}", settings.target_error));
@@ -55,10 +55,10 @@ void add_settings(FileTexts& texts, const Settings& settings) {
 }
 
 /// JPEG holds texts in segments of 64 KiB, several texts in one, and some with up to six bytes for
-/// one. A longer one would make the JPEG library end the program.
+/// one. A longer text would make the JPEG library end the program.
 constexpr std::size_t longest_short_text = 4000;
 
-/// The beginning of a text, not ending within a character of UTF-8.
+/// Returns the beginning of a text, not ending within a character of UTF-8.
 std::string shortened(std::string text) {
   if (text.size() <= longest_short_text) return text;
   std::size_t end = longest_short_text;
@@ -67,7 +67,7 @@ std::string shortened(std::string text) {
   return text;
 }
 
-/// How near to the truth a picture is that was rendered pass by pass.
+/// Adds how near to the truth a picture is that was rendered pass by pass.
 void add_accuracy(FileTexts& texts, const RenderStats& stats) {
   if (stats.passes == 0) return;
   const auto add_numbers = [&](std::string_view name, std::initializer_list<double> numbers) {
@@ -82,7 +82,7 @@ void add_accuracy(FileTexts& texts, const RenderStats& stats) {
   add_numbers("crt:cutoff", {stats.cutoff_mean, stats.cutoff_max});
 }
 
-/// The counts that do not depend on how the work was done.
+/// Adds the counts that do not depend on how the work was done.
 void add_counts(FileTexts& texts, const RenderStats& stats) {
   const auto add_count = [&](std::string_view name, std::uint64_t count) {
     if (count > 0) add(texts, name, fmt::format("{}", count));

@@ -18,7 +18,7 @@ std::size_t first_value(int x, int y, int width) {
               static_cast<std::size_t>(x));
 }
 
-/// An allocation that fails is an Error like any other.
+/// Throws an Error, as an allocation that fails is an Error like any other.
 [[noreturn]] void fail_without_memory(int width, int height) {
   throw Error(ErrorCode::out_of_memory,
               fmt::format("no memory for a picture of {} x {} pixels", width, height));

@@ -1,4 +1,4 @@
-// What an image has beside its colours.
+// An image may have channels beside its colours.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -13,7 +13,7 @@ namespace crt {
 
 namespace {
 
-/// What EXR files hold.
+/// EXR files hold names of up to this length.
 constexpr std::size_t longest_name = 255;
 
 constexpr std::array<std::string_view, 4> names_of_colors = {"R", "G", "B", "A"};
@@ -27,7 +27,8 @@ bool is_printable(char c) {
               "channels");
 }
 
-/// The numbers of a channel, constant if the channels are; none if there are none of this type.
+/// Returns the numbers of a channel, constant if the channels are, or none if there are none of
+/// this type.
 template <class Value, class Channels>
 auto values_of(Channels& channels, std::string_view name) {
   const auto found =

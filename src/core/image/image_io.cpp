@@ -1,4 +1,4 @@
-// Image::read, decode and write: this side of the border to OpenImageIO.
+// Image::read, decode and write are on this side of the border to OpenImageIO.
 #include <fmt/format.h>
 
 #include <exception>
@@ -29,7 +29,7 @@ using namespace core;
   throw Error(code, fmt::format("cannot {} '{}': {}", action, name, reason));
 }
 
-/// Collects what the module says when it fails.
+/// A Failure collects what the module says when it fails.
 struct Failure {
   std::string reason;
 
@@ -38,7 +38,7 @@ struct Failure {
               try {
                 static_cast<Failure*>(context)->reason = message;
               } catch (const std::exception&) {
-                // Then the status alone has to tell.
+                // The status alone must explain the failure then.
                 static_cast<Failure*>(context)->reason.clear();
               }
             }};
@@ -59,7 +59,7 @@ struct Failure {
   }
 };
 
-/// What of the file its pixels need.
+/// Returns the part of the file that its pixels need.
 FileBytes checked(const char* format, FileBytes content, const std::string& name) {
   try {
     return essential_bytes(format, std::move(content));
@@ -114,7 +114,7 @@ std::vector<ImageFileChannel> file_channels(const std::vector<ImageChannel>& cha
   return result;
 }
 
-/// The bytes of a file that holds the picture.
+/// Returns the bytes of a file that holds the picture.
 std::vector<std::byte> encode(const Image& image, const WritableFormat& format,
                               const FileTexts& texts, std::span<const ImageFileChannel> channels,
                               const std::string& name) {
@@ -172,7 +172,7 @@ void check_channels(const Image& image, const WritableFormat& format, const std:
            endings_with_channels()));
 }
 
-/// The bytes of a file of a format; `name` is for messages.
+/// Returns the bytes of a file of a format. `name` is for messages.
 std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* format,
                                   const WriteOptions& options, const std::string& name) {
   if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");

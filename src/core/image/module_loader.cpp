@@ -15,7 +15,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// The file of the program or shared library that this code was linked into.
+/// Returns the file of the program or shared library that this code was linked into.
 fs::path containing_binary() {
   // Any object of this file will do as the address.
   static const char place = 0;
@@ -30,7 +30,7 @@ fs::path containing_binary() {
   return is_program ? fs::read_symlink("/proc/self/exe", error) : fs::canonical(map->l_name, error);
 }
 
-/// The module in this file, or null and why not in `reasons`.
+/// Returns the module in this file, or null with the reason added to `reasons`.
 const ImageFiles* try_load(const fs::path& file, std::string& reasons) {
   const auto give_reason = [&](const std::string& reason) {
     reasons += fmt::format("\n  {}: {}", file.string(), reason);
@@ -88,8 +88,7 @@ const ImageFiles& load_image_files(std::span<const fs::path> directories) {
 }
 
 const ImageFiles& image_files() {
-  // Only a function that loads code and keeps it: a failure is thrown and tried again by the next
-  // call.
+  // This function only loads code and keeps it. A failure is thrown, and the next call tries again.
   static const ImageFiles& functions = load_image_files(image_files_directories());
   return functions;
 }

@@ -1,4 +1,4 @@
-// Finds and loads the module crt_image_files.
+// The module crt_image_files is found and loaded here.
 #pragma once
 
 #include <filesystem>
@@ -9,15 +9,17 @@
 
 namespace crt::core {
 
-/// Where the module may be, the likeliest first: near the program or library that this code is in,
-/// in the build tree if CRT is part of another project, where it gets installed.
+/// Returns where the module may be, the likeliest first. It may be near the program or library that
+/// this code is in, in the build tree if CRT is part of another project, or where it gets
+/// installed.
 std::vector<std::filesystem::path> image_files_directories();
 
-/// Loads the module from the first directory that has it. Throws Error (unsupported) telling where
-/// it looked.
+/// Loads the module from the first directory that has it. Throws Error (unsupported) with where it
+/// looked.
 const ImageFiles& load_image_files(std::span<const std::filesystem::path> directories);
 
-/// The module, loaded by the first call and never unloaded. Throws as load_image_files does.
+/// Returns the module, which the first call loads and nothing unloads. Throws as load_image_files
+/// does.
 const ImageFiles& image_files();
 
 }  // namespace crt::core

@@ -13,25 +13,25 @@ namespace crt::core {
 
 namespace {
 
-/// In [0, 1]; 0 for what is not a number.
+/// Returns the value clamped to [0, 1], or 0 for NaN.
 template <class Real>
 Real clamped(const Real& value) {
-  return value > 0.0 ? min(value, broadcast<Real>(1)) : Real{};
+  return select(value > 0.0, min(value, broadcast<Real>(1)), Real{});
 }
 
-/// A few roundings of floats, which colours carry that were divided by their alpha or raised to a
-/// power.
+/// This covers a few roundings of floats. Colours have them that were divided by their alpha or
+/// raised to a power.
 constexpr double float_rounding = 0x1p-20;
 
-/// Which of 256 levels values in [0, 1] get.
+/// A Levels gives values in [0, 1] one of 256 levels.
 class Levels {
  public:
   explicit Levels(int compat)
       : factor_(compat == compat_2015 ? 255 * (1 + float_rounding) : 255),
         shift_(compat == compat_2015 ? 0 : 0.5) {}
 
-  /// The nearest, of halves the upper one; in 2015 the last one below, but for what rounding has
-  /// taken from values that are one.
+  /// Returns the nearest level, and of two equally near ones the upper. In 2015 it is the level
+  /// below, but for what rounding has taken from values that are a level.
   Lanes operator()(const Lanes& values) const { return floor(values * factor_ + shift_); }
 
  private:
@@ -39,7 +39,7 @@ class Levels {
   double shift_;
 };
 
-/// Where a channel is past what a display can show.
+/// Returns where a channel is above what a display can show.
 LaneMask clips(const Lanes& values) {
   return values > 1 + float_rounding;
 }
@@ -56,7 +56,7 @@ std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
   std::vector<std::uint8_t> bytes(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const double alpha = clamped(double{pixels[i + 3]});
-    const Lanes covered = {pixels[i], pixels[i + 1], pixels[i + 2], 0};
+    const Lanes covered = lanes_of(pixels[i], pixels[i + 1], pixels[i + 2], 0);
     const Lanes whole = alpha > 0 ? covered / alpha : Lanes{};
     Lanes levels = clamped(mode == AlphaMode::straight ? whole : covered);
     if (exponent != 1) levels = power(levels, lanes_of(exponent));
@@ -78,14 +78,14 @@ std::vector<float> linear_floats(const Image& image) {
   std::vector<float> floats(pixels.size());
   for (std::size_t i = 0; i < pixels.size(); i += 4) {
     const double alpha = clamped(double{pixels[i + 3]});
-    Lanes values = {pixels[i], pixels[i + 1], pixels[i + 2], alpha};
+    Lanes values = lanes_of(pixels[i], pixels[i + 1], pixels[i + 2], alpha);
     if (gamma != 1 && alpha > 0) {
       const Lanes light = alpha * power(max(Lanes{}, values / alpha), lanes_of(gamma));
-      values = values > 0.0 ? light : values;
+      values = select(values > 0.0, light, values);
       values[3] = alpha;
     }
-    const LaneMask are_numbers = either(values > 0.0, values <= 0.0);
-    values = are_numbers ? clamp(values, lanes_of(-largest), lanes_of(largest)) : Lanes{};
+    const LaneMask are_numbers = values > 0.0 || values <= 0.0;
+    values = select(are_numbers, clamp(values, lanes_of(-largest), lanes_of(largest)), Lanes{});
     const FloatLanes in_range = to_floats(values);
     for (int channel = 0; channel < 4; ++channel) {
       floats[i + static_cast<std::size_t>(channel)] = in_range[channel];

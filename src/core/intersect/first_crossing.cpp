@@ -43,9 +43,9 @@ FirstCrossing<Real> first_crossing_of_frustum(const ProxyAxis& cylinder,
                          ? shape.first_entry<Real>(plain_ray(line))
                          : shape.first_entry<Real>(object_ray(cylinder, line));
   // What is not plainly after the start may be where the line has entered before.
-  const auto known = both(entry.known, after_start(line, entry.t, entry.error).surely);
+  const auto known = entry.known && after_start(line, entry.t, entry.error).surely;
   return {.found = known,
-          .unknown = neither(entry.rejected, known),
+          .unknown = !entry.rejected && !known,
           .entering = known,
           .t = entry.t,
           .error = entry.error};
@@ -60,11 +60,11 @@ FirstCrossing<Real> first_crossing_of_torus(const ProxyAxis& torus, const Filter
   const auto entry =
       shape_of<TorusShape>(torus).template first_entry<Real>(object_ray(torus, line), asked);
   // What is not plainly after the start may be one of several crossings, of which others count.
-  const auto ahead = both(after_start(line, entry.t, entry.error).surely,
-                          entry.t > asked_above(line.certain_from));
-  const auto known = both(entry.known, ahead);
+  const auto ahead =
+      after_start(line, entry.t, entry.error).surely && entry.t > asked_above(line.certain_from);
+  const auto known = entry.known && ahead;
   return {.found = known,
-          .unknown = without(entry.found, known),
+          .unknown = entry.found && !known,
           .entering = known,
           .t = entry.t,
           .error = entry.error};
@@ -77,10 +77,10 @@ template FirstCrossing<Lanes> first_crossing_of_torus(const ProxyAxis&, const Fi
 template <class Real>
 FirstCrossing<Real> first_crossing_from_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked) {
-  const auto resolved = both(asked, line.begin >= 0.0);
+  const auto resolved = asked && line.begin >= 0.0;
   const auto comes_back =
       shape_of<TorusShape>(torus).template comes_back<Real>(object_ray(torus, line), resolved);
-  return {.unknown = either(comes_back, without(asked, resolved))};
+  return {.unknown = comes_back || (asked && !resolved)};
 }
 template FirstCrossing<double> first_crossing_from_torus(const ProxyAxis&,
                                                          const FilterLine<double>&, const bool&);

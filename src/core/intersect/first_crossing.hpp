@@ -28,13 +28,12 @@ struct FirstCrossing {
 };
 
 inline FirstCrossing<double> lane_of(const FirstCrossing<Lanes>& first, std::size_t lane) {
-  const auto i = static_cast<int>(lane);
-  return {.found = first.found[i] != 0,
-          .unknown = first.unknown[i] != 0,
-          .entering = first.entering[i] != 0,
-          .t = first.t[i],
-          .error = first.error[i],
-          .face = first.face[i]};
+  return {.found = first.found[lane],
+          .unknown = first.unknown[lane],
+          .entering = first.entering[lane],
+          .t = first.t[lane],
+          .error = first.error[lane],
+          .face = first.face[lane]};
 }
 
 /// Whether a crossing is after the start of a ray that does not start on its surface.
@@ -50,8 +49,8 @@ auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error)
   const Real distance = t - line.begin - error;
   const Mask after = t > line.begin;
   const Mask clear = distance > flattest_start * line.start_error;
-  return AfterStart<Mask>{.surely = both(after, clear),
-                          .unknown = both(after, neither(clear, distance <= line.start_error))};
+  return AfterStart<Mask>{.surely = after && clear,
+                          .unknown = after && !clear && !(distance <= line.start_error)};
 }
 
 /// Of a sphere that is not moved.
@@ -76,8 +75,8 @@ std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const BoundingProxy& sphe
   const auto of_end = [&](const Real& t, const MaskOf<Real>& entering) {
     const Real error = chord.error_of(t);
     const auto start = after_start(line, t, error);
-    return FirstCrossing<Real>{.found = both(chord.found, start.surely),
-                               .unknown = both(chord.found, start.unknown),
+    return FirstCrossing<Real>{.found = chord.found && start.surely,
+                               .unknown = chord.found && start.unknown,
                                .entering = entering,
                                .t = t,
                                .error = error};
@@ -91,11 +90,11 @@ FirstCrossing<Real> first_crossing_of_sphere(const BoundingProxy& sphere,
                                              const BoundingProxies& proxies,
                                              const FilterLine<Real>& line) {
   const auto [enter, leave] = crossings_of_sphere(sphere, proxies, line);
-  return {.found = either(enter.found, leave.found),
-          .unknown = either(enter.unknown, leave.unknown),
+  return {.found = enter.found || leave.found,
+          .unknown = enter.unknown || leave.unknown,
           .entering = enter.found,
-          .t = enter.found ? enter.t : leave.t,
-          .error = enter.found ? enter.error : leave.error};
+          .t = select(enter.found, enter.t, leave.t),
+          .error = select(enter.found, enter.error, leave.error)};
 }
 
 template <class Real>
@@ -108,8 +107,8 @@ FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const Pr
   const auto meeting =
       AxisMeeting<Real>::of(broadcast<Real>(plane.place[axis]), line.origin[i], speed);
   const auto start = after_start(line, meeting.t, meeting.error);
-  return {.found = both(meeting.found, start.surely),
-          .unknown = both(meeting.found, start.unknown),
+  return {.found = meeting.found && start.surely,
+          .unknown = meeting.found && start.unknown,
           .entering = of_plane.normal[axis] > 0 ? speed < 0.0 : speed > 0.0,
           .t = meeting.t,
           .error = meeting.error};
@@ -118,13 +117,13 @@ FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const Pr
 /// Where lines that pass through a box enter it, or else leave it, if that is plainly on one face;
 /// next to an edge it is the exact test that says which face is met. The box has what ProxyBox
 /// calls lower and upper.
-template <class Real, class Box>
-FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings,
+template <class Real>
+FirstCrossing<Real> end_in_box(const EnclosedBox& box, const BoxMeetings<Real>& meetings,
                                const FilterLine<Real>& line, const MaskOf<Real>& enters) {
   // The greatest of three, of which the second must plainly be less.
-  const std::array<Real, 3> t = {enters ? meetings.enter[0] : -meetings.leave[0],
-                                 enters ? meetings.enter[1] : -meetings.leave[1],
-                                 enters ? meetings.enter[2] : -meetings.leave[2]};
+  const std::array<Real, 3> t = {select(enters, meetings.enter[0], -meetings.leave[0]),
+                                 select(enters, meetings.enter[1], -meetings.leave[1]),
+                                 select(enters, meetings.enter[2], -meetings.leave[2])};
   const Real greatest = max(max(t[0], t[1]), t[2]);
   const Real second = max(min(t[0], t[1]), min(max(t[0], t[1]), t[2]));
   // (Minus infinity with its error is no number, and is not next to anything.)
@@ -133,22 +132,22 @@ FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings
   const auto across_x = t[0] == greatest;
   const auto across_y = t[1] == greatest;
   const auto chosen = [&](const Real& x, const Real& y, const Real& z) {
-    return across_x ? x : across_y ? y : z;
+    return select(across_x, x, select(across_y, y, z));
   };
   const auto of_axis = [&](const Vec3& v) {
     return chosen(broadcast<Real>(v.x), broadcast<Real>(v.y), broadcast<Real>(v.z));
   };
   const Real speed = chosen(line.direction[0], line.direction[1], line.direction[2]);
   const auto downwards = speed < 0.0;
-  const auto is_upper = either(both(enters, downwards), neither(enters, downwards));
-  const Real position = is_upper ? of_axis(box.upper) : of_axis(box.lower);
+  const auto is_upper = (enters && downwards) || (!enters && !downwards);
+  const Real position = select(is_upper, of_axis(box.upper), of_axis(box.lower));
   const auto meeting = AxisMeeting<Real>::of(
       position, chosen(line.origin[0], line.origin[1], line.origin[2]), speed);
-  return {.found = without(both(meetings.known, meeting.found), beside),
+  return {.found = meetings.known && meeting.found && !beside,
           .entering = enters,
           .t = meeting.t,
           .error = meeting.error,
-          .face = of_axis({0, 2, 4}) + (is_upper ? broadcast<Real>(1) : Real{})};
+          .face = of_axis({0, 2, 4}) + select(is_upper, broadcast<Real>(1), Real{})};
 }
 
 template <class Real>
@@ -159,17 +158,17 @@ FirstCrossing<Real> first_crossing_of_box(const ProxyBox& box, const BoxMeetings
   const Real leave = meetings.first_leave();
   const Real enter_error = meetings.error_of(enter);
   const Real leave_error = meetings.error_of(leave);
-  const Mask passes = both(meetings.known, enter + enter_error < leave - leave_error);
-  const Mask misses = both(meetings.known, either(enter - enter_error > leave + leave_error,
-                                                  leave + leave_error < line.begin));
-  const Mask enters = both(passes, enter - enter_error > line.certain_from);
-  const Mask is_inside = both(passes, enter + enter_error <= line.begin);
-  const Mask leaves = both(is_inside, leave - leave_error > line.certain_from);
-  const Mask found = either(enters, leaves);
-  FirstCrossing<Real> first{.found = found, .unknown = neither(found, misses), .entering = enters};
+  const Mask passes = meetings.known && enter + enter_error < leave - leave_error;
+  const Mask misses = meetings.known && (enter - enter_error > leave + leave_error ||
+                                         leave + leave_error < line.begin);
+  const Mask enters = passes && enter - enter_error > line.certain_from;
+  const Mask is_inside = passes && enter + enter_error <= line.begin;
+  const Mask leaves = is_inside && leave - leave_error > line.certain_from;
+  const Mask found = enters || leaves;
+  FirstCrossing<Real> first{.found = found, .unknown = !found && !misses, .entering = enters};
   if (!any(found)) return first;
   const FirstCrossing<Real> end = end_in_box(box, meetings, line, enters);
-  first.unknown = neither(misses, both(found, end.found));
+  first.unknown = !misses && !(found && end.found);
   first.t = end.t;
   first.error = end.error;
   first.face = end.face;
@@ -228,11 +227,11 @@ template <class Real>
 auto is_within(const Bounds& box, const PlainRay<Real>& line, const Real& t) {
   const Vec3Of<Real> place = line.at(t);
   const auto is_between = [](double lower, const Real& x, double upper) {
-    return both(x >= lower, x <= upper);
+    return x >= lower && x <= upper;
   };
-  return both(both(is_between(box.lower.x, place.x, box.upper.x),
-                   is_between(box.lower.y, place.y, box.upper.y)),
-              is_between(box.lower.z, place.z, box.upper.z));
+  return is_between(box.lower.x, place.x, box.upper.x) &&
+         is_between(box.lower.y, place.y, box.upper.y) &&
+         is_between(box.lower.z, place.z, box.upper.z);
 }
 
 /// Whether the proxy alone tells where rays leave that start into the object.
@@ -248,9 +247,9 @@ FirstCrossing<Real> isolated_exit(const BoundingProxy& sphere, const Bounds& mar
   const double unit = power_of_two_below(sphere.radius);
   const auto other = SphereOtherEnd<Real>::of(line, sphere.place, sphere.radius, unit);
   const Real reach = other.t + coincidence_tolerance(line, other.t, other.error);
-  const auto ahead = both(both(other.t > 0.0, other.t > begin), other.t < end);
-  const auto stays = both(is_within(margin, line, begin), is_within(margin, line, min(reach, end)));
-  return {.found = both(ahead, stays), .t = other.t, .error = other.error};
+  const auto ahead = other.t > 0.0 && other.t > begin && other.t < end;
+  const auto stays = is_within(margin, line, begin) && is_within(margin, line, min(reach, end));
+  return {.found = ahead && stays, .t = other.t, .error = other.error};
 }
 
 /// As the general test has it.

@@ -74,9 +74,9 @@ class NearestSphereHits {
     static_assert(offsetof(BoundingProxy, radius) ==
                   offsetof(BoundingProxy, place) + 3 * sizeof(double));
     const auto row = [&](std::size_t lane) {
-      Lanes numbers;
+      std::array<double, lane_count> numbers;
       std::memcpy(&numbers, &spheres[lane]->place, sizeof numbers);
-      return numbers;
+      return lanes_at<Lanes>(numbers.data());
     };
     const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});
     const Lanes unit = power_of_two_below(radius);
@@ -90,7 +90,7 @@ class NearestSphereHits {
     const auto chord = SphereChord<Lanes>::on(near.line, near.closest, near.radius);
     const Lanes& begin = rays.t_min[group];
     const LaneMask enters = chord.enter > begin;
-    const Lanes t = enters ? chord.enter : chord.leave;
+    const Lanes t = select(enters, chord.enter, chord.leave);
     const Lanes error = chord.error_of(t);
     const Lanes reach = t + coincidence_tolerance(rays.lines[group], t, error);
     t_[group] = t;

@@ -151,7 +151,7 @@ class PacketTests {
       const Lanes reach =
           last[group] + coincidence_tolerance(plain_ray(lines), last[group], Lanes{});
       Lanes& limits = packet_.limits[group];
-      limits = both(lanes_with(lanes), reach < limits) ? reach : limits;
+      limits = select(lanes_with(lanes) && reach < limits, reach, limits);
       going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * lane_count));
     });
   }
@@ -171,7 +171,7 @@ class PacketTests {
     going_ &= ~rays;
     RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
       Lanes& limits = packet_.limits[group];
-      limits = lanes_with(lanes) ? lanes_of(-infinity) : limits;
+      limits = select(lanes_with(lanes), lanes_of(-infinity), limits);
     });
   }
 
@@ -196,8 +196,7 @@ class PacketTests {
                         std::size_t group, RayMask asked, const FirstCrossing<Lanes>& first) {
     const RayMask open = asked & mask_of(first.unknown);
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(asked & ~open));
-    const RayMask found =
-        asked & ~open & mask_of(both(first.found, first.t <= packet_.limits[group]));
+    const RayMask found = asked & ~open & mask_of(first.found && first.t <= packet_.limits[group]);
     if (found != 0) {
       take(proxy.object, group, first, found, [&](std::size_t lane, RayHit& hit) {
         write_first(proxy, proxies, lane_of(first, lane), hit);
@@ -236,14 +235,14 @@ class PacketTests {
     const std::size_t first_ray = group * lane_count;
     RayMask best = 0;
     for_each_ray(found & mask_of(t < answers_.rays.t_max[group]), [&](std::size_t lane) {
-      const auto i = static_cast<int>(lane);
-      const bool is_best = Nearest::take(answers_.hits[first_ray + lane], t[i], 0, object_of(lane),
-                                         reach[i], [&](RayHit& hit) { write(lane, hit); });
+      const bool is_best =
+          Nearest::take(answers_.hits[first_ray + lane], t[lane], 0, object_of(lane), reach[lane],
+                        [&](RayHit& hit) { write(lane, hit); });
       best |= static_cast<RayMask>(is_best) << lane;
     });
     // After the rays' starts, so that they go on.
-    const LaneMask nearer = both(lanes_with(best), reach < limits);
-    limits = nearer ? reach : limits;
+    const LaneMask nearer = lanes_with(best) && reach < limits;
+    limits = select(nearer, reach, limits);
     changed_ |= mask_of(nearer) << first_ray;
   }
 
@@ -272,8 +271,8 @@ class PacketTests {
     const FilterLine<Lanes>& lines = packet_.groups[group];
     const auto ends = crossings_of_sphere(sphere, proxies, lines);
     const auto clear = [&](const FirstCrossing<Lanes>& end) {
-      return ~end.unknown &
-             (~end.found | (end.t < lines.certain_to) | (end.t > packet_.limits[group]));
+      return !end.unknown &
+             (!end.found | (end.t < lines.certain_to) | (end.t > packet_.limits[group]));
     };
     const RayMask done = asked & mask_of(clear(ends[0]) & clear(ends[1]));
     answers_.work.intersection_tests += static_cast<unsigned>(std::popcount(done));
@@ -312,8 +311,7 @@ class PacketTests {
       const std::size_t first = first_ray(to_come);
       const RayMask into_leaf = mask_of(changes.into_leaf);
       const RayMask same_way = (into_leaf >> first & 1u) != 0 ? into_leaf : ~into_leaf;
-      const RayMask alike =
-          to_come & same_way & mask_of(changes.leaf == changes.leaf[static_cast<int>(first)]);
+      const RayMask alike = to_come & same_way & mask_of(changes.leaf == changes.leaf[first]);
       to_come &= ~alike;
       open |= take_changes(object, filter, group, alike, changes);
     }
@@ -326,12 +324,12 @@ class PacketTests {
     const CompiledScene& scene = answers_.accelerator.compiled();
     const FilterLine<Lanes>& lines = packet_.groups[group];
     const std::size_t first = first_ray(alike);
-    const auto number = static_cast<std::uint32_t>(changes.leaf[static_cast<int>(first)]);
+    const auto number = static_cast<std::uint32_t>(changes.leaf[first]);
     const std::uint32_t index = scene.objects[object].first_leaf + number;
     const Leaf& leaf = scene.leaves[index];
     RayMask resolved = 0;
     if (has_resolved_crossings(leaf)) {
-      const bool into_leaf = changes.into_leaf[static_cast<int>(first)] != 0;
+      const bool into_leaf = changes.into_leaf[first];
       const FirstCrossing<Lanes> crossing = crossing_of_change(filter, number, into_leaf, lines);
       const RayMask starting = RayPacket::lanes(rays_with(packet_.starts.leaves, index), group);
       const LineSpanLanes span = RaySlabs::spans(lines, leaf.bounds, alike);
@@ -348,7 +346,7 @@ class PacketTests {
                .face = face,
                .surface = scene.face_surfaces[leaf.first_face + face].surface,
                .root = static_cast<std::uint8_t>(filter.sphere(number) != nullptr && !into_leaf),
-               .entering = changes.into_object[static_cast<int>(lane)] != 0};
+               .entering = changes.into_object[lane]};
       });
     }
     RayMask open = 0;

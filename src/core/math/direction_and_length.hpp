@@ -1,4 +1,4 @@
-// Lengths and directions of vectors of any magnitude.
+// Vectors of any magnitude are split into a direction and a length.
 #pragma once
 
 #include <algorithm>
@@ -9,18 +9,18 @@
 
 namespace crt::core {
 
-/// A direction and how far it is to go.
+/// A DirectionAndLength is a vector in polar form: where it points to, and how far.
 struct DirectionAndLength {
   Vec3 direction{0, 0, 0};  ///< unit length; 0 for a vector that is 0 or not finite
   double length = 0;
 };
 
-/// Between these the square of a length neither overflows nor loses bits.
+/// Between these bounds the square of a length neither overflows nor loses bits.
 inline constexpr double safe_square_min = 0x1p-900;
 inline constexpr double safe_square_max = 0x1p+900;
 
-/// Splits a vector. Where the square of its length is not safe it is first scaled by a power of
-/// two, which changes nothing else.
+/// Splits a vector. Where the square of its length is not safe, the vector is first scaled by a
+/// power of two, which changes nothing else.
 inline DirectionAndLength direction_and_length(const Vec3& v) {
   const double square = glm::dot(v, v);
   if (square > safe_square_min && square < safe_square_max) {

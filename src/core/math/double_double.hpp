@@ -1,6 +1,7 @@
-// Numbers of about 106 bits as unevaluated sums of two doubles, and the error-free transformations
-// they rest on. All of it needs round-to-nearest and no contraction of a * b + c by the compiler
-// (the build says -ffp-contract=off; every fma is written).
+// A double-double is a number of about 106 bits as the unevaluated sum of two doubles. This file
+// has its arithmetic, and the error-free transformations that it is built on. All of it needs
+// round-to-nearest and no contraction of a * b + c by the compiler. So the build says
+// -ffp-contract=off, and every fma is written.
 //
 // Sources: Knuth, The Art of Computer Programming vol. 2, 4.2.2 (two_sum); Dekker, A floating-point
 // technique for extending the available precision, 1971 (quick_two_sum); Joldes, Muller, Popescu,
@@ -12,7 +13,7 @@
 
 namespace crt::core {
 
-/// hi + lo, with |lo| at most half an ulp of hi.
+/// A DoubleDouble is hi + lo, with |lo| at most half an ulp of hi.
 struct DoubleDouble {
   double hi = 0;
   double lo = 0;
@@ -24,7 +25,7 @@ struct DoubleDouble {
   constexpr double value() const { return hi + lo; }
 };
 
-/// a + b exactly.
+/// Returns a + b exactly.
 constexpr DoubleDouble two_sum(double a, double b) {
   const double sum = a + b;
   const double b_part = sum - a;
@@ -32,13 +33,13 @@ constexpr DoubleDouble two_sum(double a, double b) {
   return {sum, (a - a_part) + (b - b_part)};
 }
 
-/// a + b exactly, if |a| >= |b| or a is 0.
+/// Returns a + b exactly, if |a| >= |b| or a is 0.
 constexpr DoubleDouble quick_two_sum(double a, double b) {
   const double sum = a + b;
   return {sum, b - (sum - a)};
 }
 
-/// a * b exactly (short of underflow).
+/// Returns a * b exactly, unless it underflows.
 inline DoubleDouble two_product(double a, double b) {
   const double product = a * b;
   return {product, std::fma(a, b, -product)};

@@ -57,7 +57,7 @@ Dyadic::Dyadic(double value) : negative_(std::signbit(value)) {
   const double fraction = std::frexp(std::abs(value), &exponent);
   const auto whole = static_cast<Wide>(std::ldexp(fraction, digits));
   exponent -= digits;
-  base_ = exponent >> 6;  // rounds down: the shift that is left is not negative
+  base_ = exponent >> 6;  // rounded down, so the remaining shift is not negative
   const Wide shifted = whole << (exponent - base_ * limb_bits);
   limbs_ = {static_cast<Limb>(shifted), static_cast<Limb>(shifted >> limb_bits)};
   trim();
@@ -163,7 +163,7 @@ Dyadic operator*(const Dyadic& a, const Dyadic& b) {
 
 ScaledNumber Dyadic::rounded() const {
   if (limbs_.empty()) return {};
-  // The highest limbs hold more than a double-double does; a half of one is exactly a double.
+  // The three highest limbs hold more bits than a double-double. Half a limb is exactly a double.
   constexpr int half_bits = limb_bits / 2;
   constexpr int most_limbs = 3;
   const int lowest = std::max(base_, top() - most_limbs);

@@ -1,11 +1,11 @@
-// Exact arithmetic: sums, differences and products of doubles without any rounding, for the signs
-// of polynomials that rounded arithmetic leaves open.
+// Dyadic numbers have exact arithmetic: sums, differences and products of doubles without any
+// rounding. They decide the signs of polynomials where rounded arithmetic leaves them undecided.
 //
-// Why not expansions of doubles (Shewchuk, Adaptive precision floating-point arithmetic and fast
-// robust geometric predicates, 1997)? Because their terms are doubles too: the discriminant of a
-// sphere in a rotated space has degree 16 in the inputs and would over- or underflow at sizes that
-// are legal here. Here the exponent has a word of its own. As there, this is the last resort behind
-// filters, so clear before fast.
+// Expansions of doubles would not do (Shewchuk, Adaptive precision floating-point arithmetic and
+// fast robust geometric predicates, 1997), as their terms are doubles too. The discriminant of a
+// sphere in a rotated space has degree 16 in the inputs, and would over- or underflow at sizes that
+// are legal here. A Dyadic has a word of its own for the exponent. Like expansions it is the last
+// resort behind filters, so the code is clear before it is fast.
 #pragma once
 
 #include <cstdint>
@@ -15,35 +15,35 @@
 
 namespace crt::core {
 
-/// value * 2^exponent, with 1/2 <= |value.hi| < 1 (or value 0).
+/// A ScaledNumber is value * 2^exponent, with 1/2 <= |value.hi| < 1 (or value 0).
 struct ScaledNumber {
   DoubleDouble value;
   int exponent = 0;
 
-  /// The nearest double-double that has a finite or infinite double in front.
+  /// Returns the nearest double-double whose high part is a finite or infinite double.
   DoubleDouble unscaled() const;
 };
 
 ScaledNumber operator+(const ScaledNumber& a, const ScaledNumber& b);
 ScaledNumber operator-(const ScaledNumber& a);
-/// b must not be 0.
+/// Divides by b, which must not be 0.
 ScaledNumber operator/(const ScaledNumber& a, const ScaledNumber& b);
-/// a must not be negative.
+/// Returns the square root of a, which must not be negative.
 ScaledNumber sqrt(const ScaledNumber& a);
 
-/// A number m 2^e with whole m and e, of any size.
+/// A Dyadic is a number m 2^e with whole m and e, of any size.
 class Dyadic {
  public:
   Dyadic() = default;    ///< 0
   Dyadic(double value);  // NOLINT(google-explicit-constructor): exact; must be finite
 
-  /// -1, 0 or 1.
+  /// Returns -1, 0 or 1.
   int sign() const { return limbs_.empty() ? 0 : (negative_ ? -1 : 1); }
 
-  /// To about 100 bits.
+  /// Returns the number rounded to about 100 bits.
   ScaledNumber rounded() const;
 
-  /// Of memory, beside the object itself.
+  /// Returns the bytes of memory that the number takes beside the object itself.
   std::size_t more_bytes() const { return limbs_.capacity() * sizeof(Limb); }
 
   friend Dyadic operator-(Dyadic a);
@@ -54,10 +54,10 @@ class Dyadic {
  private:
   using Limb = std::uint64_t;
 
-  /// -1, 0 or 1, without regard to the signs.
+  /// Compares without regard to the signs and returns -1, 0 or 1.
   static int compare_sizes(const Dyadic& a, const Dyadic& b);
   static Dyadic sum_of_sizes(const Dyadic& a, const Dyadic& b);
-  /// |a| must be greater than |b|.
+  /// Returns |a| - |b|. |a| must be greater than |b|.
   static Dyadic difference_of_sizes(const Dyadic& a, const Dyadic& b);
   Limb limb_at(int place) const;
   int top() const { return base_ + static_cast<int>(limbs_.size()); }

@@ -15,7 +15,7 @@ bool is_less(const Dyadic& a, const Dyadic& b) {
   return (a - b).sign() < 0;
 }
 
-/// A point near the middle that is no root.
+/// Returns a point near the middle that is no root.
 Dyadic splitting_point(const DyadicPolynomial& polynomial, const Dyadic& low, const Dyadic& high) {
   Dyadic split = middle(low, high);
   while (polynomial.value(split).sign() == 0) split = middle(low, split);
@@ -90,8 +90,8 @@ DyadicPolynomial operator*(const Dyadic& s, const DyadicPolynomial& p) {
 }
 
 DyadicPolynomial negative_remainder(const DyadicPolynomial& a, const DyadicPolynomial& b) {
-  // Long division where, instead of dividing by b's leading coefficient, the rest is multiplied by
-  // its size.
+  // This is long division, but instead of dividing by b's leading coefficient it multiplies the
+  // rest by that coefficient's absolute value.
   const bool negative = b.leading().sign() < 0;
   const Dyadic size = negative ? -b.leading() : b.leading();
   DyadicPolynomial rest = a;
@@ -163,7 +163,8 @@ std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial) {
 Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high,
                     const Dyadic& offset, const std::function<bool(const Dyadic& x)>& is_beyond) {
   const DyadicPolynomial derivative = polynomial.derivative();
-  // Newton's iteration; now and then a halving, which closes in whatever the function does.
+  // This is Newton's iteration. Every fourth step is a bisection, which converges whatever the
+  // function does.
   constexpr int most_steps = 2000;
   constexpr int steps_to_a_halving = 4;
   constexpr int enough_bits = 108;

@@ -1,4 +1,4 @@
-// Polynomials without rounding, and their real roots told apart.
+// Polynomials have exact coefficients, and their real roots are isolated without rounding.
 #pragma once
 
 #include <functional>
@@ -11,14 +11,14 @@ namespace crt::core {
 class DyadicPolynomial {
  public:
   DyadicPolynomial() = default;  ///< 0
-  /// The coefficient of x^0 first.
+  /// Takes the coefficient of x^0 first.
   explicit DyadicPolynomial(std::vector<Dyadic> coefficients);
 
-  /// -1 for the polynomial 0.
+  /// Returns the degree, -1 for the polynomial 0.
   int degree() const { return static_cast<int>(coefficients_.size()) - 1; }
-  /// Of the power i, which is no more than the degree.
+  /// Returns the coefficient of x^i, where i is no more than the degree.
   const Dyadic& coefficient(std::size_t i) const { return coefficients_[i]; }
-  /// Of the highest power; the polynomial must not be 0.
+  /// Returns the coefficient of the highest power. The polynomial must not be 0.
   const Dyadic& leading() const { return coefficients_.back(); }
   Dyadic value(const Dyadic& x) const;
   DyadicPolynomial derivative() const;
@@ -28,7 +28,7 @@ class DyadicPolynomial {
   friend DyadicPolynomial operator*(const DyadicPolynomial& a, const DyadicPolynomial& b);
   friend DyadicPolynomial operator*(const Dyadic& s, const DyadicPolynomial& p);
 
-  /// The remainder of a / b times some negative number. b must not be 0.
+  /// Returns the remainder of a / b times some negative number. b must not be 0.
   friend DyadicPolynomial negative_remainder(const DyadicPolynomial& a, const DyadicPolynomial& b);
 
  private:
@@ -37,20 +37,20 @@ class DyadicPolynomial {
   std::vector<Dyadic> coefficients_;  ///< the last is not 0
 };
 
-/// The polynomial of the highest degree that divides both. One of them must not be 0.
+/// Returns the polynomial of the highest degree that divides both. One of them must not be 0.
 DyadicPolynomial common_divisor(DyadicPolynomial a, DyadicPolynomial b);
 
-/// Counts real roots, each once whatever its multiplicity.
+/// A SturmChain counts real roots, each once whatever its multiplicity.
 /// Source: Sturm's theorem, as in Basu, Pollack, Roy, Algorithms in Real Algebraic Geometry,
 /// 2006, 2.2.2.
 class SturmChain {
  public:
-  /// The polynomial must not be 0.
+  /// Makes the chain of a polynomial, which must not be 0.
   explicit SturmChain(const DyadicPolynomial& polynomial);
 
-  /// All real roots.
+  /// Counts all real roots.
   int count() const;
-  /// Roots between two points that are no roots.
+  /// Counts the roots between two points that are no roots.
   int count(const Dyadic& low, const Dyadic& high) const {
     return changes_at(low) - changes_at(high);
   }
@@ -60,13 +60,13 @@ class SturmChain {
   std::vector<DyadicPolynomial> chain_;
 };
 
-/// Points between each two of which one real root lies, in ascending order; none if there is no
-/// root. The polynomial must not be 0. Roots that are closer than 2^-400 of the largest stay
-/// together.
+/// Returns points in ascending order such that one real root lies between each two of them, or no
+/// points if there is no root. The polynomial must not be 0. Roots that are closer than 2^-400 of
+/// the largest are not separated.
 std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial);
 
-/// The root between low and high, where `is_beyond` changes from false to true, until root + offset
-/// is known to more than 100 bits.
+/// Returns the root between low and high, where `is_beyond` changes from false to true. The
+/// iteration ends when root + offset is known to more than 100 bits.
 Dyadic refined_root(const DyadicPolynomial& polynomial, Dyadic low, Dyadic high,
                     const Dyadic& offset, const std::function<bool(const Dyadic& x)>& is_beyond);
 

@@ -1,4 +1,4 @@
-// Affine maps without rounding.
+// Affine maps are composed and inverted without rounding.
 #pragma once
 
 #include <array>
@@ -17,11 +17,11 @@ struct DyadicTransform {
 DyadicTransform exactly(const Transform& transform);
 DyadicTransform exactly(const PreciseTransform& transform);
 
-/// The map that applies `first` and then `second`.
+/// Returns the map that applies `first` and then `second`.
 DyadicTransform compose(const DyadicTransform& second, const DyadicTransform& first);
 
-/// The inverse of a map's linear part by Cramer's rule, with the division left out: it is rows /
-/// weight. The map must have an inverse.
+/// A DyadicInverse is the inverse of a map's linear part by Cramer's rule, with the division left
+/// out: it is rows / weight. The map must have an inverse.
 struct DyadicInverse {
   std::array<DyadicVector, 3> rows;
   Dyadic weight;  ///< > 0

@@ -1,4 +1,4 @@
-// Vectors without rounding.
+// Vectors of exact numbers are added and multiplied without rounding.
 #pragma once
 
 #include <array>

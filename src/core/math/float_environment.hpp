@@ -1,4 +1,4 @@
-// The floating-point mode in which all of the library's guarantees hold.
+// All of the library's guarantees hold in the floating-point mode that this file sets.
 #pragma once
 
 #if defined(__SSE2__)
@@ -15,7 +15,7 @@ using FloatMode = unsigned;  // MXCSR
 inline FloatMode float_mode() {
   return _mm_getcsr();
 }
-/// Reading the mode is much cheaper than writing it.
+/// Sets the mode if it differs, as reading it is much cheaper than writing it.
 inline void set_float_mode(FloatMode mode) {
   if (_mm_getcsr() != mode) _mm_setcsr(mode);
 }
@@ -40,9 +40,9 @@ inline void set_ieee_float_mode() {
 }
 #endif
 
-/// While it lives, this thread rounds to nearest, keeps subnormal numbers and masks all exceptions,
-/// as IEEE 754 has it by default; then the host's mode (and its exception flags) are back. Hosts
-/// such as audio and game engines set other modes.
+/// While a FloatEnvironment lives, its thread rounds to nearest, keeps subnormal numbers and masks
+/// all exceptions, as IEEE 754 has it by default. Its end restores the host's mode, with the host's
+/// exception flags. Hosts such as audio and game engines set other modes.
 class FloatEnvironment {
  public:
   FloatEnvironment() : saved_(float_mode()) {
@@ -63,8 +63,8 @@ class FloatEnvironment {
   inline static thread_local const FloatEnvironment* outermost_ = nullptr;
 };
 
-/// While it lives, this thread is in the mode that it was in before any FloatEnvironment: what the
-/// host's callbacks are to find.
+/// While a HostFloatEnvironment lives, its thread is in the mode that it had before any
+/// FloatEnvironment. The host's callbacks run in that mode.
 class HostFloatEnvironment {
  public:
   HostFloatEnvironment() : saved_(float_mode()), outermost_(FloatEnvironment::outermost_) {

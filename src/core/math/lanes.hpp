@@ -11,14 +11,14 @@ inline Lanes rounding_of(const Lanes& x) {
   return unit_roundoff * abs(x);
 }
 inline Lanes power_of_two_below(const Lanes& x) {
-  constexpr std::int64_t exponent_bits = 0x7ff0000000000000;
-  constexpr std::int64_t smallest = 0x0010000000000000;
-  const LaneMask bits = reinterpret_cast<LaneMask>(x) & exponent_bits;
-  return reinterpret_cast<Lanes>(bits > smallest ? bits : LaneMask{} + smallest);
+  constexpr std::uint64_t exponent_bits = 0x7ff0000000000000;
+  constexpr double smallest = 0x1p-1022;
+  const auto power = bits_as<Lanes>(bits_as<WordLanes>(x) & exponent_bits);
+  return max(power, lanes_of(smallest));
 }
 inline Lanes inverse_of_power(const Lanes& x) {
   constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;
-  return reinterpret_cast<Lanes>(inverse_of_one - reinterpret_cast<WordLanes>(x));
+  return bits_as<Lanes>(inverse_of_one - bits_as<WordLanes>(x));
 }
 inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes& c,
                                     const Lanes& d) {

@@ -1,4 +1,4 @@
-// Points of a plane, such as the picture's or the lens's.
+// Points of a plane, such as the picture's or the lens's, have two coordinates.
 #pragma once
 
 #include <cstddef>
@@ -13,16 +13,16 @@ struct PlanePointOf {
   Real y{};
 };
 using PlanePoint = PlanePointOf<double>;
-/// As many of them side by side as there are lanes.
+/// PlanePointLanes are as many points side by side as there are lanes.
 using PlanePointLanes = PlanePointOf<Lanes>;
 
 inline void set_lane(PlanePointLanes& points, std::size_t lane, const PlanePoint& point) {
-  points.x[static_cast<int>(lane)] = point.x;
-  points.y[static_cast<int>(lane)] = point.y;
+  points.x[lane] = point.x;
+  points.y[lane] = point.y;
 }
 
 inline PlanePoint lane_of(const PlanePointLanes& points, std::size_t lane) {
-  return {points.x[static_cast<int>(lane)], points.y[static_cast<int>(lane)]};
+  return {points.x[lane], points.y[lane]};
 }
 
 }  // namespace crt::core

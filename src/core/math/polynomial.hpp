@@ -1,4 +1,4 @@
-// Polynomials, for one double or for lanes.
+// Polynomials are evaluated for one double or for lanes.
 #pragma once
 
 #include <array>
@@ -8,8 +8,8 @@
 
 namespace crt::core {
 
-/// At x, the coefficient of x^0 first, of more than two: as two sums that do not wait for each
-/// other, of even powers and of odd ones.
+/// Returns the value at x of a polynomial of at least three coefficients, that of x^0 first. Even
+/// and odd powers have a sum each, so that the two chains of instructions run in parallel.
 template <class Real, std::size_t count>
 Real polynomial(const std::array<double, count>& coefficients, const Real& x) {
   static_assert(count > 2);

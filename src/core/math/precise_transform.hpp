@@ -1,4 +1,4 @@
-// Affine maps of more than double precision.
+// Affine maps have entries of more than double precision.
 #pragma once
 
 #include <array>
@@ -8,10 +8,11 @@
 
 namespace crt::core {
 
-/// A vector of double-doubles.
+/// A PreciseVec3 is a vector of double-doubles.
 using PreciseVec3 = std::array<DoubleDouble, 3>;
 
-// By the operators of double-double; geometry/exact_ray.hpp has faster ones for the exact tier.
+// These use the operators of double-double. geometry/exact_ray.hpp has faster ones for the exact
+// tier.
 inline DoubleDouble dot(const PreciseVec3& a, const PreciseVec3& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];
 }
@@ -20,12 +21,13 @@ inline PreciseVec3 cross(const PreciseVec3& a, const PreciseVec3& b) {
   return {a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]};
 }
 
-/// Each component to the nearest double.
+/// Rounds each component to the nearest double.
 inline Vec3 rounded(const PreciseVec3& v) {
   return {v[0].value(), v[1].value(), v[2].value()};
 }
 
-/// An affine map with entries of about 106 bits: what nested transforms are composed in.
+/// A PreciseTransform is an affine map with entries of about 106 bits, in which nested transforms
+/// are composed.
 struct PreciseTransform {
   std::array<PreciseVec3, 3> rows{PreciseVec3{1.0, 0.0, 0.0}, PreciseVec3{0.0, 1.0, 0.0},
                                   PreciseVec3{0.0, 0.0, 1.0}};
@@ -34,17 +36,17 @@ struct PreciseTransform {
   PreciseTransform() = default;
   explicit PreciseTransform(const Transform& transform);
 
-  /// Every entry rounded to the nearest double.
+  /// Rounds every entry to the nearest double.
   Transform rounded() const;
 };
 
-/// The map that applies `first` and then `second`.
+/// Returns the map that applies `first` and then `second`.
 PreciseTransform compose(const PreciseTransform& second, const PreciseTransform& first);
 
-/// The determinant of the linear part.
+/// Returns the determinant of the linear part.
 DoubleDouble determinant(const PreciseTransform& transform);
 
-/// The inverse; the determinant must not be 0.
+/// Returns the inverse. The determinant must not be 0.
 PreciseTransform inverse(const PreciseTransform& transform);
 
 }  // namespace crt::core

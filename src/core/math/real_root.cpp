@@ -11,8 +11,8 @@ int compared(const Dyadic& a, const Dyadic& b) {
   return (a - b).sign();
 }
 
-/// Of a polynomial that has no more than one root between low and high, where its signs differ: one
-/// that has that root with different signs about it.
+/// Returns a polynomial that has different signs at low and high, and between them the root of
+/// `polynomial`. That must have one root there.
 DyadicPolynomial changing_sign(DyadicPolynomial polynomial, const Dyadic& low, const Dyadic& high) {
   while (polynomial.value(low).sign() == polynomial.value(high).sign()) {
     // The root has an even multiplicity, which the common divisor with the derivative makes odd.
@@ -43,7 +43,7 @@ std::optional<RealRoot> RealRoot::near(const DyadicPolynomial& polynomial, const
     if (polynomial.value(middle).sign() != 0) return std::nullopt;
     return at(middle);
   }
-  // Wider, so that a root just within is not at an end.
+  // The interval is wider than the error, so that a root just within the error is not at an end.
   const Dyadic margin(2 * error);
   const Dyadic low = middle - margin;
   const Dyadic high = middle + margin;
@@ -71,9 +71,11 @@ void RealRoot::cut_at(const Dyadic& x) {
   if (sign == 0) sign_low_ = 0;
 }
 
-// Source: Abbott, Quadratic interval refinement for real roots, 2006: a straight line between the
-// ends tells in which of many pieces the root should be, and twice as many bits are tried the next
-// time if it is.
+// Narrows the interval by a step of quadratic interval refinement. A straight line between the ends
+// predicts in which of many pieces the root is. If it is there, the next step tries twice as many
+// bits.
+//
+// Source: Abbott, Quadratic interval refinement for real roots, 2006.
 void RealRoot::narrow() {
   if (is_point()) return;
   constexpr int most_bits = 32;
@@ -108,7 +110,8 @@ int RealRoot::order_of_fractions(const RealRoot& a, const RealRoot& b) {
 int order(RealRoot& a, RealRoot& b) {
   if (a.polynomial_.degree() == 1 && b.polynomial_.degree() == 1)
     return RealRoot::order_of_fractions(a, b);
-  // What is no nearer is told apart by then; only of the rest it is asked whether it is one.
+  // Roots that are not very close differ by then. Only the others are worth the question whether
+  // they are one.
   constexpr int steps_before_asking = 8;
   bool differ = false;
   for (int step = 0;; ++step) {

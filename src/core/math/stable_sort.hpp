@@ -1,4 +1,4 @@
-// Sorting what is often little.
+// Lists that are mostly short are sorted without taking memory.
 #pragma once
 
 #include <algorithm>
@@ -8,8 +8,8 @@
 
 namespace crt::core {
 
-/// Sorts; what is equal stays in order. Takes no memory for some dozens, which insertion sorts; for
-/// more it is the sort that is made for them.
+/// Sorts and keeps the order of equal items. Up to 32 items take an insertion sort, which needs no
+/// memory. More take the standard library's stable sort.
 template <class Item, class Before>
 void sort_stably(std::vector<Item>& items, const Before& is_before) {
   constexpr std::size_t few = 32;

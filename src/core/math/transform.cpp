@@ -24,7 +24,7 @@ constexpr double smallest_factor = 1e-100;
               argument);
 }
 
-/// What is wrong with a factor of scale(), or nothing.
+/// Returns what is wrong with a factor of scale(), or nullptr.
 const char* factor_fault(double factor) {
   if (!std::isfinite(factor)) return "must be finite";
   if (factor == 0) return "must not be 0";
@@ -38,8 +38,8 @@ struct SineCosine {
   double cosine;
 };
 
-/// Quarter turns are taken off before any rounding can happen, so multiples of 90 degrees are exact
-/// and angles a whole number of turns apart are equal.
+/// Computes both exactly for multiples of 90 degrees: quarter turns are taken off before any
+/// rounding can happen. So angles that are a whole number of turns apart are equal.
 SineCosine sine_cosine(double degrees) {
   constexpr double quarter_turn = 90;
   constexpr double radians_per_degree = std::numbers::pi / 180;
@@ -91,7 +91,7 @@ Transform rotate(const Vec3& degrees) {
   const auto [sx, cx] = sine_cosine(degrees.x);
   const auto [sy, cy] = sine_cosine(degrees.y);
   const auto [sz, cz] = sine_cosine(degrees.z);
-  // The product (about z)(about y)(about x), written out.
+  // This is the product (about z)(about y)(about x), written out.
   return {.row_x = {cz * cy, cz * sy * sx - sz * cx, cz * sy * cx + sz * sx},
           .row_y = {sz * cy, sz * sy * sx + cz * cx, sz * sy * cx - cz * sx},
           .row_z = {-sy, cy * sx, cy * cx}};

@@ -9,14 +9,14 @@
 namespace crt::core {
 namespace {
 
-/// Sums of products that may be exact in double-double, as their operators make them.
+/// An ExactSum finds out whether a sum of products is exact in the operators of double-double.
 class ExactSum {
  public:
   void add(const DoubleDouble& a, const DoubleDouble& b) {
     if (a.hi == 0 || b.hi == 0) return;
-    if (is_one(a)) return add(b);  // but for its sign
+    if (is_one(a)) return add(b);  // up to its sign
     if (is_one(b)) return add(a);
-    // Far from where the low part would underflow.
+    // This is far from where the low part would underflow.
     constexpr double smallest = 0x1p-900;
     const DoubleDouble product = two_product(a.hi, b.hi);
     is_exact_ = is_exact_ && a.lo == 0 && b.lo == 0 && std::abs(product.hi) > smallest;
@@ -38,8 +38,8 @@ class ExactSum {
   int terms_ = 0;
 };
 
-/// Whether the product is exact, as far as that is seen at a glance: of moves, turns and scalings
-/// once each it is.
+/// Returns whether a quick test shows that the product is exact. It does so for a translation, a
+/// rotation and a scaling, once each.
 bool is_exact(const PreciseTransform& second, const PreciseTransform& first) {
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t column = 0; column < 4; ++column) {
@@ -54,7 +54,7 @@ bool is_exact(const PreciseTransform& second, const PreciseTransform& first) {
   return true;
 }
 
-/// How many binary digits there are from the highest of a map's numbers to the lowest; its fourth
+/// Counts the binary digits from the highest of a map's numbers to the lowest. The map's fourth
 /// row, which is (0, 0, 0, 1), is among them.
 class Digits {
  public:
@@ -81,8 +81,8 @@ class Digits {
   int lowest_ = 0;
 };
 
-/// Of the numbers of a map, at most. None counts as so simple that thousands of them would have no
-/// end.
+/// Returns a bound on the binary digits of a map's numbers. It is 16 at least, so that products of
+/// thousands of simple maps come to an end.
 int bits_of(const TransformChain& chain) {
   if (!chain.is_product()) return chain.bits;
   Digits digits;

@@ -1,4 +1,5 @@
-// Vector arithmetic where cancellation matters, and exact scaling by powers of two.
+// Vector arithmetic that is accurate where cancellation matters, and exact scaling by powers of
+// two, are here.
 #pragma once
 
 #include <algorithm>
@@ -12,15 +13,15 @@
 
 namespace crt::core {
 
-/// The largest relative error of one rounding, u in the comments.
+/// This is the largest relative error of one rounding, u in the comments.
 inline constexpr double unit_roundoff = 0x1p-53;
 
-/// At least half an ulp of x.
+/// Returns at least half an ulp of x.
 inline double rounding_of(double x) {
   return unit_roundoff * std::abs(x);
 }
 
-/// Squares of such sizes, and of what matters beside them, are normal numbers.
+/// Returns whether squares of such sizes, and of what matters beside them, are normal numbers.
 inline bool has_fair_size(double size) {
   constexpr double smallest = 0x1p-300;
   constexpr double largest = 0x1p300;
@@ -31,21 +32,22 @@ inline double largest_component(const Vec3& v) {
   return std::max({std::abs(v.x), std::abs(v.y), std::abs(v.z)});
 }
 
-/// The power of two with 1 <= x / power < 2, for finite x > 0; 2^-1022 where x is smaller still, so
-/// that the inverse is always a number.
+/// Returns the power of two with 1 <= x / power < 2, for finite x > 0. Where x is smaller than
+/// 2^-1022 it returns 2^-1022, so that the inverse is always finite.
 inline double power_of_two_below(double x) {
   constexpr std::uint64_t exponent_bits = 0x7ff0000000000000u;
   constexpr std::uint64_t smallest = 0x0010000000000000u;
   return std::bit_cast<double>(std::max(std::bit_cast<std::uint64_t>(x) & exponent_bits, smallest));
 }
 
-/// 1 / x of a power of two of which that is a normal number: without a quotient, which takes long.
+/// Returns 1 / x for a power of two whose inverse is a normal number. It avoids a division, which
+/// is slow.
 inline double inverse_of_power(double x) {
-  constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;  // the bits of 1 twice
+  constexpr std::uint64_t inverse_of_one = 0x7fe0000000000000u;  // twice the bits of 1
   return std::bit_cast<double>(inverse_of_one - std::bit_cast<std::uint64_t>(x));
 }
 
-/// a b - c d to about one rounding of the result, however much cancels.
+/// Returns a b - c d with about one rounding of the result, however much cancels.
 /// Source: Jeannerod, Louvet, Muller, Further analysis of Kahan's algorithm, 2013.
 inline double difference_of_products(double a, double b, double c, double d) {
   const double product = c * d;
@@ -53,13 +55,14 @@ inline double difference_of_products(double a, double b, double c, double d) {
   return std::fma(a, b, -product) + rest;
 }
 
-/// The cross product, each component to about one rounding: small angles keep all their digits.
+/// Returns the cross product, each component with about one rounding. So small angles keep all
+/// their digits.
 inline Vec3 accurate_cross(const Vec3& a, const Vec3& b) {
   return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
           difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
-/// The dot product as if in twice the precision.
+/// Returns the dot product as if computed in twice the precision.
 /// Source: Ogita, Rump, Oishi, Accurate sum and dot product, 2005 (Dot2).
 inline DoubleDouble accurate_dot(const Vec3& a, const Vec3& b) {
   const DoubleDouble x = two_product(a.x, b.x);
@@ -70,7 +73,7 @@ inline DoubleDouble accurate_dot(const Vec3& a, const Vec3& b) {
   return two_sum(xyz.hi, xyz.lo + xy.lo + (x.lo + y.lo + z.lo));
 }
 
-/// The axis that v runs along, 0 to 2; -1 if it has more than one component that is not 0.
+/// Returns the axis that v runs along, 0 to 2, or -1 if more than one component is not 0.
 inline int coordinate_axis(const Vec3& v) {
   if (v.y == 0 && v.z == 0) return 0;
   if (v.x == 0 && v.z == 0) return 1;
@@ -78,13 +81,13 @@ inline int coordinate_axis(const Vec3& v) {
   return -1;
 }
 
-/// v times the power of two that brings its largest component into [1, 2). Exact, but for
-/// components that are 2^-1000 of the largest.
+/// Returns v times the power of two that brings its largest component into [1, 2). The result is
+/// exact, but for components that are 2^-1000 of the largest.
 inline Vec3 scaled_to_one(const Vec3& v) {
   return v * (1 / power_of_two_below(largest_component(v)));
 }
 
-/// v (not 0, of any length) with length 1; exact for a coordinate axis.
+/// Returns v, which is not 0, scaled to length 1. The result is exact for a coordinate axis.
 inline Vec3 unit_vector(const Vec3& v) {
   const Vec3 scaled = scaled_to_one(v);
   const double length = std::sqrt(accurate_dot(scaled, scaled).value());

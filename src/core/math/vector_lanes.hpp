@@ -21,15 +21,11 @@ struct VectorLanes {
   Lanes& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   const Lanes& operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 
-  Vec3 lane(std::size_t index) const {
-    const int i = static_cast<int>(index);
-    return {x[i], y[i], z[i]};
-  }
+  Vec3 lane(std::size_t index) const { return {x[index], y[index], z[index]}; }
   void set(std::size_t lane, const Vec3& v) {
-    const int i = static_cast<int>(lane);
-    x[i] = v.x;
-    y[i] = v.y;
-    z[i] = v.z;
+    x[lane] = v.x;
+    y[lane] = v.y;
+    z[lane] = v.z;
   }
 };
 
@@ -104,12 +100,9 @@ inline VectorLanes floor(const VectorLanes& v) {
   return {floor(v.x), floor(v.y), floor(v.z)};
 }
 
-/// Of each lane that of `a` or that of `b`.
-inline Vec3 chosen(bool first, const Vec3& a, const Vec3& b) {
-  return first ? a : b;
-}
-inline VectorLanes chosen(const LaneMask& first, const VectorLanes& a, const VectorLanes& b) {
-  return {first ? a.x : b.x, first ? a.y : b.y, first ? a.z : b.z};
+/// Returns in each lane the first vector where the mask is true, else the second.
+inline VectorLanes select(const LaneMask& first, const VectorLanes& a, const VectorLanes& b) {
+  return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
 }
 
 /// As core/math/vector.hpp has it, of each.
@@ -147,7 +140,7 @@ inline void directions_and_lengths(const VectorLanes& v, VectorLanes& directions
   for (std::size_t lane = 0; lane < lane_count; ++lane) {
     const DirectionAndLength one = direction_and_length(v.lane(lane));
     directions.set(lane, one.direction);
-    lengths[static_cast<int>(lane)] = one.length;
+    lengths[lane] = one.length;
   }
 }
 

@@ -16,7 +16,7 @@ Features find_features(const Scene& scene, const std::vector<PreparedMaterial>& 
                light);
   }
   for (const PreparedMaterial& material : materials) {
-    // Only diffuse and specular light can be kept off by something.
+    // Only diffuse and specular light can be blocked by something.
     const bool answers_lights = material.description->specular > 0 || material.diffuse(0.0) > 0;
     features.shadows = features.shadows || (features.lights && answers_lights);
     features.reflection = features.reflection || material.description->reflectivity > 0;

@@ -41,15 +41,15 @@ Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial>
 
 }  // namespace
 
-/// What depends on the entities and on nothing else in the scene but the precision.
+/// A Geometry depends on the entities, and on nothing else in the scene but the precision.
 struct PreparedData::Geometry {
   std::vector<std::shared_ptr<const EntityNode>>
-      entities;  ///< held, so that their addresses stay theirs
+      entities;  ///< held so that no other entity gets their address
   Precision precision;
   std::vector<SharedMaterial> materials;
   bool has_csg;
   Accelerator accelerator;
-  std::vector<std::uint32_t> entity_ids;  ///< of leaves: users' queries ask for nothing else there
+  std::vector<std::uint32_t> entity_ids;  ///< of leaves; ray queries need nothing else of them
 
   Geometry(const Scene& scene, CompiledScene compiled, const Workers& workers)
       : precision(scene.settings.precision),

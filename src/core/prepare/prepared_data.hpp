@@ -1,4 +1,4 @@
-// The inside of a PreparedScene: what the renderer and the ray queries see of it.
+// A PreparedData is the inside of a PreparedScene: what the renderer and the ray queries see of it.
 #pragma once
 
 #include <array>
@@ -29,12 +29,12 @@ namespace crt::core {
 class Accelerator;
 struct CompiledScene;
 
-/// Everything about a hit that shading may ask for.
+/// A HitPoint is everything about a hit that shading may ask for.
 struct HitPoint {
   double t = 0;
   Vec3 position{0, 0, 0};
   Vec3 normal{0, 1, 0};           ///< world, unit length, out of the solid
-  Vec3 object_position{0, 0, 0};  ///< in the primitive's own space: where patterns live
+  Vec3 object_position{0, 0, 0};  ///< in the primitive's own space, where patterns live
   Vec3 object_normal{0, 1, 0};    ///< in that space, unit length, out of the solid
   double u = 0;
   double v = 0;
@@ -47,10 +47,11 @@ struct HitPoint {
   bool solid = false;  ///< a boundary of a volume, not a mere surface
 };
 
-/// Immutable after prepare(); every member function is safe from any number of threads.
+/// A PreparedData is immutable after prepare(). Every member function is safe from any number of
+/// threads.
 class PreparedData {
  public:
-  /// Takes over of `earlier`, if there is one, what does not depend on what has changed since. Of
+  /// Takes over from `earlier`, if there is one, what does not depend on what differs from it. For
   /// the number of primitives see PrepareOptions.
   explicit PreparedData(const Scene& scene, const PreparedData* earlier = nullptr,
                         const Workers& workers = {}, std::uint64_t max_primitives = 0);
@@ -58,49 +59,52 @@ class PreparedData {
   PreparedData(const PreparedData&) = delete;
   PreparedData& operator=(const PreparedData&) = delete;
 
-  /// The nearest crossing; of those at one place that of the object that comes first in the scene.
+  /// Returns the nearest crossing. Of crossings at one place it is that of the object that comes
+  /// first in the scene.
   RayHit intersect(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// Whether there is any crossing at all before the ray's end.
+  /// Asks whether any surface blocks the ray before its end.
   bool occluded(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near
-  /// are of no use after it. Hits of other rays stay as they are.
+  /// Finds the nearest crossings of some rays of a batch, each as intersect() would find it alone.
+  /// But RayWorkspace::here and near mean nothing after it. Hits of other rays stay as they are.
   void intersect_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                       RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
-  /// How far the nearest crossings of some of a batch are, and of which leaves; if that can be told
-  /// in less time. Else false.
+  /// Finds how far the nearest crossings of some rays of a batch are, and on which leaves, if that
+  /// can be found faster. Returns false if it cannot.
   bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
-  /// Lets memory fetch beforehand what it takes to tell of such hits; of some of them.
+  /// Prefetches the memory that the points of some of these hits need.
   void prefetch_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
   RayMask occluded_each(const RayBatch& rays, RayMask some, RayWorkspace& work,
                         Packets packets = Packets::where_they_pay) const;
 
-  /// The same for rays of which it is known what they start on.
+  /// Asks whether rays are blocked for which it is known what they start on.
   RayMask occluded_each(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                         RayWorkspace& work) const;
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
-  /// What light meets on its way along such rays. For each that is filtered the crossings, as
-  /// crossings() has them, are in RayWorkspace::on_paths.
+  /// Finds what light meets on its path along these rays. For each ray that is filtered, the
+  /// crossings are in RayWorkspace::on_paths, as crossings() has them.
   LightPaths paths_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                             RayWorkspace& work, Packets packets = Packets::where_they_pay) const;
 
-  /// Every crossing in ascending t; those of one surface have one t, and there solids are left
-  /// before others are entered.
+  /// Finds every crossing in ascending t. Crossings of one surface have one t, and there solids are
+  /// left before others are entered.
   void crossings(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
-  /// Of each solid that holds the start of the ray (just after it, for a ray that starts on a
-  /// surface), the crossing at which the ray leaves it, the farthest first: outermost to innermost
-  /// for nested solids. A solid that the ray never leaves has t = infinity.
+  /// Finds the solids that hold the start of the ray (just after it, for a ray that starts on a
+  /// surface). For each it gives the crossing at which the ray leaves it, the farthest first. So
+  /// nested solids come from outermost to innermost. A solid that the ray never leaves has t =
+  /// infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
-  /// Whether the ray starts inside a solid object (just after its start, as above), and where it
-  /// leaves it.
+  /// Returns whether the ray starts inside a solid object (just after its start, as above), and
+  /// where it leaves it.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
-  /// What shading needs of a hit that `ray` found; u and v only if asked for. Filled in where it
-  /// stays, as a copy of what has just been written waits until that has reached the cache.
+  /// Computes what shading needs of a hit that `ray` found, with u and v only if asked for. It
+  /// writes directly into `point`, as copying what was just written waits until that has reached
+  /// the cache.
   void hit_point(const WorldRay& ray, const RayHit& hit, bool with_uv, HitPoint& point) const;
   HitPoint hit_point(const WorldRay& ray, const RayHit& hit) const {
     HitPoint point;
@@ -108,11 +112,11 @@ class PreparedData {
     return point;
   }
 
-  /// Of these the place, in the primitive's own space; the normal points out of the object.
+  /// Returns the point of a hit in the primitive's own space. The normal points out of the object.
   SurfacePoint object_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
 
-  /// The same of a group of rays, each at its t, of which some hit the same face as `first`. Of the
-  /// others the point is of no use.
+  /// Computes the points of a group of rays, each at its t, of which some hit the same face as
+  /// `first`. For the others the point means nothing.
   void object_points(const RayHit& first, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
     const Leaf& leaf = leaves_[first.leaf];
@@ -128,15 +132,16 @@ class PreparedData {
     if (leaf.complemented) points.normal = -points.normal;
   }
 
-  /// Of some rays of a group those that hit spheres of one material from the same side, as `first`
-  /// does; none if that hits anything else, or a sphere that is moved or a cutter.
+  /// Returns which of some rays of a group hit spheres of one material from the same side, as
+  /// `first` does. Returns none if `first` is on anything else, or on a sphere that is moved or a
+  /// cutter.
   RayMask on_spheres_like(const RayHit& first, std::span<const RayHit, lane_count> hits,
                           RayMask some) const;
-  /// As object_points() of such rays, whose spheres may be different ones.
+  /// Computes points as object_points() does, for rays whose hits are on spheres of their own.
   void sphere_points(std::span<const RayHit, lane_count> hits, RayMask some, const RayLanes& lines,
                      const Lanes& t, bool with_uv, SurfacePointLanes& points) const;
 
-  /// Takes those of a hit like `hit` to the world.
+  /// Transforms points of a hit like `hit` to the world.
   void take_to_world(const RayHit& hit, SurfacePointLanes& points) const {
     const Placement& placement = *leaves_[hit.leaf].placement;
     if (placement.is_identity()) return;
@@ -144,48 +149,49 @@ class PreparedData {
     points.normal = placement.normal_to_world(points.normal);
   }
 
-  /// The material of a hit, without the rest.
+  /// Returns the material of a hit, without the rest.
   std::uint32_t hit_material(const RayHit& hit) const { return leaves_[hit.leaf].material; }
 
-  /// The user's number of what a hit is of.
+  /// Returns the user's number of the entity that was hit.
   std::uint32_t entity_id(const RayHit& hit) const { return entity_ids_[hit.leaf]; }
 
-  /// The same of its leaf; of none any, if there are entities. Without a branch.
+  /// Returns the user's number of a leaf's entity, without a branch. For no leaf it is any number,
+  /// if there are entities.
   std::uint32_t entity_id_or_any(std::uint32_t leaf) const {
     return entity_ids_[leaf < entity_ids_.size() ? leaf : 0];
   }
 
-  /// Whether a hit is on the boundary of a volume, not on a mere surface.
+  /// Returns whether a hit is on the boundary of a volume, not on a mere surface.
   bool is_solid(const RayHit& hit) const { return leaves_[hit.leaf].of_solid; }
 
-  /// Where a ray starts that leaves a hit to the given side of the solid's surface. Its direction
-  /// must have unit length.
+  /// Returns where a ray starts that leaves a hit to the given side of the solid's surface. The
+  /// direction of `ray` must have unit length.
   StartPoint start_point(const WorldRay& ray, const RayHit& hit, Side side) const;
-  /// The same but for its error.
+  /// Returns the start_point() but for its error.
   StartPoint start_face(const RayHit& hit, Side side) const {
     const Leaf& leaf = leaves_[hit.leaf];
     const FaceSurface& face = face_surfaces_[leaf.first_face + hit.face];
-    // `side` is of the object; a cutter and a flipped face each turn it round once.
+    // `side` is that of the object. A cutter and a flipped face each turn it round once.
     if (leaf.complemented != face.flipped) side = opposite(side);
     return {.leaf = hit.leaf, .face = hit.face, .surface = face.surface, .side = side};
   }
 
-  /// The objects, and what they are made of.
+  /// Returns the objects, and what they are made of.
   const CompiledScene& compiled() const;
 
-  /// The primitive in its place that a hit is of: bumps ask for it.
+  /// Returns the primitive in its place that was hit, which bumps ask for.
   const Leaf& leaf(const RayHit& hit) const { return leaves_[hit.leaf]; }
 
   const std::vector<PreparedMaterial>& materials() const { return materials_; }
   const PreparedBackground& background() const { return *background_; }
   const Features& features() const { return features_; }
-  /// Lights, camera, background and settings as given (and checked); entities are left out.
+  /// Returns lights, camera, background and settings as given (and checked), without entities.
   const Scene& scene() const { return scene_; }
   double prepare_seconds() const { return prepare_seconds_; }
   MemoryUse memory() const;
-  /// What the user should know of the scene, a line each.
+  /// Returns what the user should know of the scene, a line each.
   std::vector<std::string> warnings() const { return textures_.warnings(); }
-  /// Whether what rays meet was made once for both.
+  /// Returns whether both share the geometry that rays meet.
   bool shares_geometry_with(const PreparedData& other) const {
     return geometry_ == other.geometry_;
   }
@@ -200,7 +206,7 @@ class PreparedData {
   Opacity opacity_;
   std::unique_ptr<const PreparedBackground> background_;
   Features features_;
-  // Of the geometry:
+  // These point into the geometry.
   const Accelerator* accelerator_ = nullptr;
   std::span<const Leaf> leaves_;
   std::span<const FaceSurface> face_surfaces_;

@@ -1,4 +1,4 @@
-// How near to each other crossings are that may be at one place.
+// Crossings that are nearer to each other than the coincidence tolerance may be at one place.
 #pragma once
 
 #include "core/ray/plain_ray.hpp"
@@ -6,10 +6,10 @@
 
 namespace crt::core {
 
-/// How far along the ray from a hit other crossings may be and yet be at its place, or at the start
-/// of a ray that goes on from it, whose origin is rounded. Wide, as the next ray may meet at right
-/// angles what this one grazes: it only decides where to look. Of one ray, or of as many as a Real
-/// has lanes.
+/// Returns how far along the ray from a hit other crossings may be and yet be at its place. They
+/// may also be at the start of a secondary ray from the hit, whose origin is rounded. The tolerance
+/// is wide, as the next ray may meet at right angles what this one grazes. It only decides where to
+/// look. It is computed for one ray, or for as many as a Real has lanes.
 template <class Real>
 Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t, const Real& error) {
   constexpr double error_factor = 4;

@@ -1,4 +1,4 @@
-// A ray as the cheap tests take it.
+// A ray is brought into the form that conservative tests take.
 #pragma once
 
 #include <cmath>

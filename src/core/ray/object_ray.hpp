@@ -12,23 +12,23 @@ namespace crt::core {
 
 inline constexpr std::uint32_t no_face = 0xffffffffu;
 
-/// Which side of a face a ray leaves to: where the outward normal points, or into the solid.
+/// Says to which side of a face a ray leaves: where the outward normal points, or into the solid.
 enum class Side : std::uint8_t { outside, inside };
 
 inline Side opposite(Side side) {
   return side == Side::outside ? Side::inside : Side::outside;
 }
 
-/// Where a ray starts, if it starts on a surface and not in free space: on the face itself, or
-/// merely on the surface that the face is a piece of (on another primitive's face that lies on it
-/// too).
+/// A RayStart says where a ray starts that starts on a surface and not in free space. It is on the
+/// face itself, or merely on the surface that the face is a piece of. In the latter case it is on
+/// another primitive's face that lies on that surface too.
 struct RayStart {
   std::uint32_t face = no_face;
   Side side = Side::outside;  ///< of the face's surface
   bool on_face = true;
 };
 
-/// See ObjectRay::from_center().
+/// Computes ObjectRay::from_center() for a ray or for lanes.
 template <class Real, class Ray>
 Vec3Of<Real> point_from_center(const Ray& ray, const Vec3& center, const Real& t,
                                const Real& t_low) {
@@ -46,45 +46,44 @@ Vec3Of<Real> point_from_center(const Ray& ray, const Vec3& center, const Real& t
           component(o.z, o_low.z, d.z, d_low.z, center.z)};
 }
 
-/// A ray in the object space of one primitive. Origin and direction are unevaluated sums of two
-/// doubles (the second far smaller), so that entering the space loses nothing; without a transform
-/// the low parts are 0.
+/// An ObjectRay is a ray in the object space of one primitive. Origin and direction are unevaluated
+/// sums of two doubles, the second far smaller, so that entering the space loses nothing. Without a
+/// transform the low parts are 0.
 struct ObjectRay {
   Vec3 origin{0, 0, 0};
   Vec3 origin_low{0, 0, 0};
   Vec3 direction{0, 0, 1};
   Vec3 direction_low{0, 0, 0};
   RayStart start = {};
-  /// Crossings with t below this only count: where they are may be told roughly, with an error that
-  /// says so.
+  /// Crossings with t below this matter only by their number. Where they are may be found roughly,
+  /// with an error bound that says so.
   double begin = -std::numeric_limits<double>::infinity();
-  /// Of the crossings that is_first_asked() is true of only the first is asked for: those after it
-  /// may be left out. What is nearer than that to where the ray begins may be at its start and not
-  /// count.
+  /// Crossings after the first one for which is_first_asked() is true may be left out. Crossings
+  /// nearer than this to where the ray begins may be at its start and not count.
   double first_above = std::numeric_limits<double>::infinity();
 
-  /// Whether a crossing is surely ahead of `first_above`, whatever its error.
+  /// Returns whether a crossing is surely ahead of `first_above`, whatever its error.
   template <class Crossing>
   bool is_first_asked(const Crossing& crossing) const {
     return crossing.t - crossing.error > first_above;
   }
 
-  /// The point at t + t_low relative to `center`: the shift that keeps distant rays exact. Its
-  /// error is about one rounding of the result, not of the way there, if the point is near the
-  /// center.
+  /// Returns the point at t + t_low relative to `center`. Subtracting the center early keeps
+  /// distant rays exact. If the point is near the center, the error is about one rounding of the
+  /// result, whatever the distance from the origin.
   Vec3 from_center(const Vec3& center, double t, double t_low = 0) const {
     return point_from_center<double>(*this, center, t, t_low);
   }
 };
 
-/// As many of them as there are lanes, without where they start.
+/// ObjectRayLanes are as many rays as there are lanes, without where they start.
 struct ObjectRayLanes {
   VectorLanes origin;
   VectorLanes origin_low;
   VectorLanes direction;
   VectorLanes direction_low;
 
-  /// The same, to the last bit.
+  /// Returns what ObjectRay::from_center() returns, to the last bit.
   VectorLanes from_center(const Vec3& center, const Lanes& t, const Lanes& t_low = Lanes{}) const {
     return point_from_center<Lanes>(*this, center, t, t_low);
   }

@@ -1,24 +1,25 @@
-// A ray, or several side by side, in a space that it is known in without rounding: the world's.
+// A PlainRay is one ray or several side by side in the world's space, where they are known without
+// rounding.
 #pragma once
 
 #include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
-/// One line, or as many as a Real has lanes. What it has is that of an ObjectRay whose low parts
-/// are 0, to the last bit.
+/// A PlainRay has one line, or as many as a Real has lanes. Its results are those of an ObjectRay
+/// whose low parts are 0, to the last bit.
 template <class Real>
 struct PlainRay {
   Vec3Of<Real> origin;
   Vec3Of<Real> direction;
 
-  /// The points at t, each component rounded once.
+  /// Returns the points at t, each component rounded once.
   Vec3Of<Real> at(const Real& t) const {
     return {fma(t, direction.x, origin.x), fma(t, direction.y, origin.y),
             fma(t, direction.z, origin.z)};
   }
 
-  /// Of one center, or of a VectorLanes with one for each lane.
+  /// Returns the points relative to one center, or to a VectorLanes with a center for each lane.
   template <class Center>
   Vec3Of<Real> from_center(const Center& center, const Real& t, const Real& t_low = Real{}) const {
     const auto component = [&](const Real& from, const Real& along, const auto& place) {

@@ -1,4 +1,4 @@
-// What a ray meets, as found along it.
+// A ray's hit is what it meets, as found along the ray.
 #pragma once
 
 #include <cmath>
@@ -9,12 +9,12 @@
 
 namespace crt::core {
 
-/// A crossing, as found: numbers only, no shading data yet.
+/// A RayHit is a crossing as it was found, with numbers only and without shading data.
 struct RayHit {
   double t = std::numeric_limits<double>::infinity();
   double error = 0;
-  double t_low = 0;                ///< t + t_low is what the exact tier knows of t
-  std::uint32_t object = nothing;  ///< what Embree knows: a lone primitive or a CSG object
+  double t_low = 0;                ///< t + t_low is t as the exact tier knows it
+  std::uint32_t object = nothing;  ///< a lone primitive or a CSG object, which is what Embree knows
   std::uint32_t leaf = nothing;    ///< the primitive that the face belongs to
   std::uint32_t face = no_face;
   std::uint32_t surface = nothing;  ///< the whole surface that the face is a piece of
@@ -25,8 +25,8 @@ struct RayHit {
   bool found() const { return object != nothing; }
 };
 
-/// Whether two crossings of one ray count as being at one place: of one surface by identity, of
-/// others where their error bounds cannot tell them apart.
+/// Returns whether two crossings of one ray count as being at one place. Crossings of one surface
+/// are compared by identity, and others by whether their error bounds can separate them.
 inline bool same_place(const RayHit& a, const RayHit& b) {
   if (a.surface == b.surface && a.surface != nothing) return a.root == b.root;
   return std::abs((a.t - b.t) + (a.t_low - b.t_low)) <= a.error + b.error;

@@ -9,20 +9,19 @@ namespace crt::core {
 WorldRay RayBatch::ray(std::size_t index) const {
   const std::size_t group = index / lane_count;
   const std::size_t lane = index % lane_count;
-  const auto i = static_cast<int>(lane);
   WorldRay ray{.origin = lines[group].origin.lane(lane),
                .direction = lines[group].direction.lane(lane),
-               .t_min = t_min[group][i],
-               .t_max = t_max[group][i],
-               .end_error = end_errors[group][i]};
+               .t_min = t_min[group][lane],
+               .t_max = t_max[group][lane],
+               .end_error = end_errors[group][lane]};
   if ((with_starts >> index & 1u) != 0) ray.start = starts[index];
-  ray.start.t_error = start_errors[group][i];
+  ray.start.t_error = start_errors[group][lane];
   return ray;
 }
 
 void RayBatch::set(std::size_t index, const WorldRay& ray) {
   const std::size_t group = index / lane_count;
-  const auto i = static_cast<int>(index % lane_count);
+  const std::size_t i = index % lane_count;
   set(index, ray.origin, ray.direction, ray.start);
   t_min[group][i] = ray.t_min;
   t_max[group][i] = ray.t_max;

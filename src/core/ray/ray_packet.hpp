@@ -1,4 +1,4 @@
-// Rays that go through a scene side by side.
+// Packets are rays that travel through a scene side by side.
 #pragma once
 
 #include <array>
@@ -12,13 +12,14 @@
 
 namespace crt::core {
 
-/// So many rays at most travel together. It pays where they go nearly the same way.
+/// This is the largest number of rays that travel together. A packet pays where its rays have
+/// nearly the same direction.
 inline constexpr std::size_t packet_size = 16;
 
-/// A bit for each ray of a packet.
+/// A RayMask has a bit for each ray of a packet.
 using RayMask = std::uint32_t;
 
-/// Of the bits that are set, of which there must be one.
+/// Returns the lowest bit that is set. There must be one.
 inline std::size_t first_ray(RayMask mask) {
   return static_cast<std::size_t>(std::countr_zero(mask));
 }
@@ -29,15 +30,15 @@ void for_each_ray(RayMask mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
 }
 
-/// On what rays start.
+/// A PacketStarts says on what the rays of a packet start.
 struct PacketStarts {
   std::array<std::uint32_t, packet_size> surfaces;
   std::array<std::uint32_t, packet_size> leaves;
-  RayMask on_surface = 0;  ///< that start on one
-  RayMask outwards = 0;    ///< of those
-  /// The object that a ray has left for good.
+  RayMask on_surface = 0;  ///< the rays that start on a surface
+  RayMask outwards = 0;    ///< the rays of `on_surface` that leave to the outside
+  /// Each entry is the object that a ray has left for good.
   std::array<std::uint32_t, packet_size> left_objects;
-  RayMask left_some = 0;  ///< that have left one
+  RayMask left_some = 0;  ///< the rays that have left an object
 
   PacketStarts() {
     surfaces.fill(nothing);
@@ -46,11 +47,11 @@ struct PacketStarts {
   }
 };
 
-/// Up to packet_size rays by component. A mask that comes with them says which of them there are;
-/// the others may hold anything.
+/// A RayBatch has up to packet_size rays by component. A mask that comes with it says which of them
+/// there are. The others may hold anything.
 struct RayBatch {
   static constexpr std::size_t group_count = packet_size / lane_count;
-  /// One for each ray.
+  /// Numbers has one number for each ray.
   using Numbers = std::array<Lanes, group_count>;
 
   std::array<RayLanes, group_count> lines;
@@ -58,18 +59,18 @@ struct RayBatch {
   Numbers t_max;            ///< infinity unless it is set
   Numbers start_errors;     ///< StartPoint::t_error
   Numbers end_errors{};     ///< as in WorldRay
-  RayMask with_starts = 0;  ///< the others start in free space
+  RayMask with_starts = 0;  ///< the rays with a start; the others start in free space
   std::array<StartPoint, packet_size> starts;
 
   RayBatch() { t_max.fill(lanes_of(std::numeric_limits<double>::infinity())); }
 
-  /// One of them.
+  /// Returns one of the rays.
   WorldRay ray(std::size_t index) const;
   Vec3 direction(std::size_t index) const {
     return lines[index / lane_count].direction.lane(index % lane_count);
   }
   void set(std::size_t index, const WorldRay& ray);
-  /// All but t_min, t_max and end_errors.
+  /// Sets all of a ray but t_min, t_max and end_error.
   void set(std::size_t index, const Vec3& origin, const Vec3& direction, const StartPoint& start);
 };
 
@@ -79,26 +80,27 @@ inline void RayBatch::set(std::size_t index, const Vec3& origin, const Vec3& dir
   const std::size_t lane = index % lane_count;
   lines[group].origin.set(lane, origin);
   lines[group].direction.set(lane, direction);
-  start_errors[group][static_cast<int>(lane)] = start.t_error;
+  start_errors[group][lane] = start.t_error;
   starts[index] = start;
   with_starts |= RayMask{1} << index;
 }
 
-/// Up to packet_size rays as vector instructions take them.
+/// A RayPacket has up to packet_size rays in the form that vector instructions take.
 struct RayPacket {
   static constexpr std::size_t group_count = packet_size / lane_count;
   static constexpr RayMask group_mask = (1u << lane_count) - 1;
 
-  /// Of some of a batch, and what their starts mean, which must outlive the packet.
+  /// Makes a packet of some rays of a batch. `of_rays` are their starts, which must outlive the
+  /// packet.
   RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some);
 
   /// Groups without a ray hold nothing.
   std::array<FilterLine<Lanes>, group_count> groups;
-  /// Beyond it nothing matters any more to a ray.
+  /// Nothing beyond its limit matters to a ray.
   std::array<Lanes, group_count> limits;
   const PacketStarts& starts;
 
-  /// A group's rays, by lane.
+  /// Returns the rays of a group by lane.
   static RayMask lanes(RayMask rays, std::size_t group) {
     return rays >> (group * lane_count) & group_mask;
   }
@@ -114,15 +116,13 @@ struct RayPacket {
   static RayMask all(std::size_t count) {
     return static_cast<RayMask>((std::uint64_t{1} << count) - 1);
   }
-  double limit(std::size_t ray) const {
-    return limits[ray / lane_count][static_cast<int>(ray % lane_count)];
-  }
+  double limit(std::size_t ray) const { return limits[ray / lane_count][ray % lane_count]; }
   void set_limit(std::size_t ray, double limit) {
-    limits[ray / lane_count][static_cast<int>(ray % lane_count)] = limit;
+    limits[ray / lane_count][ray % lane_count] = limit;
   }
 };
 
-/// Those whose value is that one.
+/// Returns the rays whose value is the given one.
 inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values,
                          std::uint32_t value) {
   RayMask mask = 0;
@@ -132,16 +132,16 @@ inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values,
   return mask;
 }
 
-/// Which rays of a batch are followed together.
+/// Says which rays of a batch are followed together.
 enum class Packets {
   where_they_pay,
-  always  ///< it makes no difference to what they find
+  always  ///< makes no difference to what the rays find
 };
 
 /// A packet of fewer rays does not pay.
 inline constexpr int fewest_together = 3;
 
-/// Whether some rays go so nearly the same way that a packet of them pays.
+/// Returns whether some rays have so nearly the same direction that a packet of them pays.
 bool go_together(const RayBatch& rays, RayMask some);
 
 }  // namespace crt::core

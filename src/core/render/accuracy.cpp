@@ -7,16 +7,18 @@ namespace crt::core {
 
 namespace {
 
-/// The share of a pixel that N samples may all miss is, in 95 of 100 cases, below this divided by
-/// N: the "rule of three". Source: Hanley and Lippman-Hand, If nothing goes wrong, is everything
-/// all right?, JAMA 249(13), 1983. Samples that are broadcast evenly miss less.
+/// By the "rule of three", the share of a pixel that N samples may all miss is, in 95 of 100 cases,
+/// below this divided by N. Samples that are distributed evenly miss less.
+/// Source: Hanley and Lippman-Hand, If nothing goes wrong, is everything all right?,
+/// JAMA 249(13), 1983.
 constexpr double rule_of_three = 3;
 
 void report_unseen(RenderStats& stats) {
   stats.unseen_share = std::min(1.0, rule_of_three / static_cast<double>(stats.samples_min));
 }
 
-/// The brightest channel that a ray which hits nothing can see, or white if that is brighter.
+/// Returns the brightest channel that a ray which hits nothing can see, or white if that is
+/// brighter.
 struct Brightness {
   static constexpr double white = 1;
 

@@ -13,14 +13,14 @@ namespace crt::core {
 
 namespace {
 
-/// All that there is of one pixel.
+/// An AovPixel is all that is known of one pixel.
 struct AovPixel {
   const FirstHit& hit;
   const FirstPlace& place;
   const PixelMeasure& measure;
 };
 
-/// What a channel of an AOV holds of a pixel.
+/// A channel says what an AOV holds of a pixel.
 struct FloatChannel {
   const char* name;
   bool Aovs::*asked;
@@ -33,7 +33,7 @@ struct IntegerChannel {
   std::uint32_t (*value)(const AovPixel& pixel);
 };
 
-// The names that readers of EXR files look for: Z for a distance, X, Y and Z in a layer for a
+// Readers of EXR files look for these names: Z for a distance, X, Y and Z in a layer for a
 // direction, R, G and B for a colour.
 constexpr FloatChannel float_channels[] = {
     {"Z", &Aovs::depth, [](const AovPixel& pixel) { return pixel.place.distance; }},
@@ -51,7 +51,7 @@ constexpr IntegerChannel integer_channels[] = {
     {"samples", &Aovs::samples, [](const AovPixel& pixel) { return pixel.measure.samples; }},
 };
 
-/// The nearest float; what is finite stays so.
+/// Returns the nearest float, which is finite if the value is.
 float to_float(double value) {
   return std::isinf(value) ? static_cast<float>(value) : finite_float(value);
 }
@@ -117,7 +117,7 @@ void AovTile::look(const CameraRays& camera, Tracer& tracer) {
   for (int y = 0; y < tile_.height; ++y) {
     for (std::size_t group = 0; group < places.size(); ++group) {
       const double first_x = tile_.x + static_cast<double>(group * lane_count) + middle;
-      places[group] = {first_x + Lanes{0, 1, 2, 3}, lanes_of(tile_.y + y + middle)};
+      places[group] = {first_x + lanes_of(0, 1, 2, 3), lanes_of(tile_.y + y + middle)};
     }
     camera.rays(width, places, {}, rays);
     tracer.look(rays, std::span(first_places_).subspan(static_cast<std::size_t>(y) * width, width));

@@ -104,17 +104,16 @@ Behind behind_surfaces(TraceContext& context, const PathRays& rays, const PathHi
   behind.color = surfaces.groups[group].phong.color;
   for_each_ray(lanes, [&](std::size_t lane) {
     const std::size_t ray = group * lane_count + lane;
-    const auto i = static_cast<int>(lane);
     Passage passage{context, rays, ray, hits.hits[ray], surfaces.of(ray)};
-    behind.index_before[i] = refractive_index(data, passage.lists, passage.media);
+    behind.index_before[lane] = refractive_index(data, passage.lists, passage.media);
     if (passage.hit.has_coincident) {
       pass_coincident(passage);
       behind.color.set(lane, passage.color);
     } else if (data.is_solid(passage.hit)) {
       cross(passage, passage.hit);
     }
-    behind.transparency[i] = passage.transparency;
-    behind.index_behind[i] = refractive_index(data, passage.lists, passage.media);
+    behind.transparency[lane] = passage.transparency;
+    behind.index_behind[lane] = refractive_index(data, passage.lists, passage.media);
     behind.media[lane] = passage.media;
   });
   return behind;

@@ -1,4 +1,5 @@
-// The picture while it is being rendered: tiles come in from any thread, and anyone may look.
+// A Canvas is the picture while it is being rendered. Tiles come in from any thread, and anyone may
+// look.
 #pragma once
 
 #include <algorithm>
@@ -14,7 +15,7 @@
 
 namespace crt::core {
 
-/// A channel as the image's floats hold it: finite.
+/// Returns a channel as the image's floats hold it, which is finite.
 inline float finite_float(double value) {
   constexpr double largest = std::numeric_limits<float>::max();
   return static_cast<float>(std::clamp(value, -largest, largest));
@@ -32,7 +33,7 @@ struct PlacedPixel {
 
 class Canvas {
  public:
-  /// All transparent black.
+  /// Makes a canvas that is all transparent black.
   Canvas(const Region& region, const Settings& settings);
 
   const Region& region() const { return region_; }
@@ -42,18 +43,18 @@ class Canvas {
 
   /// Puts in single pixels of the region.
   void put(std::span<const PlacedPixel> pixels);
-  /// Makes margin for what there is beside colours; before the first tile. Throws Error
+  /// Adds the channels for AOVs. It must be called before the first tile. Throws Error
   /// (out_of_memory).
   void add_channels(const Aovs& aovs) { core::add_channels(aovs, image_); }
-  /// Puts in what a tile has of it.
+  /// Puts in the AOVs of a tile.
   void put_aovs(const AovTile& tile);
 
   void set_stats(const RenderStats& stats);
 
-  /// The picture as it is now.
+  /// Returns the picture with what is done at the time.
   Image copy() const;
 
-  /// The picture, which is then no longer here. When all tiles are in.
+  /// Returns the picture and takes it from the canvas. All tiles must be in.
   Image take() { return std::move(image_); }
 
  private:

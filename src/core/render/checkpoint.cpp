@@ -22,13 +22,13 @@ namespace {
 
 constexpr std::string_view magic = "CRT checkpoint 4 of " CRT_VERSION "\n";
 
-// In seconds. The first is to be there after 10, with the time that writing a large one takes;
-// later on writing is to take a small part of the time, whatever the size.
+// These are in seconds. The first checkpoint is to be there after 10, with the time that writing a
+// large one takes. Later on writing is to take a small part of the time, whatever the size.
 constexpr double first_break = 5;
 constexpr double shortest_break = 10;
 constexpr double break_per_writing = 20;
 
-/// So many samples on each side tell one scene from another, if the picture has as many pixels.
+/// This many samples on each side distinguish scenes, if the picture has as many pixels.
 constexpr int probes_a_side = 32;
 
 template <class... T>
@@ -43,7 +43,7 @@ void add_settings(ByteHash& hash, const Settings& s) {
   if (s.compat != 0) add(hash, s.compat);
 }
 
-/// The light along rays through the middles of pixels that are broadcast over the region.
+/// Adds the light along rays through the middles of pixels that are distributed over the region.
 void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progress& progress,
                const StepRules& rules) {
   WorkspacePool pool(rules);
@@ -62,7 +62,8 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
     frame.camera().rays(count, places, std::span(lens_points).first(with_lens), rays);
     tracer.trace(rays, samples);
     for (const Sample& sample : samples) {
-      for (int channel = 0; channel < lane_count; ++channel) add(hash, sample.channels[channel]);
+      for (std::size_t channel = 0; channel < lane_count; ++channel)
+        add(hash, sample.channels[channel]);
     }
     count = 0;
   };
@@ -79,7 +80,7 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
   trace();
 }
 
-/// Whether there is surely no file. (Where the system does not tell, reading will say why.)
+/// Returns whether there is surely no file. If the system does not say, reading will say why.
 bool is_missing(const std::filesystem::path& path) {
   std::error_code ignored;
   return std::filesystem::status(path, ignored).type() == std::filesystem::file_type::not_found;
@@ -114,8 +115,8 @@ Checkpoint::Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Pa
       next_(begin + first_break) {}
 
 void Checkpoint::write() const {
-  // As long as nothing changes the picture, its counts and what is known of its pixels are of the
-  // same moment.
+  // While changes are held, the picture, its counts and what is known of its pixels are of the same
+  // moment.
   const auto hold = passes_.hold();
   const Image picture = canvas_.copy();
   const WorkspacePool::Counts counts = pool_.settled();
@@ -147,7 +148,7 @@ void Checkpoint::keep() noexcept {
 void Checkpoint::keep_if_due() noexcept {
   double due = next_;
   constexpr double never = std::numeric_limits<double>::infinity();
-  // The thread that is the first to see it.
+  // Only the first thread that sees that it is due writes.
   if (due <= seconds_() && next_.compare_exchange_strong(due, never)) keep();
 }
 

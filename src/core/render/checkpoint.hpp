@@ -1,4 +1,5 @@
-// A picture that is rendered pass by pass, kept in a file so that it can go on another time.
+// A checkpoint keeps a picture that is rendered pass by pass in a file, so that it can be continued
+// another time.
 #pragma once
 
 #include <atomic>
@@ -11,35 +12,34 @@
 
 namespace crt::core {
 
-/// Tells pictures apart: a number from the settings that it takes to go on, and from the light of
-/// some samples that belong to no pixel's own, whose rays go by `rules`. Throws Error (cancelled)
-/// if the progress says so.
+/// Returns a number that distinguishes pictures. It is computed from the settings that continuing
+/// takes, and from the light of some samples that belong to no pixel. Their rays are traced by
+/// `rules`. Throws Error (cancelled) if the progress says so.
 std::uint64_t fingerprint(const Frame& frame, const Region& region, bool with_first_hits,
                           Progress& progress, const StepRules& rules);
 
-/// Of a picture that nothing is known of yet: leaves a checkpoint from which any picture goes on,
-/// at its beginning, unless there is a file. Throws Error (io).
+/// Makes a checkpoint of a picture of which nothing is known, unless there is a file. Any picture
+/// can start from it. Throws Error (io).
 void leave_empty_checkpoint(const std::filesystem::path& path);
 
 class Checkpoint {
  public:
-  /// `begin` is when the render began. All but the path must outlive it.
+  /// `begin` is when the render began. All but the path must outlive the checkpoint.
   Checkpoint(std::filesystem::path path, std::uint64_t fingerprint, Passes& passes, Canvas& canvas,
              WorkspacePool& pool, const PassClock::Seconds& seconds, double begin);
 
-  /// Takes up what is in the file, if there is one; before the first pass. From then on the rest
-  /// can be called. Throws Error: io (the file cannot be read or is damaged), invalid_argument (it
-  /// is of another picture).
+  /// Continues from what is in the file, if there is one. It must be called before the first pass
+  /// and before the other functions. Throws Error: io (the file cannot be read or is damaged),
+  /// invalid_argument (it is of another picture).
   void take_up();
 
-  /// Writes what is known. What hinders it can be asked for afterwards. From any thread, at any
-  /// time before Passes::finish().
+  /// Writes what is known. take_complaint() returns what prevented it. It may be called from any
+  /// thread, at any time before Passes::finish().
   void keep() noexcept;
-  /// The same if it is time.
+  /// Writes what is known if it is due.
   void keep_if_due() noexcept;
 
-  /// Why nothing was written, if so, since this was last asked; "" if there is nothing to complain
-  /// of.
+  /// Returns why nothing was written since this was last asked, or "" if nothing failed.
   std::string take_complaint();
 
  private:
@@ -52,7 +52,7 @@ class Checkpoint {
   Canvas& canvas_;
   WorkspacePool& pool_;
   const PassClock::Seconds& seconds_;
-  std::atomic<double> next_;  ///< when it is time
+  std::atomic<double> next_;  ///< when it is due
   std::mutex writing_;
   std::mutex complaining_;
   std::string complaint_;

@@ -17,7 +17,7 @@ Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
   const Lanes error =
       roundings * unit_roundoff *
       fma(light.distances, largest_component(light.directions), largest_component(points));
-  return light.distances == std::numeric_limits<double>::infinity() ? Lanes{} : error;
+  return select(light.distances == std::numeric_limits<double>::infinity(), Lanes{}, error);
 }
 
 /// Lets shadow rays start at the surfaces that any light makes brighter.
@@ -45,7 +45,7 @@ RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask so
     lit &= source.sample(group.position, group.path_length, samples);
     lit &= dot(samples.directions, group.face_normal) > 0.0;
     direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
-    lit &= ~is_black(rays.light[i]);
+    lit &= !is_black(rays.light[i]);
     aimed |= mask_of(lit) << (i * lane_count);
     rays.batch.lines[i] = {group.position, samples.directions};
     rays.batch.t_max[i] = samples.distances;
@@ -86,7 +86,7 @@ void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& sur
     const RayMask filtered = paths.filtered | (unblocked & absorbed);
     RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
       VectorLanes& light = sum.colors[i];
-      light = chosen(lanes_with(lanes), light + shadow_rays.light[i], light);
+      light = select(lanes_with(lanes), light + shadow_rays.light[i], light);
     });
     for_each_ray(filtered, [&](std::size_t i) {
       const Rgb share = light_share(context.data, batch.ray(i), work.rays.on_paths[i],

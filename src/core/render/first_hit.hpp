@@ -1,4 +1,4 @@
-// What camera rays meet first: all that a picture tells of its pixels beside their colours.
+// First hits are what camera rays meet first. AOVs report them beside the pixels' colours.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,8 @@
 
 namespace crt::core {
 
-/// How a surface looks; all 0 where there is none. A pixel has the mean over its samples.
+/// A FirstHit says how a surface looks. All is 0 where there is none. A pixel has the mean over its
+/// samples.
 struct FirstHit {
   Vec3 normal{0, 0, 0};  ///< world, unit length, turned to the viewer and tilted by bumps
   Rgb color{0, 0, 0};    ///< the material's
@@ -24,7 +25,7 @@ struct FirstHit {
   }
 };
 
-/// Where a surface is, and whose. A pixel has those of the ray through its middle.
+/// A FirstPlace says where a surface is, and whose. A pixel has that of the ray through its middle.
 struct FirstPlace {
   double distance =
       std::numeric_limits<double>::infinity();  ///< from the ray's origin, in the world

@@ -12,8 +12,8 @@ namespace crt::core {
 
 namespace {
 
-/// Brings the solids around a ray's start, given by their exits, into the order in which the ray's
-/// line enters them; those that it enters at one place from the last one left to the first.
+/// Sorts the solids around a ray's start, given by their exits, by where the ray's line enters
+/// them. Solids that it enters at one place are sorted from the last one left to the first.
 void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<RayHit>& exits,
                    Workspace& work) {
   WorldRay back = ray;
@@ -37,7 +37,7 @@ void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<Ra
   for (std::size_t i = 0; i < solids.size(); ++i) exits[i] = solids[i].exit;
 }
 
-/// Whether there is a surface at a point, or so near that rounding may decide. It is looked for
+/// Returns whether there is a surface at a point, or so near that rounding may decide. It looks
 /// along three axes across each other, as a line along a surface does not meet it.
 bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work) {
   constexpr double relative_width = 0x1p-26;
@@ -108,7 +108,7 @@ void find_surrounding_media(const PreparedData& data, const WorldRay& ray, std::
       exits, [&](const RayHit& exit) { return data.materials()[data.hit_material(exit)].opaque; });
   if (exits.size() > most_media_at_once) exits.resize(most_media_at_once);
   if (exits.size() > 1) sort_by_entry(data, ray, exits, work);
-  // Each goes where it would be if the ray had come from outside of all.
+  // Each solid gets the place that it would have if the ray had come from outside of all.
   for (const RayHit& exit : exits) {
     auto place = out.end();
     const auto is_inside_of = [&](const Medium& around) {

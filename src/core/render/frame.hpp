@@ -1,5 +1,5 @@
-// What all rays of one render share: the prepared scene, and what is found out before the first
-// ray.
+// A Frame is what all rays of one render share: the prepared scene, and what is computed before the
+// first ray.
 #pragma once
 
 #include <vector>
@@ -23,17 +23,17 @@ class Frame {
   const Features& features() const { return data_.features(); }
   const CameraRays& camera() const { return camera_; }
   const FilterPlaces& filter() const { return filter_; }
-  /// A pixel's grid, row by row: where in (or around) the first pixel of the picture its samples
-  /// lie. So many, the last lanes may be of no use.
+  /// A pixel's grid says, row by row, where in (or around) the first pixel of the picture its
+  /// samples lie. The count is exact, and the last lanes may be unused.
   std::size_t subpixel_count() const { return subpixel_count_; }
   const std::vector<PicturePlaceLanes>& subpixels() const { return subpixels_; }
   const std::vector<PreparedLight>& lights() const { return lights_; }
 
-  /// What all lights together give every point.
+  /// Returns what all lights together give every point.
   const Rgb& ambient() const { return ambient_; }
 
-  /// Camera rays in the world. What is at their very start, to rounding, is passed: an eye on a
-  /// surface sees what is before it, or from within what is behind it.
+  /// Sets camera rays in the world. Surfaces at their very start, to rounding, count as passed. A
+  /// camera on a surface sees what is before it, or what is behind it from within.
   static void set_camera_rays(std::span<const RayLanes> camera_rays, RayBatch& rays) {
     for (std::size_t group = 0; group < camera_rays.size(); ++group) {
       rays.lines[group] = camera_rays[group];
@@ -42,12 +42,12 @@ class Frame {
     rays.with_starts = 0;
   }
 
-  /// What all the surfaces that a ray can still pass which goes on after so many bounces may
-  /// multiply its weight by.
+  /// Returns what all the surfaces may multiply the weight of a continuing ray by, which it can
+  /// still pass after so many bounces.
   double gain_behind(int bounces) const { return gains_behind_[static_cast<std::size_t>(bounces)]; }
 
-  /// Whether all camera rays start at one point off all surfaces, so that the same solids surround
-  /// them all; those are then camera_media(), the outermost first.
+  /// Returns whether all camera rays start at one point off all surfaces, so that the same solids
+  /// surround them all. Those are then camera_media(), the outermost first.
   bool one_viewpoint() const { return one_viewpoint_; }
   const std::vector<Medium>& camera_media() const { return camera_media_; }
 

@@ -1,4 +1,4 @@
-// Which hits of a few rays can be told of together.
+// Hits of a few rays can be looked up together if they are alike.
 #pragma once
 
 #include <cstdint>
@@ -9,7 +9,7 @@
 
 namespace crt::core {
 
-/// Rays whose hits are alike: all from the same side and of one material.
+/// AlikeRays are rays whose hits are alike: all from the same side and of one material.
 struct AlikeRays {
   RayMask on_face = 0;  ///< on the face that the first of them hits
   RayMask on_spheres =
@@ -18,26 +18,26 @@ struct AlikeRays {
   RayMask all() const { return on_face | on_spheres; }
 };
 
-/// The hits of as many rays as there are lanes.
+/// HitFaces has the hits of as many rays as there are lanes.
 class HitFaces {
  public:
   HitFaces(const PreparedData& data, std::span<const RayHit, lane_count> hits)
       : data_(data),
         hits_(hits),
-        faces_{of(hits[0]), of(hits[1]), of(hits[2]), of(hits[3])},
-        entering_{hits[0].entering, hits[1].entering, hits[2].entering, hits[3].entering} {}
+        faces_([&](auto lane) { return of(hits[lane]); }),
+        entering_([&](auto lane) { return std::uint64_t{hits[lane].entering}; }) {}
 
-  /// Of some rays those that are like the first of them.
+  /// Returns those of some rays that are like the first of them.
   AlikeRays alike(RayMask some) const {
     const RayHit& first = hits_[first_ray(some)];
-    const LaneMask like_first =
-        (faces_ == of(first)) & (entering_ == static_cast<std::int64_t>(first.entering));
-    const RayMask on_face = mask_of(like_first) & some;
+    const RayMask on_face =
+        mask_of(faces_ == of(first) && entering_ == std::uint64_t{first.entering}) & some;
     const RayMask others = some & ~on_face;
     return {on_face, others == 0 ? 0 : data_.on_spheres_like(first, hits_, others)};
   }
 
-  /// In object space where they are hit, each at its t. Of other rays the point is of no use.
+  /// Computes the points in object space where alike rays hit, each at its t. For other rays the
+  /// point means nothing.
   void object_points(const AlikeRays& alike, const RayLanes& lines, const Lanes& t, bool with_uv,
                      SurfacePointLanes& points) const {
     if (alike.on_spheres == 0) {
@@ -48,14 +48,12 @@ class HitFaces {
   }
 
  private:
-  static std::int64_t of(const RayHit& hit) {
-    return static_cast<std::int64_t>(std::uint64_t{hit.face} << 32 | hit.leaf);
-  }
+  static std::uint64_t of(const RayHit& hit) { return std::uint64_t{hit.face} << 32 | hit.leaf; }
 
   const PreparedData& data_;
   std::span<const RayHit, lane_count> hits_;
-  LaneMask faces_;
-  LaneMask entering_;
+  WordLanes faces_;
+  WordLanes entering_;
 };
 
 }  // namespace crt::core

@@ -1,4 +1,4 @@
-// Rays of queries, as users ask them and as they are followed.
+// Input rays are those that users pass to queries. They are converted to rays that can be traced.
 #pragma once
 
 #include <algorithm>
@@ -17,21 +17,22 @@
 
 namespace crt::core {
 
-/// Whether rays are valid, where that is seen at a glance. (What has too large a sum is not.)
+/// Returns whether rays are valid by a quick test. It is false also for valid rays with too large
+/// sums.
 template <class Real>
 MaskOf<Real> are_plainly_valid(const Vec3Of<Real>& origin, const Vec3Of<Real>& direction,
                                const Real& t_min, const Real& t_max) {
   const auto sum_of = [](const auto& v) { return abs(v.x) + abs(v.y) + abs(v.z); };
   const Real extent = sum_of(direction);
   const auto finite = sum_of(origin) + extent <= std::numeric_limits<double>::max();
-  return both(both(extent > 0.0, finite), either(t_min <= t_max, t_min > t_max));
+  return extent > 0.0 && finite && (t_min <= t_max || t_min > t_max);
 }
 
 inline bool is_plainly_valid(const Ray& ray) {
   return are_plainly_valid<double>(ray.origin, ray.direction, ray.t_min, ray.t_max);
 }
 
-/// Users' rays side by side.
+/// A UserRays has input rays side by side.
 struct UserRays {
   VectorLanes origin;
   VectorLanes direction;
@@ -42,10 +43,10 @@ struct UserRays {
     static_assert(std::is_standard_layout_v<Ray> && sizeof(Ray) == 2 * sizeof(Lanes));
     const auto half = [&](std::size_t begin) {
       const auto row = [&](std::size_t lane) {
-        Lanes numbers;
+        std::array<double, lane_count> numbers;
         std::memcpy(&numbers, reinterpret_cast<const std::byte*>(&rays[lane]) + begin,
                     sizeof numbers);
-        return numbers;
+        return lanes_at<Lanes>(numbers.data());
       };
       return transposed({row(0), row(1), row(2), row(3)});
     };
@@ -62,7 +63,7 @@ struct UserRays {
   }
 };
 
-/// Multiplies by a power of two, exactly wherever the result is a normal number.
+/// A PowerOfTwo is a factor. It multiplies exactly wherever the result is a normal number.
 class PowerOfTwo {
  public:
   PowerOfTwo() = default;
@@ -74,7 +75,7 @@ class PowerOfTwo {
     }
   }
 
-  /// The number, if it is a normal one; else 0.
+  /// Returns the number if it is a normal one, else 0.
   double factor() const { return factor_; }
 
   double operator*(double value) const {
@@ -85,11 +86,11 @@ class PowerOfTwo {
   }
 
  private:
-  double factor_ = 1;  ///< 0 where no normal number holds it; then the exponent tells it
+  double factor_ = 1;  ///< 0 where no normal number holds it, and the exponent does
   int exponent_ = 0;
 };
 
-/// That of a number's highest digit; x > 0.
+/// Returns the exponent of a number's highest digit; x > 0.
 inline int exponent_of(double x) {
   constexpr int bias = 1023;
   constexpr int fraction_bits = 52;
@@ -97,19 +98,19 @@ inline int exponent_of(double x) {
   return biased > 0 ? biased - bias : std::ilogb(x);
 }
 
-/// Rays within which there is no number for a t: where t is scaled finer numbers are, but none to
-/// tell.
+/// Returns which rays have no number between t_min and t_max. Where t is scaled there are finer
+/// numbers, but none that could be reported.
 template <class Real>
 MaskOf<Real> are_without_t(const Real& t_min, const Real& t_max) {
   return t_max - t_min == std::numeric_limits<double>::denorm_min();
 }
 
-/// Along a direction near length 1: beyond that a point may have no numbers, and there is no hit.
-/// Nor is there one beyond the largest t.
+/// Beyond this t, along a direction near length 1, a point may have no finite coordinates, and
+/// there is no hit. There is none beyond the largest t either.
 inline constexpr double farthest = 0x1p1022;
 
-/// Makes of the user's ray one that can be followed: its direction is brought near length 1 by a
-/// power of two, which makes any length safe and changes no digit of t; see users_t().
+/// Converts an input ray to one that can be traced. Its direction is brought near length 1 by a
+/// power of two, which makes any length safe and changes no digit of t. See users_t().
 inline void follow(const Ray& users, WorldRay& ray) {
   constexpr double largest = std::numeric_limits<double>::max();
   const int exponent = exponent_of(largest_component(users.direction));
@@ -122,8 +123,8 @@ inline void follow(const Ray& users, WorldRay& ray) {
   if (are_without_t(users.t_min, users.t_max)) ray.t_max = ray.t_min;
 }
 
-/// The same side by side, of valid rays that are not too long or short for that; else false. What
-/// shortens them is put into `to_users_t`.
+/// Converts valid input rays side by side. Returns false if one is too long or short for that. The
+/// factors that shorten them are put into `to_users_t`.
 inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lanes& to_users_t) {
   constexpr double largest = std::numeric_limits<double>::max();
   constexpr double longest = 0x1p1022;
@@ -139,21 +140,22 @@ inline bool follow(const UserRays& users, std::size_t group, RayBatch& rays, Lan
   return true;
 }
 
-/// Whether a t has all its digits still.
+/// Returns whether a t still has all its digits.
 template <class Real>
 MaskOf<Real> has_all_digits(const Real& users_t) {
   return abs(users_t) >= std::numeric_limits<double>::min();
 }
 
-/// The user's t of what the followed ray crosses at t + t_low. Next to 0, where numbers have fewer
-/// digits, it is rounded once more, but neither onto t_min nor onto t_max, between which it is.
+/// Returns the input ray's t of a crossing at t + t_low of the traced ray. Next to 0, where numbers
+/// have fewer digits, it is rounded once more. But it is rounded neither onto t_min nor onto t_max,
+/// between which it is.
 inline double users_t(const Ray& users, double t, double t_low) {
   const int exponent = exponent_of(largest_component(users.direction));
   double result = PowerOfTwo(-exponent) * t;
   if (has_all_digits(result)) return result;
   constexpr double step = std::numeric_limits<double>::denorm_min();
   constexpr double infinity = std::numeric_limits<double>::infinity();
-  // Halfway between two numbers t_low tells the nearer one.
+  // Halfway between two numbers t_low decides which is nearer.
   const PowerOfTwo lengthen(exponent);
   const double rest = t - lengthen * result;
   if (2 * std::abs(rest) == lengthen * step && rest * t_low > 0)

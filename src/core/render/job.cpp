@@ -28,7 +28,7 @@ class RenderJob::State {
     }
   }
 
-  /// Stops the job; its thread has ended after this unless it is the one that calls.
+  /// Stops the job. Its thread has ended after this unless it is the one that calls.
   void end() {
     rendering_.cancel();
     if (inside() == this) {
@@ -57,7 +57,7 @@ class RenderJob::State {
   core::Rendering& rendering() { return rendering_; }
 
  private:
-  /// The job whose callback this thread is in.
+  /// Returns the job whose callback this thread is in.
   static const State*& inside() {
     static thread_local const State* job = nullptr;
     return job;
@@ -74,9 +74,9 @@ class RenderJob::State {
     const State* before_;
   };
 
-  /// The options with callbacks that know whose they are, and as many threads as the arena of the
-  /// calling thread has if they do not say how many. (In that arena itself the place of the calling
-  /// thread would stay empty.)
+  /// Returns the options with callbacks that know whose they are. If they do not say how many
+  /// threads, they get as many as the arena of the calling thread has. In that arena itself the
+  /// place of the calling thread would stay empty.
   RenderOptions adapted(RenderOptions options) {
     options.threads = core::allowed_threads(options.threads);
     if (options.progress) {

@@ -1,4 +1,4 @@
-// The transparent solids around a ray.
+// Media are the transparent solids around a ray.
 #pragma once
 
 #include <cstdint>
@@ -6,22 +6,22 @@
 
 namespace crt::core {
 
-/// A transparent solid that a ray is inside of.
+/// A Medium is a transparent solid that a ray is inside of.
 struct Medium {
   std::uint32_t object = 0;
   std::uint32_t material = 0;  ///< of the surface through which it was entered
 };
 
-/// Lists of nested media, innermost first, that share their tails: a ray's list is one number, and
-/// a ray that goes on has a list of its own without a copy. Leaving a solid takes it out wherever
-/// it is in the list; media_order.hpp says where it goes when it is entered.
+/// MediaLists are lists of nested media, innermost first, that share their tails. A ray's list is
+/// one number, and a secondary ray has a list of its own without a copy. Leaving a solid takes it
+/// out wherever it is in the list. media_order.hpp says where it goes when it is entered.
 class MediaLists {
  public:
   using List = std::uint32_t;
   static constexpr List empty = 0xffffffffu;
 
-  /// `list` with one more medium around the ray, outside of the innermost ones of which
-  /// `is_inside_of(object)` is false. A solid is never in a list twice.
+  /// Returns `list` with one more medium around the ray. It is outside of those innermost ones for
+  /// which `is_inside_of(object)` is false. A solid is never in a list twice.
   template <class IsInsideOf>
   List entered(List list, const Medium& medium, const IsInsideOf& is_inside_of) {
     if (list == empty) return with(list, medium);
@@ -34,12 +34,12 @@ class MediaLists {
     return with_inner(with(outer, medium));
   }
 
-  /// The same with the new medium the innermost of all.
+  /// Returns `list` with one more medium, the innermost of all.
   List entered(List list, const Medium& medium) { return with(left(list, medium.object), medium); }
 
-  /// `list` without a solid; the same list if it is not in there.
+  /// Returns `list` without a solid, or the same list if it is not in there.
   List left(List list, std::uint32_t object) {
-    if (list != empty && innermost(list).object == object) return around(list);  // as most often
+    if (list != empty && innermost(list).object == object) return around(list);  // the usual case
     List found = list;
     inner_.clear();
     while (found != empty && nodes_[found].medium.object != object) {
@@ -54,7 +54,7 @@ class MediaLists {
     return list != empty;
   }
 
-  /// The innermost medium of a list that is not empty, and the list of those around it.
+  /// These are the innermost medium of a list that is not empty, and the list of those around it.
   const Medium& innermost(List list) const { return nodes_[list].medium; }
   List around(List list) const { return nodes_[list].around; }
 
@@ -68,7 +68,7 @@ class MediaLists {
     return static_cast<List>(nodes_.size() - 1);
   }
 
-  /// `list` with the media of inner_ inside of it.
+  /// Returns `list` with the media of inner_ inside of it.
   List with_inner(List list) {
     for (std::size_t i = inner_.size(); i > 0; --i) list = with(list, inner_[i - 1]);
     return list;

@@ -12,10 +12,10 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Crossings or nodes that are looked through one by one.
+/// At most so many crossings or nodes are looked through one by one.
 constexpr std::size_t few = 16;
 
-/// Of a node in the treap, as if by chance.
+/// Returns the priority of a node in the treap, which is a hash of its number.
 std::uint32_t priority(std::uint32_t node) {
   constexpr std::uint32_t factor = 0x9e3779b9u;  // 2^32 / the golden ratio
   const std::uint32_t mixed = (node + 1) * factor;
@@ -162,7 +162,7 @@ void MediaAlongRay::update_up(std::uint32_t node) {
   for (; node != nothing; node = nodes_[node].above) update(node);
 }
 
-/// Takes a node to where the one above it is, which goes below it.
+/// Moves a node to where the one above it is, which goes below it.
 void MediaAlongRay::lift(std::uint32_t node) {
   const std::uint32_t above = nodes_[node].above;
   link_to(above) = node;
@@ -215,7 +215,7 @@ void MediaAlongRay::insert_before(std::uint32_t place, std::uint32_t node) {
 
 void MediaAlongRay::remove(std::uint32_t node) {
   if (node == root_ && nodes_[node].left == nothing && nodes_[node].right == nothing) {
-    root_ = innermost_ = nothing;  // as most often
+    root_ = innermost_ = nothing;  // the usual case
     return;
   }
   if (node == innermost_) {

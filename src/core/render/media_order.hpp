@@ -1,8 +1,8 @@
-// Which of the solids around a ray decides.
+// This is the order of the solids around a ray. The innermost one decides what the ray is in.
 //
-// Of two solids the inner one is that whose stretch of the ray's line lies within the other's
-// stretch; if the spans are equal or merely overlap, the one written later is. That does not depend
-// on the sense in which the ray runs. The innermost decides.
+// The inner one of two solids is that whose span of the ray's line lies within the other's span. If
+// the spans are equal or merely overlap, it is the one written later. That does not depend on the
+// sense in which the ray runs.
 #pragma once
 
 #include <cstddef>
@@ -14,17 +14,17 @@
 
 namespace crt::core {
 
-/// Of more solids than this around one point, or entered at one place, the rest is left out: what
-/// many of them cost grows with the square of their number.
+/// If more solids than this are around one point, or are entered at one place, the rest is left
+/// out. Their cost grows with the square of their number.
 inline constexpr std::size_t most_media_at_once = 256;
 
-/// Whether crossings are at one place, be it at infinity.
+/// Returns whether crossings are at one place, which may be at infinity.
 inline bool same_end(const RayHit& a, const RayHit& b) {
   return a.t == b.t || same_place(a, b);
 }
 
-/// `list` once the ray has entered `medium`. `exit_of(object)` says where the ray's line leaves a
-/// solid; it is asked only if need be.
+/// Returns `list` once the ray has entered `medium`. `exit_of(object)` says where the ray's line
+/// leaves a solid. It is called only if it is needed.
 template <class ExitOf>
 MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, const Medium& medium,
                                   const ExitOf& exit_of) {
@@ -36,8 +36,8 @@ MediaLists::List entered_in_order(MediaLists& media, MediaLists::List list, cons
   });
 }
 
-/// Sorts by insertion, which needs no strict order: two ends that both are at one place with a
-/// third need not be so themselves.
+/// Sorts by insertion, which needs no strict order. If two ends are at one place with a third, they
+/// need not be at one place themselves.
 template <class Item, class ComesFirst>
 void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) {
   for (std::size_t i = 1; i < items.size(); ++i) {
@@ -47,7 +47,7 @@ void sort_by_insertion(std::vector<Item>& items, const ComesFirst& comes_first) 
   }
 }
 
-/// Brings solids that are entered at one place into the order in which to enter them.
+/// Sorts solids that are entered at one place by the order in which to enter them.
 template <class ExitOf>
 void sort_outermost_first(std::vector<RayHit>& entered, const ExitOf& exit_of) {
   if (entered.size() < 2) return;

@@ -8,7 +8,8 @@ namespace {
 
 using Statistics = PixelSamples::Statistics;
 
-/// Those of `count` places, `stride` apart, that are within reach of `place`.
+/// Returns the statistics of `count` places, `stride` apart, as far as they are within reach of
+/// `place`.
 Statistics statistics_around(const Statistics* row, std::size_t stride, std::size_t place,
                              std::size_t count, std::size_t reach) {
   const std::size_t last = std::min(place + reach, count - 1);
@@ -21,7 +22,7 @@ Statistics statistics_around(const Statistics* row, std::size_t stride, std::siz
 }  // namespace
 
 void keep_statistics_within(const Region& tile, int reach, std::span<PixelSamples> samples) {
-  // A square's statistics are those of its rows, and these those of the pixels in them.
+  // A square's statistics are those of its rows, and these are those of the pixels in them.
   std::array<Statistics, Tiles::most_pixels> seen;
   std::array<Statistics, Tiles::most_pixels> of_rows;
   const auto width = static_cast<std::size_t>(tile.width);

@@ -1,5 +1,6 @@
-// What the pixels of a tile see, and how those around them get to know it: within the tile while
-// its pixels are at hand, and beyond it when all tiles have told what is seen along their rims.
+// Neighbour statistics pass on what pixels see to those around them. Within a tile that is done
+// while its pixels are at hand. Beyond it it is done when all tiles have the statistics of their
+// halos.
 #pragma once
 
 #include <algorithm>
@@ -12,11 +13,10 @@
 
 namespace crt::core {
 
-/// Tells each pixel of a whole tile, row by row, what those of the tile have seen that are within
-/// reach.
+/// Gives each pixel of a whole tile, row by row, the statistics of the tile's pixels within reach.
 void keep_statistics_within(const Region& tile, int reach, std::span<PixelSamples> samples);
 
-/// The pixels of a tile that statistics reach from beyond it.
+/// A TileHalo has the pixels of a tile that statistics reach from beyond it.
 class TileHalo {
  public:
   TileHalo(const Region& tile, int reach) : tile_(tile), reach_(reach) {}
@@ -24,9 +24,9 @@ class TileHalo {
   bool has(int x, int y) const {
     return is_in_full_row(y) || x < tile_.x + reach_ || x >= tile_.x + tile_.width - reach_;
   }
-  /// Their statistics, of a whole tile row by row.
+  /// Returns the statistics of the halo's pixels, from those of a whole tile row by row.
   std::vector<PixelSamples::Statistics> statistics(std::span<const PixelSamples> samples) const;
-  /// Where among them those of one are.
+  /// Returns the index of a pixel among them.
   std::size_t index(int x, int y) const;
 
  private:

@@ -29,7 +29,7 @@ struct Split {
 /// Keeps directions on a side of the faces. A bump may send a ray to the wrong side, and it then
 /// bounces off the face once more.
 VectorLanes kept_on_side(const VectorLanes& direction, const VectorLanes& side) {
-  return chosen(dot(direction, side) < 0.0, mirrored(direction, side), direction);
+  return select(dot(direction, side) < 0.0, mirrored(direction, side), direction);
 }
 
 /// Finds the rays that go on from some of a group of surfaces.

@@ -1,4 +1,4 @@
-// From places of the picture to samples, a packet of camera rays at a time.
+// Places in the picture become samples, a packet of camera rays at a time.
 #pragma once
 
 #include <array>
@@ -8,13 +8,14 @@
 
 namespace crt::core {
 
-/// Places of the picture, and of the lens if there is one, that camera rays go through together.
+/// RayPlaces are places of the picture, and of the lens if there is one, of the camera rays of a
+/// packet.
 struct RayPlaces {
   std::array<PicturePlaceLanes, RayPacket::group_count> picture;
   std::array<LensPointLanes, RayPacket::group_count> lens;
 };
 
-/// Traces rays by packets.
+/// A PacketTracer traces rays by packets.
 class PacketTracer {
  public:
   PacketTracer(const Frame& frame, Tracer& tracer, bool with_first_hits)
@@ -27,7 +28,7 @@ class PacketTracer {
     std::span<const Sample> samples;
     std::span<const FirstHit> first_hits;  ///< none if nobody asks for them
   };
-  /// The first rays, so many.
+  /// Traces the first `count` rays.
   Traced trace(const RayPlaces& places, std::size_t count) {
     const std::size_t with_lens = with_lens_ ? places.lens.size() : 0;
     camera_.rays(count, places.picture, std::span(places.lens).first(with_lens), rays_);

@@ -15,21 +15,22 @@ namespace crt::core {
 
 namespace {
 
-/// Without a target error pixels go on until nobody could see the difference, be it in 10 bits.
+/// Without a target error pixels get samples until nobody could see the difference, even in 10
+/// bits.
 constexpr double finest_error = 0.25 / 255;
 
-/// Of what is left to be done at most, how much a doubling is taken for that may not be the last,
-/// and a pass.
+/// A doubling that may not be the last, or a pass, is taken for this share of what is left to be
+/// done at most.
 constexpr double share_of_doubling = 0.5;
 constexpr double share_of_pass = share_of_doubling / passes_per_step;
 
-/// How far statistics of what is seen are passed on, in pixels. Out of focus things fade over many
-/// pixels, of which each has few samples that hit them: more pixels together see what one
+/// Statistics of what is seen are passed on so far, in pixels. Out of focus things fade over many
+/// pixels, each of which has few samples that hit them. So more pixels together see what one
 /// overlooks.
 constexpr int reach_of_statistics = 1;
 constexpr int reach_of_statistics_with_lens = 2;
 
-/// The region and the pixels around it, but no others than those within `limits`.
+/// Returns the region and the pixels around it, as far as these are within `limits`.
 Region widened(const Region& region, int margin, const Region& limits) {
   const int left = std::max(region.x - margin, limits.x);
   const int top = std::max(region.y - margin, limits.y);
@@ -38,8 +39,8 @@ Region widened(const Region& region, int margin, const Region& limits) {
   return {left, top, right - left, bottom - top};
 }
 
-/// Calls use(y, begin, end) for what each row of an area has outside of a tile that is partly in
-/// it.
+/// Calls use(y, begin, end) for the parts of each row of an area that are outside of a tile, which
+/// is partly in the area.
 template <class Use>
 void for_each_beyond(const Region& area, const Region& tile, const Use& use) {
   const int right = area.x + area.width;
@@ -121,7 +122,7 @@ std::uint64_t Passes::samples_of(const Step& step) const {
 }
 
 void Passes::run(const TaskRunner& run_tasks) {
-  if (count_ > 0 && eighths_ == 0 && !is_within_step()) decide(run_tasks);  // what was taken up
+  if (count_ > 0 && eighths_ == 0 && !is_within_step()) decide(run_tasks);  // what was restored
   while (!active_.empty() && !is_complete()) {
     const Step step = next_step();
     const std::uint64_t samples = samples_of(step);
@@ -351,7 +352,7 @@ void Passes::find_half_widths(const Tile& tile, const Settling& how, const TileP
       return tile.samples[index].interval(has_more ? count_of_some : count_of_most);
     };
     const Lanes of_four = scale_.half_widths({interval(0), interval(1), interval(2), interval(3)});
-    for (std::size_t k = 0; k < count; ++k) half_widths[i + k] = of_four[static_cast<int>(k)];
+    for (std::size_t k = 0; k < count; ++k) half_widths[i + k] = of_four[k];
   }
 }
 

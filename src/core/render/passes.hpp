@@ -1,16 +1,16 @@
-// Rendering pass by pass: each gives the pixels that are not yet good enough some more samples.
+// Passes render a picture pass by pass: each pass gives the active pixels some more samples.
 //
 // After min_samples, and at each doubling from then on, all threads wait for each other, and it is
-// decided which pixels go on: those whose half-width is above the target error. What a pixel's
-// neighbours saw counts as well, but only in their first min_samples samples, which all pixels get.
-// So a decision depends on the samples of the pixel and on the first ones of its neighbours alone,
-// and a part of the picture is rendered like the whole if its margin, a pixel or two wide, gets the
-// first samples too.
+// decided which pixels stay active: those whose half-width is above the target error. What a
+// pixel's neighbours saw counts as well, but only in their first min_samples samples, which all
+// pixels get. So a decision depends only on the samples of the pixel and on the first ones of its
+// neighbours. A part of the picture is rendered like the whole if its margin, a pixel or two wide,
+// gets the first samples too.
 //
 // Where the first step brings all of min_samples, and nobody wants the picture before that, a
-// tile's pixels are decided on as soon as they are traced, while they are in the processor's
-// caches: all but those on its halo, which have neighbours in other tiles. Only these and those
-// that go on are kept.
+// tile's pixels are decided on as soon as they are traced. They are in the processor's caches then.
+// Only those on the tile's halo wait, as they have neighbours in other tiles. Only these and the
+// active ones are kept.
 #pragma once
 
 #include <array>
@@ -31,53 +31,54 @@
 
 namespace crt::core {
 
-/// Calls task(0) to task(count - 1), on several threads, with a workspace each; `share` is how much
-/// of the picture will be done after them.
+/// A TaskRunner calls task(0) to task(count - 1), on several threads, with a workspace each.
+/// `share` is how much of the picture will be done after them.
 using TaskRunner =
     std::function<void(std::size_t count, double share,
                        const std::function<void(std::size_t, Workspace&, Progress&)>& task)>;
 
-/// Whether settings and options ask for it, and not for the plain grid.
+/// Returns whether settings and options ask for passes, and not for the plain grid.
 bool asks_for_passes(const Settings& settings, int passes);
 
 class Passes {
  public:
-  /// `most_passes`: 0 for as many as it takes. All but the region must outlive it.
+  /// `most_passes` is 0 for as many as it takes. All but the region must outlive the passes.
   Passes(const Frame& frame, const Region& region, int most_passes, bool with_first_hits,
          PassClock& clock, Canvas& canvas);
 
-  /// Renders. Once; then finish() is to be called.
+  /// Renders. It is to be called once, and finish() after it.
   void run(const TaskRunner& run_tasks);
-  /// Takes leave of all pixels that are left.
+  /// Retires all pixels that are left.
   void finish(const TaskRunner& run_tasks);
 
-  /// Before run(): from now on goes from pass to pass, also where nothing is decided between them,
-  /// so that everything can be stored at any time, even if run() ends by an exception. What has
-  /// been counted for work that is kept is handed to `settle`, from any thread.
+  /// Makes everything storable at any time, even if run() ends by an exception. It must be called
+  /// before run(), which then goes from pass to pass, also where nothing is decided between them.
+  /// What has been counted for work that is kept is handed to `settle`, from any thread.
   void make_storable(std::function<void(Workspace&)> settle) { settle_counts_ = std::move(settle); }
-  /// Keeps all that can be stored, and what goes with it into the canvas and to `settle`, as it is.
+  /// Locks all that can be stored, with what goes with it into the canvas and to `settle`.
   std::unique_lock<std::shared_mutex> hold() const { return std::unique_lock(changing_); }
-  /// Everything that is known of the picture so far, while it is held; before finish().
+  /// Stores everything that is known of the picture. It must be held, and finish() not called yet.
   void store(StateWriter& out) const;
-  /// Takes it up before run(), in one that was made alike but for its clock and number of passes.
-  /// Throws Error: io for what cannot be, invalid_argument if there are more passes than wanted.
+  /// Restores what was stored, before run(). The passes must be made alike but for their clock and
+  /// number. Throws Error: io for what cannot be, invalid_argument if there are more passes than
+  /// wanted.
   void restore(StateReader& in);
 
   int passes() const;
   PixelMeasures take_measures() { return std::move(measures_); }
 
  private:
-  /// The pixels of a tile that are still worked on.
+  /// A Tile has the pixels of a tile that are active.
   struct Tile {
     Region region;
     std::span<PixelSamples> samples;   ///< from the first ones on
     std::vector<std::uint8_t> places;  ///< in a whole tile, row by row
-    /// Of what was seen on the halo, if the tile was decided on before the others told what they
-    /// saw.
+    /// These are the statistics of the halo, if the tile was decided on before the other tiles had
+    /// theirs.
     std::vector<PixelSamples::Statistics> halo;
     bool is_ahead = false;  ///< has had the step that others are still to have
   };
-  /// As long as one lives, what can be stored is changed by a thread; others may do so, too.
+  /// While a Change lives, its thread changes what can be stored. Other threads may do so, too.
   class Change {
    public:
     Change(Passes& passes, Workspace& work) : passes_(passes), work_(work) {
@@ -100,18 +101,18 @@ class Passes {
   };
   static Place place_of(const Tile& tile, std::size_t index);
   void store_tile(const Tile& tile, StateWriter& out) const;
-  /// Whether a step has been begun, and not ended.
+  /// Returns whether a step has been begun, and not ended.
   bool is_within_step() const;
   bool is_storable() const { return static_cast<bool>(settle_counts_); }
   bool has_samples(const Tile& tile) const { return count_ > 0 || tile.is_ahead; }
   void restore_tile(Tile& tile, StateReader& in);
   bool is_in_region(const Place& place) const;
-  /// Of one that is.
+  /// Returns the index of a place that is in the region.
   std::size_t index_of(const Place& place) const;
 
-  /// Where there may be some; after the first samples.
+  /// Marks the pixels where subpixel objects may be. It must be called after the first samples.
   void expect_subpixel_objects(Tile& tile) const;
-  /// Gives pixels of the ranks from `first` to before `last` the samples up to `until`.
+  /// Pixels of the ranks from `first` to before `last` get the samples up to `until` in a Step.
   struct Ranks {
     int first = 0;
     int last = passes_per_step;
@@ -129,25 +130,25 @@ class Passes {
   std::uint64_t samples_of(const Step& step) const;
   void trace(const TaskRunner& run_tasks, const Step& step);
   void trace_tile(Tile& tile, const Step& step, Tracer& tracer, Workspace& work);
-  /// Whether a tile's pixels are decided on as soon as the step has been traced.
+  /// Returns whether a tile's pixels are decided on as soon as the step has been traced.
   bool decides_at_once(const Step& step) const {
     return count_ == 0 && step.until == frame_.settings().min_samples && !is_storable();
   }
-  /// Takes leave of pixels inside a tile that are good enough, and finds a place for the others.
+  /// Retires pixels inside a tile that are good enough, and keeps the samples of the others.
   void decide_inside(Tile& tile, std::int64_t count, Workspace& work);
   void show(const Region& tile, std::span<const PixelPlace> pixels, const SampleCount& count);
   void show_some(std::span<const PixelPlace> pixels, const SampleCount& count);
-  /// What comes after each sample of all that are left.
+  /// Does what follows when all active pixels have got another sample.
   void decide(const TaskRunner& run_tasks);
-  /// Whether it is the time to ask which pixels are good enough.
+  /// Returns whether it is time to ask which pixels are good enough.
   bool is_doubled() const;
-  /// Tells the pixels what neighbours in other tiles have seen.
+  /// Passes statistics to pixels from their neighbours in other tiles.
   void exchange_statistics(const TaskRunner& run_tasks);
   void keep_statistics_from_beyond(Tile& tile) const;
-  /// What was seen, after the first samples of all, in pixels of a row of a tile, from one on to
-  /// another.
+  /// Gets the statistics of pixels in a row, from `begin` to before `end`, after all have their
+  /// first samples.
   void look_at(int y, int begin, int end, PixelSamples::Statistics* statistics) const;
-  /// Takes leave of the pixels that are good enough, at the end of all.
+  /// Retires the pixels that are good enough, or all of them at the end.
   void settle(const TaskRunner& run_tasks, bool at_end);
   enum class TilePart : std::uint8_t { whole, inside, halo };
   struct Settling {
@@ -161,7 +162,7 @@ class Passes {
     }
   };
   void settle_tile(Tile& tile, const Settling& how, Workspace& work);
-  /// Those of a tile's pixels that are in the region and in the part, by index.
+  /// TilePixels are those pixels of a tile that are in the region and in the part, by index.
   struct TilePixels {
     std::size_t count = 0;
     std::array<std::uint8_t, Tiles::most_pixels> indices;
@@ -188,8 +189,9 @@ class Passes {
   std::vector<bool> subpixel_objects_;  ///< the pixels where some may be; empty if there are none
   std::vector<Tile> tiles_;
   std::vector<std::size_t> active_;  ///< of the tiles
-  std::int64_t count_ = 0;           ///< samples of every pixel that is left
-  int eighths_ = 0;                  ///< of them, by rank, that have one more
+  std::int64_t count_ = 0;           ///< samples of every active pixel
+  int eighths_ = 0;                  ///< the eighths of the active pixels, by rank, that have one
+                                     ///< more
   double share_ = 0;
   PixelMeasures measures_;
   bool has_exchanged_statistics_ = false;

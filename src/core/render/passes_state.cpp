@@ -1,4 +1,4 @@
-// What is known of a picture between its passes, as a checkpoint keeps it.
+// A checkpoint keeps what is known of a picture between its passes.
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -22,13 +22,13 @@ void Passes::store_tile(const Tile& tile, StateWriter& out) const {
 void Passes::restore_tile(Tile& tile, StateReader& in) {
   tile.is_ahead = in.get<std::uint8_t>() != 0;
   const std::size_t count = in.get<std::uint16_t>();
-  // No pixel is left out before all have told what they see.
+  // No pixel is left out before all have exchanged their statistics.
   if (count > pixel_count(tile.region) ||
       (!has_exchanged_statistics_ && count < pixel_count(tile.region)))
     in.fail();
   tile.places.resize(count);
   in.get_all(std::span<std::uint8_t>(tile.places));
-  // Each pixel once, in its order, and in the tile.
+  // Each pixel must be there once, in its order, and in the tile.
   const bool in_order = std::adjacent_find(tile.places.begin(), tile.places.end(),
                                            std::greater_equal<>()) == tile.places.end();
   if (!in_order) in.fail();

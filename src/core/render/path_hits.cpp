@@ -64,10 +64,9 @@ const Surfaces& surfaces_of(TraceContext& context, const PathRays& rays, const P
     const std::size_t first = i * lane_count;
     const auto of_group = std::span(hits.hits).subspan(first).first<lane_count>();
     look_up(context.data, rays.batch.lines[i], of_group, lanes, group, context.work);
-    for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      group.path_length[static_cast<int>(lane)] =
-          rays.states[first + lane].path_length + of_group[lane].t;
-    }
+    const PathState* const states = &rays.states[first];
+    group.path_length =
+        Lanes([&](auto lane) { return states[lane].path_length + of_group[lane].t; });
   });
   return surfaces;
 }

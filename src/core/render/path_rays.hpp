@@ -10,7 +10,8 @@ namespace crt::core {
 
 /// A Sample is what comes along a camera ray.
 struct Sample {
-  Lanes channels{0, 0, 0, 1};  ///< red, green and blue, premultiplied with the last: alpha
+  /// They are red, green and blue, premultiplied with the last, alpha.
+  Lanes channels = lanes_of(0, 0, 0, 1);
   /// The weight of rays that were not followed, of the channel that lost most.
   double dropped = 0;
   std::uint64_t identity = 0;  ///< see sample_identity.hpp; 0 if nobody asks for it

@@ -1,4 +1,4 @@
-// Pixels by the plain grid.
+// These are pixels by the plain grid.
 #include "core/render/pixel.hpp"
 
 #include <algorithm>
@@ -11,11 +11,11 @@ namespace crt::core {
 
 namespace {
 
-/// What random numbers are drawn for.
+/// Random numbers are drawn for this.
 constexpr std::uint32_t lens_dimension = 0;
 
-/// The places of a tile along Morton's curve, which goes through a square quarter by quarter:
-/// packets of rays through pixels that follow each other keep together.
+/// A TilePlace is a place of a tile along Morton's curve, which goes through a square quarter by
+/// quarter. So packets of rays through consecutive pixels stay together.
 struct TilePlace {
   int x = 0;
   int y = 0;
@@ -31,11 +31,11 @@ constexpr auto tile_places = [] {
   return places;
 }();
 
-/// The rays of a grid through a tile: of one pixel after the other, for each of its subpixels those
-/// through points of the lens.
+/// GridRays are the rays of a grid through a tile, of one pixel after the other. Each subpixel has
+/// a ray for each point of the lens.
 class GridRays {
  public:
-  /// By ray of a packet, its pixel's place in the tile.
+  /// Pixels has, by ray of a packet, its pixel's place in the tile.
   using Pixels = std::array<std::uint32_t, packet_size>;
 
   GridRays(const Frame& frame, const Region& region, int lens_points)
@@ -44,7 +44,7 @@ class GridRays {
         lens_points_(static_cast<std::uint32_t>(lens_points)),
         rays_per_pixel_(static_cast<std::uint32_t>(frame.subpixel_count()) * lens_points_) {}
 
-  /// The next of them. Returns how many; at the end none.
+  /// Places the next rays. Returns how many, and none at the end.
   template <bool with_lens>
   std::size_t next(RayPlaces& places, Pixels& pixels) {
     std::size_t count = 0;
@@ -70,7 +70,7 @@ class GridRays {
   }
 
  private:
-  /// The next ray or, where that is easy, as many as there are lanes. Returns how many.
+  /// Places the next ray or, where that is easy, as many as there are lanes. Returns how many.
   template <bool with_lens>
   std::uint32_t place_some(int x, int y, RayPlaces& places, std::size_t count) {
     const std::size_t group = count / lane_count;
@@ -91,16 +91,16 @@ class GridRays {
     return 1;
   }
 
-  /// The rays of the next four pixels if each has one: they are a square. False if they are not all
-  /// in the region.
+  /// Places the rays of the next four pixels, a square, if each has one ray. Returns false if they
+  /// are not all in the region.
   bool place_square(RayPlaces& places, Pixels& pixels, std::size_t count) {
     if (rays_per_pixel_ > 1 || place_ == tile_places.size() || place_ % lane_count != 0)
       return false;
     const TilePlace& place = tile_places[place_];
     if (place.x + 1 >= region_.width || place.y + 1 >= region_.height) return false;
     const PicturePlaceLanes& middle = frame_.subpixels().front();
-    places.picture[count / lane_count] = {region_.x + place.x + Lanes{0, 1, 0, 1} + middle.x[0],
-                                          region_.y + place.y + Lanes{0, 0, 1, 1} + middle.y[0]};
+    places.picture[count / lane_count] = {region_.x + place.x + lanes_of(0, 1, 0, 1) + middle.x[0],
+                                          region_.y + place.y + lanes_of(0, 0, 1, 1) + middle.y[0]};
     const auto pixel = static_cast<std::uint32_t>(place.y * region_.width + place.x);
     const auto below = pixel + static_cast<std::uint32_t>(region_.width);
     const std::array<std::uint32_t, lane_count> square = {pixel, pixel + 1, below, below + 1};
@@ -109,7 +109,7 @@ class GridRays {
     return true;
   }
 
-  /// Of the next ray.
+  /// Returns the lens point of the next ray.
   LensPoint lens_point(int x, int y) {
     const std::size_t lane = ray_ % lane_count;
     if (lane == 0) {
@@ -126,17 +126,18 @@ class GridRays {
   Region region_;
   std::uint32_t lens_points_;  ///< 1 without a lens
   std::uint32_t rays_per_pixel_;
-  // Which comes next:
+  // These say which ray comes next:
   std::size_t place_ = 0;
   std::uint32_t ray_ = 0;  ///< of its pixel
-  /// Of this ray and the others of four.
+  /// These are the lens points of this ray and the others of four.
   LensPointLanes lens_points_of_rays_;
 };
 
-/// A pixel's sum is that of its subpixels' sums over the lens, in their order.
+/// GridSums adds up samples. A pixel's sum is that of its subpixels' sums over the lens, in their
+/// order.
 class GridSums {
  public:
-  /// Of first hits there may be no sums.
+  /// `first_hit_sums` may be empty.
   GridSums(int lens_points, std::span<PixelMean> sums, std::span<FirstHit> first_hit_sums)
       : lens_points_(lens_points), sums_(sums), first_hit_sums_(first_hit_sums) {}
 

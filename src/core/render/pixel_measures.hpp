@@ -1,4 +1,4 @@
-// What is known of a picture's pixels beside their colours when it has been rendered pass by pass.
+// When a picture has been rendered pass by pass, more is known of its pixels than their colours.
 #pragma once
 
 #include <cstdint>
@@ -8,7 +8,7 @@
 
 namespace crt::core {
 
-/// Rows from the top.
+/// PixelMeasures go by rows from the top.
 struct PixelMeasures {
   std::vector<std::uint32_t> samples;
   std::vector<float> half_widths;    ///< in display units; empty for the plain grid

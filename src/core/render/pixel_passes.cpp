@@ -1,4 +1,4 @@
-// Samples of pixels pass by pass.
+// Pixels get their samples pass by pass here.
 #include <algorithm>
 #include <memory>
 
@@ -11,7 +11,7 @@ namespace crt::core {
 
 namespace {
 
-/// The rays of passes: of one pixel after the other the samples of a range.
+/// PassRays are the rays of passes: the samples of a range of one pixel after the other.
 class PassRays {
  public:
   PassRays(const Frame& frame, std::span<const PixelPlace> pixels, const SampleRange& range)
@@ -26,7 +26,7 @@ class PassRays {
         first_window_begin_(are_few(end_ - begin_) ? begin_ / window_size * window_size : none),
         first_window_end_(std::min(end_, begin_ / window_size * window_size + window_size)) {}
 
-  /// The next of them. Returns how many; at the end none.
+  /// Places the next rays. Returns how many, and none at the end.
   std::size_t next(RayPlaces& places) {
     std::size_t count = 0;
     while (count < packet_size) {
@@ -50,8 +50,8 @@ class PassRays {
   }
 
  private:
-  /// So few points of a pixel that those of several are found faster together; of single ones none
-  /// are kept.
+  /// Returns whether a pixel has so few points that those of several pixels are found faster
+  /// together. Single points are not kept.
   static bool are_few(std::uint32_t samples) {
     return samples >= lane_count && samples <= packet_size;
   }
@@ -69,7 +69,8 @@ class PassRays {
     next_ = begin_;
   }
 
-  /// Those of the next four pixels, and the first points of each, which are found faster by many.
+  /// Finds the sequences of the next four pixels, and the first points of each, which is faster for
+  /// many.
   void find_sequences() {
     std::array<PixelSequence::Pixel, lane_count> pixels;
     for (std::size_t i = 0; i < lane_count; ++i) {
@@ -83,7 +84,7 @@ class PassRays {
     }
   }
 
-  /// The next of the pixel, up to so many groups. Returns how many rays they are.
+  /// Places the next rays of the pixel, up to so many groups. Returns how many rays they are.
   std::uint32_t place_groups(RayPlaces& places, std::size_t first, std::size_t groups) {
     const std::uint32_t begin = next_ % window_size;
     if (next_ - begin != window_begin_) {
@@ -122,17 +123,18 @@ class PassRays {
   std::uint32_t begin_;
   std::uint32_t end_;
   std::span<const PixelPlace> pixels_;
-  std::size_t pixel_ = 0;  ///< that comes after this one
+  std::size_t pixel_ = 0;  ///< the next pixel
   double x_ = 0;
   double y_ = 0;
   std::array<PixelSequence, lane_count>
       sequences_;            ///< of this pixel and its neighbours in the span
-  std::size_t of_four_ = 0;  ///< which of them is this one's
+  std::size_t of_four_ = 0;  ///< which of them is this pixel's
   std::uint32_t next_;       ///< sample of the pixel
-  // Points that have been found, if they are few the first ones of all these pixels:
+  // These are points that have been found. If they are few, they are the first ones of all these
+  // pixels.
   static constexpr std::uint32_t none = ~0u;
   static constexpr std::uint32_t window_size = PixelSequence::Window::size;
-  std::uint32_t first_window_begin_;  ///< none where they are not few
+  std::uint32_t first_window_begin_;  ///< `none` where they are not few
   std::uint32_t first_window_end_;
   std::uint32_t window_begin_ = none;
   std::uint32_t window_end_ = 0;
@@ -140,7 +142,7 @@ class PassRays {
   PixelSequence::Window* window_ = windows_.data();  ///< of this pixel
 };
 
-/// Hands on what samples of passes bring, step by step.
+/// PassSums adds up samples and hands them to the pixels, step by step.
 class PassSums {
  public:
   PassSums(std::span<const PixelPlace> pixels, const SampleRange& range)
@@ -220,12 +222,12 @@ class PassSums {
   std::size_t samples_per_pixel_;
   bool is_first_range_;
   const PixelSamples blank_;                ///< to be copied, which is faster than to be made
-  std::array<Step, most_steps + 1> steps_;  ///< of every pixel; none at their end
-  // Whose samples come next:
+  std::array<Step, most_steps + 1> steps_;  ///< of every pixel, with `none` at their end
+  // These say whose samples come next:
   const PixelPlace* pixel_;
-  std::size_t step_ = 0;      ///< that comes next, or of which there is a part
-  std::int64_t missing_ = 0;  ///< of its samples
-  Lanes sum_{};               ///< of the others
+  std::size_t step_ = 0;      ///< the next step, or the one of which there is a part
+  std::int64_t missing_ = 0;  ///< the samples of the step that are still to come
+  Lanes sum_{};               ///< the sum of the others
   SeenSamples seen_;          ///< of this pixel
   std::size_t hits_added_ = 0;
 };

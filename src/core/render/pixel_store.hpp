@@ -1,4 +1,4 @@
-// Memory for what is kept of all pixels' samples.
+// A PixelStore is memory for what is kept of all pixels' samples.
 #pragma once
 
 #include <atomic>
@@ -11,15 +11,15 @@
 
 namespace crt::core {
 
-/// In large pages where the system has them: to be given small ones takes as long as a few rays
-/// through each pixel. Nothing is written there, so that what is never taken costs nothing.
+/// It has large pages where the system offers them, as getting small ones takes as long as a few
+/// rays through each pixel. Nothing is written there, so what is never taken costs nothing.
 class PixelStore {
  public:
-  /// For so many pixels together. Throws std::bad_alloc.
+  /// Allocates for so many pixels together. Throws std::bad_alloc.
   explicit PixelStore(std::size_t count);
 
-  /// The samples of `count` pixels that nobody else has, which are to be constructed. From any
-  /// thread.
+  /// Returns the samples of `count` pixels that nobody else has. They are to be constructed. It may
+  /// be called from any thread.
   std::span<PixelSamples> take(std::size_t count) {
     return {samples_.get() + taken_.fetch_add(count, std::memory_order_relaxed), count};
   }

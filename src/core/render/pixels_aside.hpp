@@ -1,5 +1,5 @@
-// Pixels to which samples are added aside, so that what is known of them stays whole until all are
-// there: a checkpoint may be made in between, and a render may end.
+// PixelsAside adds samples to copies of pixels, so that what is known of them stays whole until all
+// samples are there. A checkpoint may be made in between, and a render may end.
 #pragma once
 
 #include <array>
@@ -14,9 +14,9 @@ namespace crt::core {
 
 class PixelsAside {
  public:
-  /// Has copies stand for what is kept of some pixels of a tile, in the places themselves and in
-  /// memory of the workspace, neither of which may be used for anything else until put_back().
-  /// `have_samples`: that they have some already.
+  /// Replaces what is kept of some pixels of a tile by copies, in the places themselves and in
+  /// memory of the workspace. Neither may be used for anything else until put_back().
+  /// `have_samples` says that the pixels have samples already.
   PixelsAside(std::span<PixelPlace> places, bool have_samples, Workspace& work) : places_(places) {
     work.pixel_samples.resize(Tiles::most_pixels);
     work.first_hits.resize(Tiles::most_pixels);
@@ -31,7 +31,7 @@ class PixelsAside {
     }
   }
 
-  /// Puts the copies where the originals are, and the places as they were.
+  /// Copies the copies back to the originals, and restores the places.
   void put_back() {
     for (std::size_t i = 0; i < places_.size(); ++i) {
       PixelPlace& place = places_[i];
@@ -43,7 +43,7 @@ class PixelsAside {
 
  private:
   std::span<PixelPlace> places_;
-  // The originals:
+  // These are the originals:
   std::array<PixelSamples*, Tiles::most_pixels> samples_;
   std::array<FirstHit*, Tiles::most_pixels> first_hits_;
 };

@@ -7,7 +7,7 @@ namespace crt::core {
 
 namespace {
 
-/// A share risen by this is news.
+/// A share is reported if it has grown by this.
 constexpr double news = 0.01;
 /// Without news the callback is called this often, for callers who want to cancel.
 constexpr std::chrono::milliseconds longest_silence{50};

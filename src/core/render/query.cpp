@@ -19,12 +19,12 @@ namespace core {
 
 namespace {
 
-/// What is not finite leaves no number when it is multiplied by 0.
+/// Returns whether a vector is finite. What is not finite becomes NaN when it is multiplied by 0.
 bool is_finite(const Vec3& v) {
   return v.x * 0 + v.y * 0 + v.z * 0 == 0;
 }
 
-/// One query.
+/// A Query is a single ray query.
 class Query {
  public:
   Query(const PreparedData& data, const Ray& ray, RayWorkspace& work)
@@ -90,9 +90,9 @@ auto answered(const Ask& ask) {
   }
 }
 
-/// Rays that one thread answers at a stretch: enough to outweigh handing them out.
+/// One thread answers at least so many rays at once, which is enough to outweigh handing them out.
 constexpr std::size_t smallest_batch = 512;
-/// And so few that threads which are done early find others.
+/// Each thread gets about so many batches, so that threads which are done early find others.
 constexpr std::size_t batches_per_thread = 16;
 
 std::size_t batch_size(std::size_t count, int threads) {
@@ -151,7 +151,7 @@ class RayQueries::State {
     validate(ray);
     return {scene_.data(), ray, work_};
   }
-  /// Into the places of std::optional<Hit>, PlainHit, or Distances.
+  /// Writes answers into places of std::optional<Hit>, PlainHit, or Distances.
   template <class Answers>
   void intersect(std::span<const Ray> rays, const Answers& answers) {
     const core::FloatEnvironment ieee;

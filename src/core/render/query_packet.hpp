@@ -1,4 +1,4 @@
-// Queries of several rays, answered together.
+// Queries of several rays are answered together.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@
 
 namespace crt::core {
 
-/// At the user's t; where that is in the world a HitPoint says or a SurfacePoint.
+/// Makes a Hit at the input ray's t. `point` is a HitPoint or a SurfacePoint in the world.
 template <class Point>
 Hit described(double t, const Point& point, std::uint32_t entity_id, bool entering) {
   return {.t = t,
@@ -29,7 +29,7 @@ Hit described(double t, const Point& point, std::uint32_t entity_id, bool enteri
           .entering = entering};
 }
 
-/// Where distances are told, and of what, if anybody asks.
+/// Distances are where distances are written, and the ids of what was hit, if anybody asks.
 struct Distances {
   std::span<double> t;
   std::span<std::uint32_t> ids;
@@ -40,19 +40,20 @@ struct Distances {
   }
 };
 
-/// Up to packet_size queries at a time, asked together if they go nearly the same way.
+/// A QueryPacket has up to packet_size queries at a time. They are answered together if their
+/// directions are nearly the same.
 class QueryPacket {
  public:
   QueryPacket(const PreparedData& data, RayWorkspace& work) : data_(data), work_(work) {}
 
-  /// `next` are to be taken after them: they come from memory meanwhile.
+  /// Takes rays. `next` are to be taken after them, and are prefetched meanwhile.
   void take(std::span<const Ray> rays, std::span<const Ray> next) {
     users_ = rays;
     count_ = rays.size();
     rays_.with_starts = 0;
     std::size_t done = 0;
     for (; done + lane_count <= count_; done += lane_count) {
-      // As many as are taken: all at once would be more than can be on their way.
+      // As many are prefetched as are taken, as all at once would be more than can be under way.
       const std::size_t end = std::min(next.size(), done + lane_count);
       for (std::size_t i = done; i < end; ++i) __builtin_prefetch(&next[i]);
       const auto group = rays.subspan(done).first<lane_count>();
@@ -61,7 +62,7 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  /// An answer is an std::optional<Hit> or a PlainHit.
+  /// Finds nearest hits. An answer is an std::optional<Hit> or a PlainHit.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
@@ -75,7 +76,7 @@ class QueryPacket {
     }
   }
 
-  /// Answers are columns.
+  /// Finds nearest hits, with answers in columns.
   void nearest(const Distances& answers) {
     FirstLeaves leaves;
     const bool are_told = data_.first_leaves(rays_, all(), leaves);
@@ -101,7 +102,7 @@ class QueryPacket {
  private:
   RayMask all() const { return RayPacket::all(count_); }
 
-  /// Those from `first` on side by side; false if that does not do for some.
+  /// Takes rays from `first` on side by side. Returns false if that is not possible for some.
   bool take_group(std::span<const Ray, lane_count> rays, std::size_t first) {
     const UserRays users(rays);
     Lanes factors;
@@ -117,21 +118,22 @@ class QueryPacket {
       WorldRay ray;
       follow(rays[i], ray);
       const PowerOfTwo shorten(-exponent_of(largest_component(rays[i].direction)));
-      to_users_t_[index / lane_count][static_cast<int>(index % lane_count)] = shorten.factor();
+      to_users_t_[index / lane_count][index % lane_count] = shorten.factor();
       rays_.set(index, ray);
     }
   }
 
-  /// How far `count` rays from `first` on are from what they have found, and what that is.
+  /// Finds the distances of the hits of `count` rays from `first` on, and what was hit.
   void find_distances(std::size_t first, std::size_t count) {
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
-    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
-    // What has found nothing is nowhere.
+    const Lanes t = lanes_of(group[0].t, group[1].t, group[2].t, group[3].t);
+    // A ray that has found nothing has an infinite t.
     const RayMask found =
         mask_of(t < std::numeric_limits<double>::infinity()) & RayPacket::all(count);
     set_distances(first / lane_count, t, found, [&](std::size_t lane) { return group[lane].leaf; });
   }
-  /// The same of the crossings of a group with leaf_of(lane), at the followed rays' t.
+  /// Sets the distances of a group's hits, at the traced rays' t. leaf_of(lane) is the leaf that
+  /// was hit.
   template <class LeafOf>
   void set_distances(std::size_t group, const Lanes& t, RayMask found, const LeafOf& leaf_of) {
     found_ = found;
@@ -139,28 +141,27 @@ class QueryPacket {
     const Lanes& factors = to_users_t_[group];
     t_ = factors * t;
     for_each_ray(found & ~mask_of(has_all_digits(t_)), [&](std::size_t lane) {
-      const auto i = static_cast<int>(lane);
       const std::size_t index = group * lane_count + lane;
-      t_[i] = users_t(users_[index], t[i], hits_[index].t_low);
+      t_[lane] = users_t(users_[index], t_[lane], hits_[index].t_low);
     });
     const auto id = [&](std::size_t lane) {
       return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));
     };
-    ids_ = IntLanes{id(0), id(1), id(2), id(3)};
+    ids_ = lanes_of<IntLanes>(id(0), id(1), id(2), id(3));
   }
   void find_sides(std::size_t first) {
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const HitSide side = hits_[first + lane].entering ? HitSide::entering : HitSide::leaving;
-      sides_[static_cast<int>(lane)] = static_cast<std::int32_t>(side);
+      sides_[lane] = static_cast<std::int32_t>(side);
     }
   }
 
-  /// Where that is, of hits that are alike side by side.
+  /// Finds the points of the hits. Those of hits that are alike are found side by side.
   void find_points(std::size_t first) {
     if (found_ == 0) return;
     const std::span<const RayHit, lane_count> group(&hits_[first], lane_count);
     const RayLanes& lines = rays_.lines[first / lane_count];
-    const Lanes t = {group[0].t, group[1].t, group[2].t, group[3].t};
+    const Lanes t = lanes_of(group[0].t, group[1].t, group[2].t, group[3].t);
     const HitFaces faces(data_, group);
     for (RayMask to_come = found_; to_come != 0;) {
       const AlikeRays alike = faces.alike(to_come);
@@ -170,41 +171,41 @@ class QueryPacket {
       to_come &= ~alike.all();
       if (&points == &points_) continue;
       const LaneMask lanes = lanes_with(alike.all());
-      points_.position = chosen(lanes, points.position, points_.position);
-      points_.normal = chosen(lanes, points.normal, points_.normal);
-      points_.u = lanes ? points.u : points_.u;
-      points_.v = lanes ? points.v : points_.v;
+      points_.position = select(lanes, points.position, points_.position);
+      points_.normal = select(lanes, points.normal, points_.normal);
+      points_.u = select(lanes, points.u, points_.u);
+      points_.v = select(lanes, points.v, points_.v);
     }
   }
 
   void tell(std::span<std::optional<Hit>> answers) const {
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
-      const auto i = static_cast<int>(lane);
       if ((found_ >> lane & 1u) == 0) {
         answers[lane].reset();
       } else {
-        const bool entering = sides_[i] == static_cast<std::int32_t>(HitSide::entering);
-        answers[lane] =
-            described(t_[i], lane_of(points_, lane), static_cast<std::uint32_t>(ids_[i]), entering);
+        const bool entering = sides_[lane] == static_cast<std::int32_t>(HitSide::entering);
+        answers[lane] = described(t_[lane], lane_of(points_, lane),
+                                  static_cast<std::uint32_t>(ids_[lane]), entering);
       }
     }
   }
 
-  /// By whole vectors.
+  /// Writes answers by whole vectors.
   void tell(std::span<PlainHit> answers) const {
     static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 &&
                   offsetof(PlainHit, u) == 32);
     static_assert(offsetof(PlainHit, v) == 40 && offsetof(PlainHit, entity_id) == 48 &&
                   offsetof(PlainHit, side) == 52);
     const LaneMask found = lanes_with(found_);
-    const auto told = [&](const Lanes& value) { return found ? value : Lanes{}; };
+    const auto told = [&](const Lanes& value) { return select(found, value, Lanes{}); };
     const auto heads = transposed(
         {told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
-    // Each with its side behind it.
-    using Pairs = std::int32_t __attribute__((vector_size(32)));
-    const Pairs ids_and_sides = __builtin_shufflevector(ids_, sides_, 0, 4, 1, 5, 2, 6, 3, 7);
+    // Each id has its side behind it.
+    constexpr std::uint64_t lower_half = 0xffffffffu;
+    const WordLanes ids_and_sides = (stdx::static_simd_cast<WordLanes>(ids_) & lower_half) |
+                                    stdx::static_simd_cast<WordLanes>(sides_) << 32;
     const auto tails = transposed(
-        {told(points_.u), told(points_.v), told(reinterpret_cast<Lanes>(ids_and_sides)), Lanes{}});
+        {told(points_.u), told(points_.v), told(bits_as<Lanes>(ids_and_sides)), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
@@ -219,7 +220,7 @@ class QueryPacket {
     put(t, answers.t);
     if (!answers.ids.empty()) put(ids, answers.ids);
   }
-  /// A number for each lane, or for the first of them; to as many as there are mostly.
+  /// Writes a number for each lane, or for the first of them. The first case is the usual one.
   template <class Numbers, class Number>
   static void put(const Numbers& lanes, std::span<Number> places) {
     if (places.size() == lane_count) {
@@ -230,7 +231,7 @@ class QueryPacket {
   }
 
   Lanes told_t() const {
-    return lanes_with(found_) ? t_ : lanes_of(std::numeric_limits<double>::infinity());
+    return select(lanes_with(found_), t_, lanes_of(std::numeric_limits<double>::infinity()));
   }
 
   const PreparedData& data_;
@@ -238,12 +239,13 @@ class QueryPacket {
   std::span<const Ray> users_;
   std::size_t count_ = 0;
   RayBatch rays_;
-  /// Turns a t of the rays into the user's where that has all its digits; 0 where no number does.
+  /// These turn a t of the rays into the input rays' t if that has all its digits. A factor is 0
+  /// where no number holds it.
   std::array<Lanes, packet_size / lane_count> to_users_t_{};
   std::array<RayHit, packet_size> hits_;
-  // Of a group of rays, by lane, those that have found something:
+  // These are of a group of rays, by lane, for those that have found something:
   RayMask found_ = 0;
-  Lanes t_{};  ///< the user's
+  Lanes t_{};  ///< the input rays'
   SurfacePointLanes points_;
   SurfacePointLanes others_;  ///< of hits that are not alike
   IntLanes ids_{};

@@ -22,7 +22,7 @@ namespace crt::core {
 
 namespace {
 
-/// The part of the picture that the options ask for, checked.
+/// Returns the part of the picture that the options ask for, checked.
 Region chosen_region(const RenderOptions& options, const Settings& settings) {
   if (!options.region) return {0, 0, settings.width, settings.height};
   const Region& region = *options.region;
@@ -82,7 +82,7 @@ Rendering::Rendering(const PreparedData& data, RenderOptions options, PassClock:
              .poll = [this] { progress_.poll_in_ray(); }},
       seconds_(std::move(seconds)) {
   if (is_any(options_.aovs)) canvas_.add_channels(options_.aovs);
-  allowed_threads(options_.threads);  // throws for a number that is none
+  allowed_threads(options_.threads);  // throws for an invalid number
   check_passes(options_, settings_, canvas_.region());
 }
 
@@ -117,7 +117,7 @@ void Rendering::trace_tile(const Frame& frame, const Region& tile, Tracer& trace
 
 void Rendering::run(std::size_t count, WorkspacePool& pool,
                     const std::function<void(std::size_t, Workspace&, Progress&)>& task) {
-  // Once a task has failed the others end as if cancelled: what counts is what failed first.
+  // Once a task has failed, the others end as if cancelled. The first failure is the one reported.
   std::atomic_flag failed;
   std::exception_ptr failure;
   try {

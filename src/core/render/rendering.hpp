@@ -1,4 +1,5 @@
-// One render from its options to its picture: what render() does at once and RenderJob follows.
+// A Rendering is one render from its options to its picture. render() runs it at once, and a
+// RenderJob follows it.
 #pragma once
 
 #include <string>
@@ -15,24 +16,24 @@ namespace crt::core {
 
 class Rendering {
  public:
-  /// Checks the options; throws Error (invalid_argument, limit, out_of_memory). `data` must outlive
-  /// it. `seconds` is what a time budget goes by, and when a checkpoint is due.
+  /// Checks the options. Throws Error (invalid_argument, limit, out_of_memory). `data` must outlive
+  /// the rendering. `seconds` is the clock for a time budget, and for when a checkpoint is due.
   Rendering(const PreparedData& data, RenderOptions options,
             PassClock::Seconds seconds = steady_seconds);
 
-  /// Renders on this thread and those that the options allow. Once. Throws Error: cancelled,
-  /// out_of_memory.
+  /// Renders on this thread and those that the options allow. It is to be called once. Throws
+  /// Error: cancelled, out_of_memory.
   void run();
 
-  /// The picture, which is then no longer here. After run().
+  /// Returns the picture and takes it from the rendering. It is to be called after run().
   Image take() { return canvas_.take(); }
 
-  /// What is known of each of its pixels. After run().
+  /// Returns what is known of each of its pixels. It is to be called after run().
   const PixelMeasures& measures() const { return measures_; }
 
-  // From any thread, before, during and after run():
+  // These may be called from any thread, before, during and after run():
 
-  /// The picture so far.
+  /// Returns the picture with what is done at the time.
   Image picture() const { return canvas_.copy(); }
   double share_done() const { return progress_.share(); }
   void cancel() { progress_.stop(); }
@@ -40,21 +41,23 @@ class Rendering {
  private:
   static double steady_seconds();
   RenderStats render_picture();
-  /// Leaves one however it ends.
+  /// Renders, and leaves a checkpoint however it ends.
   void run_with_checkpoint(const Frame& frame, Passes& passes, WorkspacePool& pool,
                            const TaskRunner& run_tasks, double begin);
-  /// Sees to it that there is one, of nothing if need be, when a render ends before it can be kept.
+  /// Makes sure that there is a checkpoint, an empty one if need be, when a render ends before one
+  /// can be kept.
   void leave_checkpoint() const;
-  /// Tells what kept a checkpoint from being written, unless it is "".
+  /// Logs what kept a checkpoint from being written, unless it is "".
   void tell_of_checkpoint(const std::string& complaint) const;
-  /// Tells what there is beside the colours of a picture that was rendered pass by pass.
+  /// Puts in the AOVs of a picture that was rendered pass by pass.
   void put_aovs(const Frame& frame, const TaskRunner& run_tasks);
   void render_grid(const Frame& frame, const TaskRunner& run_tasks);
   /// Runs tasks on the threads that the options allow.
   void run(std::size_t count, WorkspacePool& pool,
            const std::function<void(std::size_t, Workspace&, Progress&)>& task);
   void render_tile(const Frame& frame, const Region& tile, Workspace& work);
-  /// Its colours; what its pixels meet first goes into `first_hits`, if that has margin for them.
+  /// Renders the colours of a tile. What its pixels meet first goes into `first_hits`, unless that
+  /// is empty.
   void trace_tile(const Frame& frame, const Region& tile, Tracer& tracer,
                   std::span<FirstHit> first_hits, Workspace& work);
   void tell(const RenderStats& stats) const;

@@ -10,14 +10,14 @@ namespace crt::core {
 
 namespace {
 
-/// What the media along the ray absorb, between the crossings.
+/// An AbsorbedShare is what the media along the ray absorb between the crossings.
 class AbsorbedShare final : private MediaAlongRay::Line {
  public:
   AbsorbedShare(const PreparedData& data, const WorldRay& ray, std::span<const RayHit> crossings,
                 Workspace& work)
       : data_(data), ray_(ray), crossings_(crossings), work_(work), media_(work.media_along_ray) {}
 
-  /// Of a ray that starts within `media`.
+  /// Returns the share of light that is left for a ray that starts within `media`.
   Rgb share(const MediaLists& lists, MediaLists::List media) {
     media_.begin(crossings_, *this);
     for (; media != MediaLists::empty; media = lists.around(media))

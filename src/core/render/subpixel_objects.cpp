@@ -14,12 +14,12 @@ namespace crt::core {
 
 namespace {
 
-/// In pixels: what is at least as wide and as high is not small.
+/// What is at least as wide and as high in pixels is not small.
 constexpr double small_size = 1;
-/// What covers less of a pixel is not looked for, nor what is long and thinner.
+/// Objects that cover less of a pixel are not looked for, nor long and thinner ones.
 constexpr double least_area = 1.0 / 64;
 constexpr double least_width = least_area;
-/// What has a larger rectangle is long and seen askew.
+/// An object with a larger rectangle is long and seen askew.
 constexpr double most_pixels = 4096;
 
 struct Rectangle {
@@ -29,7 +29,8 @@ struct Rectangle {
   double bottom = 0;
 };
 
-/// Around where a box appears in the picture; nothing if part of it is behind the camera.
+/// Returns the rectangle around where a box appears in the picture, or nothing if part of it is
+/// behind the camera.
 std::optional<Rectangle> seen_rectangle(const CameraRays& camera, const Bounds& box) {
   std::optional<Rectangle> seen;
   for (unsigned corner = 0; corner < 8; ++corner) {
@@ -54,15 +55,15 @@ bool is_small(const Rectangle& seen) {
          (width + 1) * (height + 1) <= most_pixels;
 }
 
-/// A cheap test that spares most objects the other: whether a sphere inside the box is large
-/// enough.
+/// Returns whether a sphere inside the box is large enough. This cheap test spares most objects the
+/// other one.
 bool is_surely_large(const CameraRays& camera, const Bounds& box) {
   const Vec3 extents = 0.5 * (box.upper - box.lower);
   const double least = std::min({extents.x, extents.y, extents.z});
   return 2 * least * camera.least_pixels_per_unit(0.5 * (box.lower + box.upper)) > 2 * small_size;
 }
 
-/// The pixels of a region that small things may be seen in.
+/// Marks are the pixels of a region in which subpixel objects may be seen.
 class Marks {
  public:
   Marks(const CameraRays& camera, const Region& region) : camera_(camera), region_(region) {}
@@ -79,7 +80,7 @@ class Marks {
     }
   }
 
-  /// What is around a line, as far as it looks thin; false if it looks thin nowhere.
+  /// Adds what is around a line, as far as it looks thin. Returns false if it looks thin nowhere.
   bool add(const CoreSegment& line) {
     const Point from = point_at(line.from, line.from_reach);
     const Point to = point_at(line.to, line.to_reach);
@@ -91,7 +92,7 @@ class Marks {
   std::vector<bool> take() { return std::move(pixels_); }
 
  private:
-  /// Of a line.
+  /// A Point is a point of a line.
   struct Point {
     Vec3 position;
     double reach;
@@ -104,13 +105,14 @@ class Marks {
             camera_.place_of(position)};
   }
 
-  /// Whether all between two points is so wide. (The reach grows evenly along the line, and the
-  /// distance from the camera is convex: nothing in between looks thinner than both ends.)
+  /// Returns whether all between two points is too wide to count. The reach is linear along the
+  /// line, and the distance from the camera is convex. So nothing in between looks thinner than
+  /// both ends.
   static bool is_wide(const Point& from, const Point& to) {
     return std::min(from.width, to.width) >= small_size;
   }
 
-  /// The pixel of the region that is nearest to a place.
+  /// Returns the pixel of the region that is nearest to a place.
   static int inside(double place, int begin, int size) {
     return begin + static_cast<int>(std::clamp(std::floor(place) - begin, 0.0, size - 1.0));
   }
@@ -154,7 +156,8 @@ class Marks {
   std::vector<bool> pixels_;
 };
 
-/// The line through something long in the world; none if the object is not a single shape.
+/// Returns the line through something long in the world, or nothing if the object is not a single
+/// shape.
 std::optional<CoreSegment> core_segment_of(const CompiledScene& scene, const SceneObject& object) {
   if (object.is_csg()) return std::nullopt;
   const Leaf& leaf = scene.leaves[object.first_leaf];

@@ -1,5 +1,5 @@
-// Small things: what the first samples of a pixel may all miss, though it covers some of it. Where
-// such things are the scene tells: pixels in front of them get more samples from the start.
+// Subpixel objects may all be missed by the first samples of a pixel, though they cover some of it.
+// The scene shows where they are. Pixels in front of them get more samples from the start.
 #pragma once
 
 #include <vector>
@@ -9,9 +9,10 @@
 
 namespace crt::core {
 
-/// For each pixel of the region, rows from the top, whether an object that is less than a pixel
-/// high or wide may be seen there; empty if there is none. Mere surfaces do not count, as meshes
-/// are made of small ones. Nor does anything count with a lens, or what is seen in mirrors.
+/// Returns for each pixel of the region, rows from the top, whether an object that is less than a
+/// pixel high or wide may be seen there. It is empty if there is none. Surfaces without an inside
+/// do not count, as meshes are made of small ones. Nothing counts with a lens, or if it is seen in
+/// mirrors.
 std::vector<bool> subpixel_objects(const Frame& frame, const Region& region);
 
 }  // namespace crt::core

@@ -1,4 +1,4 @@
-// Surfaces that rays meet, side by side: what light needs to know of them, by component.
+// Surfaces that rays meet are kept side by side: what lighting needs to know of them, by component.
 #pragma once
 
 #include <array>
@@ -8,9 +8,10 @@
 
 namespace crt::core {
 
-/// As many surfaces as there are lanes. What lanes hold whose rays have met none is of no use.
+/// A SurfaceGroup has as many surfaces as there are lanes. Lanes whose rays have met none mean
+/// nothing.
 struct SurfaceGroup {
-  /// Of rays that leave to the viewer's side; but for their errors.
+  /// These are the starts of rays that leave to the viewer's side, but for their errors.
   std::array<StartPoint, lane_count> starts;
   VectorLanes position;
   Lanes start_errors{};     ///< StartPoint::t_error of rays that start there
@@ -22,7 +23,7 @@ struct SurfaceGroup {
   Lanes path_length{};     ///< from the camera
 };
 
-/// One of them.
+/// A SurfaceLane is one surface of a group.
 struct SurfaceLane {
   const SurfaceGroup& group;
   std::size_t lane;
@@ -30,16 +31,16 @@ struct SurfaceLane {
   Vec3 position() const { return group.position.lane(lane); }
   Vec3 normal() const { return group.phong.normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
-  double transparency() const { return group.transparency[static_cast<int>(lane)]; }
-  double path_length() const { return group.path_length[static_cast<int>(lane)]; }
+  double transparency() const { return group.transparency[lane]; }
+  double path_length() const { return group.path_length[lane]; }
 
-  /// Of a ray that leaves to the viewer's side.
+  /// Returns the start of a ray that leaves to the viewer's side.
   StartPoint start() const {
     StartPoint start = group.starts[lane];
-    start.t_error = group.start_errors[static_cast<int>(lane)];
+    start.t_error = group.start_errors[lane];
     return start;
   }
-  /// Of one that goes on behind the surface.
+  /// Returns the start of a ray that continues behind the surface.
   StartPoint start_behind() const {
     StartPoint behind = start();
     behind.side = opposite(behind.side);

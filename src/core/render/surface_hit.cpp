@@ -11,7 +11,8 @@ namespace crt::core {
 
 namespace {
 
-/// In the lanes that have their bit in `alike`; the points are in object space.
+/// Returns the colours of a material in the lanes that have their bit in `alike`. The points are in
+/// object space.
 ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointLanes& points,
                            RayMask alike, RenderStats& stats) {
   if (!material.pattern) return lanes_of(material.color);
@@ -19,7 +20,8 @@ ColorLanes material_colors(const PreparedMaterial& material, const SurfacePointL
   return material.pattern->colors(points, alike);
 }
 
-/// The outward normal in the world of a point in object space, tilted by the material's bumps.
+/// Returns the outward normal in the world of a point in object space, tilted by the material's
+/// bumps.
 Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial& material,
                    const SurfacePoint& point, Workspace& work) {
   const LuminanceGradient luminance =
@@ -30,7 +32,7 @@ Vec3 bumped_normal(const Leaf& leaf, std::uint32_t face, const PreparedMaterial&
   return tilted_normal(leaf.placement->normal_to_world(point.normal), height_gradient);
 }
 
-/// Rays of a group that hit one face, or spheres of one material, from the same side.
+/// AlikeHits are rays of a group that hit one face, or spheres of one material, from the same side.
 struct AlikeHits {
   std::span<const RayHit, lane_count> hits;
   const RayHit& first;
@@ -38,9 +40,9 @@ struct AlikeHits {
   RayMask rays;
   LaneMask lanes = lanes_with(rays);
 
-  void set(Lanes& values, const Lanes& value) const { values = lanes ? value : values; }
+  void set(Lanes& values, const Lanes& value) const { values = select(lanes, value, values); }
   void set(VectorLanes& values, const VectorLanes& value) const {
-    values = chosen(lanes, value, values);
+    values = select(lanes, value, values);
   }
 };
 
@@ -56,7 +58,8 @@ void set_material(const AlikeHits& alike, const VectorLanes& color, const Lanes&
   if (!alike.material.ends_paths) group.sending_on |= alike.rays;
 }
 
-/// The rays have those directions, the points are in object space.
+/// Sets the normals of bumped surfaces, seen along the rays' directions. The points are in object
+/// space.
 void set_bumped_normals(const PreparedData& data, const AlikeHits& alike,
                         const SurfacePointLanes& points, SurfaceGroup& group, Workspace& work) {
   const double to_viewer = alike.first.entering ? 1 : -1;
@@ -73,7 +76,7 @@ void set_bumped_normals(const PreparedData& data, const AlikeHits& alike,
 void look_up(const PreparedData& data, const RayLanes& rays,
              std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group,
              Workspace& work) {
-  const Lanes t = {hits[0].t, hits[1].t, hits[2].t, hits[3].t};
+  const Lanes t = lanes_of(hits[0].t, hits[1].t, hits[2].t, hits[3].t);
   group.phong.view = rays.direction;
   group.sending_on = 0;
   const HitFaces faces(data, hits);
@@ -115,10 +118,10 @@ CrossingFilter patterned_filter(const PreparedData& data, const WorldRay& ray,
 
 Rgb transmittance(const PreparedMaterial& medium, double length) {
   const Color& absorption = medium.description->absorption;
-  const Lanes by_channel = {absorption.r, absorption.g, absorption.b, 0};
-  // Of a channel without absorption everything is left, be the way infinite.
-  const Lanes left =
-      by_channel > 0.0 ? exponential2<Lanes>(-std::numbers::log2e * (by_channel * length)) : 1.0;
+  const Lanes by_channel = lanes_of(absorption.r, absorption.g, absorption.b, 0);
+  // A channel without absorption keeps everything, even if the path is infinite.
+  const Lanes left = select(by_channel > 0.0,
+                            exponential2<Lanes>(-std::numbers::log2e * (by_channel * length)), 1.0);
   return {left[0], left[1], left[2]};
 }
 

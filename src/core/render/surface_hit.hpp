@@ -1,4 +1,4 @@
-// Hits with their materials looked up.
+// The materials of hits are looked up here.
 #pragma once
 
 #include "core/render/surface_group.hpp"
@@ -6,14 +6,14 @@
 
 namespace crt::core {
 
-/// Looks up the places where those of a group of rays hit that have their bit in `seen`, with their
-/// materials' colours and bumps there.
+/// Looks up the hits of those rays of a group that have their bit in `seen`, with their materials'
+/// colours and bumps there.
 void look_up(const PreparedData& data, const RayLanes& rays,
              std::span<const RayHit, lane_count> hits, RayMask seen, SurfaceGroup& group,
              Workspace& work);
 
-/// What a crossing does to light that goes through it: it lets `transparency` of it pass, times
-/// `color`.
+/// A CrossingFilter is what a crossing does to light that goes through it: it lets `transparency`
+/// of it pass, times `color`.
 struct CrossingFilter {
   double transparency = 0;
   Rgb color{0, 0, 0};
@@ -27,7 +27,8 @@ inline CrossingFilter crossing_filter(const PreparedData& data, const WorldRay& 
   return {.transparency = material.transparency(material.color.a), .color = rgb(material.color)};
 }
 
-/// The share of light that is left after a way through a medium (Beer-Lambert).
+/// Returns the share of light that is left after a path of that length through a medium
+/// (Beer-Lambert).
 Rgb transmittance(const PreparedMaterial& medium, double length);
 
 }  // namespace crt::core

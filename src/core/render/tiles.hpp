@@ -1,4 +1,4 @@
-// A region of the picture cut into squares, the portions in which threads take work.
+// A region of the picture is cut into squares, the portions in which threads take work.
 #pragma once
 
 #include <algorithm>
@@ -12,13 +12,13 @@ inline std::size_t pixel_count(const Region& region) {
   return static_cast<std::size_t>(region.width) * static_cast<std::size_t>(region.height);
 }
 
-/// Whether the pixel at (x, y) of the picture is one of them.
+/// Returns whether the pixel at (x, y) of the picture is in a region.
 inline bool is_in(const Region& region, int x, int y) {
   return x >= region.x && x < region.x + region.width && y >= region.y &&
          y < region.y + region.height;
 }
 
-/// Which of a region's pixels, row by row from the top, is that at (x, y) of the picture.
+/// Returns the index of the pixel at (x, y) of the picture in a region, row by row from the top.
 inline std::size_t index_in(const Region& region, int x, int y) {
   return static_cast<std::size_t>(y - region.y) * static_cast<std::size_t>(region.width) +
          static_cast<std::size_t>(x - region.x);
@@ -26,8 +26,8 @@ inline std::size_t index_in(const Region& region, int x, int y) {
 
 class Tiles {
  public:
-  /// In pixels: enough rays to outweigh handing out the tile, few enough to keep all threads busy
-  /// to the end.
+  /// The side is in pixels. A tile has enough rays to outweigh handing it out, and few enough to
+  /// keep all threads busy to the end.
   static constexpr int side = 16;
   static constexpr std::size_t most_pixels = std::size_t{side} * side;
 
@@ -40,7 +40,7 @@ class Tiles {
     return static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_);
   }
 
-  /// Of the tile that a pixel of the region is in.
+  /// Returns the index of the tile that a pixel of the region is in.
   std::size_t index(int x, int y) const {
     const int column = (x - region_.x) / side;
     const int row = (y - region_.y) / side;
@@ -48,7 +48,8 @@ class Tiles {
            static_cast<std::size_t>(column);
   }
 
-  /// In picture coordinates; smaller at the right and lower edge where the region is.
+  /// Returns a tile in picture coordinates. It is smaller at the right and lower edge if the region
+  /// is.
   Region tile(std::size_t index) const {
     const int column = static_cast<int>(index % static_cast<std::size_t>(columns_));
     const int row = static_cast<int>(index / static_cast<std::size_t>(columns_));

@@ -27,7 +27,7 @@ void add_background(const TraceContext& context, const PathRays& rays, const Pat
     if (!is_seen_through) return;
     for_each_ray(lanes, [&](std::size_t lane) {
       Lanes& channels = rays.samples[group * lane_count + lane]->channels;
-      channels[3] = seen.alpha[static_cast<int>(lane)];
+      channels[3] = seen.alpha[lane];
     });
   });
   add(rays.samples, light);

@@ -13,7 +13,7 @@ void add_counts(WorkspacePool::Counts& total, const Workspace& workspace) {
   total.cutoff.add(workspace.cutoff);
 }
 
-/// Adds what a workspace has counted, which then begins anew.
+/// Adds what a workspace has counted, and resets its counts.
 void move_counts(WorkspacePool::Counts& total, Workspace& workspace) {
   add_counts(total, workspace);
   workspace.stats = {};

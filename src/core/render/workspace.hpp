@@ -1,4 +1,4 @@
-// What one thread works with: memory that it reuses from ray to ray, and its counts.
+// A Workspace is what one thread works with: memory that it reuses from ray to ray, and its counts.
 #pragma once
 
 #include <algorithm>
@@ -19,13 +19,13 @@ namespace crt::core {
 
 enum class RayKind : std::uint8_t { camera, reflection, refraction };
 
-/// What a ray has behind it.
+/// A PathState is what a ray has behind it.
 struct PathState {
   RayKind kind = RayKind::camera;
   int bounces = 0;         ///< before this ray
   double path_length = 0;  ///< from the camera to the ray's origin
   MediaLists::List media = MediaLists::empty;
-  /// MediaLists::mark() when it was put aside: lists made later are of no use to it.
+  /// This is the MediaLists::mark() when the ray was put aside. It needs no lists made later.
   std::uint32_t media_mark = 0;
 };
 
@@ -37,12 +37,12 @@ struct PathRay {
   PathState path;
 };
 
-/// A stack of rays that wait.
+/// A PathStack is a stack of rays that wait.
 class PathStack {
  public:
   bool empty() const { return count_ == 0; }
   void clear() { count_ = 0; }
-  /// A place on top, where there may have been another ray.
+  /// Returns a place on top, where there may have been another ray.
   PathRay& push() {
     if (count_ == places_.size()) places_.emplace_back();
     return places_[count_++];
@@ -56,19 +56,19 @@ class PathStack {
   std::size_t count_ = 0;
 };
 
-/// One of the samples that are traced side by side.
+/// A SampleWork is one of the samples that are traced side by side.
 struct SampleWork {
   MediaLists media;
   PathStack pending;  ///< what follows when that is done
-  int rays = 0;       ///< followed so far
+  int rays = 0;       ///< the number of rays followed
 };
 
-/// The weight of rays that were not followed, of some pixels.
+/// A CutoffSum is the weight of rays that were not followed, of some pixels.
 struct CutoffSum {
   static constexpr double unit = 0x1p-24;
   static constexpr double most_of_pixel = 256;
 
-  /// In units, so that the order does not matter.
+  /// The sum is in whole units, so that the order does not matter.
   std::uint64_t units = 0;
   double most = 0;
 
@@ -84,7 +84,7 @@ struct CutoffSum {
   double total() const { return unit * static_cast<double>(units); }
 };
 
-/// What all threads of a render count, each for itself.
+/// All threads of a render count these, each for itself.
 inline constexpr std::array summed_counts = {&RenderStats::camera_rays,
                                              &RenderStats::shadow_rays,
                                              &RenderStats::reflection_rays,
@@ -113,15 +113,15 @@ struct Workspace {
   MediaAlongRay media_along_ray;
   CrossingList scratch;
   SurfacePointLanes points;  ///< that are being looked up
-  // Of a tile's pixels, as long as they need not be kept, or are not whole.
+  // These are of a tile's pixels, while they need not be kept, or are not whole.
   std::vector<PixelSamples> pixel_samples;
   std::vector<FirstHit> first_hits;
 };
 
-/// The workspaces of a render: as many as there ever are tasks running at once.
+/// A WorkspacePool has the workspaces of a render: as many as there ever are tasks running at once.
 class WorkspacePool {
  public:
-  /// A workspace for as long as this lives.
+  /// A Loan is a workspace for as long as it lives.
   class Loan {
    public:
     explicit Loan(WorkspacePool& pool) : pool_(pool), workspace_(pool.take()) {}
@@ -136,26 +136,26 @@ class WorkspacePool {
     Workspace* workspace_;
   };
 
-  /// `rules` are for the rays of all of them; they must outlive the pool.
+  /// `rules` are for the rays of all of them. They must outlive the pool.
   explicit WorkspacePool(const StepRules& rules) : rules_(rules) {}
 
-  /// Sums of counts.
+  /// Counts are sums of counts.
   struct Counts {
     RenderStats stats;
     CutoffSum cutoff;
   };
 
-  /// All together; while nothing is on loan.
+  /// Returns all counts together. Nothing may be on loan.
   Counts total() const;
-  /// Takes these in place of all that has been counted; while nothing is on loan.
+  /// Replaces all that has been counted. Nothing may be on loan.
   void set_total(const Counts& counts);
 
-  /// Of work that is done for good: what a workspace has counted since then goes into that sum.
-  /// From the thread that has it.
+  /// Adds what a workspace has counted since the last time to the settled sum, for work that is
+  /// done for good. It is called from the thread that has the workspace.
   void settle(Workspace& workspace);
-  /// The same for all; while nothing is on loan.
+  /// Settles all workspaces. Nothing may be on loan.
   void settle_all();
-  /// What has been settled; from any thread.
+  /// Returns what has been settled. It may be called from any thread.
   Counts settled() const;
 
  private:

@@ -7,8 +7,8 @@ namespace crt::core {
 
 namespace {
 
-/// The share of the Blackman-Harris window up to x in [-1/2, 1/2], where the window ends. Source:
-/// Harris, On the use of windows for harmonic analysis with the discrete Fourier transform,
+/// Returns the share of the Blackman-Harris window up to x in [-1/2, 1/2], where the window ends.
+/// Source: Harris, On the use of windows for harmonic analysis with the discrete Fourier transform,
 /// Proceedings of the IEEE 66(1), 1978 (the minimum four-term window), integrated.
 double blackman_harris_share(double x) {
   constexpr double constant = 0.35875;
@@ -21,7 +21,7 @@ double blackman_harris_share(double x) {
   return integral / constant;
 }
 
-/// Where the share is reached. It rises throughout.
+/// Returns the x where the share is reached. The share increases with x throughout.
 double blackman_harris_quantile(double share) {
   double low = -0.5;
   double high = 0.5;

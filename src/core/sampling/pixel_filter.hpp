@@ -1,5 +1,6 @@
-// Pixel filters: where around a pixel's middle its samples lie. Places are drawn with the filter's
-// weight as their density, so that a pixel is the plain mean of its samples, whatever the filter.
+// A pixel filter says where around a pixel's middle its samples lie. Places are drawn with the
+// filter's weight as their density, so that a pixel is the plain mean of its samples, whatever the
+// filter.
 #pragma once
 
 #include <array>
@@ -15,8 +16,9 @@ class FilterPlaces {
   /// Takes the settings' filter and its width, which must be valid.
   explicit FilterPlaces(const Settings& settings);
 
-  /// For a number in [0, 1) the distance from the pixel's left (or upper) side, in pixels: in [0,
-  /// 1) for the box, also beside the pixel for wider filters. Rising with the number.
+  /// Returns the distance from the pixel's left (or upper) side, in pixels, for a number in [0, 1).
+  /// It is in [0, 1) for the box, and may be beside the pixel for wider filters. It increases with
+  /// the number.
   double operator()(double u) const {
     if (is_box_) return u;
     const double place = u * double{intervals};
@@ -26,14 +28,14 @@ class FilterPlaces {
   }
   Lanes operator()(const Lanes& u) const {
     if (is_box_) return u;
-    return Lanes{(*this)(u[0]), (*this)(u[1]), (*this)(u[2]), (*this)(u[3])};
+    return Lanes([&](auto lane) { return (*this)(double{u[lane]}); });
   }
 
  private:
   static constexpr std::size_t intervals = 1024;
 
   bool is_box_ = true;
-  /// The filter's quantiles.
+  /// These are the filter's quantiles.
   std::array<double, intervals + 1> places_{};
 };
 

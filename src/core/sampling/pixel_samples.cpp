@@ -15,18 +15,19 @@ bool all_equal(const Channels& a, const Channels& b) {
   return a[0] == b[0] && a[1] == b[1] && a[2] == b[2] && a[3] == b[3];
 }
 
-/// By degrees of freedom, from 1 on: what a mean must be divided by to lie within the quotient in
-/// 95 of 100 cases (Student, The probable error of a mean, Biometrika 6(1), 1908).
+/// These are the 97.5 % quantiles of Student's t, by degrees of freedom, from 1 on. A mean is
+/// within so many standard errors in 95 of 100 cases (Student, The probable error of a mean,
+/// Biometrika 6(1), 1908).
 constexpr std::array<double, 7> student_95 = {12.7062, 4.30265, 3.18245, 2.77645,
                                               2.57058, 2.44691, 2.36462};
 
-/// Of what is seen in and around a pixel, N samples may overlook this divided by N: see
+/// N samples may overlook this divided by N of what is seen in and around a pixel. See
 /// docs/trade.md.
 constexpr double overlooked_samples = 2;
-/// The same where the pixel itself shows one thing, in focus: of what its neighbours alone have
-/// seen.
+/// Where the pixel itself shows one thing, in focus, N samples may overlook this divided by N of
+/// what only its neighbours have seen.
 constexpr double overlooked_samples_of_neighbours = 1;
-/// What is taken for the contrast, on a display, of things that look alike where they were seen.
+/// This is taken for the contrast on a display of things that look alike where they were seen.
 constexpr double least_contrast_of_edges = 1.0 / 8;
 
 constexpr int alpha_channel = pixel_channels - 1;
@@ -41,7 +42,7 @@ Lanes DisplayScale::shown(const Lanes& values, int channel) const {
 
 Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& intervals) const {
   const auto& [a, b, c, d] = intervals;
-  Lanes widest = {a.least_shown, b.least_shown, c.least_shown, d.least_shown};
+  Lanes widest = lanes_of(a.least_shown, b.least_shown, c.least_shown, d.least_shown);
   const auto has_width = [](const MeanInterval& interval) {
     return any(interval.half_width != 0.0);
   };
@@ -50,7 +51,7 @@ Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& inte
   const std::array<Lanes, pixel_channels> means = transposed({a.mean, b.mean, c.mean, d.mean});
   const std::array<Lanes, pixel_channels> half_widths =
       transposed({a.half_width, b.half_width, c.half_width, d.half_width});
-  // A scale that rises ever less: with as much margin below nothing above is farther away.
+  // The scale is concave, so with as much margin below, nothing above is farther from the mean.
   LaneMask is_below = lanes_with(exponent_ <= 1 ? (1u << lane_count) - 1 : 0);
   for (std::size_t i = 0; i < means.size(); ++i) is_below &= means[i] - half_widths[i] >= 0.0;
   for (int channel = 0; channel < pixel_channels; ++channel) {
@@ -60,7 +61,7 @@ Lanes DisplayScale::half_widths(const std::array<MeanInterval, lane_count>& inte
     Lanes farthest = middle - shown(mean - half_width, channel);
     if (!all(is_below)) {
       const Lanes above = shown(mean + half_width, channel) - middle;
-      farthest = is_below ? farthest : max(above, farthest);
+      farthest = select(is_below, farthest, max(above, farthest));
     }
     widest = max(widest, farthest);
   }
@@ -76,7 +77,7 @@ SampleCount::SampleCount(std::int64_t count, bool with_lens)
                                                 : overlooked_samples_of_neighbours /
                                                       static_cast<double>(count)) {
   if (blocks_ < 2) return;
-  // The variance of a block's sum to that of the mean of as many blocks as there are.
+  // This brings the variance of a block's sum to that of the mean of as many blocks as there are.
   const auto block_size =
       static_cast<double>(std::int64_t{1} << PixelSamples::block_exponent(count));
   variance_divisor_ = static_cast<double>(blocks_ - 1) * block_size * static_cast<double>(count);
@@ -137,7 +138,7 @@ MeanInterval PixelSamples::interval(const SampleCount& count) const {
   const Lanes middle = count.full_blocks_.divide(sum);
   for (std::size_t b = blocks; b < block_count; ++b) sum += to_doubles(blocks_[b]);
   const Lanes means = count.samples_.divide(sum);
-  // A sample that is no number is neither low nor high, but leaves the largest mean there is.
+  // A NaN sample is neither the lowest nor the highest, but leaves the largest mean there is.
   const bool sees_one_colour = all_equal(low, high) && all(means <= 2 * to_doubles(high));
   if (!edge_ && !mixed_ && sees_one_colour) return {};
 

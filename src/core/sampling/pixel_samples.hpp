@@ -1,12 +1,12 @@
-// What is kept of a pixel's samples while more are to come: their sum, by blocks, and what tells
-// how far the mean may be from the truth.
+// A PixelSamples is what is kept of a pixel's samples while more are to come. That is their sums by
+// blocks, and what bounds how far the mean may be from the truth.
 //
-// How: the samples are one sequence cut into 4 to 8 blocks of equal length, each of which is
-// broadcast over the pixel as evenly as its length allows. Means of such blocks differ more than
-// independent estimates of the same quality as the whole would (together the blocks are broadcast
-// better than any one of them), so that the interval from their variance and Student's t covers the
-// truth more often than it says. Where the blocks agree by chance, or as the sampling is regular,
-// the floor below holds. See docs/design/sampling.md for what was measured.
+// The samples are one sequence, cut into 4 to 8 blocks of equal length. Each block is distributed
+// over the pixel as evenly as its length allows. Together the blocks are distributed better than
+// any one of them. So their means differ more than independent estimates of the quality of the
+// whole would. The interval from their variance and Student's t therefore covers the truth more
+// often than it claims. Where the blocks agree by chance, or as the sampling is regular, the
+// overlooked share below is the least half-width. docs/design/sampling.md has what was measured.
 #pragma once
 
 #include <algorithm>
@@ -20,11 +20,11 @@
 
 namespace crt::core {
 
-/// Red, green, blue, alpha.
+/// The channels are red, green, blue and alpha.
 inline constexpr int pixel_channels = lane_count;
 using Channels = FloatLanes;
 
-/// As floats, of which none is infinite.
+/// Rounds to floats, of which none is infinite.
 inline Channels rounded_channels(const Lanes& values) {
   const Lanes largest = lanes_of(std::numeric_limits<float>::max());
   return to_floats(min(max(values, -largest), largest));
@@ -32,15 +32,16 @@ inline Channels rounded_channels(const Lanes& values) {
 
 class PixelSamples;
 
-/// What some samples of a pixel show that follow each other, be they of several steps.
+/// A SeenSamples is what consecutive samples of a pixel show, from one step or from several.
 class SeenSamples {
  public:
   SeenSamples() = default;
-  /// Of those that come after what the pixel has; the first has that identity.
+  /// Takes the samples that come after those of the pixel. The first of them has the given
+  /// identity.
   SeenSamples(const PixelSamples& pixel, std::uint64_t first_identity);
 
   void add(const Lanes& values, double dropped, std::uint64_t identity) {
-    low_ = min(values, low_);  // what is no number is left out
+    low_ = min(values, low_);  // NaN is left out
     high_ = max(high_, values);
     dropped_ += dropped;
     differing_ |= identity ^ identity_;
@@ -49,51 +50,52 @@ class SeenSamples {
  private:
   friend class PixelSamples;
 
-  /// Of each channel the least and the greatest.
+  /// These are the least and the greatest value of each channel.
   Lanes low_ = lanes_of(std::numeric_limits<double>::infinity());
   Lanes high_ = lanes_of(-std::numeric_limits<double>::infinity());
-  double dropped_ = 0;           ///< of all of the pixel, those before them too
-  std::uint64_t identity_ = 0;   ///< of the first
-  std::uint64_t differing_ = 0;  ///< bits in which others differ from it
+  double dropped_ = 0;           ///< from all samples of the pixel, those before these too
+  std::uint64_t identity_ = 0;   ///< of the first sample
+  std::uint64_t differing_ = 0;  ///< bits in which other identities differ from it
 };
 
-/// What is claimed to hold the true mean of a pixel: each channel is within its half-width of the
-/// mean.
+/// A MeanInterval is claimed to hold the true mean of a pixel: each channel is within its
+/// half-width of `mean`.
 struct MeanInterval {
   Lanes mean{};
   Lanes half_width{};
-  /// Half of the interval's width on a display, whatever the other numbers say: at least that.
+  /// Half of the interval's width on a display is at least this, whatever the other numbers say.
   double least_shown = 0;
 };
 
-/// What a viewer sees of red, green, blue and alpha.
+/// A DisplayScale is what a viewer sees of red, green, blue and alpha.
 class DisplayScale {
  public:
   explicit DisplayScale(double gamma) : exponent_(1 / gamma) {}
 
-  /// Half of the widths of intervals on a display: the farthest that anything in them is from the
-  /// mean, in the worst channel. (Four at once take little longer than one.)
+  /// Returns half of the widths of intervals on a display: the farthest that anything in them is
+  /// from the mean, in the worst channel. Four intervals at once take little longer than one.
   [[gnu::flatten]] Lanes half_widths(const std::array<MeanInterval, lane_count>& intervals) const;
 
  private:
-  /// Of a channel, from 0 to 1, within 10^-9.
+  /// Returns how bright values of a channel look, from 0 to 1, within 10^-9.
   Lanes shown(const Lanes& values, int channel) const;
 
   double exponent_;
 };
 
-/// What follows from how many samples a pixel has, at least one: found once for many pixels.
+/// A SampleCount holds what follows from the number of samples of a pixel, which is at least one.
+/// It is found once for many pixels.
 class SampleCount {
  public:
-  /// Out of focus things fade over many pixels, each of which has few samples that hit them: what
-  /// the neighbours alone have seen counts as much there as what the pixel has.
+  /// With a lens, things out of focus fade over many pixels, each of which has few samples that hit
+  /// them. So what only the neighbours have seen counts as much as what the pixel itself has seen.
   explicit SampleCount(std::int64_t count, bool with_lens = false);
 
  private:
   friend class PixelSamples;
 
-  /// Division by a whole number. By a power of two that is multiplication, with the same bits and
-  /// sooner.
+  /// A Divisor divides by a whole number. For a power of two it multiplies, which gives the same
+  /// bits faster.
   class Divisor {
    public:
     explicit Divisor(std::int64_t number)
@@ -109,10 +111,11 @@ class SampleCount {
     double reciprocal_;  ///< 0 if it is not exact
   };
 
-  std::size_t blocks_;  ///< that are full
+  std::size_t blocks_;  ///< the number of full blocks
   Divisor samples_;
   Divisor full_blocks_;
-  double variance_divisor_ = 1;  ///< of the squares of blocks' distances from their mean
+  double variance_divisor_ = 1;  ///< for the sum of the squares of the blocks' distances from their
+                                 ///< mean
   double student_ = 0;
   double overlooked_share_;
   double overlooked_share_of_neighbours_;
@@ -120,29 +123,29 @@ class SampleCount {
 
 class PixelSamples {
  public:
-  /// Where the samples of a step belong.
+  /// A StepPlace says to which block the samples of a step belong.
   struct StepPlace {
     std::uint8_t block = 0;
-    bool merges = false;  ///< before that there are blocks to be merged
+    bool merges = false;  ///< there are blocks to be merged before
   };
-  /// Of so many samples that come after `count`.
+  /// Returns the place of the `size` samples that come after `count`.
   static StepPlace place_of_step(std::int64_t count, std::int64_t size);
-  /// Adds the sum of a step's samples (see schedule.hpp); all steps must come, in their order.
+  /// Adds the sum of a step's samples (see schedule.hpp). All steps must come, in their order.
   void add_step(const StepPlace& place, const Lanes& sum);
   /// Adds what the samples of some steps show, the very first ones or further ones.
   void add_seen(const SeenSamples& seen, bool are_first);
 
   Lanes mean(const SampleCount& count) const;
-  /// The mean share of light that was cut off.
+  /// Returns the mean share of light that was cut off.
   double dropped(std::int64_t count) const { return dropped_ / static_cast<double>(count); }
 
-  /// What is seen in one or several pixels.
+  /// Statistics are what is seen in one or several pixels.
   struct Statistics {
     Channels low;
     Channels high;
     std::uint32_t least_identity;
     std::uint32_t greatest_identity;
-    bool mixed;  ///< some of them are
+    bool mixed;  ///< some of the pixels are mixed
 
     void take(const Statistics& others) {
       low = min(low, others.low);
@@ -153,7 +156,8 @@ class PixelSamples {
     }
   };
   Statistics statistics() const { return {low_, high_, identity_, identity_, mixed_}; }
-  /// Those of neighbours, in one or several portions: what is seen there may reach in here.
+  /// Takes in the statistics of neighbours, in one or several portions, as what is seen there may
+  /// reach into this pixel.
   void keep(const Statistics& statistics) {
     low_around_ = has_statistics_ ? min(low_around_, statistics.low) : statistics.low;
     high_around_ = has_statistics_ ? max(high_around_, statistics.high) : statistics.high;
@@ -162,22 +166,22 @@ class PixelSamples {
     has_statistics_ = true;
   }
 
-  /// Says that there may be something here that the first samples can miss.
+  /// Says that there may be something in the pixel that the first samples can miss.
   void expect_subpixel_objects() { expects_subpixel_objects_ = true; }
-  /// Whether there are enough samples to see what there is.
+  /// Returns whether there are enough samples to see what there is.
   bool has_seen_enough(std::int64_t count) const {
     return !expects_subpixel_objects_ ||
            count >= (mixed_ ? enough_samples : enough_samples_of_one_thing);
   }
 
-  /// All that is kept here, as bytes.
+  /// A Stored has all that is kept here, as bytes.
   static constexpr std::size_t stored_size =
       12 * sizeof(Channels) + sizeof(double) + sizeof(std::uint32_t) + 1;
   using Stored = std::array<std::byte, stored_size>;
   Stored stored() const;
   static PixelSamples restored(const Stored& bytes);
 
-  /// Of one sample nothing is known.
+  /// Returns the interval of the mean. One sample says nothing of it.
   MeanInterval interval(const SampleCount& count) const {
     return count.blocks_ == block_count ? interval<block_count>(count) : interval<0>(count);
   }
@@ -186,18 +190,18 @@ class PixelSamples {
   friend class SeenSamples;
   friend class SampleCount;
   static constexpr std::size_t block_count = 8;
-  /// Of 64 samples none hits a disc of a 20th of the pixel's area in 2 of 10000 cases, of 16 in 33
-  /// of 100.
+  /// 64 samples all miss a disc of a 20th of the pixel's area in 2 of 10000 cases, and 16 samples
+  /// do in 33 of 100.
   static constexpr std::int64_t enough_samples = 64;
   /// Wires that cover a 20th to a 14th of a pixel are missed by 64 samples in 3 of 1000 cases.
   static constexpr std::int64_t enough_samples_of_one_thing = 256;
-  /// With `count` samples, at least 1, a block has two to the power of this.
+  /// Returns the exponent of the power of two of samples that a block has. `count` is at least 1.
   static int block_exponent(std::int64_t count);
   void merge_blocks();
-  /// The same with so many full blocks; 0 for any number.
+  /// Computes the interval for a fixed number of full blocks, or with 0 for any number.
   template <std::size_t full_blocks>
   MeanInterval interval(const SampleCount& count) const;
-  /// Calls use(member) for all that are numbers, in one order.
+  /// Calls use(member) for all members that are numbers, in a fixed order.
   template <class Self, class Use>
   static void for_each_number(Self& self, const Use& use);
   using Flag = bool PixelSamples::*;
@@ -206,10 +210,10 @@ class PixelSamples {
             &PixelSamples::expects_subpixel_objects_};
   }
 
-  std::array<Channels, block_count> blocks_{};  ///< sums
+  std::array<Channels, block_count> blocks_{};  ///< sums of samples
   Channels low_{};
   Channels high_{};
-  Channels low_around_{};  ///< here and in the neighbours, after the first samples
+  Channels low_around_{};  ///< of this pixel and its neighbours, after the first samples
   Channels high_around_{};
   double dropped_ = 0;
   std::uint32_t identity_ = 0;

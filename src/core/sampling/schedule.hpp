@@ -1,9 +1,9 @@
-// Passes: after which of them a pixel has how many samples. The numbers are fixed, so that a
+// The schedule says after which pass a pixel has how many samples. The numbers are fixed, so that a
 // picture is a function of its pass count.
 //
-// Up to eight samples a pass gives one more to an eighth of the pixels, from then on every doubling
-// of all pixels' samples takes eight passes: a pass never adds more than an eighth to what is
-// there, and a picture of which each pixel has a sample can end at any of them.
+// Up to eight samples a pass gives one more to an eighth of the pixels. From then on every doubling
+// of all pixels' samples takes eight passes. So a pass never adds more than an eighth to what is
+// there. A picture whose pixels all have a sample can end at any pass.
 #pragma once
 
 #include <bit>
@@ -13,18 +13,20 @@
 
 namespace crt::core {
 
-/// To a sample of each pixel, then to a doubling.
+/// This many passes lead to a sample of each pixel, later to a doubling.
 inline constexpr int passes_per_step = 8;
 inline constexpr int samples_before_doubling = 8;
 inline constexpr int passes_before_doubling = passes_per_step * samples_before_doubling;
 
-/// What pixels that are never done have after some passes.
+/// A SamplesDone is what pixels that stay active have after some passes.
 struct SamplesDone {
-  std::int64_t samples = 0;  ///< each
-  int eighths = 0;           ///< of the pixels, those of the lowest ranks, have one more
+  std::int64_t samples = 0;  ///< the samples of each pixel
+  int eighths = 0;           ///< the eighths of all pixels that have one more, those of the lowest
+                             ///< ranks
 };
 
-/// The first sample of all pixels comes in one: for fewer than eight passes it is there as well.
+/// Returns the samples after some passes. All pixels get their first sample at once, so it counts
+/// even for fewer than eight passes.
 constexpr SamplesDone samples_after(int passes) {
   if (passes <= passes_per_step) return {1, 0};
   if (passes <= passes_before_doubling) return {passes / passes_per_step, passes % passes_per_step};
@@ -34,8 +36,8 @@ constexpr SamplesDone samples_after(int passes) {
   return {std::int64_t{samples_before_doubling + step} << doubling, 0};
 }
 
-/// The passes that it takes to have so many samples each, which must be a number that some pass
-/// ends with.
+/// Returns the passes after which each pixel has so many samples. It must be a number that some
+/// pass ends with.
 constexpr int passes_until(std::int64_t samples) {
   if (samples <= samples_before_doubling) return passes_per_step * static_cast<int>(samples);
   const auto eighths = static_cast<std::uint64_t>(samples - 1) / samples_before_doubling;
@@ -44,19 +46,19 @@ constexpr int passes_until(std::int64_t samples) {
   return passes_before_doubling + doubling * passes_per_step + step;
 }
 
-/// How many samples come before one can stop again, with so many there.
+/// Returns how many samples come before rendering can stop again, with so many there.
 constexpr std::int64_t samples_of_next_step(std::int64_t samples) {
   if (samples < samples_before_doubling) return 1;
   return static_cast<std::int64_t>(std::bit_floor(static_cast<std::uint64_t>(samples))) /
          samples_before_doubling;
 }
 
-/// More steps than that never come: there are as many samples as an int can tell, at most.
+/// There are never more steps than this, as the number of samples is an int.
 inline constexpr std::size_t most_steps =
     samples_before_doubling + std::size_t{passes_per_step} * std::numeric_limits<int>::digits;
 
-/// From 0 to 7: in which of the eight passes a pixel gets its next sample, those of each pass far
-/// apart.
+/// Returns the pass of eight, from 0 to 7, in which a pixel gets its next sample. The pixels of
+/// each pass are far from each other.
 constexpr int rank_of_pixel(int x, int y) {
   const auto diagonal = static_cast<unsigned>(x + 3 * y) & 7u;
   return static_cast<int>((diagonal & 1u) << 2 | (diagonal & 2u) | diagonal >> 2);

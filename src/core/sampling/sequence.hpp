@@ -1,6 +1,5 @@
-// Points of a pixel's samples: a sequence in four dimensions for each pixel, of which every
-// beginning is broadcast evenly and every point is a function of the seed, the pixel and its index
-// alone.
+// Each pixel has a sequence of sample points in four dimensions. Every beginning of it is
+// distributed evenly, and every point is a function of the seed, the pixel and its index alone.
 //
 // Sources: Sobol, On the distribution of points in a cube and the approximate evaluation of
 // integrals, 1967; Joe and Kuo, Constructing Sobol sequences with better two-dimensional
@@ -14,15 +13,15 @@
 #include <cstdint>
 #include <cstring>
 
-#include "core/math/lanes.hpp"
 #include "core/math/random.hpp"
+#include "core/simd/bits.hpp"
 
 namespace crt::core {
 
-/// Dimensions of a sample: a place on the pixel's plane, then a point of the lens.
+/// A sample's dimensions are a place on the pixel's plane, then a point of the lens.
 inline constexpr int sequence_dimensions = 4;
 
-/// What a sample is made of, each in [0, 1).
+/// A SequencePoint has what a sample is made of, each number in [0, 1).
 struct SequencePoint {
   double pixel_u = 0;
   double pixel_v = 0;
@@ -32,55 +31,21 @@ struct SequencePoint {
 
 namespace sequence_detail {
 
-/// A bit of the index turns over these bits of the coordinates. Written from the lowest bit up,
-/// that is in the order in which scrambling goes through them.
+/// A Column has the bits of the coordinates that one bit of the index flips. They are written from
+/// the lowest bit up, as scrambling goes through them in that order.
 using Column = std::array<std::uint32_t, sequence_dimensions>;
 inline constexpr int index_bits = 32;
 
-/// The start of a recurrence for direction numbers: a primitive polynomial over two elements, by
-/// its degree and inner coefficients, and the first odd numbers.
+/// A Recurrence is the start of a recurrence for direction numbers. It has a primitive polynomial
+/// over two elements, by its degree and inner coefficients, and the first odd numbers.
 struct Recurrence {
   int degree;
   std::uint32_t coefficients;
   std::array<std::uint32_t, 3> first;
 };
 
-/// So many points are found at once, side by side.
-inline constexpr std::uint32_t points_at_once = 8;
-/// The bits of a coordinate of each of them. Vectors of GCC and Clang.
-using BitLanes = std::uint32_t __attribute__((vector_size(4 * points_at_once)));
-using SignedBitLanes = std::int32_t __attribute__((vector_size(4 * points_at_once)));
-using DoubleLanes = double __attribute__((vector_size(8 * points_at_once)));
-
-/// (Of one number, or of lanes.)
-template <class Bits>
-constexpr Bits reversed(Bits bits) {
-  bits = (bits >> 1 & 0x55555555u) | (bits & 0x55555555u) << 1;
-  bits = (bits >> 2 & 0x33333333u) | (bits & 0x33333333u) << 2;
-  bits = (bits >> 4 & 0x0f0f0f0fu) | (bits & 0x0f0f0f0fu) << 4;
-  bits = (bits >> 8 & 0x00ff00ffu) | (bits & 0x00ff00ffu) << 8;
-  return bits >> 16 | bits << 16;
-}
-#ifdef __AVX2__
-/// The same with the halves of bytes looked up.
-inline BitLanes reversed(const BitLanes& bits) {
-  const auto in_both_halves = [](const __m128i& bytes) {
-    return _mm256_broadcastsi128_si256(bytes);
-  };
-  const __m256i low_half = _mm256_set1_epi8(0x0f);
-  const __m128i of_a_half = _mm_setr_epi8(0, 8, 4, 12, 2, 10, 6, 14, 1, 9, 5, 13, 3, 11, 7, 15);
-  const __m256i to_low_half = in_both_halves(of_a_half);
-  const __m256i to_high_half = in_both_halves(_mm_slli_epi32(of_a_half, 4));
-  const __m256i bytes_back =
-      in_both_halves(_mm_setr_epi8(3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8, 15, 14, 13, 12));
-  const auto all = reinterpret_cast<__m256i>(bits);
-  const __m256i from_low = _mm256_shuffle_epi8(to_high_half, _mm256_and_si256(all, low_half));
-  const __m256i from_high =
-      _mm256_shuffle_epi8(to_low_half, _mm256_and_si256(_mm256_srli_epi32(all, 4), low_half));
-  const __m256i bytes = _mm256_or_si256(from_low, from_high);
-  return reinterpret_cast<BitLanes>(_mm256_shuffle_epi8(bytes, bytes_back));
-}
-#endif
+/// This many points are found at once, side by side.
+inline constexpr std::uint32_t points_at_once = octet_size;
 
 constexpr std::array<Column, index_bits> columns() {
   // The first dimension's numbers are all 1: its coordinates are the index read backwards.
@@ -90,7 +55,7 @@ constexpr std::array<Column, index_bits> columns() {
   for (int bit = 0; bit < index_bits; ++bit) result[static_cast<std::size_t>(bit)][0] = 1u << bit;
   for (std::size_t dimension = 1; dimension < sequence_dimensions; ++dimension) {
     const auto& [degree, coefficients, first] = recurrences[dimension - 1];
-    std::array<std::uint32_t, index_bits> numbers{};  // as fractions: the highest bit is a half
+    std::array<std::uint32_t, index_bits> numbers{};  // as fractions, whose highest bit is a half
     for (int i = 0; i < index_bits; ++i) {
       auto& number = numbers[static_cast<std::size_t>(i)];
       if (i < degree) {
@@ -109,7 +74,7 @@ constexpr std::array<Column, index_bits> columns() {
   return result;
 }
 
-/// What four bits of the index at a time turn over.
+/// A Digit has the bits that each value of four bits of the index flips.
 inline constexpr int digit_bits = 4;
 using Digit = std::array<Column, std::size_t{1} << digit_bits>;
 constexpr std::array<Digit, index_bits / digit_bits> digits() {
@@ -129,10 +94,10 @@ constexpr std::array<Digit, index_bits / digit_bits> digits() {
 
 inline constexpr std::array<Digit, index_bits / digit_bits> digit_table = digits();
 
-/// So many points are kept side by side.
+/// This many points are kept side by side.
 inline constexpr std::uint32_t points_of_window = 64;
 
-/// What the lowest bits of the indices of such points turn over, by dimension.
+/// Returns the bits that the lowest bits of the indices of these points flip, by dimension.
 constexpr std::array<std::array<std::uint32_t, points_of_window>, sequence_dimensions> low_bits() {
   constexpr std::uint32_t of_digit = (1u << digit_bits) - 1;
   std::array<std::array<std::uint32_t, points_of_window>, sequence_dimensions> result{};
@@ -145,16 +110,16 @@ constexpr std::array<std::array<std::uint32_t, points_of_window>, sequence_dimen
 }
 inline constexpr auto low_bit_table = low_bits();
 
-/// Turns each bit over or not as a hash of the seed and the bits below it says. Both steps keep to
-/// that: adding and multiplying carry upwards, and an even factor leaves a bit itself out of what
-/// it is mixed with. (Of one number, or of lanes.)
+/// Flips each bit or not by a hash of the seed and the bits below it. Both steps keep to bits
+/// below: adding and multiplying carry upwards, and an even factor leaves a bit itself out of what
+/// it is mixed with. It takes one number, or lanes.
 template <class Bits>
 constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
   constexpr std::array<std::uint32_t, 3> even_factors = {0x9e3779baU, 0xbf58476cU, 0x94d049baU};
   bits += seed;
   bits ^= bits * even_factors[0];
-  // Bits times an odd factor, mixed with themselves times an even one: both products of the bits
-  // before, as the machine need not wait for the first then.
+  // The bits times an odd factor are mixed with themselves times an even one. Both are products of
+  // the earlier bits, so the second multiplication need not wait for the first.
   for (std::size_t i = 1; i < even_factors.size(); ++i) {
     const std::uint32_t odd_factor = seed << 1 | 1u;
     bits = bits * odd_factor ^ bits * (odd_factor * even_factors[i]);
@@ -165,16 +130,16 @@ constexpr Bits scrambled_upwards(Bits bits, std::uint32_t seed) {
 
 }  // namespace sequence_detail
 
-/// The sequence of one pixel.
+/// A PixelSequence is the sequence of one pixel.
 class PixelSequence {
  public:
-  /// That of no pixel.
+  /// Makes the sequence of no pixel.
   PixelSequence() = default;
   PixelSequence(std::uint64_t seed, int x, int y)
       : seeds_(philox4x32_10({static_cast<std::uint32_t>(x), static_cast<std::uint32_t>(y), 0, use},
                              key_of(seed))) {}
 
-  /// Those of four pixels at once.
+  /// Pixel is a pixel's position. of_each() makes the sequences of four pixels at once.
   struct Pixel {
     int x = 0;
     int y = 0;
@@ -184,48 +149,48 @@ class PixelSequence {
     WordLanes x;
     WordLanes y;
     for (std::size_t i = 0; i < lane_count; ++i) {
-      x[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].x);
-      y[static_cast<int>(i)] = static_cast<std::uint32_t>(pixels[i].y);
+      x[i] = static_cast<std::uint32_t>(pixels[i].x);
+      y[i] = static_cast<std::uint32_t>(pixels[i].y);
     }
-    const auto words =
-        philox_rounds<WordLanes>({x, y, WordLanes{}, WordLanes{} + use}, key_of(seed));
+    const auto words = philox_rounds<WordLanes>({x, y, WordLanes{}, use}, key_of(seed));
     std::array<PixelSequence, lane_count> sequences;
     for (std::size_t i = 0; i < lane_count; ++i) {
       for (std::size_t d = 0; d < sequence_dimensions; ++d) {
-        sequences[i].seeds_[d] = static_cast<std::uint32_t>(words[d][static_cast<int>(i)]);
+        sequences[i].seeds_[d] = static_cast<std::uint32_t>(words[d][i]);
       }
     }
     return sequences;
   }
 
-  /// Any 2^k points that follow each other from a multiple of 2^k on are broadcast evenly: on the
-  /// pixel every rectangle of area 2^-k that comes of halving its sides holds one of them, and so
-  /// does, in every dimension by itself, each of 2^k equal parts.
+  /// Returns a point. Any 2^k consecutive points from a multiple of 2^k on are distributed evenly.
+  /// On the pixel every rectangle of area 2^-k that comes of halving its sides holds one of them.
+  /// In every dimension by itself, so does each of 2^k equal parts.
   SequencePoint point(std::uint32_t index) const {
     const auto [pixel_u, pixel_v, lens_u, lens_v] = coordinates<sequence_dimensions>(index);
     return {pixel_u, pixel_v, lens_u, lens_v};
   }
 
-  /// The same without the lens.
+  /// Returns a point without its part on the lens.
   SequencePoint pixel_point(std::uint32_t index) const {
     const auto [pixel_u, pixel_v] = coordinates<2>(index);
     return {.pixel_u = pixel_u, .pixel_v = pixel_v};
   }
 
-  /// The points from a multiple of their number on, side by side, by dimension; a group of them is
-  /// as many as there are lanes.
+  /// A Window has the points from a multiple of their number on, side by side, by dimension. A
+  /// group of them is as many as there are lanes.
   struct Window {
     static constexpr std::uint32_t size = sequence_detail::points_of_window;
     std::array<std::array<Lanes, size / lane_count>, sequence_dimensions> coordinates;
   };
-  /// Puts the points from `first` to before `end`, and some before and after them, to their places
-  /// in a window that they are all of; without the lens only their places on the pixel.
+  /// Puts the points from `first` to before `end` to their places in their window, with some before
+  /// and after them. All must be of one window. Without the lens only their places on the pixel are
+  /// computed.
   void points(std::uint32_t first, std::uint32_t end, bool with_lens, Window& window) const {
     with_lens ? fill<sequence_dimensions>(first, end, window) : fill<2>(first, end, window);
   }
 
  private:
-  /// The bits that an index turns over, not scrambled.
+  /// Returns the bits that an index flips, not scrambled.
   template <std::size_t dimensions>
   static std::array<std::uint32_t, dimensions> bits_of(std::uint32_t index) {
     using namespace sequence_detail;
@@ -262,22 +227,19 @@ class PixelSequence {
     using namespace sequence_detail;
     const std::uint32_t seed = seeds_[dimension];
     for (std::uint32_t i = first / points_at_once * points_at_once; i < end; i += points_at_once) {
-      BitLanes bits;
-      std::memcpy(&bits, &low_bit_table[dimension][i], sizeof bits);
-      bits = reversed(scrambled_upwards(bits ^ high_bits, seed));
-      // Processors turn only signed numbers into doubles side by side: from -1/2 to 1/2, exactly.
+      const auto low_bits = lanes_at<BitOctet>(&low_bit_table[dimension][i]);
+      const BitOctet bits = reversed(scrambled_upwards(BitOctet(low_bits ^ high_bits), seed));
+      // Processors convert only signed numbers to doubles side by side, from -1/2 to 1/2, exactly.
       constexpr std::uint32_t middle = 0x80000000u;
-      const auto from_middle =
-          __builtin_convertvector(reinterpret_cast<SignedBitLanes>(bits ^ middle), DoubleLanes);
-      std::array<Lanes, points_at_once / lane_count> groups;
-      std::memcpy(&groups, &from_middle, sizeof groups);
+      const auto groups = stdx::split<IntLanes>(bits_as<IntOctet>(BitOctet(bits ^ middle)));
       for (std::size_t k = 0; k < groups.size(); ++k) {
-        coordinates[i / lane_count + k] = fma(groups[k], lanes_of(0x1p-32), lanes_of(0.5));
+        const auto from_middle = stdx::static_simd_cast<Lanes>(groups[k]);
+        coordinates[i / lane_count + k] = fma(from_middle, lanes_of(0x1p-32), lanes_of(0.5));
       }
     }
   }
 
-  /// Apart from what else random numbers are drawn for at a pixel.
+  /// This key separates the sequence from other random numbers of a pixel.
   static constexpr std::uint32_t use = 0x5e9ce001;
 
   PhiloxCounter seeds_{};

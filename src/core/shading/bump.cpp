@@ -23,7 +23,7 @@ double smallest_feature(const Gradient& pattern) {
   return pattern.scale;
 }
 
-/// Noise, Marble, Wood: the last octave has the finest grain.
+/// Returns the grain of Noise, Marble or Wood, whose last octave is the finest.
 template <class Noisy>
 double smallest_feature(const Noisy& pattern) {
   return std::scalbn(pattern.scale, 1 - pattern.octaves);
@@ -41,13 +41,13 @@ Vec3 gradient_in_space(const PreparedPattern& pattern, const SurfacePoint& point
     before.position[axis] -= step;
     after.position[axis] += step;
     const double width = after.position[axis] - before.position[axis];
-    if (!(width > 0)) continue;  // so far out that doubles no longer tell the two apart
+    if (!(width > 0)) continue;  // so far out that doubles cannot separate the two
     result[axis] = (luminance_at(pattern, after) - luminance_at(pattern, before)) / width;
   }
   return result;
 }
 
-/// The change of luminance per unit of one of (u, v), over one texel.
+/// Returns the change of luminance per unit of u or v, over one texel.
 double slope(const PreparedPattern& pattern, SurfacePoint point, double SurfacePoint::*coordinate,
              double texels_per_unit) {
   if (!(std::abs(texels_per_unit) > 0)) return 0;

@@ -1,5 +1,5 @@
-// What happens to light at the boundary between two transparent media: Snell's law and the exact
-// Fresnel equations for unpolarised light. Also the mirror direction.
+// Light at the boundary between two transparent media follows Snell's law and the exact Fresnel
+// equations for unpolarised light. The mirror direction is here, too.
 //
 // Notation: directions are unit length. `normal` is turned against `direction` (normal . direction
 // <= 0). n1 is the refractive index on the side light comes from, n2 that beyond.
@@ -9,24 +9,25 @@
 
 namespace crt::core {
 
-/// Of one ray, or of as many side by side as a Real has lanes.
+/// A Refraction is that of one ray, or of as many side by side as a Real has lanes.
 template <class Real>
 struct Refraction {
-  /// The share of light that is reflected (Fresnel); 1 under total internal reflection.
+  /// This is the share of light that is reflected (Fresnel), 1 under total internal reflection.
   Real reflectance{};
-  /// Where the rest goes, unit length; 0 under total internal reflection.
+  /// This is the direction of the rest, of unit length, and 0 under total internal reflection.
   Vec3Of<Real> direction{};
 };
 
-/// Equal indices let everything through exactly straight. Real is double or Lanes.
+/// Refracts one ray or lanes: Real is double or Lanes. Equal indices let everything through exactly
+/// straight.
 template <class Real>
 Refraction<Real> refract(const Vec3Of<Real>& direction, const Vec3Of<Real>& normal, const Real& n1,
                          const Real& n2);
 
-/// The reflected share alone, for the cosine (in [0, 1]) of the angle of incidence.
+/// Returns the reflected share alone, for the cosine (in [0, 1]) of the angle of incidence.
 double fresnel_reflectance(double cosine, double n1, double n2);
 
-/// The mirror image of `direction` at the plane across `normal`, of a Vec3 or of VectorLanes.
+/// Returns the mirror image of `direction` at the plane across `normal`, for a Vec3 or VectorLanes.
 template <class Vector>
 Vector mirrored(const Vector& direction, const Vector& normal) {
   return direction - 2.0 * dot(direction, normal) * normal;

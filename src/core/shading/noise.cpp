@@ -7,11 +7,11 @@ namespace crt::core {
 
 namespace {
 
-/// The most that the eight gradients around a point can add up to: all of them the best for it. It
-/// is reached near (0.519, 0.355, 0.5); a test searches for more.
+/// This is the most that the eight gradients around a point can add up to, if all of them are the
+/// best for it. It is reached near (0.519, 0.355, 0.5). A test searches for more.
 constexpr double largest_sum = 1.0363538112118028;
 
-/// One coordinate: the whole number below it, and how far past that it is, in [0, 1].
+/// A LatticeCoordinate is a whole number and how far past it a coordinate is, in [0, 1].
 struct LatticeCoordinate {
   std::uint64_t cell = 0;
   double past = 0;
@@ -24,8 +24,8 @@ LatticeCoordinate lattice_coordinate(double value) {
   return {static_cast<std::uint64_t>(static_cast<std::int64_t>(below)), value - below};
 }
 
-/// The finaliser of SplitMix64 (Steele, Lea, Flood, Fast splittable pseudorandom number generators,
-/// 2014): every input bit changes about half of the output's.
+/// Applies the finaliser of SplitMix64 (Steele, Lea, Flood, Fast splittable pseudorandom number
+/// generators, 2014). Every input bit changes about half of the output's.
 std::uint64_t scrambled(std::uint64_t bits) {
   bits = (bits ^ (bits >> 30)) * 0xbf58476d1ce4e5b9u;
   bits = (bits ^ (bits >> 27)) * 0x94d049bb133111ebu;
@@ -33,14 +33,14 @@ std::uint64_t scrambled(std::uint64_t bits) {
 }
 
 std::uint64_t lattice_hash(std::uint64_t x, std::uint64_t y, std::uint64_t z, std::uint32_t seed) {
-  constexpr std::uint64_t odd_x = 0x9e3779b97f4a7c15u;  // of the golden ratio
-  constexpr std::uint64_t odd_y = 0xd1b54a32d192ed03u;  // and of its kin in more dimensions
+  constexpr std::uint64_t odd_x = 0x9e3779b97f4a7c15u;  // from the golden ratio
+  constexpr std::uint64_t odd_y = 0xd1b54a32d192ed03u;  // from its kin in more dimensions
   constexpr std::uint64_t odd_z = 0x8cb92ba72f3d8dd7u;
   return scrambled(scrambled(x * odd_x + y * odd_y + seed) + z * odd_z);
 }
 
-/// The product of (x, y, z) with one of the twelve directions to the edges of a cube; four of them
-/// come twice, which costs nothing that one can see (Perlin 2002, section 4).
+/// Returns the product of (x, y, z) with one of the twelve directions to the edges of a cube. Four
+/// of them come twice, which nobody can see (Perlin 2002, section 4).
 double gradient_product(std::uint64_t hash, double x, double y, double z) {
   const auto choice = static_cast<unsigned>(hash >> 60);
   const double first = choice < 8 ? x : y;
@@ -48,7 +48,8 @@ double gradient_product(std::uint64_t hash, double x, double y, double z) {
   return ((choice & 1) != 0 ? -first : first) + ((choice & 2) != 0 ? -second : second);
 }
 
-/// 6 s^5 - 15 s^4 + 10 s^3: from 0 to 1 with no slope and no bend at the ends.
+/// Returns 6 s^5 - 15 s^4 + 10 s^3, which goes from 0 to 1 with first and second derivatives of 0
+/// at the ends.
 double fade(double s) {
   return s * s * s * (s * (s * 6 - 15) + 10);
 }
@@ -82,7 +83,8 @@ double gradient_noise(const Vec3& position, std::uint32_t seed) {
 }
 
 double fractal_noise(const Vec3& position, int octaves) {
-  // Moves the octaves against each other: without it all of them are 0 at the same points.
+  // The shift moves the octaves against each other. Without it all of them are 0 at the same
+  // points.
   const Vec3 shift(0.3183098861837907, 0.5772156649015329, 0.6931471805599453);
   double sum = 0;
   double strengths = 0;

@@ -1,14 +1,14 @@
-// Pictures with values that are no finite numbers: where they are, and that they count as 0.
+// Values in pictures that are not finite are found, and count as 0.
 #pragma once
 
 #include "crt/image.hpp"
 
 namespace crt::core {
 
-/// Where they are in a picture; without a file's name.
+/// Returns where the values of a picture are not finite, without a file's name.
 NotFiniteValues find_not_finite(const Image& image);
 
-/// Puts 0 in their place. Returns where they were.
+/// Replaces values that are not finite by 0, and returns where they were.
 NotFiniteValues replace_not_finite(Image& image);
 
 }  // namespace crt::core

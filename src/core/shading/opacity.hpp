@@ -1,4 +1,4 @@
-// Which materials let light through.
+// Some materials let light through.
 #pragma once
 
 #include <variant>
@@ -7,7 +7,8 @@
 
 namespace crt::core {
 
-/// Whether light may get through a surface of it somewhere, as far as its numbers tell.
+/// Returns whether light may get through a surface of the material somewhere, as far as its numbers
+/// show.
 inline bool lets_light_in(const Material& material) {
   const auto* color = std::get_if<Color>(&material.color);
   return material.transparency > 0 || color == nullptr || color->a < 1;

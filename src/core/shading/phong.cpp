@@ -16,9 +16,9 @@ void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, cons
     const VectorLanes mirrored = from_light - 2.0 * dot(from_light, normal) * normal;
     const Lanes alignment = max(Lanes{}, -dot(mirrored, surfaces.view));
     const Lanes highlight = surfaces.specular * power(alignment, surfaces.shininess);
-    strength += shines ? highlight : Lanes{};
+    strength += select(shines, highlight, Lanes{});
   }
-  strength = before ? strength : Lanes{};
+  strength = select(before, strength, Lanes{});
   seen = strength * light.intensities * lanes_of(light_color) * surfaces.color;
 }
 

@@ -1,5 +1,6 @@
-// Phong's reflection model: what of a light a surface sends to the viewer. Source: Phong,
-// Illumination for computer generated pictures, 1975.
+// Phong's reflection model says how much of a light a surface sends to the viewer.
+//
+// Source: Phong, Illumination for computer generated pictures, 1975.
 #pragma once
 
 #include "core/shading/prepared_light.hpp"
@@ -7,7 +8,7 @@
 
 namespace crt::core {
 
-/// Points of as many surfaces as there are lanes, and the rays that see them.
+/// A PhongSurfaces has points of as many surfaces as there are lanes, and the rays that see them.
 struct PhongSurfaces {
   VectorLanes color;
   Lanes diffuse{};
@@ -17,14 +18,14 @@ struct PhongSurfaces {
   VectorLanes view;    ///< unit length, from the viewer to the point
 };
 
-/// What the point gets of all lights' ambient shares, lit or not.
+/// Returns what the point gets of all lights' ambient shares, lit or not.
 template <class Real>
 Vec3Of<Real> ambient_light(const Rgb& ambient, const Real& reflectivity) {
   return (1.0 - reflectivity) * broadcast<Real>(ambient);
 }
 
-/// The diffuse and the specular light of one light that nothing hides, into `seen`; black if it is
-/// behind the surface. Only lanes of `lit` are asked for, others may hold anything.
+/// Writes the diffuse and the specular light of one unobstructed light into `seen`. It is black if
+/// the light is behind the surface. Only lanes of `lit` are needed, and others may hold anything.
 void direct_light(const PhongSurfaces& surfaces, const LightSamples& light, const Rgb& light_color,
                   const LaneMask& lit, VectorLanes& seen);
 

@@ -60,7 +60,7 @@ Color PreparedBackground::panorama(const PanoramaBackground& panorama,
       y -= direction.y / level * width / full_turn;
       break;
     case PanoramaProjection::equal_area:
-      // Archimedes: between two heights lies as much of the sphere as of the cylinder around it.
+      // By Archimedes, as much of the sphere lies between two heights as of the cylinder around it.
       y -= 0.5 * direction.y * height;
       break;
   }

@@ -1,4 +1,4 @@
-// What rays see that hit nothing.
+// Rays that hit nothing see the background.
 #pragma once
 
 #include <memory>
@@ -10,17 +10,19 @@
 
 namespace crt::core {
 
-/// A background made ready. A panorama's middle column is straight ahead (+z) at angle 0, and +x is
-/// to the right of it: across the picture goes atan2(d.x, d.z) + angle.
+/// A PreparedBackground is a background ready for looking up. A panorama's middle column is
+/// straight ahead (+z) at angle 0, and +x is to the right of it. The picture's columns follow
+/// atan2(d.x, d.z) + angle.
 class PreparedBackground {
  public:
-  /// `compat` as in Settings: spherical panoramas of 2015 are of equal area, and angles turn them
-  /// all the other way.
+  /// `compat` is that of Settings. Spherical panoramas of 2015 are of equal area, and angles turn
+  /// all panoramas in the other direction.
   PreparedBackground(const Background& background, TexturePool& textures, int compat = 0);
 
-  /// The colour in a direction (unit length), not premultiplied.
+  /// Returns the colour in a direction (unit length), not premultiplied.
   Color color(const Vec3& direction) const;
-  /// The same, to the last bit, in the lanes that have their bit in `lanes`.
+  /// Returns the colours that color() gives, to the last bit, in the lanes that have their bit in
+  /// `lanes`.
   ColorLanes colors(const VectorLanes& directions, std::uint32_t lanes) const;
 
  private:

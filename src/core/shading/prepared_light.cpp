@@ -9,7 +9,7 @@ namespace crt::core {
 
 namespace {
 
-/// Keeps what is computed from it finite right at a light, where falloff / D^2 has no bound.
+/// This bound keeps results finite right at a light, where falloff / D^2 has no bound.
 constexpr double largest_intensity = 0x1p100;
 
 }  // namespace
@@ -39,7 +39,7 @@ PreparedLight::PreparedLight(const SpotLight& light)
       falloff_(light.falloff),
       origin_(light.origin),
       axis_(direction_and_length(light.pointing - light.origin).direction) {
-  // 1 - cos a = 2 sin^2(a / 2), and cos i - cos o = 2 sin((o + i) / 2) sin((o - i) / 2).
+  // These are 1 - cos a = 2 sin^2(a / 2), and cos i - cos o = 2 sin((o + i) / 2) sin((o - i) / 2).
   const double rim = light.angle / 2;
   const double full = rim - light.penumbra;
   rim_versine_ = 2 * std::sin(rim / 2) * std::sin(rim / 2);
@@ -82,7 +82,7 @@ Lanes PreparedLight::way_in_cylinder(const VectorLanes& points) const {
   const VectorLanes from_origin = points - lanes_of(origin_);
   const Lanes along = dot(from_origin, axis);
   const VectorLanes from_axis = from_origin - along * axis;
-  return dot(from_axis, from_axis) <= radius_ * radius_ ? along : Lanes{};
+  return select(dot(from_axis, from_axis) <= radius_ * radius_, along, Lanes{});
 }
 
 Lanes PreparedLight::cone_share(const VectorLanes& to_light) const {
@@ -90,8 +90,8 @@ Lanes PreparedLight::cone_share(const VectorLanes& to_light) const {
   const Lanes versine = min(0.5 * dot(difference, difference), lanes_of(2));
   const Lanes share = (rim_versine_ - versine) / fading_versine_;
   const Lanes fading = share * share * (3.0 - 2.0 * share);
-  const Lanes within_rim = versine <= rim_versine_ - fading_versine_ ? lanes_of(1) : fading;
-  return versine > rim_versine_ ? Lanes{} : within_rim;
+  const Lanes within_rim = select(versine <= rim_versine_ - fading_versine_, lanes_of(1), fading);
+  return select(versine > rim_versine_, Lanes{}, within_rim);
 }
 
 }  // namespace crt::core

@@ -1,4 +1,4 @@
-// Lights, as a point that may be lit sees them.
+// Lights are sampled as a point that may be lit sees them.
 #pragma once
 
 #include "core/math/vector_lanes.hpp"
@@ -8,7 +8,8 @@
 
 namespace crt::core {
 
-/// A light seen from as many points as there are lanes, before anything stands in its way.
+/// LightSamples are a light seen from as many points as there are lanes, as if nothing obstructed
+/// it.
 struct LightSamples {
   VectorLanes directions;  ///< to the light, unit length
   Lanes distances{};       ///< to the light; infinite for a parallel one
@@ -21,11 +22,11 @@ class PreparedLight {
 
   const Rgb& color() const { return color_; }
 
-  /// What every point gets of it, lit or not, if it mirrors nothing.
+  /// Returns what every point gets of the light, lit or not, if it mirrors nothing.
   Rgb ambient() const { return ambient_ * color_; }
 
-  /// The light at points; returns where it shines. `path_lengths` are the paths from the camera to
-  /// the points, over all bounces.
+  /// Samples the light at points and returns where it shines. `path_lengths` are the lengths of the
+  /// paths from the camera to the points, over all bounces.
   LaneMask sample(const VectorLanes& points, const Lanes& path_lengths, LightSamples& light) const;
 
  private:
@@ -36,7 +37,8 @@ class PreparedLight {
 
   enum class Kind { point, parallel, spot, cylinder };
 
-  /// From where the light comes in; 0 beside the cylinder and before its begin.
+  /// Returns how far the light has come along its axis. It is 0 beside the cylinder, and not above
+  /// 0 before the cylinder begins.
   Lanes way_in_cylinder(const VectorLanes& points) const;
   Lanes cone_share(const VectorLanes& to_light) const;
 
@@ -46,11 +48,11 @@ class PreparedLight {
   double falloff_ = 0;
   bool counts_path_ = false;
   Vec3 origin_{0, 0, 0};
-  Vec3 axis_{0, 0, 0};  ///< where it shines, unit length
+  Vec3 axis_{0, 0, 0};  ///< the direction in which it shines, unit length
   double radius_ = 0;
-  /// 1 - cos of a cone's half angle is its versine: unlike the cosine it tells narrow cones apart.
+  /// The versine 1 - cos of a cone's half angle separates narrow cones, unlike the cosine.
   double rim_versine_ = 0;
-  double fading_versine_ = 0;  ///< from the rim to where the light is full
+  double fading_versine_ = 0;  ///< from the cone's edge to where the light is full
 };
 
 }  // namespace crt::core

@@ -1,4 +1,4 @@
-// Materials with what can be told of them beforehand.
+// Prepared materials have what follows from their numbers alone.
 #pragma once
 
 #include <optional>
@@ -12,35 +12,36 @@ struct PreparedMaterial {
   PreparedMaterial(const SharedMaterial& material, TexturePool& textures);
 
   SharedMaterial description;
-  /// The colour where there is no pattern.
+  /// This is the colour where there is no pattern.
   Color color;
   std::optional<PreparedPattern> pattern;
-  /// Empty where the bumps have no height.
+  /// This is empty if the bumps have no height.
   std::optional<PreparedPattern> bump;
-  /// Lets nothing through anywhere.
+  /// An opaque material lets nothing through anywhere.
   bool opaque = true;
-  /// What light that it lets through is multiplied by at most; 1 if it brightens none.
+  /// Light that the material lets through is multiplied by at most this, which is 1 if it brightens
+  /// none.
   double gain = 1;
-  /// No ray goes on from it.
+  /// No secondary ray continues from the material.
   bool ends_paths = true;
   bool absorbing = false;
-  /// Its pattern or its bumps look at u and v.
+  /// The pattern or the bumps use u and v.
   bool uses_uv = false;
 
-  /// The share of light let through where the colour's alpha is `alpha`: a gap in the colour lets
-  /// all of it through.
+  /// Returns the share of light let through where the colour's alpha is `alpha`. A gap in the
+  /// colour lets all of it through.
   template <class Real>
   Real transparency(const Real& alpha) const {
     const Real full = broadcast<Real>(description->transparency);
-    return alpha == 1.0 ? full : 1.0 - (1.0 - full) * alpha;
+    return select(alpha == 1.0, full, 1.0 - (1.0 - full) * alpha);
   }
 
-  /// The strength of the diffuse light there.
+  /// Returns the strength of the diffuse light at that transparency.
   template <class Real>
   Real diffuse(const Real& transparency) const {
     if (description->diffuse) return broadcast<Real>(*description->diffuse);
     const Real rest = (1.0 - description->reflectivity) - transparency;
-    return rest > 0.0 ? rest : Real{};
+    return select(rest > 0.0, rest, Real{});
   }
 };
 

@@ -14,33 +14,33 @@ namespace crt::core {
 
 namespace {
 
-/// Where in its period a coordinate is, in [0, 1); 0 where doubles no longer tell.
+/// Returns where in its period a coordinate is, in [0, 1), or 0 where doubles cannot resolve it.
 template <class Real>
 Real period_share(const Real& coordinate) {
   const Real share = coordinate - floor(coordinate);
-  return share < 1.0 ? share : Real{};  // also for NaN, of coordinates beyond all bounds
+  return select(share < 1.0, share, Real{});  // also for NaN, from coordinates beyond all bounds
 }
 
-/// Exact for every whole number. What is no number counts as odd, as its remainder is not 0.
+/// Returns whether a whole number is odd, exactly. NaN counts as odd, as its remainder is not 0.
 template <class Real>
 auto is_odd(const Real& whole_number) {
   return whole_number - 2.0 * floor(0.5 * whole_number) != 0.0;
 }
 
-/// From 0 to 1 and back, smoothly, once a period.
+/// Goes from 0 to 1 and back, smoothly, once a period.
 double wave(double coordinate) {
   return 0.5 - 0.5 * std::cos(2 * std::numbers::pi * period_share(coordinate));
 }
 
-/// A little under the surface: of patterns with edges, a surface that lies exactly on an edge wears
-/// what is inside of it and not a mixture that rounding makes.
+/// Returns a point a little under the surface. A surface that lies exactly on an edge of a pattern
+/// then has the colour inside of it, and not a mixture that rounding makes.
 template <class Real>
 Vec3Of<Real> under_surface(const SurfacePointOf<Real>& point, double scale) {
   constexpr double of_scale = 0x1p-20;
   constexpr double of_coordinates = 0x1p-48;
   const Real least = broadcast<Real>(scale * of_scale);
   const Real depth = of_coordinates * largest_component(point.position);
-  return point.position - (least < depth ? depth : least) * point.normal;
+  return point.position - select(least < depth, depth, least) * point.normal;
 }
 
 template <class Real = double, class Solid>
@@ -48,7 +48,8 @@ Vec3Of<Real> in_periods(const Solid& pattern, const Vec3Of<Real>& position) {
   return (position - broadcast<Real>(pattern.offset)) / broadcast<Real>(pattern.scale);
 }
 
-// Of patterns of two colours with an edge between them: whether the second is seen.
+// For patterns of two colours with an edge between them, is_second() returns whether the second
+// colour is seen.
 
 template <class Real>
 auto is_second(const Checker& checker, const SurfacePointOf<Real>& point) {
@@ -97,7 +98,7 @@ Color color_of(const ImageMap& map, const Texture& texture, const SurfacePoint& 
   return texture.bilinear(x, y, TextureWrap::repeat, TextureWrap::repeat);
 }
 
-/// Of any pattern; only an image map has a texture.
+/// Returns the colour of any pattern. Only an image map has a texture.
 template <class Kind>
 Color color_at(const Kind& kind, const Texture* texture, const SurfacePoint& point) {
   if constexpr (has_edges<Kind>) {
@@ -113,7 +114,7 @@ template <class Kind>
 ColorLanes colors_at(const Kind& kind, const Texture* texture, const SurfacePointLanes& points,
                      std::uint32_t lanes) {
   if constexpr (has_edges<Kind>) {
-    return chosen(is_second(kind, points), lanes_of(kind.color_b), lanes_of(kind.color_a));
+    return select(is_second(kind, points), lanes_of(kind.color_b), lanes_of(kind.color_a));
   } else {
     ColorLanes result;
     for (std::size_t lane = 0; lane < lane_count; ++lane) {

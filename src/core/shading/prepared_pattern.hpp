@@ -1,4 +1,4 @@
-// Patterns made ready for looking up.
+// Patterns are prepared for looking up.
 #pragma once
 
 #include <memory>
@@ -10,28 +10,29 @@
 
 namespace crt::core {
 
-/// A pattern with its picture, if it has one, in linear light. The normals of points point out of
-/// the solid that is seen, also where a cutter made its surface.
+/// A PreparedPattern is a pattern with its picture, if it has one, in linear light. The normals of
+/// points point out of the solid that is seen, also where a cutter made its surface.
 class PreparedPattern {
  public:
   PreparedPattern(const Pattern& pattern, TexturePool& textures);
 
   Color color(const SurfacePoint& point) const;
-  /// The same, to the last bit, in the lanes that have their bit in `lanes`.
+  /// Returns the colours that color() gives, to the last bit, in the lanes that have their bit in
+  /// `lanes`.
   ColorLanes colors(const SurfacePointLanes& points, std::uint32_t lanes) const;
 
-  /// Whether it looks at u and v.
+  /// Returns whether the pattern uses u and v.
   bool uses_uv() const { return texture_ != nullptr; }
 
-  /// Whether alpha is 1 everywhere.
+  /// Returns whether alpha is 1 everywhere.
   bool opaque() const { return opaque_; }
 
-  /// What no channel of its colours passes.
+  /// Returns a bound on all channels of the pattern's colours.
   double brightest() const { return brightest_; }
 
   const Pattern& description() const { return pattern_; }
 
-  /// The picture of an image map, null for other patterns.
+  /// Returns the picture of an image map, or null for other patterns.
   const Texture* texture() const { return texture_.get(); }
 
  private:

@@ -1,4 +1,4 @@
-// Colours to compute with: three channels of linear light.
+// Computations use colours of three channels of linear light.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace crt::core {
 
-/// Red, green, blue; the vector's operators act on each channel.
+/// Rgb is red, green, blue. The vector's operators act on each channel.
 using Rgb = Vec3;
 
 inline Rgb rgb(const Color& color) {
@@ -27,11 +27,11 @@ inline double brightest_channel(const Color& color) {
   return std::max({color.r, color.g, color.b});
 }
 
-/// Shares of light are kept below this: so much, times all that lights and surfaces may add, is
-/// still a number, however many surfaces brighten what they let through.
+/// Shares of light are kept below this bound. The bound times all that lights and surfaces may add
+/// is finite, however many surfaces brighten what they let through.
 inline constexpr double largest_share = 0x1p100;
 
-/// A share of light, kept within its bound.
+/// Returns a share of light, kept within its bound.
 inline Rgb bounded_share(const Rgb& share) {
   return {std::min(share.x, largest_share), std::min(share.y, largest_share),
           std::min(share.z, largest_share)};
@@ -41,25 +41,25 @@ inline VectorLanes bounded_share(const VectorLanes& share) {
   return {min(share.x, bound), min(share.y, bound), min(share.z, bound)};
 }
 
-/// How bright a colour looks: the weights of Rec. ITU-R BT.709, item 3.2.
+/// Returns how bright a colour looks, by the weights of Rec. ITU-R BT.709, item 3.2.
 inline double luminance(const Color& color) {
   return 0.2126 * color.r + 0.7152 * color.g + 0.0722 * color.b;
 }
 
-/// From a (share 0) to b (share 1), in every channel and alpha.
+/// Interpolates from a (share 0) to b (share 1), in every channel and alpha.
 inline Color mix(const Color& a, const Color& b, double share) {
   return {a.r + share * (b.r - a.r), a.g + share * (b.g - a.g), a.b + share * (b.b - a.b),
           a.a + share * (b.a - a.a)};
 }
 
-/// As many colours as there are lanes.
+/// ColorLanes are as many colours as there are lanes.
 struct ColorLanes {
   VectorLanes color;
   Lanes alpha{};
 
   void set(std::size_t lane, const Color& one) {
     color.set(lane, rgb(one));
-    alpha[static_cast<int>(lane)] = one.a;
+    alpha[lane] = one.a;
   }
 };
 
@@ -67,8 +67,8 @@ inline ColorLanes lanes_of(const Color& color) {
   return {lanes_of(rgb(color)), lanes_of(color.a)};
 }
 
-inline ColorLanes chosen(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {
-  return {chosen(first, a.color, b.color), first ? a.alpha : b.alpha};
+inline ColorLanes select(const LaneMask& first, const ColorLanes& a, const ColorLanes& b) {
+  return {select(first, a.color, b.color), select(first, a.alpha, b.alpha)};
 }
 
 }  // namespace crt::core

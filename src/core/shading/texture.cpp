@@ -11,14 +11,14 @@ namespace crt::core {
 
 namespace {
 
-/// Takes a display-encoded picture to linear light. The gamma curve is of the straight colours.
+/// Converts a display-encoded picture to linear light. The gamma curve applies to straight colours.
 std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma) {
   auto linear = std::make_shared<Image>(encoded);
   const std::span<float> values = linear->pixels();
   for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
     const double alpha = values[pixel + 3];
     if (!(alpha > 0)) continue;
-    const Lanes shown = {values[pixel], values[pixel + 1], values[pixel + 2], 0};
+    const Lanes shown = lanes_of(values[pixel], values[pixel + 1], values[pixel + 2], 0);
     const Lanes light = alpha * power(max(Lanes{}, shown / alpha), lanes_of(gamma));
     for (int channel = 0; channel < 3; ++channel) {
       values[pixel + static_cast<std::size_t>(channel)] = static_cast<float>(light[channel]);
@@ -28,7 +28,8 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
   return linear;
 }
 
-/// Two neighbouring texels along one side of the picture and the share of the second.
+/// Neighbours are two neighbouring texels along one side of the picture, and the share of the
+/// second.
 struct Neighbours {
   int first = 0;
   int second = 0;
@@ -74,7 +75,7 @@ Texture::Texture(std::shared_ptr<const Image> image, double gamma)
     image_ = to_linear_light(*image_, gamma);
     own_bytes_ = sizeof(Image) + image_->pixels().size_bytes();
   }
-  // What lies between texels is a mean of them, weighted by alpha, and no brighter.
+  // Colours between texels are means of these, weighted by alpha, and no brighter.
   Lanes brightest{};
   const std::span<const float> values = image_->pixels();
   for (std::size_t pixel = 0; pixel + 3 < values.size(); pixel += 4) {
@@ -82,9 +83,9 @@ Texture::Texture(std::shared_ptr<const Image> image, double gamma)
     opaque_ = opaque_ && alpha == 1;
     if (!(alpha > 0)) continue;
     brightest =
-        max(brightest, Lanes{values[pixel], values[pixel + 1], values[pixel + 2], 0} / alpha);
+        max(brightest, lanes_of(values[pixel], values[pixel + 1], values[pixel + 2], 0) / alpha);
   }
-  brightest_ = std::max({brightest[0], brightest[1], brightest[2]});
+  brightest_ = std::max<double>({brightest[0], brightest[1], brightest[2]});
 }
 
 Color Texture::bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const {

@@ -1,4 +1,4 @@
-// Pictures made ready for looking up: in linear light, whatever they were read from.
+// Pictures are prepared for looking up: in linear light, whatever they were read from.
 #pragma once
 
 #include <cstdint>
@@ -11,12 +11,12 @@
 
 namespace crt::core {
 
-/// What a lookup between texels does where the picture ends.
+/// Says what a lookup between texels does where the picture ends.
 enum class TextureWrap { repeat, clamp };
 
-/// A picture in linear light, of finite values. One that is display-encoded is raised to the given
-/// gamma, once, into a copy, and one with values that are not finite gets 0 there, likewise; any
-/// other is shared as it is.
+/// A Texture is a picture in linear light, of finite values. A display-encoded picture is raised to
+/// the given gamma once, into a copy. One with values that are not finite gets 0 there, in a copy,
+/// too. Any other is shared as it is.
 class Texture {
  public:
   /// `image` must not be null.
@@ -25,22 +25,22 @@ class Texture {
   int width() const { return image_->width(); }
   int height() const { return image_->height(); }
 
-  /// Of memory, beside the picture as it was given.
+  /// Returns the bytes of memory it takes beside the picture as it was given.
   std::uint64_t bytes() const { return sizeof *this + own_bytes_; }
 
-  /// What in the picture, or in the file it is from, is not finite and counts as 0; for the user to
-  /// know.
+  /// Returns, for the user to know, what in the picture or in its file is not finite and counts as
+  /// 0.
   const NotFiniteValues& not_finite() const { return not_finite_; }
 
-  /// Whether every texel covers fully.
+  /// Returns whether every texel covers fully.
   bool opaque() const { return opaque_; }
 
-  /// What no channel of its colours passes.
+  /// Returns a bound on all channels of the picture's colours.
   double brightest() const { return brightest_; }
 
-  /// Bilinear, at (x, y) in texels: (0.5, 0.5) is the centre of the top left one. Any finite
-  /// position is valid. The colour is straight (not premultiplied); where nothing covers it is
-  /// black.
+  /// Interpolates bilinearly at (x, y) in texels: (0.5, 0.5) is the centre of the top left one. Any
+  /// finite position is valid. The colour is straight (not premultiplied), and black where nothing
+  /// covers.
   Color bilinear(double x, double y, TextureWrap wrap_x, TextureWrap wrap_y) const;
 
  private:
@@ -51,23 +51,23 @@ class Texture {
   double brightest_ = 0;
 };
 
-/// The textures of one scene, so that a picture used twice is made ready once.
+/// A TexturePool has the textures of one scene, so that a picture used twice is prepared once.
 class TexturePool {
  public:
   explicit TexturePool(double gamma) : gamma_(gamma) {}
 
-  /// Takes over what another pool has made, if it is for the same gamma, of what is asked for until
-  /// settle() is called. `earlier` may be null.
+  /// Until settle() is called, textures that are asked for are taken over from another pool, if it
+  /// is for the same gamma. `earlier` may be null.
   TexturePool(double gamma, const TexturePool* earlier)
       : gamma_(gamma),
         earlier_(earlier != nullptr && earlier->gamma_ == gamma ? earlier : nullptr) {}
   void settle() { earlier_ = nullptr; }
 
-  /// What NotFiniteValues::message() says of its textures; in no order that depends on anything
+  /// Returns the NotFiniteValues::message() of all textures, in an order that depends on nothing
   /// else.
   std::vector<std::string> warnings() const;
 
-  /// Of memory, of all its textures.
+  /// Returns the bytes of memory of all its textures.
   std::uint64_t bytes() const;
 
   std::shared_ptr<const Texture> get(const std::shared_ptr<const Image>& image);

@@ -14,7 +14,7 @@ struct Uv {
   double v = 0;
 };
 
-/// Far smaller than what a bump shows, far larger than what rounding does to (u, v).
+/// The step is far smaller than what a bump shows, and far larger than the rounding of (u, v).
 constexpr double step_of_size = 0x1p-16;
 
 double step_on(const Shape& shape) {
@@ -24,7 +24,7 @@ double step_on(const Shape& shape) {
   return step_of_size * std::max({extent.x, extent.y, extent.z});
 }
 
-/// (u, v) of the point of the face straight above or below `beside`, if it has one nearby.
+/// Returns (u, v) of the point of the face straight above or below `beside`, if it has one nearby.
 std::optional<Uv> uv_near(const Shape& shape, std::uint32_t face, const Vec3& beside,
                           const Vec3& normal, double reach, CrossingList& scratch) {
   ObjectRay ray;
@@ -42,7 +42,8 @@ std::optional<Uv> uv_near(const Shape& shape, std::uint32_t face, const Vec3& be
   return Uv{point.u, point.v};
 }
 
-/// The change from one value to another across the seam where 1 meets 0, if that is shorter.
+/// Returns the change from one value to another, across the seam where 1 meets 0 if that is
+/// shorter.
 double change(double from, double to) {
   const double difference = to - from;
   if (difference > 0.5) return difference - 1;

@@ -1,200 +1,85 @@
-// Four doubles side by side: what vector instructions do in one step, on every target with the same
-// bits as one by one. Vectors of GCC and Clang, which turn them into what the machine has.
+// Numbers side by side, on which one instruction works at once: four doubles, floats or integers,
+// or eight floats. Each lane has the bits that it would have alone, on every target.
+//
+// The lanes are those of std::experimental::simd (ISO/IEC TS 19570:2018), for the instruction set
+// that the compiler is told of. Comparing two of them gives a mask, with a bool for each lane;
+// masks are combined by && || ! (or & |), as bools are.
 #pragma once
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
+#include <experimental/simd>
 #include <type_traits>
 
-#ifdef __AVX__
+#ifdef __FMA__
 #include <immintrin.h>
 #endif
 
 namespace crt::core {
 
-using Lanes = double __attribute__((vector_size(32)));
-/// What comparing two of them gives: all bits of a lane set where it is true.
-using LaneMask = decltype(Lanes{} < Lanes{});
-inline constexpr int lane_count = 4;
+namespace stdx = std::experimental;
 
-/// As many whole numbers of 64 bits, of which these may be the bits.
-using WordLanes = std::uint64_t __attribute__((vector_size(32)));
+// GCC takes much of what follows for too large to be inlined, and does not see that its fma's are
+// one instruction: these two things are helped along.
 
-/// As many floats, and integers of their size.
-using FloatLanes = float __attribute__((vector_size(16)));
-using IntLanes = std::int32_t __attribute__((vector_size(16)));
+/// `count` numbers side by side.
+template <class Number, std::size_t count>
+using SideBySide = stdx::simd<Number, stdx::simd_abi::deduce_t<Number, count>>;
 
-/// Into a column of numbers, from one on; of any kind of lanes.
-template <class Numbers, class Column>
-void put_lanes(const Numbers& lanes, Column& column, std::size_t first) {
-  std::memcpy(&column[first], &lanes, sizeof lanes);
+inline constexpr std::size_t lane_count = 4;
+using Lanes = SideBySide<double, lane_count>;
+using LaneMask = Lanes::mask_type;
+using WordLanes = SideBySide<std::uint64_t, lane_count>;
+using FloatLanes = SideBySide<float, lane_count>;
+using IntLanes = SideBySide<std::int32_t, lane_count>;
+
+inline constexpr std::size_t octet_size = 8;
+using FloatOctet = SideBySide<float, octet_size>;
+using OctetMask = FloatOctet::mask_type;
+using IntOctet = SideBySide<std::int32_t, octet_size>;
+using BitOctet = SideBySide<std::uint32_t, octet_size>;
+
+// ---- masks ----------------------------------------------------------------------------------
+
+/// Returns the lanes of a mask as bits, the first lane's in the lowest bit.
+template <class Number, class Abi>
+[[gnu::always_inline]] inline std::uint32_t mask_of(const stdx::simd_mask<Number, Abi>& mask) {
+  return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
-/// As many of such numbers.
-template <class Numbers, class Number>
-Numbers lanes_at(const Number* column) {
-  Numbers lanes;
-  std::memcpy(&lanes, column, sizeof lanes);
-  return lanes;
+/// Returns the mask with those bits, of which higher ones than there are lanes do not count.
+template <class Mask>
+Mask mask_with(std::uint32_t bits) {
+  return Mask::__from_bitset(bits);
+}
+[[gnu::always_inline]] inline LaneMask lanes_with(std::uint32_t bits) {
+  return mask_with<LaneMask>(bits);
 }
 
-// Where GCC does not see that there is one instruction for all lanes it is named; the bits are the
-// same.
-
-/// Each rounded to the nearest float.
-inline FloatLanes to_floats(const Lanes& a) {
-  return __builtin_convertvector(a, FloatLanes);
-}
-inline Lanes to_doubles(const FloatLanes& a) {
-#ifdef __AVX__
-  return _mm256_cvtps_pd(a);
-#else
-  return __builtin_convertvector(a, Lanes);
-#endif
+/// Returns the mask for lanes of other numbers of the same size.
+template <class Mask, class Number, class Abi>
+Mask mask_cast(const stdx::simd_mask<Number, Abi>& mask) {
+  if constexpr (std::is_trivially_copyable_v<Mask>) {
+    return std::bit_cast<Mask>(mask);
+  } else {
+    return mask_with<Mask>(mask_of(mask));
+  }
 }
 
-inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
-  return b < a ? b : a;
+/// Returns whether a mask is true in all of its lanes, or in any; of one number its own.
+template <class Number, class Abi>
+[[gnu::always_inline]] inline bool all(const stdx::simd_mask<Number, Abi>& mask) {
+  return stdx::all_of(mask);
 }
-
-inline FloatLanes max(const FloatLanes& a, const FloatLanes& b) {
-  return a < b ? b : a;
+template <class Number, class Abi>
+[[gnu::always_inline]] inline bool any(const stdx::simd_mask<Number, Abi>& mask) {
+  return stdx::any_of(mask);
 }
-
-inline Lanes lanes_of(double value) {
-  return Lanes{value, value, value, value};
-}
-
-/// Whether a comparison is true in all lanes, or in any.
-inline bool all(const LaneMask& mask) {
-#ifdef __AVX__
-  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) == (1 << lane_count) - 1;
-#else
-  return (mask[0] & mask[1] & mask[2] & mask[3]) != 0;
-#endif
-}
-
-inline bool any(const LaneMask& mask) {
-#ifdef __AVX__
-  return _mm256_movemask_pd(reinterpret_cast<__m256d>(mask)) != 0;
-#else
-  return (mask[0] | mask[1] | mask[2] | mask[3]) != 0;
-#endif
-}
-
-/// The lanes of a comparison as bits.
-inline std::uint32_t mask_of(const LaneMask& lanes) {
-#ifdef __AVX__
-  return static_cast<std::uint32_t>(_mm256_movemask_pd(reinterpret_cast<__m256d>(lanes)));
-#else
-  std::uint32_t mask = 0;
-  for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
-  return mask;
-#endif
-}
-
-inline std::uint32_t mask_of(const IntLanes& lanes) {
-#ifdef __AVX__
-  return static_cast<std::uint32_t>(_mm_movemask_ps(reinterpret_cast<__m128>(lanes)));
-#else
-  std::uint32_t mask = 0;
-  for (int i = 0; i < lane_count; ++i) mask |= lanes[i] != 0 ? 1u << i : 0u;
-  return mask;
-#endif
-}
-
-/// Those of which the bit is set.
-inline LaneMask lanes_with(std::uint32_t mask) {
-  constexpr LaneMask bits = {1, 2, 4, 8};
-  return (bits & static_cast<std::int64_t>(mask)) != 0;
-}
-
-inline IntLanes int_lanes_with(std::uint32_t mask) {
-  constexpr IntLanes bits = {1, 2, 4, 8};
-  return (bits & static_cast<std::int32_t>(mask)) != 0;
-}
-
-/// Which of eight numbers in a row are that one, as bits.
-inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
-#ifdef __AVX2__
-  const __m256i row = _mm256_loadu_si256(reinterpret_cast<const __m256i*>(numbers));
-  const __m256i equal = _mm256_cmpeq_epi32(row, _mm256_set1_epi32(static_cast<int>(one)));
-  return static_cast<std::uint32_t>(_mm256_movemask_ps(_mm256_castsi256_ps(equal)));
-#else
-  std::uint32_t mask = 0;
-  for (std::uint32_t i = 0; i < 8; ++i) mask |= numbers[i] == one ? 1u << i : 0u;
-  return mask;
-#endif
-}
-
-inline Lanes min(const Lanes& a, const Lanes& b) {
-#ifdef __AVX__
-  return _mm256_min_pd(a, b);
-#else
-  return a < b ? a : b;
-#endif
-}
-
-inline Lanes max(const Lanes& a, const Lanes& b) {
-#ifdef __AVX__
-  return _mm256_max_pd(b, a);
-#else
-  return a < b ? b : a;
-#endif
-}
-
-/// v between the two.
-inline Lanes clamp(const Lanes& v, const Lanes& low, const Lanes& high) {
-  return min(high, max(v, low));
-}
-
-inline Lanes sqrt(const Lanes& a) {
-#ifdef __AVX__
-  return _mm256_sqrt_pd(a);
-#else
-  Lanes result{};
-  for (int i = 0; i < lane_count; ++i) result[i] = std::sqrt(a[i]);
-  return result;
-#endif
-}
-
-inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
-#ifdef __FMA__
-  return _mm256_fmadd_pd(a, b, c);
-#else
-  Lanes result;
-  for (int i = 0; i < lane_count; ++i) result[i] = std::fma(a[i], b[i], c[i]);
-  return result;
-#endif
-}
-
-inline Lanes floor(const Lanes& a) {
-#ifdef __AVX__
-  return _mm256_floor_pd(a);
-#else
-  Lanes result;
-  for (int i = 0; i < lane_count; ++i) result[i] = std::floor(a[i]);
-  return result;
-#endif
-}
-
-// Formulas for one double or for lanes: templates over a Real, which is either. Comparing doubles
-// gives a bool, and comparing lanes a mask of lanes.
-
-/// What comparing gives.
-template <class Real>
-using MaskOf = decltype(Real{} < Real{});
-
-using std::clamp;
-using std::floor;
-using std::fma;
-using std::max;
-using std::min;
-
 inline bool all(bool a) {
   return a;
 }
@@ -202,96 +87,214 @@ inline bool any(bool a) {
   return a;
 }
 
-inline bool both(bool a, bool b) {
-  return a && b;
-}
-inline LaneMask both(const LaneMask& a, const LaneMask& b) {
-  return a & b;
-}
-inline bool either(bool a, bool b) {
-  return a || b;
-}
-inline LaneMask either(const LaneMask& a, const LaneMask& b) {
-  return a | b;
-}
-template <class Mask, class... More>
-Mask either(const Mask& a, const Mask& b, const More&... more) {
-  return either(either(a, b), more...);
-}
-/// The first and not the second.
-inline bool without(bool a, bool b) {
-  return a && !b;
-}
-inline LaneMask without(const LaneMask& a, const LaneMask& b) {
-  return a & ~b;
-}
-inline bool neither(bool a, bool b) {
-  return !a && !b;
-}
-inline LaneMask neither(const LaneMask& a, const LaneMask& b) {
-  return ~(a | b);
-}
-
-inline double square_root(double x) {
-  return std::sqrt(x);
-}
-inline Lanes square_root(const Lanes& x) {
-  return sqrt(x);
-}
-
-/// The absolute value.
-inline double abs(double x) {
-  return std::abs(x);
-}
-inline Lanes abs(const Lanes& x) {
-#ifdef __AVX__
-  return _mm256_andnot_pd(lanes_of(-0.0), x);
-#else
-  Lanes result;
-  for (int i = 0; i < lane_count; ++i) result[i] = std::abs(x[i]);
+/// Returns in each lane the first value where the mask is true, else the second.
+template <class Number, class Abi>
+[[gnu::always_inline]] inline stdx::simd<Number, Abi> select(
+    const stdx::simd_mask<Number, Abi>& mask,
+    const std::type_identity_t<stdx::simd<Number, Abi>>& a,
+    const std::type_identity_t<stdx::simd<Number, Abi>>& b) {
+  stdx::simd<Number, Abi> result = b;
+  stdx::where(mask, result) = a;
   return result;
+}
+template <class Number, class Abi>
+[[gnu::always_inline]] inline stdx::simd_mask<Number, Abi> select(
+    const stdx::simd_mask<Number, Abi>& mask, const stdx::simd_mask<Number, Abi>& a,
+    const stdx::simd_mask<Number, Abi>& b) {
+  return (mask && a) || (!mask && b);
+}
+template <class Value>
+Value select(bool first, const Value& a, const std::type_identity_t<Value>& b) {
+  return first ? a : b;
+}
+
+// ---- numbers --------------------------------------------------------------------------------
+
+inline Lanes lanes_of(double value) {
+  return value;
+}
+/// Returns lanes with a number each.
+template <class Result = Lanes, class... Numbers>
+requires(sizeof...(Numbers) == lane_count) Result lanes_of(const Numbers&... numbers) {
+  using Value = typename Result::value_type;
+  const std::array<Value, lane_count> row = {static_cast<Value>(numbers)...};
+  return Result(row.data(), stdx::element_aligned);
+}
+
+/// Returns -1, which has all bits, in the lanes that have their bit, and 0 in the others.
+inline IntLanes int_lanes_with(std::uint32_t bits) {
+  return select(mask_with<IntLanes::mask_type>(bits), -1, 0);
+}
+
+/// Writes lanes into a column of numbers, from one on.
+template <class Numbers, class Column>
+void put_lanes(const Numbers& lanes, Column& column, std::size_t first) {
+  lanes.copy_to(&column[first], stdx::element_aligned);
+}
+/// Returns as many numbers of a column as there are lanes.
+template <class Numbers, class Number>
+Numbers lanes_at(const Number* column) {
+  return Numbers(column, stdx::element_aligned);
+}
+
+/// Returns the number or the lanes with the same bits.
+template <class To, class From>
+[[gnu::always_inline]] inline To bits_as(const From& from) {
+  if constexpr (std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>) {
+    return std::bit_cast<To>(from);
+  } else {
+    // More lanes than the machine has side by side.
+    std::array<typename From::value_type, From::size()> numbers;
+    from.copy_to(numbers.data(), stdx::element_aligned);
+    const auto bits = std::bit_cast<std::array<typename To::value_type, To::size()>>(numbers);
+    return To(bits.data(), stdx::element_aligned);
+  }
+}
+
+/// Returns each number rounded to the nearest float.
+inline FloatLanes to_floats(const Lanes& a) {
+  return stdx::static_simd_cast<FloatLanes>(a);
+}
+inline Lanes to_doubles(const FloatLanes& a) {
+  return stdx::static_simd_cast<Lanes>(a);
+}
+
+/// Returns which of eight numbers in a row are that one, as bits.
+inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
+  return mask_of(lanes_at<BitOctet>(numbers) == one);
+}
+
+/// Returns the columns of four rows.
+[[gnu::always_inline]] inline std::array<Lanes, lane_count> transposed(
+    const std::array<Lanes, lane_count>& rows) {
+  using Row = double __attribute__((vector_size(sizeof(double) * lane_count)));  // to be shuffled
+  Row a, b, c, d;
+  std::memcpy(&a, &rows[0], sizeof a);
+  std::memcpy(&b, &rows[1], sizeof b);
+  std::memcpy(&c, &rows[2], sizeof c);
+  std::memcpy(&d, &rows[3], sizeof d);
+  const Row even_low = __builtin_shufflevector(a, b, 0, 4, 2, 6);
+  const Row odd_low = __builtin_shufflevector(a, b, 1, 5, 3, 7);
+  const Row even_high = __builtin_shufflevector(c, d, 0, 4, 2, 6);
+  const Row odd_high = __builtin_shufflevector(c, d, 1, 5, 3, 7);
+  a = __builtin_shufflevector(even_low, even_high, 0, 1, 4, 5);
+  b = __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5);
+  c = __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7);
+  d = __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7);
+  const auto lanes = [](const Row& row) {
+    return Lanes(reinterpret_cast<const double*>(&row), stdx::vector_aligned);
+  };
+  return {lanes(a), lanes(b), lanes(c), lanes(d)};
+}
+
+// ---- formulas for one double or for lanes: templates over a Real, which is either ------------
+
+/// What comparing gives.
+template <class Real>
+using MaskOf = decltype(Real{} < Real{});
+
+// Those of lanes are found where lanes come from.
+using std::abs;
+using std::floor;
+using std::sqrt;
+
+using std::clamp;
+using std::fma;
+using std::max;
+using std::min;
+
+// Of two doubles of which one is NaN, max() returns the first, as std::max() does, and min() the
+// second. Of two floats both return the first.
+[[gnu::always_inline]] inline Lanes min(const Lanes& a, const Lanes& b) {
+  return select(a < b, a, b);
+}
+[[gnu::always_inline]] inline Lanes max(const Lanes& a, const Lanes& b) {
+  return select(a < b, b, a);
+}
+[[gnu::always_inline]] inline FloatLanes min(const FloatLanes& a, const FloatLanes& b) {
+  return select(b < a, b, a);
+}
+[[gnu::always_inline]] inline FloatLanes max(const FloatLanes& a, const FloatLanes& b) {
+  return select(a < b, b, a);
+}
+[[gnu::always_inline]] inline Lanes clamp(const Lanes& v, const Lanes& low, const Lanes& high) {
+  return min(high, max(v, low));
+}
+
+[[gnu::always_inline]] inline Lanes fma(const Lanes& a, const Lanes& b, const Lanes& c) {
+#ifdef __FMA__
+  return std::bit_cast<Lanes>(_mm256_fmadd_pd(std::bit_cast<__m256d>(a), std::bit_cast<__m256d>(b),
+                                              std::bit_cast<__m256d>(c)));
+#else
+  return Lanes([&](auto i) { return std::fma(a[i], b[i], c[i]); });
 #endif
 }
 
-/// The least of all lanes.
+/// Returns a b + c, rounded once or twice, whichever is faster: of use where a bound on the error
+/// covers both.
+[[gnu::always_inline]] inline FloatOctet multiply_add(const FloatOctet& a, const FloatOctet& b,
+                                                      const FloatOctet& c) {
+#ifdef __FMA__
+  return std::bit_cast<FloatOctet>(_mm256_fmadd_ps(
+      std::bit_cast<__m256>(a), std::bit_cast<__m256>(b), std::bit_cast<__m256>(c)));
+#else
+  return a * b + c;
+#endif
+}
+template <class Real>
+[[gnu::always_inline]] inline Real multiply_add(const Real& a, const Real& b, const Real& c) {
+#ifdef __FMA__
+  return fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
+/// Whole numbers of as many bits as a Real's numbers have, by lane.
+template <class Real>
+using BitsOf =
+    std::conditional_t<std::is_same_v<Real, double>, std::uint64_t,
+                       std::conditional_t<std::is_same_v<Real, Lanes>, WordLanes, BitOctet>>;
+
+/// Returns 1 / x or up to an eighth more, without a quotient, which takes long. x is not negative;
+/// above 2^100 the result is that of 2^100. The bits of a number are nearly its logarithm (Blinn,
+/// Floating-point tricks, IEEE Computer Graphics and Applications 17(4), 1997).
+template <class Real>
+[[gnu::always_inline]] inline Real inverse_or_more(const Real& x) {
+  using Bits = BitsOf<Real>;
+  constexpr bool is_double = !std::is_same_v<Real, FloatOctet>;
+  constexpr auto bits_of_one_twice = [] {
+    if constexpr (is_double) {
+      return std::uint64_t{0x7fe0000000000000};
+    } else {
+      return std::uint32_t{0x7f000000};
+    }
+  }();
+  const Real within = min(x, Real(0x1p100F));
+  return bits_as<Real>(Bits(bits_of_one_twice - bits_as<Bits>(within)));
+}
+
+/// Returns the least of all lanes.
 inline double least(double x) {
   return x;
 }
 inline double least(const Lanes& x) {
-  return std::min(std::min(x[0], x[1]), std::min(x[2], x[3]));
+  return std::min(std::min<double>(x[0], x[1]), std::min<double>(x[2], x[3]));
 }
 
-/// Of four rows the columns.
-inline std::array<Lanes, lane_count> transposed(const std::array<Lanes, lane_count>& rows) {
-  const Lanes even_low = __builtin_shufflevector(rows[0], rows[1], 0, 4, 2, 6);
-  const Lanes odd_low = __builtin_shufflevector(rows[0], rows[1], 1, 5, 3, 7);
-  const Lanes even_high = __builtin_shufflevector(rows[2], rows[3], 0, 4, 2, 6);
-  const Lanes odd_high = __builtin_shufflevector(rows[2], rows[3], 1, 5, 3, 7);
-  return {__builtin_shufflevector(even_low, even_high, 0, 1, 4, 5),
-          __builtin_shufflevector(odd_low, odd_high, 0, 1, 4, 5),
-          __builtin_shufflevector(even_low, even_high, 2, 3, 6, 7),
-          __builtin_shufflevector(odd_low, odd_high, 2, 3, 6, 7)};
-}
-
-/// The same number in a Real, which is a double or lanes.
+/// Returns the same number in a Real, or numbers that are by lane already.
 template <class Real>
 Real broadcast(double value) {
-  if constexpr (std::is_same_v<Real, double>) {
-    return value;
-  } else {
-    return lanes_of(value);
-  }
+  return value;
 }
-
-/// Numbers that are by lane already.
 template <class Real>
 Lanes broadcast(const Lanes& values) {
   return values;
 }
 
-/// A mask for a Real, of bits as mask_of() has them; of one number the first.
+/// Returns a mask for a Real, of bits as mask_of() has them; of one number the first.
 template <class Real>
-auto lanes_of_mask(std::uint32_t bits) {
+MaskOf<Real> lanes_of_mask(std::uint32_t bits) {
   if constexpr (std::is_same_v<Real, double>) {
     return (bits & 1u) != 0;
   } else {
@@ -299,7 +302,15 @@ auto lanes_of_mask(std::uint32_t bits) {
   }
 }
 
-/// Of vectors by component, of doubles or of lanes.
+/// Returns the scalar product of vectors by component, of doubles or of lanes, as multiply_add()
+/// rounds it.
+template <class Real>
+[[gnu::always_inline]] inline Real fused_dot(const std::array<Real, 3>& a,
+                                             const std::array<Real, 3>& b) {
+  return multiply_add(a[2], b[2], multiply_add(a[1], b[1], a[0] * b[0]));
+}
+
+/// Returns the scalar product of vectors by component, of doubles or of lanes.
 template <class Real>
 Real dot(const std::array<Real, 3>& a, const std::array<Real, 3>& b) {
   return a[0] * b[0] + a[1] * b[1] + a[2] * b[2];

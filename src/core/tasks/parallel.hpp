@@ -1,4 +1,4 @@
-// Loops over many small items, and sorting, on several threads. What comes out never depends on how
+// Loops over many small items, and sorting, run on several threads. The result never depends on how
 // many.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace crt::core {
 
-/// Few items, of which each is little work, are not worth another thread.
+/// Fewer items than this, each of little work, are not worth another thread.
 inline constexpr std::size_t items_for_a_thread = 4096;
 
-/// Calls body(begin, end) for ranges that make up 0 ... count, as run_tasks() does; a single range
+/// Calls body(begin, end) for ranges that make up 0 ... count, as run_tasks() does. A single range
 /// of up to `range_size` stays on this thread. The workers may be stopped between ranges.
 template <class Body>
 void for_ranges(std::size_t count, std::size_t range_size, const Workers& workers,
@@ -27,7 +27,7 @@ void for_ranges(std::size_t count, std::size_t range_size, const Workers& worker
   });
 }
 
-/// Sorts one piece after the other; between them the work may be stopped.
+/// Sorts one piece after the other. The work may be stopped between them.
 template <class Item, class Less>
 void sort_in_pieces(std::span<Item> items, const Workers& workers, const Less& less) {
   constexpr std::size_t largest_piece = std::size_t{1} << 19;
@@ -43,7 +43,7 @@ void sort_in_pieces(std::span<Item> items, const Workers& workers, const Less& l
   sort_in_pieces(items.subspan(half), workers, less);
 }
 
-/// Sorts; no two items may be equal to `less`, so that there is one order only.
+/// Sorts on several threads. No two items may be equal to `less`, so that there is one order only.
 template <class Item, class Less>
 void sort_in_parallel(std::span<Item> items, const Workers& workers, const Less& less) {
   std::size_t pieces = 1;

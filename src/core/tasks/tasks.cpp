@@ -28,7 +28,7 @@ int available_threads() {
   return std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
 }
 
-/// More than any machine has, few enough to ask for.
+/// This is more than any machine has, and few enough to ask for.
 int most_threads() {
   return 1024;
 }
@@ -37,7 +37,7 @@ int available_threads() {
   return tbb::this_task_arena::max_concurrency();
 }
 
-/// TBB starts no more in this process, and says so on the terminal if it is asked to.
+/// TBB starts no more threads in this process, and warns on the terminal if it is asked for more.
 int most_threads() {
   return static_cast<int>(
       tbb::global_control::active_value(tbb::global_control::max_allowed_parallelism));
@@ -50,7 +50,7 @@ void run_in_order(std::size_t count, const std::function<void(std::size_t)>& tas
 
 #ifdef CRT_TASKS_THREADS
 
-/// Takes tasks one after the other, on every thread that calls work().
+/// A SharedQueue takes tasks one after the other, on every thread that calls work().
 class SharedQueue {
  public:
   SharedQueue(std::size_t count, const std::function<void(std::size_t)>& task)
@@ -88,7 +88,7 @@ void run_in_parallel(std::size_t count, int threads, const std::function<void(st
     try {
       while (helpers.size() < others) helpers.emplace_back([&queue] { queue.work(); });
     } catch (const std::system_error&) {
-      // The system grants no more threads; those there are do the work.
+      // The system grants no more threads. Those there are do the work.
     }
     queue.work();
   }
@@ -98,7 +98,7 @@ void run_in_parallel(std::size_t count, int threads, const std::function<void(st
 #else
 
 void run_in_this_arena(std::size_t count, const std::function<void(std::size_t)>& task) {
-  // Bound to nothing around it: a host that cancels a task group of its own must not cut a picture
+  // The context is isolated: a host that cancels a task group of its own must not cut a picture
   // short.
   tbb::task_group_context context(tbb::task_group_context::isolated);
   tbb::parallel_for(
@@ -113,7 +113,7 @@ void run_in_parallel(std::size_t count, int threads, const std::function<void(st
   if (threads != 0) {
     tbb::task_arena(allowed_threads(threads)).execute([&] { run_in_this_arena(count, task); });
   } else {
-    // Isolated, so that this thread does not take up foreign work while it waits.
+    // This thread is isolated, so that it does not take up foreign work while it waits.
     tbb::this_task_arena::isolate([&] { run_in_this_arena(count, task); });
   }
 }

@@ -1,5 +1,5 @@
-// Running tasks on several threads: the one place that knows what runs them (oneTBB, or plain
-// threads in builds with CRT_TASKS_THREADS).
+// Tasks run on several threads. This is the one place that knows what runs them: oneTBB, or plain
+// threads in builds with CRT_TASKS_THREADS.
 #pragma once
 
 #include <cstddef>
@@ -7,13 +7,13 @@
 
 namespace crt::core {
 
-/// How many threads may work where `threads` are asked for: 0 asks for all that the caller's arena
-/// (or the machine) has, and there are never more than this process may start. Throws Error
-/// (invalid_argument) for a negative number.
+/// Returns how many threads may work where `threads` are asked for. 0 asks for all that the
+/// caller's arena (or the machine) has. There are never more than this process may start. Throws
+/// Error (invalid_argument) for a negative number.
 int allowed_threads(int threads);
 
-/// Calls task(0) ... task(count - 1), in any order and on up to `threads` threads (as above) at
-/// once, the calling one among them; 1 starts no thread and keeps the order. Returns when all are
+/// Calls task(0) ... task(count - 1) in any order, on up to allowed_threads(threads) threads at
+/// once, the calling one among them. 1 starts no thread and keeps the order. Returns when all are
 /// done. The first exception that a task throws stops what has not begun, and is rethrown here.
 void run_tasks(std::size_t count, int threads, const std::function<void(std::size_t)>& task);
 

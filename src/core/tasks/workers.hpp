@@ -1,4 +1,4 @@
-// Who does some work, and who may stop it.
+// Workers are the threads that do some work, with what may stop it.
 #pragma once
 
 #include <atomic>
@@ -8,16 +8,16 @@
 
 namespace crt::core {
 
-/// Asks whoever waits for a long piece of work whether it is to go on. Any thread may ask.
+/// A StopCheck asks the caller of a long piece of work whether to continue. Any thread may ask.
 class StopCheck {
  public:
-  /// `go_on` is called from one thread at a time; an empty one never stops anything. `what` names
+  /// `go_on` is called from one thread at a time. An empty one never stops anything. `what` names
   /// the work in the error.
   StopCheck(std::function<bool()> go_on, const char* what)
       : go_on_(std::move(go_on)), what_(what) {}
 
-  /// Throws Error (cancelled) if the answer is no, now or before. To be called often: asks now and
-  /// then.
+  /// Throws Error (cancelled) if the answer is or was no. It is to be called often, and asks only
+  /// from time to time.
   void poll();
 
  private:
@@ -32,7 +32,7 @@ class StopCheck {
   Clock::time_point last_;  ///< guarded by asking_
 };
 
-/// How many threads may work, as run_tasks() has it, and who may stop them.
+/// Says how many threads may work, as run_tasks() takes it, and what may stop them.
 struct Workers {
   int threads = 0;
   StopCheck* stop = nullptr;
@@ -44,7 +44,7 @@ struct Workers {
   void poll() const {
     if (stop != nullptr) stop->poll();
   }
-  /// The same of item number `index` of many that are little work each.
+  /// Polls if item `index` of many small items is one of every 4096.
   void poll_at(std::size_t index) const {
     constexpr std::size_t items_per_poll = 4096;
     if (index % items_per_poll == 0) poll();

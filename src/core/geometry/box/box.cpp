@@ -49,7 +49,7 @@ unsigned BoxShape::possible_ends(const ObjectRay& ray) const {
   std::array<double, 3> error;
   double last_enter = -infinity;
   double first_leave = infinity;
-  // Of the low parts of origin and direction, and the roundings here.
+  // This covers the low parts of origin and direction, and the roundings here.
   constexpr double slack = 0x1p-48;
   for (int axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<std::size_t>(axis);

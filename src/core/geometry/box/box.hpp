@@ -1,5 +1,5 @@
-// Box: all points between two corners, coordinate by coordinate; six flat faces that cut the line.
-// A line within a face's plane is outside: a face has no thickness.
+// A box has all points between two corners, coordinate by coordinate. Its six flat faces cut the
+// line. A line within a face's plane is outside, as a face has no thickness.
 //
 // Faces: 0 and 1 are across x at the lower and the upper end, 2 and 3 across y, 4 and 5 across z.
 // (u, v) go from 0 to 1 across a face along the growing coordinates: (z, y) on the faces across x,
@@ -34,8 +34,8 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
 
  private:
   static constexpr unsigned all_faces = 0x3f;
-  /// The faces, a bit each, through which a ray in free space can enter or leave the box, for all
-  /// that plain doubles tell; none if it surely misses.
+  /// Returns the faces, a bit each, through which a ray in free space may enter or leave the box,
+  /// as far as plain doubles can decide. There is none if it surely misses.
   unsigned possible_ends(const ObjectRay& ray) const;
 
   Vec3 lower_;

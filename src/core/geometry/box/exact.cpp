@@ -1,5 +1,5 @@
-// The box of the exact tier: the last of three faces that are entered against the first of three
-// that are left.
+// The box of the exact tier compares the last of the three faces that are entered with the first of
+// the three that are left.
 #include <array>
 
 #include "core/geometry/box/box.hpp"
@@ -60,7 +60,7 @@ class ExactBoxShape final : public ExactShape {
   }
 
  private:
-  /// Where the line enters or leaves what is between the faces seen so far.
+  /// An End is where the line enters or leaves what is between the faces tested until then.
   struct End {
     ExactPlane::Meeting meeting;
     std::uint32_t face = no_face;
@@ -77,7 +77,8 @@ class ExactBoxShape final : public ExactShape {
            enter.meeting.t.hi - leave.meeting.t.hi > enter.meeting.error + leave.meeting.error;
   }
 
-  /// The start is on its face by identity; only where the line meets the others is left to tell.
+  /// Finds the crossings of a ray from a face. The start is on its face by identity, so only the
+  /// meetings with the other faces are computed.
   bool crossings_from_face(const ExactRay& ray, CrossingList& out) const {
     ClippedSpan span(ray.near.start,
                      unit_roundoff * (size_ / largest_component(ray.near.direction)));

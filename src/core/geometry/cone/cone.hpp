@@ -1,7 +1,8 @@
-// Cone: all points between the planes across the axis through `from` and `to` whose distance from
-// the axis is at most the radius there, which goes from `radius` to `radius2` at a constant rate.
-// Equation, faces and (u, v): core/geometry/frustum/frustum.hpp. With radius2 = 0 there is no
-// face 2. Tests: tests/geometry/cone_test.cpp
+// A cone has all points between the planes across the axis through `from` and `to` whose distance
+// from the axis is at most the radius there. The radius goes from `radius` to `radius2` at a
+// constant rate. Equation, faces and (u, v) are in core/geometry/frustum/frustum.hpp. With radius2
+// = 0 there is no face 2.
+// Tests: tests/geometry/cone_test.cpp
 #pragma once
 
 #include "core/geometry/frustum/frustum.hpp"

@@ -1,6 +1,7 @@
-// Cylinder: all points within `radius` of the line through `from` and `to`, between the two planes
-// across it through them. Equation, faces and (u, v): core/geometry/frustum/frustum.hpp, with alpha
-// = 0. Tests: tests/geometry/cylinder_test.cpp
+// A cylinder has all points within `radius` of the line through `from` and `to`, between the two
+// planes across it through them. Equation, faces and (u, v) are in
+// core/geometry/frustum/frustum.hpp, with alpha = 0.
+// Tests: tests/geometry/cylinder_test.cpp
 #pragma once
 
 #include "core/geometry/frustum/frustum.hpp"

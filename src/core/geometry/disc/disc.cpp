@@ -9,7 +9,7 @@ DiscShape::DiscShape(const Disc& disc)
     : face_(disc.normal, disc.center), frame_(frame_about(disc.normal)), radius_(disc.radius) {}
 
 Vec3 disc_extents(const Vec3& axis, double radius) {
-  // sqrt(1 - a_i^2) by the two other components: nothing cancels.
+  // This is sqrt(1 - a_i^2) by the two other components, so nothing cancels.
   const Vec3 a = unit_vector(axis);
   return radius * Vec3(std::hypot(a.y, a.z), std::hypot(a.x, a.z), std::hypot(a.x, a.y));
 }

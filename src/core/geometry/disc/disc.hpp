@@ -1,7 +1,7 @@
-// Disc: the surface of all points p with normal . (p - center) = 0 and |p - center| <= radius.
+// A disc is the surface of all points p with normal . (p - center) = 0 and |p - center| <= radius.
 //
-// Face 0 is all of it. u is the angle about the normal from +z (as frame_about() has it), v the
-// distance from the centre; both in [0, 1].
+// Face 0 is all of it. u is the angle about the normal from +z (as frame_about() has it), and v is
+// the distance from the centre. Both are in [0, 1].
 // Tests: tests/geometry/disc_test.cpp
 #pragma once
 
@@ -32,7 +32,7 @@ class DiscShape final : public ShapeOfPoints<DiscShape> {
   double radius_;
 };
 
-/// How far a disc across `axis` reaches along each coordinate.
+/// Returns how far a disc across `axis` reaches along each coordinate.
 Vec3 disc_extents(const Vec3& axis, double radius);
 
 void validate(const Disc& disc);

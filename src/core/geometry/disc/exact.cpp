@@ -1,4 +1,4 @@
-// Discs of the exact tier.
+// Discs of the exact tier compare the distance from the centre with the radius.
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/exact_flat.hpp"
 

@@ -1,6 +1,6 @@
-// Where rays plainly enter a cylinder or cone through its side: the way of
-// FrustumShape::crossings(), for as many of them side by side as there are lanes. What is not plain
-// is left to that.
+// first_entry() finds where rays plainly enter a cylinder or cone through its side. It computes as
+// FrustumShape::crossings() does, for as many rays side by side as there are lanes. What is not
+// plain is left to that function.
 #include "core/geometry/frustum/frustum.hpp"
 
 namespace crt::core {
@@ -11,58 +11,54 @@ FrustumEntry<Real> FrustumShape::first_entry(const Ray& ray) const {
   const Vec3Of<Real> axis = broadcast<Real>(axis_);
   const SideRatesOf<Real> rates = side_rates(line);
   const Real closest = line.to_t(where_least(line, rates));
-  const Real sphere = line.to_t_length((height_ + wide_radius_) / square_root(line.squared_length));
+  const Real sphere = line.to_t_length((height_ + wide_radius_) / sqrt(line.squared_length));
   const Real origin = line.to_t(Real{});
-  const auto is_near = both(closest >= origin - sphere, closest <= origin + sphere);
+  const auto is_near = closest >= origin - sphere && closest <= origin + sphere;
   if (!any(is_near)) return {};
   line.move_to(ray, narrow_, closest);
 
-  // Between the caps by more than their own errors, so that they have no part in where the side is
-  // solved.
+  // These points are between the caps by more than the errors of the caps. So the caps have no part
+  // in where the side is solved.
   const Real margin = 0x1p-20 * height_ +
                       64.0 * unit_roundoff * abs(closest) / line.to_t_length(broadcast<Real>(1));
   const auto is_between = [&](const Real& x) {
     const Real height = dot(line.at(x), axis);
-    return both(height > margin, height < height_ - margin);
+    return height > margin && height < height_ - margin;
   };
   const SideEquationOf<Real> side = side_equation(line, rates);
-  const auto plainly =
-      both(both(is_near, is_between(Real{})), both(side.a > 0.0, passes_plainly(line, side)));
-  FrustumEntry<Real> entry{.rejected = both(plainly, side.discriminant < 0.0)};
+  const auto plainly = is_near && is_between(Real{}) && side.a > 0.0 && passes_plainly(line, side);
+  FrustumEntry<Real> entry{.rejected = plainly && side.discriminant < 0.0};
   const Real x = SideRoots<Real>(side).low;
-  const Real root = square_root(max(side.discriminant, Real{}));
-  const auto meets =
-      without(both(plainly, is_between(x)), either(entry.rejected, side.is_on_other_nappe()));
+  const Real root = sqrt(max(side.discriminant, Real{}));
+  const auto meets = plainly && is_between(x) && !(entry.rejected || side.is_on_other_nappe());
   if (!any(meets)) return entry;
 
   const Real at_root = abs(side.radius + side.radius_rate * x);
   const Real rate = root / at_root;
-  const Real ray_speed = square_root(line.squared_length);
+  const Real ray_speed = sqrt(line.squared_length);
   const Vec3Of<Real> p = line.at(x);
   const Real largest = largest_component(p);
-  const Real reach = wide_radius_ + min(square_root(dot(p, p)), 2.0 * largest);
-  const Real graze =
-      ray_speed / square_root(abs(side.a)) * grazing_error(line, reach, wide_radius_);
+  const Real reach = wide_radius_ + min(sqrt(dot(p, p)), 2.0 * largest);
+  const Real graze = ray_speed / sqrt(abs(side.a)) * grazing_error(line, reach, wide_radius_);
   const Real longest = min(graze, reach / ray_speed);
   const Real t = line.to_t(x);
   entry.error = standard_error(line, t, reach, rate, longest);
 
-  // One step of Newton's iteration from the root itself.
+  // This is one step of Newton's iteration from the root itself.
   auto there = line;
   const auto precise = line.to_precise_t(x);
   there.move_to(ray, narrow_, precise.hi, precise.lo);
   const Real step = distance_from_side(there.point) / rate;
   entry.t = there.to_t(step);
-  // So squarely that no rounding takes one root near the other.
+  // The ray meets the side so squarely that no rounding takes one root near the other.
   constexpr double squarely = 0x1p-10;
   const Real most_reach = wide_radius_ + 2.0 * largest;
   const Real half_chord = root / side.a;
   const auto is_square =
-      both(rate > squarely * ray_speed, half_chord * ray_speed > squarely * most_reach);
-  // And so that t tells where it enters from where it leaves.
+      rate > squarely * ray_speed && half_chord * ray_speed > squarely * most_reach;
+  // The chord is so long that t separates where the ray enters from where it leaves.
   const auto is_long = line.to_t_length(half_chord) > 4.0 * rounding_of(t);
-  entry.known =
-      both(both(meets, is_long), both(is_square, side.is_straight(step, at_root, most_reach)));
+  entry.known = meets && is_long && is_square && side.is_straight(step, at_root, most_reach);
   return entry;
 }
 template FrustumEntry<double> FrustumShape::first_entry<double>(const PlainRay<double>&) const;

@@ -12,7 +12,7 @@
 namespace crt::core {
 namespace {
 
-/// g along a line as it is. Every question has an answer.
+/// An ExactSide is g along a line without rounding. It answers every question.
 class ExactSide {
  public:
   ExactSide(const ExactFrustum& frustum, const ExactRay& ray) : line_(ray.exact()) {
@@ -56,7 +56,7 @@ class ExactSide {
     return exact_crossing(g_.roots()[crossing.root], crossing);
   }
 
-  /// What a line that starts on the side is decided by.
+  /// Returns the signs that decide what happens to a line that starts on the side.
   SideStart start() const {
     SideStart result{.a = g_.a.sign(),
                      .b = g_.b.sign(),
@@ -68,7 +68,7 @@ class ExactSide {
   }
 
  private:
-  /// The sign of the end's t less that of the vertex of g, which opens upwards.
+  /// Returns the sign of the end's t less that of the vertex of g, which opens upwards.
   int side_of_vertex(const CapMeeting& end) const {
     if (!end.found()) return end.meeting.side;
     if (end.at_start) return g_.b.sign();
@@ -159,10 +159,10 @@ class ExactFrustumShape final : public ExactShape {
  private:
   struct Piece {
     Crossing enter;
-    Crossing leave{.face = no_face};  ///< left out, if it is not asked for
+    Crossing leave{.face = no_face};  ///< left out, if it is not needed
   };
 
-  /// What the line cuts out of the solid; unknown if the side cannot tell.
+  /// Finds what the line cuts out of the solid. The result is unknown if the side cannot decide.
   template <typename Side>
   static std::optional<bool> cut(Side& side, const CapMeeting& enter, const CapMeeting& leave,
                                  double first_above, Piece& piece) {
@@ -205,7 +205,7 @@ class ExactFrustumShape final : public ExactShape {
 
   ExactFrustum frustum_;
   std::array<ExactPlane, 2> caps_;  ///< at from and to
-  double shortest_;  ///< what a ray that starts inwards has before it at least, for |d| = 1
+  double shortest_;                 ///< the shortest span of a ray that starts inwards, for |d| = 1
 };
 
 }  // namespace

@@ -1,15 +1,17 @@
-// Cylinders and cones of the exact tier.
+// Cylinders and cones of the exact tier are decided by the sign of a polynomial.
 //
-// With p from the centre of the narrower end, W the axis from there to the wider end, r the
-// narrower radius and D how much wider the other is, a point between the caps is inside if
-//     g = |W|^2 |p x W|^2 - (r |W|^2 + D p . W)^2 < 0:
-// no root is taken and nothing divided, so g is a polynomial in the inputs. Between the planes of
+// p is a point relative to the centre of the narrower end, and W is the axis from there to the
+// wider end. r is the narrower radius, and D is how much wider the other is. A point between the
+// caps is inside if
+//    g = |W|^2 |p x W|^2 - (r |W|^2 + D p . W)^2 < 0.
+// No root is taken and nothing divided, so g is a polynomial in the inputs. Between the planes of
 // the caps the second square is of a radius that is not negative, so the cone's other nappe never
-// matters; and as what is inside is convex, the signs of g where the line meets the two planes tell
-// nearly all.
+// matters. As the inside is convex, the signs of g where the line meets the two planes decide
+// nearly everything.
 //
-// The signs come from doubles, then double-doubles, with bounds on the error (FilteredSide), and
-// where those leave one open from the quadratic without rounding (ExactSide, in the source file).
+// The signs come from doubles, then from double-doubles, with bounds on the error (FilteredSide).
+// Where these leave one undecided, it comes from the quadratic without rounding (ExactSide, in the
+// source file).
 // Tests: tests/geometry/exact_frustum_test.cpp
 #pragma once
 
@@ -21,10 +23,10 @@
 
 namespace crt::core {
 
-/// The solid, in the numbers that the filters and the exact polynomial need.
+/// An ExactFrustum is the solid in the numbers that the filters and the exact polynomial need.
 struct ExactFrustum {
   Vec3 narrow;    ///< the centre of the narrower end
-  Vec3 wide;      ///< and of the other
+  Vec3 wide;      ///< the centre of the wider end
   double radius;  ///< r
   double wide_radius;
   double unit;
@@ -37,19 +39,19 @@ struct ExactFrustum {
   ExactFrustum(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
 };
 
-/// The plane of a cap where the line meets it.
+/// A CapMeeting is the plane of a cap where the line meets it.
 struct CapMeeting {
   ExactPlane::Meeting meeting;
-  const ExactPlane* plane = nullptr;  ///< none if the line is parallel to the caps
+  const ExactPlane* plane = nullptr;  ///< null if the line is parallel to the caps
   std::uint32_t face = no_face;
-  bool within_rim = false;  ///< known, and not to be asked
+  bool within_rim = false;  ///< known to be, so it is not computed
   bool at_start = false;    ///< at t = 0 by identity
 
   bool found() const { return plane != nullptr; }
   Crossing crossing() const { return meeting.crossing(face); }
 };
 
-/// g along a line in rounded arithmetic. Every answer may be "unknown".
+/// A FilteredSide is g along a line in rounded arithmetic. Every answer may be "unknown".
 class FilteredSide {
  public:
   FilteredSide(const ExactFrustum& frustum, const ExactRay& ray)
@@ -57,20 +59,21 @@ class FilteredSide {
         ray_(ray),
         axis_(frustum.axis[0].hi, frustum.axis[1].hi, frustum.axis[2].hi) {}
 
-  /// The sign of g where the line meets the plane of a cap; far away it is outside.
+  /// Returns the sign of g where the line meets the plane of a cap. Far away it is outside.
   std::optional<int> sign_at(const CapMeeting& end) const;
 
-  /// Whether g, positive at both ends, is negative in between.
+  /// Returns whether g, positive at both ends, is negative in between.
   std::optional<bool> is_inside_between(const CapMeeting& enter, const CapMeeting& leave);
 
-  /// Where g changes its sign into the solid or out of it.
+  /// Returns the crossing where g changes its sign, into the solid or out of it.
   std::optional<Crossing> root(bool entering, const CapMeeting& enter, const CapMeeting& leave);
 
-  /// What a line that starts on the side is decided by.
+  /// Returns the signs that decide what happens to a line that starts on the side.
   std::optional<SideStart> start() const;
 
  private:
-  /// What g is made of at a point p, or without r along a direction: p x W and r |W|^2 + D p . W.
+  /// A PointAt has the parts of g at a point p: p x W and r |W|^2 + D p . W. Along a direction they
+  /// are without r.
   struct PointAt {
     PreciseVec3 across;
     double across_size = 0;
@@ -79,7 +82,7 @@ class FilteredSide {
     double radius_error = 0;
   };
 
-  /// g in double-double, and its rate along the line.
+  /// A Precise is g in double-double, and its rate along the line.
   struct Precise {
     DoubleDouble value;
     double error = 0;
@@ -93,12 +96,12 @@ class FilteredSide {
     }
   };
 
-  /// a x^2 + 2 b x + c about the middle, in doubles.
+  /// A Local is g = a x^2 + 2 b x + c about the middle, in doubles.
   struct Local {
     double curvature, slope, value;  ///< a, b and c
     double curvature_error, slope_error;
-    double inner, outer;    ///< at least what c is the difference of the squares of
-    double rate_of_points;  ///< of inner and outer, at most, for each component of p
+    double inner, outer;    ///< at least the lengths whose squares differ by c
+    double rate_of_points;  ///< bounds the rates of inner and outer in each component of p
   };
 
   double point_error(DoubleDouble t) const {
@@ -107,28 +110,29 @@ class FilteredSide {
 
   std::optional<int> rough_sign_at(DoubleDouble t, double off) const;
 
-  /// `error` is what each component of p is off by.
+  /// Returns the parts of g at p, where `error` bounds the error of each component of p.
   PointAt part_of(const PreciseVec3& p, double error, DoubleDouble offset) const;
 
   PointAt point_at(DoubleDouble t, double off) const;
 
-  /// What |W|^2 a.across . b.across - a.radius b.radius is off by.
+  /// Returns a bound on the error of |W|^2 a.across . b.across - a.radius b.radius.
   double difference_error(const PointAt& a, const PointAt& b) const;
 
   Precise precise_at(DoubleDouble t, double off) const;
 
-  /// The line from where g is lowest between the ends, or nearly.
+  /// Moves the line to where g is lowest between the ends, or nearly.
   void find_middle(const CapMeeting& enter, const CapMeeting& leave);
 
-  /// From the middle to an end, in t.
+  /// Returns the distance from the middle to an end, in t.
   double distance_to(const CapMeeting& end) const;
 
   Local local() const;
 
-  /// A bound from below on g between the ends, from its parabola about the middle.
+  /// Returns a lower bound of g between the ends, from its parabola about the middle.
   double lowest_between(const CapMeeting& enter, const CapMeeting& leave) const;
 
-  /// Newton's iteration until t is certain to the last bit; false if that fails.
+  /// Takes steps of Newton's iteration until t is certain to the last bit. Returns false if that
+  /// fails.
   bool polish(DoubleDouble t, Crossing& crossing) const;
 
   const ExactFrustum& frustum_;

@@ -1,5 +1,5 @@
-// The rounded arithmetic of exact cylinders and cones. Lengths are in `unit`, a power of two near
-// the wider radius, and W in one near its own size.
+// Exact cylinders and cones first try rounded arithmetic. Lengths are in `unit`, a power of two
+// near the wider radius, and W is in one near its own size.
 #include <limits>
 
 #include "core/geometry/exact_shape.hpp"
@@ -10,9 +10,9 @@
 namespace crt::core {
 namespace {
 
-/// Far more roundings than any of the filters in doubles has.
+/// These are far more roundings than any of the filters in doubles has.
 constexpr double filter_rounding = 0x1p8 * unit_roundoff;
-/// W in its unit: each component, and the sum of them, at most.
+/// These bound each component of W in its unit, and the sum of them.
 constexpr double largest_of_axis = 2;
 constexpr double sum_of_axis = 6;
 
@@ -65,7 +65,7 @@ std::optional<Crossing> FilteredSide::root(bool entering, const CapMeeting& ente
   const Local& g = middle_;
   if (!(std::abs(g.curvature) > g.curvature_error)) return std::nullopt;
   const double half = std::sqrt(std::max(g.slope * g.slope - g.curvature * g.value, 0.0));
-  // The root with the wanted slope, by the formula that adds what has one sign.
+  // This is the root with the wanted slope, by the formula that adds what has one sign.
   const double side = entering ? -1 : 1;
   const double x = side * g.slope < 0 ? (side * half - g.slope) / g.curvature
                                       : -g.value / (g.slope + side * half);
@@ -229,7 +229,7 @@ double FilteredSide::lowest_between(const CapMeeting& enter, const CapMeeting& l
   const double opening = g.curvature - g.curvature_error;
   const double by_vertex = opening > 0 ? g.value - steepest / opening * steepest
                                        : -std::numeric_limits<double>::infinity();
-  // Where it opens upwards it is nowhere below a tangent; and otherwise it is lowest at an end.
+  // A parabola that opens upwards is nowhere below a tangent. Otherwise it is lowest at an end.
   const auto tangent_at = [&](const CapMeeting& end) {
     const double way = distance_to(end) / line_->to_t_length(1);
     return 2 * (g.slope * way - g.slope_error * std::abs(way));

@@ -50,7 +50,7 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     clip_side_from_surface(ray, span);
     return span.finish(out);
   }
-  // Squares of what is farther away could overflow. (What is closest is known to a few units.)
+  // Squares of what is farther away could overflow. The closest point is known to a few units.
   constexpr double far = 64;
   const bool passes_far = largest_component(line.point) > far * (height_ + wide_radius_);
   if (ray.start.face == no_face && (span.empty() || passes_far)) return false;
@@ -60,11 +60,12 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   return span.finish(out);
 }
 
-/// To where |P|^2 + s0^2 is least between the caps; false if t has no number there.
+/// Moves the line to where |P|^2 + s0^2 is least between the caps. Returns false if t is not finite
+/// there.
 bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const SideRates& rates,
                                  const ClippedSpan& span) const {
-  // Along the axis of a cylinder that is nowhere, nearly along it far away; the solid is within a
-  // sphere, and between the caps.
+  // Along the axis of a cylinder there is no such point, and nearly along it the point is far away.
+  // So t is clamped to a sphere that holds the solid, and to between the caps.
   const double least = where_least(line, rates);
   double t = line.to_t(std::isfinite(least) ? least : 0);
   const double sphere = line.to_t_length((height_ + wide_radius_) / std::sqrt(line.squared_length));
@@ -75,17 +76,17 @@ bool FrustumShape::move_to_least(const ObjectRay& ray, NearLine& line, const Sid
   return true;
 }
 
-/// |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
+/// Returns |n . d| at a root: sqrt(discriminant) / (s0 + s1 x).
 double FrustumShape::approach(const SideEquation& side, double x) {
-  // Through the apex the cone is met as squarely as the angle to its side allows.
+  // Through the apex a ray meets the cone as squarely as its angle to the side allows.
   if (!(side.discriminant > 0)) return std::sqrt(std::abs(side.a));
   return std::sqrt(side.discriminant) / std::abs(side.radius + side.radius_rate * x);
 }
 
-/// The crossing at a root, after one more shift to the root itself and one step of Newton's
-/// iteration on the distance from the side there, which knows nothing of the rounding of a, b and
-/// c. Beyond the caps a root stays where it is: next to a ruling it may be so far away that a
-/// distance there says nothing.
+/// Returns the crossing at a root. It shifts the line once more, to the root itself, and takes one
+/// step of Newton's iteration on the distance from the side there. That distance does not depend on
+/// the rounding of a, b and c. Beyond the caps a root stays where it is: next to a ruling it may be
+/// so far away that a distance there says nothing.
 Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line,
                                 const SideEquation& side, const Root& root,
                                 const ClippedSpan& span) const {
@@ -110,8 +111,8 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line,
   double step = root.entering ? distance / rate : -distance / rate;
   Crossing result = crossing;
   result.t = at_root.to_t(step);
-  // Beside the apex the side bends away within such a step: the next ones take the slope that is
-  // there.
+  // Beside the apex the side bends away within such a step. The next steps take the slope at their
+  // own point.
   constexpr int most_steps = 8;
   double radius = std::abs(side.radius + side.radius_rate * root.x);
   for (int i = 0; i < most_steps && !side.is_straight(step, radius, reach); ++i) {
@@ -130,7 +131,7 @@ Crossing FrustumShape::polished(const ObjectRay& ray, const NearLine& line,
 }
 
 double FrustumShape::reach_of(const Vec3& p) const {
-  // Along needles the square of the length may overflow, the length does not.
+  // Along needles the square of the length may overflow, but the length does not.
   return wide_radius_ + std::min(glm::length(p), 2 * largest_component(p));
 }
 
@@ -147,8 +148,9 @@ Crossing FrustumShape::side_crossing(const NearLine& line, const SideEquation& s
           .root = root.number};
 }
 
-/// Where the line grazes, the discriminant may be what is left of large numbers. From halfway
-/// between the roots it is a c with b nearly 0, and c the distance from the side there.
+/// Moves the line to halfway between the roots if it grazes the side, as the discriminant may then
+/// be what is left of large numbers. From there it is a c with b nearly 0, and c is the distance
+/// from the side.
 void FrustumShape::center_on_grazing(const ObjectRay& ray, NearLine& line, const SideRates& rates,
                                      SideEquation& side) const {
   if (passes_plainly(line, side)) return;
@@ -173,27 +175,27 @@ void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, const SideRat
   };
   const bool is_within = side.is_within();
   if (side.a >= 0 && !(side.discriminant > 0)) {
-    // (Within, only the axis of a cylinder meets nothing.)
+    // Within the side, only the axis of a cylinder meets nothing.
     if (!is_within) span.clear();
     return;
   }
   const auto [low, high] = SideRoots<double>(side);
   if (side.a >= 0) {
-    // (Parallel to a ruling one of them is infinite.)
+    // If the line is parallel to a ruling, one of them is infinite.
     if (side.is_on_other_nappe()) return span.clear();
     enter(low, 0);
     leave(high, 1);
   } else if (is_within ? side.b * side.radius < 0 : side.radius_rate > 0) {
-    // One on each nappe. From within both are ahead or both behind; from outside it is this one's
-    // where the radius grows.
+    // There is one root on each nappe. From within both are ahead or both behind. From outside the
+    // root is on this nappe where the radius grows.
     enter(high, 1);
   } else if (!is_within || side.b * side.radius > 0) {
     leave(low, 0);
   }
 }
 
-/// The root at the origin is known, so c is 0 whatever rounding made of the origin and the other
-/// root is -2 b / a, on this nappe if a > 0.
+/// Clips the span of a ray that starts on the side. The root at the origin is known, so c is 0
+/// whatever rounding made of the origin. The other root is -2 b / a, and is on this nappe if a > 0.
 void FrustumShape::clip_side_from_surface(const ObjectRay& ray, ClippedSpan& span) const {
   const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
   SideEquation side = side_equation(line, side_rates(line));
@@ -201,9 +203,9 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, ClippedSpan& spa
   Crossing other = side_crossing(line, side, {}, reach_of(line.point));
   if (side.a != 0) {
     const double x = -2 * side.b / side.a;
-    // Towards the apex the rounding of the origin grows as the radius shrinks, and there it is
-    // another matter which of the roots is the origin: the one at which the line enters, or the one
-    // at which it leaves.
+    // Towards the apex the rounding of the origin grows as the radius shrinks. There it matters
+    // which of the roots is the origin: the one at which the line enters, or the one at which it
+    // leaves.
     constexpr double much_narrower = 0.5;
     if (side.a > 0 && !(side.radius + side.radius_rate * x >= much_narrower * side.radius)) {
       other = root_next_to_apex(ray, side.b >= 0, span);
@@ -221,8 +223,9 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, ClippedSpan& spa
                                ray.start, span);
 }
 
-/// The root of a line that crosses the side elsewhere, too, where it is much wider: that one is
-/// behind the wanted one if the line is entering here, else ahead.
+/// Returns the crossing next to the apex of a line that also crosses the side where it is much
+/// wider. That other crossing comes after this one if the line enters here, and before it
+/// otherwise.
 Crossing FrustumShape::root_next_to_apex(const ObjectRay& ray, bool entering,
                                          const ClippedSpan& span) const {
   NearLine line = NearLine::at_closest(ray, narrow_, unit_);
@@ -240,12 +243,13 @@ FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3
   const Vector axis = broadcast<Real>(frustum.axis_);
   const Vector p = broadcast<Real>(1 / frustum.unit_) * offset;
   const Real z = dot(p, axis);
-  // Across the axis, twice: the second time removes what the first one's rounding left along it.
+  // The component along the axis is removed twice. The second time removes what the first one's
+  // rounding left.
   Vector across = p - z * axis;
   across = across - dot(across, axis) * axis;
   const auto at_apex = largest_component(across) == 0.0;
-  radial = chosen(at_apex, broadcast<Real>(frustum.frame_.zero), unit_vector(across));
-  // Onto the ruling in this direction, straight.
+  radial = select(at_apex, broadcast<Real>(frustum.frame_.zero), unit_vector(across));
+  // The point is moved straight onto the ruling in this direction.
   const double sine = frustum.sine_;
   const double cosine = frustum.cosine_;
   const Real slant = (dot(across, radial) - frustum.narrow_radius_) * sine + z * cosine;
@@ -256,7 +260,7 @@ FrustumShape::SidePoint<Real>::SidePoint(const FrustumShape& frustum, const Vec3
       broadcast<Real>(frustum.narrow_) +
       broadcast<Real>(frustum.unit_) * (share * frustum.height_ * axis + radius * radial);
   point.normal = unit_vector(broadcast<Real>(cosine) * radial - broadcast<Real>(sine) * axis);
-  if (sine > 0) point.normal = chosen(at_apex, -axis, point.normal);
+  if (sine > 0) point.normal = select(at_apex, -axis, point.normal);
 }
 
 template <class Real>

@@ -1,28 +1,30 @@
-// What cylinders and cones have in common: a round solid about an axis whose radius changes at a
-// constant rate, cut off by two flat caps.
+// Cylinders and cones are round solids about an axis. Their radius changes at a constant rate, and
+// two flat caps cut them off.
 //
-// Notation. The frame's origin is the centre of the *narrower* end and w points to the wider one,
-// so that the radius r + z tan(alpha) at height z is a sum of what is not negative: nothing
-// cancels, and an apex is exactly at z = 0. With P and M the cross products of the line's point and
-// direction with w, times cos(alpha), and s0 + s1 x = cos(alpha) r + sin(alpha) z the radius along
-// the line, again times cos(alpha), the side is
-//     |P + M x|^2 = (s0 + s1 x)^2   on the nappe s0 + s1 x >= 0,
-// a x^2 + 2 b x + c = 0 with a = (|M| - |s1|)(|M| + |s1|), b = P . M - s0 s1, c = (|P| - s0)(|P| +
-// s0). Cross products keep |M| good to a rounding at any angle to the axis, where 1 - (w . d)^2
-// would have no digit left.
+// Notation. The frame's origin is the centre of the *narrower* end, and w points to the wider one.
+// So the radius r + z tan(alpha) at height z is a sum of what is not negative: nothing cancels, and
+// an apex is exactly at z = 0. P and M are the cross products of the line's point and direction
+// with w, times cos(alpha). The radius along the line, again times cos(alpha), is s0 + s1 x =
+// cos(alpha) r + sin(alpha) z. Then the side is
+//    |P + M x|^2 = (s0 + s1 x)^2   on the nappe s0 + s1 x >= 0,
+// which is a x^2 + 2 b x + c = 0 with a = (|M| - |s1|)(|M| + |s1|), b = P . M - s0 s1 and
+// c = (|P| - s0)(|P| + s0). Cross products keep |M| accurate to a rounding at any angle to the
+// axis, where 1 - (w . d)^2 would have no digit left.
 //
 // Roundings. The left side minus the right one is (radial + radius) g, with g the distance from the
-// side. P, M, s0 and s1 are off by some u of |p| and |d|: the coefficients by some u times |P|^2 +
-// s0^2, by as much of |P||M| + |s0 s1| and |M|^2 + s1^2. So g at x is off by some u times
-//     ((|P| + |M x|)^2 + (|s0| + |s1 x|)^2) / (s0 + s1 x).
-// Solved between the caps where |P|^2 + s0^2 is least, x has the sign of P . M + s0 s1, or that is
-// 0, and this is at most 4 u (s0 + s1 x) at a root, times what "some" is: the roots are those of a
-// line that is moved by no more than what the standard tier promises. (From where the radius is
-// much larger than at the root, as it may be next to an apex, they would not be.) The discriminant
-// must be that of these very coefficients, b^2 - a c without another rounding: then what little is
-// left of a, b and c next to a ruling agrees with itself, and roots that leave the solid's reach do
-// so on the right side. In exact arithmetic it is the same as |s0 M - s1 P|^2 - |P x M|^2, whose
-// rounding is larger than b^2 next to rulings of cones.
+// side. P, M, s0 and s1 are off by some u of |p| and |d|. So the coefficients are off by some u
+// times |P|^2 + s0^2, |P||M| + |s0 s1| and |M|^2 + s1^2. So g at x is off by some u times
+//    ((|P| + |M x|)^2 + (|s0| + |s1 x|)^2) / (s0 + s1 x).
+// The equation is solved between the caps where |P|^2 + s0^2 is least. There x has the sign of
+// P . M + s0 s1, or that is 0, so this is at most 4 u (s0 + s1 x) at a root, times what "some" is.
+// So the roots are those of a line that is moved by no more than what the standard tier promises.
+// From where the radius is much larger than at the root, as it may be next to an apex, they would
+// not be.
+//
+// The discriminant must be that of these very coefficients, b^2 - a c without another rounding.
+// Then what little is left of a, b and c next to a ruling agrees with itself, and roots that leave
+// the solid's reach do so on the right side. In exact arithmetic it equals
+// |s0 M - s1 P|^2 - |P x M|^2, whose rounding is larger than b^2 next to rulings of cones.
 //
 // The set of points inside is convex, so a line cuts one span out of it.
 #pragma once
@@ -38,21 +40,22 @@
 
 namespace crt::core {
 
-/// Where a line, or as many as a Real has lanes, enters a cylinder or cone through its side.
+/// A FrustumEntry is where a line, or as many as a Real has lanes, enters a cylinder or cone
+/// through its side.
 template <class Real>
 struct FrustumEntry {
   using Mask = MaskOf<Real>;
 
-  Mask rejected{};  ///< it is nowhere inside
-  Mask known{};     ///< it enters there; without both a closer look is needed to tell
+  Mask rejected{};  ///< the line is nowhere inside
+  Mask known{};     ///< the line enters there; with neither mask set it is undecided
   Real t{};
   Real error{};  ///< as in Crossing
 };
 
-/// Faces: 0 is the side, 1 the cap at `from`, 2 the cap at `to` (there is none at an apex). On the
-/// side u is the angle about the axis from -> to, from +z (as frame_about() has it), and v the
-/// height from `from`; on the caps u is the same angle and v the distance from the axis; all in [0,
-/// 1].
+/// A FrustumShape is a cylinder or a cone. Faces: 0 is the side, 1 the cap at `from`, 2 the cap at
+/// `to` (there is none at an apex). On the side u is the angle about the axis from -> to, from +z
+/// (as frame_about() has it), and v is the height from `from`. On the caps u is the same angle, and
+/// v is the distance from the axis. All are in [0, 1].
 class FrustumShape : public ShapeOfPoints<FrustumShape> {
  public:
   FrustumShape(const Vec3& from, const Vec3& to, double from_radius, double to_radius);
@@ -64,8 +67,8 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     return CoreSegment{from_, to_, radii_[0], radii_[1]};
   }
   bool crossings(const ObjectRay& ray, CrossingList& out) const final;
-  /// The first crossing of rays that start on none of the faces' surfaces, where it is plainly on
-  /// the side; each is an ObjectRay or a PlainRay, or as many side by side.
+  /// Finds the first crossing of rays that start on none of the faces' surfaces, where it is
+  /// plainly on the side. A ray is an ObjectRay or a PlainRay, or as many side by side.
   template <class Real, class Ray>
   FrustumEntry<Real> first_entry(const Ray& ray) const;
   Vec3 anchor(std::uint32_t face) const final {
@@ -81,7 +84,7 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   static constexpr std::uint32_t side_face = 0;
 
  private:
-  /// What the line's direction alone says of the side.
+  /// SideRates are what the line's direction alone says of the side.
   template <class Real>
   struct SideRatesOf {
     Vec3Of<Real> m;
@@ -89,29 +92,28 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     Real radius_rate;  ///< s1
   };
   using SideRates = SideRatesOf<double>;
-  /// a x^2 + 2 b x + c = 0, and what else is known of the side along a line.
+  /// A side equation is a x^2 + 2 b x + c = 0, and what else is known of the side along a line.
   template <class Real>
   struct SideEquationOf {
     Real a, b, c;
     Real discriminant;
     Real radius, radius_rate;  ///< s0 and s1
 
-    /// Whether the line is within the cone at x = 0, on either nappe.
+    /// Returns whether the line is within the cone at x = 0, on either nappe.
     MaskOf<Real> is_within() const { return c < 0.0; }
-    /// Whether the roots are on the other nappe, where a is not negative and both are on one: that
-    /// where x = 0 is if the line is within there, whatever is left of a and b, else that of the
-    /// middle between them.
+    /// Returns whether the roots are on the other nappe, for a >= 0, where both are on one nappe.
+    /// If the line is within the cone at x = 0, it is the nappe there, whatever is left of a and b.
+    /// Otherwise it is that of the middle between them.
     MaskOf<Real> is_on_other_nappe() const {
-      return either(both(is_within(), radius < 0.0),
-                    without(a * radius < b * radius_rate, is_within()));
+      return (is_within() && radius < 0.0) || (a * radius < b * radius_rate && !is_within());
     }
-    /// Of a root that is on this nappe: not beyond the apex, whatever is left of a and b.
+    /// Moves a root that is on this nappe back to the apex, if rounding of a and b put it beyond.
     Real on_nappe(const Real& x) const {
-      return radius + radius_rate * x < 0.0 ? -radius / radius_rate : x;
+      return select(radius + radius_rate * x < 0.0, -radius / radius_rate, x);
     }
-    /// Whether a step along the line that ends at such a radius strays from the tangent there by no
-    /// more than the rounding of a distance. (The distance's second derivative is |M|^2 / (s0 + s1
-    /// x) at most.)
+    /// Returns whether a step along the line strays from the tangent by no more than the rounding
+    /// of a distance. The step ends where the radius is `radius_there`. The distance's second
+    /// derivative is at most |M|^2 / (s0 + s1 x).
     MaskOf<Real> is_straight(const Real& step, const Real& radius_there, const Real& reach) const {
       return step * step * (a + radius_rate * radius_rate) <=
              2 * unit_roundoff * reach * radius_there;
@@ -123,11 +125,11 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   template <class Real>
   SideEquationOf<Real> side_equation(const NearLineOf<Real>& line,
                                      const SideRatesOf<Real>& rates) const;
-  /// x of the point where |P|^2 + s0^2 is least; no number if there is no such.
+  /// Returns x of the point where |P|^2 + s0^2 is least. It is not finite if there is none.
   template <class Real>
   Real where_least(const NearLineOf<Real>& line, const SideRatesOf<Real>& rates) const;
   static double approach(const SideEquation& side, double x);
-  /// Whether the line does not graze the side.
+  /// Returns whether the line does not graze the side.
   template <class Real>
   static MaskOf<Real> passes_plainly(const NearLineOf<Real>& line,
                                      const SideEquationOf<Real>& side);
@@ -136,17 +138,17 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
     bool entering = false;
     std::uint8_t number = 0;
   };
-  /// Of a point in units, relative to the narrow end.
+  /// Returns the distance of a point in units, relative to the narrow end.
   template <class Vector>
   RealOf<Vector> distance_from_side(const Vector& p) const;
   Crossing polished(const ObjectRay& ray, const NearLine& line, const SideEquation& side,
                     const Root& root, const ClippedSpan& span) const;
-  /// R + |x| of a point in units, relative to the narrow end.
+  /// Returns R + |x| of a point in units, relative to the narrow end.
   double reach_of(const Vec3& p) const;
   Crossing side_crossing(const NearLine& line, const SideEquation& side, const Root& root,
                          double reach) const;
-  /// Both roots of a side equation, by the formulas that add what has one sign (Ray Tracing Gems
-  /// ch. 7).
+  /// SideRoots are both roots of a side equation, by the formulas that add what has one sign (Ray
+  /// Tracing Gems ch. 7).
   template <class Real>
   struct SideRoots {
     Real low;
@@ -162,16 +164,17 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
                  ClippedSpan& span) const;
   void clip_side_from_surface(const ObjectRay& ray, ClippedSpan& span) const;
   Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const ClippedSpan& span) const;
-  /// What is on the side at `offset` from the middle of the narrow end, or next to it.
+  /// A SidePoint is the point of the side at `offset` from the middle of the narrow end, or next to
+  /// it.
   template <class Real>
   struct SidePoint {
     Vec3Of<Real> radial;  ///< from the axis, of length 1
     Real share;           ///< of the height
 
-    /// Writes its position and normal, too.
+    /// Writes the position and the normal of `point`, too.
     SidePoint(const FrustumShape& frustum, const Vec3Of<Real>& offset, SurfacePointOf<Real>& point);
   };
-  /// What is on a cap at `offset` from its middle, or next to it.
+  /// Writes the point of a cap at `offset` from its middle, or next to it.
   template <class Real>
   void write_cap_point(const Vec3Of<Real>& offset, std::size_t end, bool with_uv,
                        SurfacePointOf<Real>& point) const;
@@ -214,8 +217,8 @@ auto FrustumShape::side_equation(const NearLineOf<Real>& line, const SideRatesOf
     -> SideEquationOf<Real> {
   const Vec3Of<Real> axis = broadcast<Real>(axis_);
   const Vec3Of<Real> p = broadcast<Real>(cosine_) * accurate_cross(line.point, axis);
-  const Real m_length = square_root(rates.m_squared);
-  const Real p_length = square_root(dot(p, p));
+  const Real m_length = sqrt(rates.m_squared);
+  const Real p_length = sqrt(dot(p, p));
   SideEquationOf<Real> side{};
   side.radius = cosine_ * narrow_radius_ + sine_ * dot(line.point, axis);
   side.radius_rate = rates.radius_rate;
@@ -238,10 +241,10 @@ MaskOf<Real> FrustumShape::passes_plainly(const NearLineOf<Real>& line,
 
 template <class Real>
 FrustumShape::SideRoots<Real>::SideRoots(const SideEquationOf<Real>& side) {
-  const Real half = square_root(max(side.discriminant, Real{}));
-  const Real sum = side.b >= 0.0 ? -(side.b + half) : half - side.b;
+  const Real half = sqrt(max(side.discriminant, Real{}));
+  const Real sum = select(side.b >= 0.0, -(side.b + half), half - side.b);
   const Real first = sum / side.a;
-  const Real second = sum != 0.0 ? side.c / sum : Real{};
+  const Real second = select(sum != 0.0, side.c / sum, Real{});
   low = min(first, second);
   high = max(first, second);
 }
@@ -251,11 +254,11 @@ RealOf<Vector> FrustumShape::distance_from_side(const Vector& p) const {
   using Real = RealOf<Vector>;
   const Vector axis = broadcast<Real>(axis_);
   const Vector across = accurate_cross(p, axis);
-  return cosine_ * (square_root(dot(across, across)) - narrow_radius_) -
+  return cosine_ * (sqrt(dot(across, across)) - narrow_radius_) -
          sine_ * accurate_dot(p, axis).value();
 }
 
-// Cylinders and cones are made where the formula is not to be seen.
+// Cylinders and cones are instantiated where the definition is not visible.
 extern template class ShapeOfPoints<FrustumShape>;
 
 }  // namespace crt::core

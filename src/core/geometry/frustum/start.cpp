@@ -5,8 +5,8 @@
 namespace crt::core {
 namespace {
 
-/// A ray that starts on the cone's other nappe, on some other primitive. It meets this one, from
-/// within the other, once or never.
+/// Clips the span of a ray that starts on the cone's other nappe, on some other primitive. From
+/// within that nappe it meets this one once or never.
 void clip_side_from_other_nappe(SideStart& side, ClippedSpan& span) {
   if (side.a >= 0) return span.clear();
   if (side.radius_rate > 0) {
@@ -31,7 +31,7 @@ void clip_side_from_surface(SideStart side, const RayStart& start, ClippedSpan& 
     span.leave(leaving ? here : side.other);
     return;
   }
-  // Steeper than the side: on the way to the wider end the ray enters for good.
+  // The ray is steeper than the side, so on its path to the wider end it enters for good.
   if (side.radius_rate < 0) return span.leave({.face = face});
   if (start.side == Side::outside) return span.clear();
   if (side.radius_rate > 0) {

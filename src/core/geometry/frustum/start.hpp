@@ -1,13 +1,14 @@
-// The side of a frustum as a ray meets it that starts on that side's surface, in both tiers.
+// In both tiers, a ray that starts on the side's surface clips the side of a frustum by these
+// signs.
 #pragma once
 
 #include "core/geometry/clipped_span.hpp"
 
 namespace crt::core {
 
-/// Signs of the equation a t^2 + 2 b t = 0 that is left when the root at the start is divided out
-/// (see frustum.hpp), of the radius at the start (negative on the cone's other nappe), and of its
-/// rate.
+/// A SideStart has the signs of the equation a t^2 + 2 b t = 0 that is left when the root at the
+/// start is divided out (see frustum.hpp). It also has the signs of the radius at the start and of
+/// its rate. The radius is negative on the cone's other nappe.
 struct SideStart {
   int a = 0;
   int b = 0;

@@ -1,12 +1,11 @@
-// Half planes of the exact tier.
+// Half planes of the exact tier decide on which side of their edge the line meets their plane.
 #include "core/geometry/exact_flat.hpp"
 #include "core/geometry/half_plane/half_plane.hpp"
 
 namespace crt::core {
 namespace {
 
-/// Of a point in the plane, the direction tells the side as well as what of it is across the
-/// normal.
+/// For a point in the plane, the direction gives the same side as its component across the normal.
 class ExactHalfPlaneShape final : public ExactFlatShape {
  public:
   explicit ExactHalfPlaneShape(const HalfPlane& half_plane)
@@ -20,7 +19,7 @@ class ExactHalfPlaneShape final : public ExactFlatShape {
   bool contains(const ExactRay& ray, const Meeting& meeting) const override {
     const NearPoint point = near_point(ray, meeting);
     const double inward = glm::dot(point.offset, scaled_direction_);
-    constexpr double largest_sum = 6;  // of three components below 2
+    constexpr double largest_sum = 6;  // for three components below 2
     if (std::abs(inward) > largest_sum * point.error) return inward > 0;
     const ExactPoint exact = exact_meeting(ray, meeting);
     return dot(exact.offset, exactly(direction_)).sign() >= 0;

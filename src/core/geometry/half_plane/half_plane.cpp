@@ -6,8 +6,8 @@
 namespace crt::core {
 namespace {
 
-/// The edge's direction, normal x direction up to a positive factor. Each component is 0 or has
-/// nearly all of its digits, so it is 0 only if the two are parallel.
+/// Returns the edge's direction, normal x direction up to a positive factor. Each component is 0 or
+/// has nearly all of its digits. So it is 0 only if the two are parallel.
 Vec3 edge(const HalfPlane& half_plane) {
   return accurate_cross(scaled_to_one(half_plane.normal), scaled_to_one(half_plane.direction));
 }

@@ -1,8 +1,8 @@
-// Half plane: the surface of all points p with normal . (p - position) = 0 and direction' . (p -
-// position) >= 0, where direction' is what of the direction is across the normal.
+// A half plane is the surface of all points p with normal . (p - position) = 0 and direction' . (p
+// - position) >= 0, where direction' is the component of the direction across the normal.
 //
-// Face 0 is all of it. u is the distance from the edge along direction', v the distance from the
-// position along normal x direction'; both in scene units.
+// Face 0 is all of it. u is the distance from the edge along direction', and v is the distance from
+// the position along normal x direction'. Both are in scene units.
 // Tests: tests/geometry/half_plane_test.cpp
 #pragma once
 

@@ -1,4 +1,4 @@
-// Planes of the exact tier.
+// Planes of the exact tier are half-spaces with an exact boundary.
 #include "core/geometry/exact_flat.hpp"
 #include "core/geometry/plane/plane.hpp"
 

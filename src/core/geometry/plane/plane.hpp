@@ -1,8 +1,8 @@
-// Plane: the half-space of all points p with normal . (p - position) <= 0.
+// A plane is the half-space of all points p with normal . (p - position) <= 0.
 //
 // Face 0 is all of it. u is the distance from the position along x projected onto the plane (z if
-// the normal is mostly along x), v the distance across u, on the side of growing y (z if the normal
-// is mostly along y); both in scene units.
+// the normal is mostly along x). v is the distance across u, on the side of growing y (z if the
+// normal is mostly along y). Both are in scene units.
 // Tests: tests/geometry/plane_test.cpp
 #pragma once
 

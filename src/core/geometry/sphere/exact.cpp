@@ -1,6 +1,6 @@
-// The sphere of the exact tier. Doubles tell the lines that clearly miss or hit; those that hit get
-// their t by Newton's iteration on |p(t)|^2 - r^2 in double-double. The few that all but touch get
-// both from the quadratic without rounding.
+// The sphere of the exact tier finds in doubles the lines that clearly miss or hit. Those that hit
+// get their t by Newton's iteration on |p(t)|^2 - r^2 in double-double. The few that all but touch
+// get both from the quadratic without rounding.
 #include "core/geometry/clipped_span.hpp"
 #include "core/geometry/exact_quadratic.hpp"
 #include "core/geometry/exact_shape.hpp"
@@ -22,10 +22,10 @@ class ExactSphereShape final : public ExactShape {
     const double r = radius_ / unit_;
     const double closest = line.closest();
     const double distance = glm::length(line.at(closest));
-    // Some tens of roundings of numbers of the line's size near the sphere, and what the ray itself
-    // is off by.
+    // This is some tens of roundings of numbers of the line's size near the sphere, and the error
+    // of the ray itself.
     constexpr double filter_rounding = 0x1p9 * unit_roundoff;
-    constexpr double largest_rest = 4;  // of NearLine::at_closest
+    constexpr double largest_rest = 4;  // that NearLine::at_closest leaves
     const double open = filter_rounding * (distance + r + largest_rest) +
                         2 * ray.point_error(center_, line.to_t(closest)) / unit_;
     if (distance - r > open) return false;
@@ -57,7 +57,8 @@ class ExactSphereShape final : public ExactShape {
   std::size_t bytes() const override { return sizeof *this; }
 
  private:
-  /// Newton's iteration until t is certain to the last bit; false if that fails.
+  /// Takes steps of Newton's iteration until t is certain to the last bit. Returns false if that
+  /// fails.
   bool polish(const ExactRay& ray, Crossing& crossing) const {
     const Vec3& d = ray.near.direction;
     DoubleDouble t = crossing.t;
@@ -102,7 +103,8 @@ class ExactSphereShape final : public ExactShape {
     return false;
   }
 
-  /// As the standard tier has it: c is 0 by identity, and the other root -2 b / a.
+  /// Finds the crossings of a ray that starts on the surface. As in the standard tier, c is 0 by
+  /// identity, and the other root is -2 b / a.
   bool crossings_from_surface(const ExactRay& ray, CrossingList& out) const {
     const ObjectRay& near = ray.near;
     const PreciseVec3 d = precise_direction(near);

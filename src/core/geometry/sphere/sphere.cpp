@@ -43,19 +43,19 @@ bool SphereShape::crossings_from_surface(const ObjectRay& ray, CrossingList& out
 
 namespace {
 
-/// On a sphere, or on one for each lane; next to where a line of that direction crosses it, which
-/// is at `offset` from the center.
+/// Writes the point of a sphere, or of a sphere for each lane, next to `offset` from the center. A
+/// line of the given direction crosses the sphere there.
 template <class Real>
 inline void write_sphere_point(const Vec3Of<Real>& center, const Real& radius,
                                const Vec3Of<Real>& offset, const Vec3Of<Real>& direction,
                                bool with_uv, SurfacePointOf<Real>& point) {
   const auto is_apart = largest_component(offset) > 0.0;
-  const Vec3Of<Real> n = unit_vector(chosen(is_apart, offset, -direction));
+  const Vec3Of<Real> n = unit_vector(select(is_apart, offset, -direction));
   point.position = center + radius * n;
   point.normal = n;
   if (!with_uv) return;
   point.u = turn(n.z, n.x);
-  point.v = latitude(square_root(n.x * n.x + n.z * n.z), n.y);
+  point.v = latitude(sqrt(n.x * n.x + n.z * n.z), n.y);
 }
 
 }  // namespace
@@ -72,7 +72,7 @@ void SphereShape::points_on_each(const std::array<const SphereShape*, lane_count
                                  SurfacePointLanes& points) {
   const auto row = [&](std::size_t lane) {
     const SphereShape& sphere = *spheres[lane];
-    return Lanes{sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_};
+    return lanes_of(sphere.center_.x, sphere.center_.y, sphere.center_.z, sphere.radius_);
   };
   const auto [x, y, z, radius] = transposed({row(0), row(1), row(2), row(3)});
   const VectorLanes center = {x, y, z};

@@ -1,11 +1,13 @@
-// Sphere: all points p with |p - center| <= radius.
+// A sphere has all points p with |p - center| <= radius.
 //
-// Solved relative to the closest approach, with the discriminant r^2 - l^2 (l the distance of line
-// and centre) factored (r + l)(r - l): Haines, Guenther, Akenine-Moeller, Precision improvements
-// for ray/sphere intersection, Ray Tracing Gems ch. 7, 2019.
+// It is solved relative to the closest approach, with the discriminant r^2 - l^2 (l is the distance
+// of line and centre) factored as (r + l)(r - l).
+// Source: Haines, Guenther, Akenine-Moeller, Precision improvements for ray/sphere intersection,
+// Ray Tracing Gems ch. 7, 2019.
 //
-// Face 0 is all of it. u is the longitude about y, 0 at +z and growing towards +x; v the latitude,
-// 0 at the lowest point and 1 at the highest; both in [0, 1]. Tests: tests/geometry/sphere_test.cpp
+// Face 0 is all of it. u is the longitude about y, 0 at +z and growing towards +x. v is the
+// latitude, 0 at the lowest point and 1 at the highest. Both are in [0, 1].
+// Tests: tests/geometry/sphere_test.cpp
 #pragma once
 
 #include <array>
@@ -16,19 +18,19 @@
 
 namespace crt::core {
 
-/// Where a line, or as many as a Real has lanes, enters and leaves a sphere.
+/// A SphereChord is where a line, or as many as a Real has lanes, enters and leaves a sphere.
 template <class Real>
 struct SphereChord {
-  decltype(Real{} < Real{}) found{};  ///< else the ends mean nothing
+  decltype(Real{} < Real{}) found{};  ///< if not, the ends mean nothing
   Real enter{};                       ///< t there
   Real leave{};
-  Real error{};  ///< of both, but for rounding them
+  Real error{};  ///< of both ends, without the rounding of each
 
-  /// Of one end, as in Crossing.
+  /// Returns the error of one end, as in Crossing.
   Real error_of(const Real& end) const { return rounding_of(end) + error; }
 
-  /// Of a line that does not start on the surface. `unit` is the sphere's (see below). All that
-  /// tells of the sphere may be by lane.
+  /// Finds the chord of a line that does not start on the surface. `unit` is the sphere's (see
+  /// below). All numbers of the sphere may differ by lane.
   template <class Ray, class Center, class Size>
   static SphereChord of(const Ray& ray, const Center& center, const Size& radius,
                         const Size& unit) {
@@ -36,7 +38,7 @@ struct SphereChord {
     const auto line = NearLineOf<Real>::at_closest(ray, center, unit, closest);
     return on(line, closest, radius * inverse_of_power(unit));
   }
-  /// The same of the line near the sphere, its closest() and the radius in its units.
+  /// Finds the chord from the line near the sphere, its closest() and the radius in its units.
   template <class Size>
   static SphereChord on(const NearLineOf<Real>& line, const Real& closest, const Size& r);
 };
@@ -47,34 +49,33 @@ SphereChord<Real> SphereChord<Real>::on(const NearLineOf<Real>& line, const Real
                                         const Size& r) {
   const Real a = line.squared_length;
   const Vec3Of<Real> nearest = line.at(closest);
-  const Real distance = square_root(dot(nearest, nearest));
+  const Real distance = sqrt(dot(nearest, nearest));
   const auto meets = distance < r;
   if (!any(meets)) return {};
 
   const Real squared_root = a * (r + distance) * (r - distance);
-  const Real root = square_root(squared_root);
+  const Real root = sqrt(squared_root);
   const Real half_chord = root / a;
   const Real enter = line.to_t(closest - half_chord);
   const Real leave = line.to_t(closest + half_chord);
-  // As standard_error() has it, for |n . d| = root / r; and next to nothing comes near the grazing
-  // error.
+  // This is standard_error() for |n . d| = root / r. Almost no ray comes near the grazing error.
   const Size reach = 2.0 * r;
   const Size across = standard_error_across(reach) * r;
   Real along = across / root;
   constexpr double flattest = 0x1p-40;
-  if (any(both(meets, squared_root <= flattest * r * r * a))) {
+  if (any(meets && squared_root <= flattest * r * r * a)) {
     const Real longest = grazing_error(line, reach, r);
-    along = across < longest * root ? along : longest;
+    along = select(across < longest * root, along, longest);
   }
-  return {both(meets, enter < leave), enter, leave, line.to_t_length(along)};
+  return {meets && enter < leave, enter, leave, line.to_t_length(along)};
 }
 
-/// Of lines that start on the surface, where they are on it once more.
+/// A SphereOtherEnd is where lines that start on the surface are on it once more.
 template <class Real>
 struct SphereOtherEnd {
   Real t{};
   Real error{};         ///< as in Crossing
-  Real least_length{};  ///< what rounding makes of a way that is none
+  Real least_length{};  ///< the rounding of a path of length 0
 
   template <class Ray>
   static SphereOtherEnd of(const Ray& ray, const Vec3& center, double radius, double unit);
@@ -91,7 +92,7 @@ SphereOtherEnd<Real> SphereOtherEnd<Real>::of(const Ray& ray, const Vec3& center
   const double reach = 2 * r;
   const Real a = line.squared_length;
   const Real b = dot(line.point, line.direction);
-  const Real distance = square_root(dot(line.point, line.point));
+  const Real distance = sqrt(dot(line.point, line.point));
   const Real off_surface = abs((distance + r) * (distance - r));
   SphereOtherEnd end;
   end.t = line.to_t(-2.0 * b / a);
@@ -109,7 +110,8 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   TypedShape typed() const override { return this; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
-  /// Of rays that do not start on the surface, each an ObjectRay or as many side by side.
+  /// Finds the chord of rays that do not start on the surface. A ray is an ObjectRay, or as many
+  /// side by side.
   template <class Real, class Ray>
   SphereChord<Real> chord(const Ray& ray) const {
     return SphereChord<Real>::of(ray, center_, radius_, unit_);
@@ -118,7 +120,8 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
   template <class Real>
   void write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>& direction, std::uint32_t face,
                    bool with_uv, SurfacePointOf<Real>& point) const;
-  /// points_on() of rays each of which crosses a sphere of its own, to the last bit; t is by ray.
+  /// Computes points_on() for rays that each cross a sphere of their own, to the last bit. t is by
+  /// ray.
   static void points_on_each(const std::array<const SphereShape*, lane_count>& spheres,
                              const RayLanes& rays, const Lanes& t, bool with_uv,
                              SurfacePointLanes& points);

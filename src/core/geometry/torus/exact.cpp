@@ -1,13 +1,13 @@
-// The torus of the exact tier. Doubles tell how often the line goes in and out, with a bound on
-// what rounding may change of that (TorusLine), and each crossing gets its t by Newton's iteration
+// The torus of the exact tier finds in doubles how often the line enters and leaves, with a bound
+// on what rounding may change of that (TorusLine). Each crossing gets its t by Newton's iteration
 // on
-//     G = (rho - R)^2 + z^2 - r^2
-// in double-double. What that leaves open is told by polynomials in t without rounding: with q
-// relative to the centre, A the axis of any length and S = |q|^2 + R^2 - r^2, a point is inside if
-// S < 2 R rho, that is if
-//     S < 0  or  Q = |A|^2 S^2 - 4 R^2 (|q|^2 |A|^2 - (q . A)^2) < 0.
-// All crossings are roots of Q. Of the quartic's other roots, where a spindle torus has its inner
-// lemon and where the line only touches, both sides are alike.
+//    G = (rho - R)^2 + z^2 - r^2
+// in double-double. What that leaves undecided is decided by polynomials in t without rounding.
+// With q relative to the centre, A the axis of any length and S = |q|^2 + R^2 - r^2, a point is
+// inside if S < 2 R rho, that is, if
+//    S < 0  or  Q = |A|^2 S^2 - 4 R^2 (|q|^2 |A|^2 - (q . A)^2) < 0.
+// All crossings are roots of Q. Its other roots are where a spindle torus has its inner lemon, and
+// where the line only touches. There both sides are alike.
 #include <optional>
 
 #include "core/geometry/exact_shape.hpp"
@@ -20,11 +20,11 @@
 namespace crt::core {
 namespace {
 
-/// The torus along a line without rounding: S and Q, each times some positive number, as
-/// polynomials of x with t = shift + scale x, where x is about 1 at the torus.
+/// An ExactTorusLine is the torus along a line without rounding: S and Q, each times some positive
+/// number, as polynomials of x. There t = shift + scale x, where x is about 1 at the torus.
 class ExactTorusLine {
  public:
-  /// Of t itself.
+  /// Makes the polynomials of t itself.
   ExactTorusLine(const Torus& torus, const ExactRay& ray) { expand(torus, ray.exact()); }
 
   ExactTorusLine(const Torus& torus, const ExactRay& ray, const NearLine& near_line, double unit) {
@@ -38,7 +38,7 @@ class ExactTorusLine {
     expand(torus, ray.exact());
   }
 
-  /// All crossings.
+  /// Appends all crossings.
   void append(CrossingList& out) const {
     std::uint8_t root = 0;
     each_crossing([&](const Dyadic& low, const Dyadic& high, bool entering) {
@@ -48,7 +48,7 @@ class ExactTorusLine {
     });
   }
 
-  /// The place of one of them.
+  /// Returns the place of one of the crossings.
   std::optional<RealRoot> place(const Crossing& crossing) const {
     std::optional<RealRoot> place =
         RealRoot::near(quartic_, DoubleDouble(crossing.t, crossing.t_low), crossing.error);
@@ -60,7 +60,8 @@ class ExactTorusLine {
     return place;
   }
 
-  /// Finds the crossing at about t, if that is the only one within `margin` of it; or cannot tell.
+  /// Finds the crossing at about t, if that is the only one within `margin` of it. Returns false if
+  /// it cannot decide.
   bool find(const DoubleDouble& t, double margin, Crossing& crossing) const {
     const double x = ((t.hi - shift_.hi) + (t.lo - shift_.lo)) / scale_;
     constexpr double narrowest = 0x1p-44;
@@ -99,7 +100,8 @@ class ExactTorusLine {
     quartic_ = squared_axis * (sum_ * sum_) - Dyadic(4) * square(ring) * squared_rho;
   }
 
-  /// take(low, high, entering) of each crossing, which is the only root between low and high.
+  /// Calls take(low, high, entering) for each crossing, which is the only root between low and
+  /// high.
   template <class Take>
   void each_crossing(const Take& take) const {
     const std::vector<Dyadic> separators = root_separators(quartic_);
@@ -146,7 +148,7 @@ class ExactTorusShape final : public ExactShape {
                                      : NearLine::at_closest(ray.near, torus_.center, unit_);
     TorusLine torus(in_frame(line.point), in_frame(line.direction), ring_, tube_, on_surface);
     const double size = ring_ + tube_;
-    // The roundings of the frame, of turning into it, and of what is added up from there.
+    // These are the roundings of the frame, of turning into it, and of what is added up from there.
     constexpr double roundings = 64;
     const double ray_error = ray.point_error(torus_.center, line.to_t(line.closest())) / unit_;
     const double off = roundings * unit_roundoff * size + 2 * ray_error;
@@ -184,7 +186,7 @@ class ExactTorusShape final : public ExactShape {
     return {glm::dot(v, frame_.zero), glm::dot(v, frame_.quarter), glm::dot(v, frame_.along)};
   }
 
-  /// The crossings of spans that are certain; or cannot tell them apart.
+  /// Appends the crossings of spans that are certain. Returns false if it cannot separate them.
   bool append(const ExactRay& ray, const NearLine& line, const TorusLine::Spans& spans,
               CrossingList& out) const {
     std::optional<ExactTorusLine> exact;
@@ -195,7 +197,7 @@ class ExactTorusShape final : public ExactShape {
         const double x = entering ? spans.span[i].enter : spans.span[i].leave;
         if (!polish(ray, line.to_precise_t(x), {}, crossing)) {
           if (!exact) exact.emplace(torus_, ray, line, unit_);
-          // To the other crossings it is farther than that.
+          // The other crossings are farther away than that.
           constexpr double share = 1.0 / 3;
           double margin = spans.span[i].leave - spans.span[i].enter;
           if (spans.count > 1) margin = std::min(margin, spans.span[1].enter - spans.span[0].leave);
@@ -209,8 +211,9 @@ class ExactTorusShape final : public ExactShape {
     return true;
   }
 
-  /// The root at the start is 0 by identity. The others are where G is what it is at the start,
-  /// which rounding has put only nearly on the surface.
+  /// Appends the crossings of a ray from the surface. The root at the start is 0 by identity. The
+  /// others are where G is what it is at the start, which rounding has put only nearly on the
+  /// surface.
   void append_from_surface(const ExactRay& ray, const NearLine& line, const TorusLine::Spans& spans,
                            CrossingList& out) const {
     const DoubleDouble level =
@@ -220,7 +223,7 @@ class ExactTorusShape final : public ExactShape {
       for (const bool entering : {true, false}) {
         const double x = entering ? spans.span[i].enter : spans.span[i].leave;
         Crossing crossing{.root = root++, .entering = entering};
-        // Next to the start, where the ray grazes, the sign of t is all that there is to know.
+        // Next to the start, where the ray grazes, only the sign of t can be known.
         if (x != 0 && !polish(ray, line.to_precise_t(x), level, crossing)) {
           crossing.t = line.to_t(x);
           crossing.error = std::abs(crossing.t) / 2;
@@ -230,17 +233,17 @@ class ExactTorusShape final : public ExactShape {
     }
   }
 
-  /// G in double-double, in units, and what is known beside it.
+  /// A Level is G in double-double, in units, and what is known beside it.
   struct Level {
     DoubleDouble value;
-    double error = 0;  ///< without what the point is off by
+    double error = 0;  ///< without the error of the point
     Vec3 half_gradient{0, 0, 0};
     double outward = 0;
     double height = 0;
     double rho = 0;
   };
 
-  /// `p` is relative to the centre, in the units of the ray.
+  /// Computes G at `p`, which is relative to the centre, in the units of the ray.
   Level precise_level(PreciseVec3 p) const {
     for (DoubleDouble& component : p) component = {component.hi / unit_, component.lo / unit_};
     const DoubleDouble along = precise_dot(p, {axis_.x, axis_.y, axis_.z});
@@ -253,19 +256,21 @@ class ExactTorusShape final : public ExactShape {
     level.rho = rho.hi;
     level.outward = outward.hi;
     level.height = std::sqrt(square_along.hi);
-    // (rho - R) times the unit vector away from the axis, and z along it.
+    // The half gradient is (rho - R) times the unit vector away from the axis, and z along the
+    // axis.
     const Vec3 point{p[0].hi, p[1].hi, p[2].hi};
     const Vec3 vertical = axis_ * (along.hi / squared_axis_.hi);
     const Vec3 radial = rho.hi > 0 ? (point - vertical) * (outward.hi / rho.hi) : Vec3(0);
     level.half_gradient = radial + vertical;
-    // Of each length some roundings; of G twice its distance from the ring as much, and some of its
-    // squares.
+    // Each length is off by some roundings. G is off by twice the distance from the ring times
+    // that, and by some roundings of its squares.
     const double size = std::abs(outward.hi) + level.height + tube_;
     level.error = precise_roundoff * size * (8 * (ring_ + rho.hi + level.height) + size);
     return level;
   }
 
-  /// Newton's iteration for G = goal until t is certain to the last bit; false if that fails.
+  /// Takes steps of Newton's iteration for G = goal until t is certain to the last bit. Returns
+  /// false if that fails.
   bool polish(const ExactRay& ray, DoubleDouble t, const DoubleDouble& goal,
               Crossing& crossing) const {
     const Vec3 d = ray.near.direction * (1 / unit_);
@@ -275,12 +280,12 @@ class ExactTorusShape final : public ExactShape {
       const Level level = precise_level(precise_from_center(ray.near, torus_.center, t));
       const double rate = 2 * glm::dot(level.half_gradient, d);
       const double change = (level.value - goal).value() / rate;
-      // No second derivative of G between here and the root, and as far beyond is larger.
+      // No second derivative of G between here and the root, and as far beyond, is larger.
       const double distance_moved = std::abs(change) * speed;
       const double curvature = 2 * speed * speed * (1 + ring_ / (level.rho - 2 * distance_moved));
       const double distance = std::abs(level.outward) + level.height;
       constexpr double rate_rounding = 0x1p-46;
-      // Next to the axis the direction away from it is what is left of the point.
+      // Next to the axis cancellation leaves few digits of the direction away from it.
       const double size = ring_ + level.rho + level.height;
       const double rate_error =
           rate_rounding * speed * (distance + std::abs(level.outward) * (size / level.rho));

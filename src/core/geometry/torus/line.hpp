@@ -1,19 +1,19 @@
-// A line seen from a torus: G along it, and the intervals where G < 0. See torus.hpp for what G is.
+// A torus sees a line as G along it, and as the intervals where G < 0. torus.hpp says what G is.
 #pragma once
 
 #include "core/math/vector_lanes.hpp"
 
 namespace crt::core {
 
-/// One line, or as many side by side as a Real has lanes, each with what it has alone to the last
-/// bit.
+/// A TorusLineOf is one line, or as many side by side as a Real has lanes. Each line gets what it
+/// would get alone, to the last bit.
 template <class Real>
 class TorusLineOf {
  public:
   using Mask = decltype(Real{} < Real{});
 
-  /// `point` and `direction` in the torus's frame: z is along its axis, the center is 0. With
-  /// `on_surface` the point is on the torus by definition, and x = 0 a root.
+  /// Takes `point` and `direction` in the torus's frame: z is along its axis, and the center is 0.
+  /// With `on_surface` the point is on the torus by definition, and x = 0 is a root.
   TorusLineOf(const Vec3Of<Real>& point, const Vec3Of<Real>& direction, double ring, double tube,
               bool on_surface)
       : point_(point),
@@ -26,39 +26,40 @@ class TorusLineOf {
         turning_(ring * passing_ * passing_),
         on_surface_(on_surface) {}
 
-  /// G at a point of the line; less what it is at x = 0, if the point there is on the surface.
+  /// A Level is G at a point of the line. If the point at x = 0 is on the surface, it is less the G
+  /// there.
   struct Level {
     Real rho;
     Real value;
     Real half_slope;
 
-    /// Of each line that of `a` or that of `b`.
+    /// Chooses for each line the level of `a` or that of `b`.
     static Level chosen(const Mask& first, const Level& a, const Level& b) {
-      return {first ? a.rho : b.rho, first ? a.value : b.value,
-              first ? a.half_slope : b.half_slope};
+      return {select(first, a.rho, b.rho), select(first, a.value, b.value),
+              select(first, a.half_slope, b.half_slope)};
     }
   };
   Level level(const Real& x) const;
 
-  /// The one root between two points of different sign.
+  /// A Bracket has the one root between two points of different sign.
   struct Bracket {
     Real negative{};
     Real positive{};
     Level inside{};  ///< at `negative`
   };
-  /// Of wanted lines.
+  /// Returns the root in the bracket of wanted lines.
   Real root(const Bracket& bracket, const Mask& wanted) const;
 
   struct Entry {
-    Mask found{};  ///< else it is nowhere inside
+    Mask found{};  ///< if not, the line is nowhere inside
     Bracket bracket;
   };
-  /// Where wanted lines first enter the torus, if they do not start on the surface: as intervals()
-  /// has it.
+  /// Finds where wanted lines that do not start on the surface first enter the torus, as
+  /// intervals() does.
   Entry first_entry(const Mask& wanted) const;
 
-  /// Which of wanted lines, which start on the surface and outwards, are inside somewhere at x > 0.
-  /// Of others it is certain that spans() has nothing there.
+  /// Returns which of the wanted lines are inside somewhere at x > 0. They start on the surface and
+  /// leave outwards. For the others spans() surely has nothing there.
   Mask comes_back(const Mask& wanted) const;
 
   Real half_slope(const Real& x) const { return level(x).half_slope; }           ///< G' / 2
@@ -69,10 +70,10 @@ class TorusLineOf {
     Real low{};
     Real high{};
   };
-  /// Where wanted lines can be inside; returns for which there is such a part.
+  /// Finds where wanted lines can be inside. Returns for which there is such a part.
   Mask range(const Mask& wanted, Range& result) const;
   Range concave_part(const Range& range) const;
-  /// A point where a sign was found, and whether rounding cannot have hidden one.
+  /// A Search is a point where a sign was found, and whether rounding cannot have hidden one.
   struct Search {
     Real x{};
     Mask found{};
@@ -95,10 +96,10 @@ class TorusLineOf {
   double inflection_error_ = 0;
 
  private:
-  /// A line so near to the axis passes through it: of its square doubles would leave nothing.
+  /// Takes a line so near to the axis as one through it, as its square would underflow.
   static Real without_what_vanishes(const Real& passing) {
     constexpr double smallest = 0x1p-500;
-    return passing > smallest ? passing : Real{};
+    return select(passing > smallest, passing, Real{});
   }
   Real value_from_start(const Real& x, const Vec3Of<Real>& p, const Real& rho) const;
   Real half_curvature(const Level& here) const;

@@ -12,10 +12,10 @@ double TorusLine::level_at_start() const {
   return outward * outward - (tube_ - point_.z) * (tube_ + point_.z);
 }
 
-/// Where G turns from convex to concave is known only so well, and between there and where it is
-/// taken to turn it may lie below its tangents: by the change of slope times the step. The slope of
-/// rho changes by no more than twice the lateral speed, and next to the point of inflection by its
-/// third derivative times the step squared.
+/// Returns how far G may lie below its tangents, as the points where it turns from convex to
+/// concave are rounded. Between the true point and the rounded one it is the change of slope times
+/// the step. The slope of rho changes by no more than twice the lateral speed. Next to the point of
+/// inflection it changes by its third derivative times the step squared.
 double TorusLine::inflection_error(const Range& concave) const {
   const double lateral_speed = direction_.x * direction_.x + direction_.y * direction_.y;
   if (off_ == 0 || !(lateral_speed > 0)) return 0;
@@ -35,11 +35,11 @@ double TorusLine::inflection_error(const Range& concave) const {
   return ring_ * step * std::min(4.0, bend * bend);
 }
 
-/// In the concave part: a point outside, if there is one.
+/// Finds a point outside in the concave part, if there is one.
 TorusLine::Search TorusLine::find_rise(const Range& concave, const Search& first,
                                        const Search& second) const {
   const auto& [low, high] = concave;
-  // Mostly that is where the spans were found.
+  // Mostly the spans were found at these points.
   const double at_low = (first.x == low ? first.level : level(low)).value;
   const double at_high = (second.x == high ? second.level : level(high)).value;
   if (at_low > value_error(low)) return {.x = low, .found = true, .certain = true};
@@ -48,7 +48,7 @@ TorusLine::Search TorusLine::find_rise(const Range& concave, const Search& first
   return find_sign(low, high, -1, true);
 }
 
-/// The root; anywhere between its bounds if both are before `begin`.
+/// Returns the root, or any point between its bounds if both are before `begin`.
 double TorusLine::place(const Bracket& bracket, double begin) const {
   const bool is_before = std::max(bracket.negative, bracket.positive) < begin;
   return is_before ? bracket.negative + (bracket.positive - bracket.negative) / 2
@@ -99,7 +99,7 @@ TorusLine::Spans TorusLine::spans(double begin) {
 }
 
 void obey_side(Side side, bool bulging, double shortest, TorusLine::Spans& spans) {
-  std::size_t here = 0;  // the first span that goes on after the start
+  std::size_t here = 0;  // the first span that ends after the start
   while (here < spans.count && !(spans.span[here].leave > 0)) ++here;
   TorusLine::Span& next = spans.span[std::min(here, spans.span.size() - 1)];
   const bool inside = here < spans.count && next.enter <= 0;

@@ -1,4 +1,4 @@
-// The intervals of a line inside a torus, one ray's: all of them.
+// A TorusLine finds all the intervals of one ray's line inside a torus.
 #pragma once
 
 #include <array>
@@ -13,11 +13,12 @@ class TorusLine final : public TorusLineOf<double> {
  public:
   using TorusLineOf::TorusLineOf;
 
-  /// From now on tells in Spans::certain whether rounding could have changed how many spans there
-  /// are. `off` is what each component of a point near the torus may be off by, rounding included.
+  /// Makes later calls find out, for Spans::certain, whether rounding could have changed the number
+  /// of spans. `off` bounds the error of each component of a point near the torus, rounding
+  /// included.
   void take_care(double off) { off_ = off; }
 
-  /// A span of the line inside the torus, by brackets around its ends.
+  /// Intervals are the spans of the line inside the torus, by brackets around their ends.
   struct Intervals {
     struct Ends {
       Bracket enter;
@@ -27,7 +28,7 @@ class TorusLine final : public TorusLineOf<double> {
     std::size_t count = 0;
     bool certain = true;
   };
-  /// In ascending order.
+  /// Returns the intervals in ascending order.
   Intervals intervals();
 
   struct Span {
@@ -39,12 +40,11 @@ class TorusLine final : public TorusLineOf<double> {
     std::size_t count = 0;
     bool certain = true;
   };
-  /// The same with the ends themselves; those at x = 0 are exactly 0 if the point is on the
-  /// surface. Those before `begin` are only told roughly.
+  /// Returns the intervals by their ends themselves. Ends at x = 0 are exactly 0 if the point is on
+  /// the surface. Ends before `begin` are known only roughly.
   Spans spans(double begin = -std::numeric_limits<double>::infinity());
 
-  double level_at_start()
-      const;  ///< what G is at x = 0, by rounding, if the point is on the surface
+  double level_at_start() const;  ///< G at x = 0, which is rounding if the point is on the surface
 
  private:
   Search find_rise(const Range& concave, const Search& first, const Search& second) const;
@@ -52,10 +52,10 @@ class TorusLine final : public TorusLineOf<double> {
   double inflection_error(const Range& concave) const;
 };
 
-/// Makes the spans of a ray that starts on the torus agree with the side it leaves to, where the
-/// direction is at odds with it or grazes so closely that rounding decides. `bulging` tells that
-/// the surface turns away from the line, `shortest` what is left of a span that rounding would have
-/// end at once.
+/// Makes the spans of a ray that starts on the torus agree with the side it leaves to. They may not
+/// where the direction is at odds with it, or grazes so closely that rounding decides. `bulging`
+/// says that the surface turns away from the line. `shortest` is the length of a span that rounding
+/// would have end at once.
 void obey_side(Side side, bool bulging, double shortest, TorusLine::Spans& spans);
 
 }  // namespace crt::core

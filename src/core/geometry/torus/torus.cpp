@@ -41,8 +41,9 @@ template <class Real>
     const Real& length) const {
   const double size = ring_ + tube_;
   const Vec3Of<Real> place = line.at(x);
-  const Real reach = size + square_root(dot(place, place));
-  // |n . d| is |G'| / 2r, and no root moves by more than the span and the grazing error are long.
+  const Real reach = size + sqrt(dot(place, place));
+  // |n . d| is |G'| / 2r. No root moves by more than the lengths of the span and of the grazing
+  // error.
   return {.reach = reach,
           .approach = abs(torus.half_slope(x)) / tube_,
           .longest = length + grazing_error(line, reach, size)};
@@ -57,12 +58,12 @@ TorusEntry<Real> TorusShape::first_entry(const NearLineOf<Real>& line,
   if (!any(entry.found)) return result;
   const Real x = torus.root(entry.bracket, entry.found);
   result.t = line.to_t(x);
-  // From there on the line is inside for at least as long as up to that point, and where that is
-  // not next to nothing it does not matter how much longer.
+  // From x on the line is inside at least up to `inside`. Unless that is next to nothing, it does
+  // not matter how much longer.
   const Real inside = entry.bracket.negative;
   const Meeting<Real> at = meeting<Real>(line, torus, x, inside - x);
   const auto is_steep = standard_error_across(at.reach) < at.longest * at.approach;
-  result.known = both(entry.found, both(is_steep, result.t < line.to_t(inside)));
+  result.known = entry.found && is_steep && result.t < line.to_t(inside);
   result.error = standard_error(line, result.t, at.reach, at.approach, at.longest);
   return result;
 }
@@ -99,19 +100,20 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
       return false;
     }
   }
-  // Of one end of a span, whose length is known so far.
+  // Makes the crossing at one end of a span, which is at least `length` long.
   const auto crossing = [&](double x, std::size_t span, bool entering, double length) {
     Crossing end{.root = static_cast<std::uint8_t>(2 * span + (entering ? 0 : 1)),
                  .entering = entering};
     if (on_surface && x == 0) return end;
     end.t = line.to_t(x);
-    // The speed is at least 1, and no span longer than the torus is wide.
+    // The direction's length is at least 1, and no span is longer than the torus is wide.
     if (end.t < ray.begin) {
       end.error = line.to_t_length(2 * (ring_ + tube_));
       return end;
     }
     const auto& [reach, approach, longest] = meeting<double>(line, torus, x, length);
-    // A start that rounding has moved off the surface takes the whole level of G along.
+    // If rounding has moved the start off the surface, the error includes the whole level of G
+    // there.
     const double off_surface = on_surface ? std::abs(torus.level_at_start()) / (2 * tube_) : 0;
     const double along = off_surface < longest * approach ? off_surface / approach : longest;
     end.error = standard_error(line, end.t, reach, approach, longest) + line.to_t_length(along);
@@ -136,8 +138,8 @@ bool TorusShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   for (std::size_t i = 0; i < intervals.count; ++i) {
     const auto& [enter, leave] = intervals.interval[i];
     const double first = torus.root(enter, true);
-    // The span goes on to where it is known to be inside: its end needs not be known if it is not
-    // asked for.
+    // The line is inside at least up to `leave.negative`. So the end of the span is computed only
+    // if it is needed.
     const Crossing entry = crossing(first, i, true, leave.positive - first);
     if (ray.is_first_asked(entry) && entry.t < line.to_t(leave.negative)) {
       out.push_back(entry);
@@ -154,10 +156,11 @@ TorusShape::TubePlace<Real>::TubePlace(const TorusShape& torus, const Vec3Of<Rea
   const Vec3Of<Real> along = broadcast<Real>(torus.frame_.along);
   const Vec3Of<Real> p = broadcast<Real>(1 / torus.unit_) * offset;
   height = dot(p, along);
-  // Twice: the second time removes what the first one's rounding left along the axis.
+  // The component along the axis is removed twice. The second time removes what the first one's
+  // rounding left.
   Vec3Of<Real> across = p - height * along;
   across = across - dot(across, along) * along;
-  radial = chosen(largest_component(across) > 0.0, unit_vector(across),
+  radial = select(largest_component(across) > 0.0, unit_vector(across),
                   broadcast<Real>(torus.frame_.zero));
   outward = dot(across, radial) - torus.ring_;
 }
@@ -170,7 +173,7 @@ void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, st
   const Vec3Of<Real> from_ring =
       place.outward * radial + place.height * broadcast<Real>(frame_.along);
   const Vec3Of<Real> normal =
-      chosen(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
+      select(largest_component(from_ring) > 0.0, unit_vector(from_ring), radial);
   const Vec3Of<Real> from_center =
       broadcast<Real>(ring_) * radial + broadcast<Real>(tube_) * normal;
   point.position = broadcast<Real>(center_) + broadcast<Real>(unit_) * from_center;
@@ -182,7 +185,7 @@ void TorusShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&, st
 }
 
 Surface TorusShape::surface(std::uint32_t) const {
-  // A torus is the same about its axis turned round.
+  // A torus is the same if its axis is turned round.
   return {.kind = SurfaceKind::torus,
           .position = center_,
           .direction = canonical_axis(frame_.along),

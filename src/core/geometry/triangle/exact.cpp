@@ -1,4 +1,4 @@
-// Triangles of the exact tier.
+// Triangles of the exact tier decide on which side of their edges the line passes.
 #include "core/geometry/exact_flat.hpp"
 #include "core/geometry/triangle/triangle.hpp"
 
@@ -26,7 +26,7 @@ class ExactTriangleShape final : public ExactFlatShape {
     return true;
   }
 
-  /// The sign of (from - o) . ((to - from) x d), as in triangle.hpp.
+  /// Returns the side of an edge: the sign of (from - o) . ((to - from) x d), as in triangle.hpp.
   static int side_of_edge(const ExactRay& ray, double t, const Vec3& from, const Vec3& to) {
     const Vec3 d = scaled_to_one(ray.near.direction);
     const double span = largest_component(d) / largest_component(ray.near.direction);
@@ -37,7 +37,7 @@ class ExactTriangleShape final : public ExactFlatShape {
     const double open = filter_rounding * start_size + ray.point_error(from, t) +
                         start_size * span * ray.direction_error;
     constexpr double largest_sum =
-        12;  // of six products, each of components of edge and d (below 2)
+        12;  // for six products, each of components of edge and d (below 2)
     if (std::abs(volume) > largest_sum * open * largest_component(edge)) return volume > 0 ? 1 : -1;
     return exact_side_of_edge(ray.exact(), from, to);
   }

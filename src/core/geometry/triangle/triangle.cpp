@@ -6,7 +6,7 @@
 namespace crt::core {
 namespace {
 
-/// to - from exactly, times `scale` (a power of two).
+/// Returns to - from exactly, times `scale` (a power of two).
 PreciseVec3 difference(const Vec3& to, const Vec3& from, double scale) {
   PreciseVec3 result;
   for (int axis = 0; axis < 3; ++axis) {
@@ -20,7 +20,7 @@ double inverse_length_scale(const Vec3& v) {
   return 1 / power_of_two_below(largest_component(v));
 }
 
-/// (b - a) x (c - a) up to a power of two.
+/// Returns (b - a) x (c - a) up to a power of two.
 PreciseVec3 precise_normal_of(const Triangle& triangle) {
   const Vec3 ab = triangle.b - triangle.a;
   const Vec3 ac = triangle.c - triangle.a;
@@ -29,16 +29,17 @@ PreciseVec3 precise_normal_of(const Triangle& triangle) {
                difference(triangle.c, triangle.a, inverse_length_scale(ac)));
 }
 
-/// The same good to a rounding even for slivers; 0 if it is within the rounding of double-double,
-/// so that the corners are on a line for all we can tell.
+/// Rounds the normal, which is good to a rounding even for slivers. Returns 0 if it is within the
+/// rounding of double-double, so that the corners cannot be distinguished from points on a line.
 Vec3 rounded_normal(const PreciseVec3& product) {
   constexpr double rounding = 0x1p-98;
   const Vec3 normal = rounded(product);
   return largest_component(normal) > rounding ? normal : Vec3(0.0);
 }
 
-/// Along which side of the edge from `from` to `to` the line passes: the sign of from . (edge x d),
-/// seen from the line's point at t; 0 if it is closer to the edge than can be told.
+/// Returns on which side of the edge from `from` to `to` the line passes: the sign of from . (edge
+/// x d), relative to the line's point at t. It is 0 if the line is closer to the edge than
+/// double-double can resolve.
 int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double t) {
   const Vec3 d = scaled_to_one(ray.direction);
   const Vec3 edge = to - from;
@@ -85,8 +86,8 @@ Bounds TriangleShape::bounds() const {
 }
 
 bool TriangleShape::passes_edges(const ObjectRay& ray) const {
-  // Seen from a point of the line next to the triangle: where a line nearly in its plane meets that
-  // plane may be so far away that no side could be told.
+  // The sides are found from a point of the line next to the triangle. A line nearly in the
+  // triangle's plane may meet that plane so far away that no side could be resolved.
   const double scale = inverse_length_scale(ray.direction);
   const Vec3 d = ray.direction * scale;
   const double t = -glm::dot(ray.from_center(corners_[0], 0), d) / glm::dot(d, d) * scale;
@@ -100,8 +101,8 @@ bool TriangleShape::passes_edges(const ObjectRay& ray) const {
   return !(left && right);
 }
 
-/// Of a line that is parallel to the triangle but for little more than the rounding of the normal,
-/// the normal's further digits decide.
+/// Finds where a line meets the triangle's plane. If the line is parallel to it but for little more
+/// than the rounding of the normal, the normal's further digits decide.
 PlaneFace::Meeting TriangleShape::meet(const ObjectRay& ray) const {
   const PlaneFace::Meeting meeting = face_.meet_surface(ray);
   constexpr double nearly_parallel = 0x1p-40;

@@ -1,10 +1,10 @@
-// Triangle: the surface between three corners. Its normal is (b - a) x (c - a), component by
-// component as usual: seen from where it points to, a, b, c run clockwise (the space is
-// left-handed).
+// A triangle is the surface between three corners. Its normal is (b - a) x (c - a), component by
+// component as usual. Seen from where it points to, a, b, c run clockwise, as the space is
+// left-handed.
 //
 // A line hits it if it passes the three edges on the same side. The side is the sign of a triple
-// product, found again in double-double where doubles leave it open; a line through an edge hits,
-// so triangles that share an edge leave no gap.
+// product, which is found again in double-double where doubles leave it undecided. A line through
+// an edge hits, so triangles that share an edge leave no gap.
 // Source: Pluecker, as in Shevtsov, Soupikov, Kapustin, Ray-triangle intersection algorithm for
 // modern CPU architectures, 2007.
 //
@@ -44,7 +44,7 @@ class TriangleShape final : public ShapeOfPoints<TriangleShape> {
   PlaneFace face_;
 };
 
-/// Whether the corners are not on one line.
+/// Returns whether the corners are not on one line.
 bool has_area(const Triangle& triangle);
 
 void validate(const Triangle& triangle);

@@ -1,9 +1,9 @@
-// The border between crt_core and the module crt_image_files, which alone links OpenImageIO: a
-// plain table of C functions. The module is loaded when the first image file is read or written, so
-// a program that touches none pays nothing for OpenImageIO and the many libraries behind it.
+// The border between crt_core and the module crt_image_files is a plain table of C functions. The
+// module alone links OpenImageIO. It is loaded when the first image file is read or written. So a
+// program that touches none pays nothing for OpenImageIO and the many libraries behind it.
 //
-// No exception crosses, nothing allocated on one side is freed on the other, and both sides see
-// files as bytes in memory only.
+// No exception crosses the border, and nothing allocated on one side is freed on the other. Both
+// sides see files as bytes in memory only.
 #pragma once
 
 #include <cstddef>
@@ -11,10 +11,10 @@
 
 namespace crt::core {
 
-/// Of what follows; a module of another version is refused.
+/// This is the version of what follows. A module of another version is refused.
 inline constexpr int image_files_version = 3;
 
-/// A name and a text that go into a file beside the pixels. Both end in 0.
+/// An ImageFileText is a name and a text that go into a file beside the pixels. Both end in 0.
 struct ImageFileText {
   const char* name;
   const char* value;
@@ -27,27 +27,27 @@ enum ImageFilesStatus : int {
   image_files_out_of_memory = 3,
 };
 
-/// Called at most once, with why a call failed.
+/// An ImageFilesError is called at most once, with why a call failed.
 struct ImageFilesError {
   void* context;
   void (*report)(void* context, const char* message);
 };
 
-/// Who takes a decoded picture.
+/// An ImageFilesPicture takes a decoded picture.
 struct ImageFilesPicture {
   void* context;
-  /// Called once the size is known and the first rows were read: room for 4 * width * height
-  /// floats, or null. `integer` tells a file of integers from one of floats.
+  /// This is called once the size is known and the first rows were read. It returns room for 4 *
+  /// width * height floats, or null. `integer` says whether the file has integers or floats.
   float* (*allocate)(void* context, int width, int height, bool integer);
 };
 
-/// Who takes an encoded file; append returns false if it cannot.
+/// An ImageFilesBytes takes an encoded file. append returns false if it cannot.
 struct ImageFilesBytes {
   void* context;
   bool (*append)(void* context, const unsigned char* bytes, std::size_t count);
 };
 
-/// A file to decode.
+/// An ImageFilesContent is a file to decode.
 struct ImageFilesContent {
   const char* format;  ///< OpenImageIO's name of the format
   const unsigned char* bytes;
@@ -55,15 +55,16 @@ struct ImageFilesContent {
   std::size_t max_pixels;
 };
 
-/// Numbers beside the colours, one a pixel, as `floats` or as `integers`; the other is null.
+/// An ImageFileChannel has numbers beside the colours, one a pixel, as `floats` or as `integers`.
+/// The other is null.
 struct ImageFileChannel {
   const char* name;
   const float* floats;
   const std::uint32_t* integers;
 };
 
-/// A picture to encode: rows from the top, without gaps, as `bytes` or as `floats`; the other is
-/// null.
+/// An ImageFilesRequest is a picture to encode: rows from the top, without gaps, as `bytes` or as
+/// `floats`. The other is null.
 struct ImageFilesRequest {
   const char* format;
   int width;
@@ -80,14 +81,14 @@ struct ImageFilesRequest {
 
 struct ImageFiles {
   int version;
-  /// Gives RGBA with premultiplied alpha; floats that are not finite stay as they are.
+  /// Gives RGBA with premultiplied alpha. Floats that are not finite stay as they are.
   ImageFilesStatus (*decode)(const ImageFilesContent*, const ImageFilesPicture*,
                              const ImageFilesError*);
   ImageFilesStatus (*encode)(const ImageFilesRequest*, const ImageFilesBytes*,
                              const ImageFilesError*);
 };
 
-/// The one symbol that the module exports: a function of this type.
+/// The one symbol that the module exports is a function of this type.
 using ImageFilesEntry = const ImageFiles* (*)();
 inline constexpr const char* image_files_entry_name = "crt_image_files";
 inline constexpr const char* image_files_module_name = "crt_image_files.so";

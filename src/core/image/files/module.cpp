@@ -1,4 +1,4 @@
-// The module crt_image_files: the only source of CRT that sees OpenImageIO. See interface.hpp.
+// The module crt_image_files is the only source of CRT that sees OpenImageIO. See interface.hpp.
 #include <OpenImageIO/filesystem.h>
 #include <OpenImageIO/imageio.h>
 
@@ -23,7 +23,8 @@ struct Unsupported : std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-/// The beginning of OpenImageIO's message, which may go on and on, or `otherwise` if it has none.
+/// Returns the beginning of OpenImageIO's message, which may be long, or `otherwise` if it has
+/// none.
 std::string reason(const std::string& message, const char* otherwise) {
   constexpr std::size_t longest = 200;
   const std::string first_line = message.substr(0, message.find('\n'));
@@ -51,7 +52,7 @@ ImageFilesStatus guarded(const ImageFilesError& error, const Work& work) noexcep
 
 // ---- decoding -------------------------------------------------------------------------------
 
-/// Which channels of the file make up a picture.
+/// A ChannelUse says which channels of the file make up a picture.
 struct ChannelUse {
   int count = 0;  ///< read of the file, from the first on
   int red = 0;
@@ -78,7 +79,7 @@ ChannelUse channel_use(const OIIO::ImageSpec& spec) {
   return use;
 }
 
-/// One pixel as the file has it to linear RGBA with premultiplied alpha; what is not finite stays
+/// Converts one pixel of the file to linear RGBA with premultiplied alpha. What is not finite stays
 /// so.
 void convert_pixel(const float* from, const ChannelUse& use, float* to) {
   const float given = use.alpha < 0 ? 1.0f : from[use.alpha];
@@ -90,7 +91,7 @@ void convert_pixel(const float* from, const ChannelUse& use, float* to) {
   to[3] = alpha;
 }
 
-/// What a header says must be possible before anything is allocated for it.
+/// Checks that what a header says is possible before anything is allocated for it.
 void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
   if (spec.deep) throw std::runtime_error("deep images have no single picture");
   if (spec.depth > 1) throw std::runtime_error("it is a volume, not a picture");
@@ -111,7 +112,7 @@ void check_size(const OIIO::ImageSpec& spec, std::size_t max_pixels) {
   }
 }
 
-/// Reads the picture in strips of whole rows. Room for all of it is made when the first strip is
+/// Reads the picture in strips of whole rows. All of it is allocated only when the first strip is
 /// there, so that a short file with a tall claim costs nothing.
 void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
                  const ImageFilesPicture& picture) {
@@ -122,7 +123,8 @@ void read_pixels(OIIO::ImageInput& input, const OIIO::ImageSpec& spec,
   const ChannelUse use = channel_use(spec);
   const auto width = static_cast<std::size_t>(spec.width);
   const auto channels = static_cast<std::size_t>(use.count);
-  // Not a vector: memory that a header claims is not even touched before there are pixels for it.
+  // It is no vector, so that memory that a header claims is not even touched before there are
+  // pixels.
   const auto rows = std::make_unique_for_overwrite<float[]>(
       width * channels * static_cast<std::size_t>(std::min(strip, spec.height)));
   float* to = nullptr;
@@ -158,7 +160,8 @@ ImageFilesStatus decode(const ImageFilesContent* content, const ImageFilesPictur
     OIIO::Filesystem::IOMemReader bytes(content->bytes, content->count);
     input->threads(1);
     input->set_ioproxy(&bytes);
-    // Otherwise integers would be multiplied by their alpha and rounded before we see them.
+    // Without this attribute integers would be multiplied by their alpha and rounded before we see
+    // them.
     OIIO::ImageSpec wishes;
     wishes.attribute("oiio:UnassociatedAlpha", 1);
     OIIO::ImageSpec spec;
@@ -191,7 +194,7 @@ OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
   for (std::size_t i = 0; i < request.text_count; ++i) {
     spec.attribute(request.texts[i].name, request.texts[i].value);
   }
-  // Some writers put in the current time if they find none; an empty one stays out of the file.
+  // Some writers put in the current time if they find none. An empty one stays out of the file.
   spec.attribute("DateTime", "");
   if (std::string(request.format) == "jpeg") {
     spec.attribute("Compression", "jpeg:95");
@@ -200,7 +203,7 @@ OIIO::ImageSpec output_spec(const ImageFilesRequest& request) {
   return spec;
 }
 
-/// Rows of pixels with all their channels, each number in four bytes of its own type.
+/// Gathers rows of pixels with all their channels, each number in four bytes of its own type.
 void gather_rows(const ImageFilesRequest& request, std::size_t begin, std::size_t end,
                  std::uint32_t* to) {
   const auto colors = static_cast<std::size_t>(request.channels);
@@ -218,7 +221,8 @@ void gather_rows(const ImageFilesRequest& request, std::size_t begin, std::size_
   }
 }
 
-/// Writes a picture with other channels in strips of whole rows: they have to be brought together.
+/// Writes a picture with other channels in strips of whole rows, as channels must be gathered
+/// first.
 bool write_all_channels(const ImageFilesRequest& request, OIIO::ImageOutput& output) {
   constexpr int strip_rows = 64;
   const auto channels = static_cast<std::size_t>(request.channels) + request.other_count;
@@ -227,7 +231,7 @@ bool write_all_channels(const ImageFilesRequest& request, OIIO::ImageOutput& out
   for (int y = 0; y < request.height; y += strip_rows) {
     const int end = std::min(y + strip_rows, request.height);
     gather_rows(request, static_cast<std::size_t>(y), static_cast<std::size_t>(end), rows.data());
-    // Of no type: each channel has the one that the file has.
+    // The type is unknown, so that each channel has the one that the file has.
     if (!output.write_scanlines(y, end, 0, OIIO::TypeDesc::UNKNOWN, rows.data())) return false;
   }
   return true;
@@ -258,8 +262,8 @@ ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes*
   });
 }
 
-/// Keeps OpenEXR from starting threads of its own. (OpenImageIO's own are forbidden file by file:
-/// its global attribute "threads" starts some in order to end them.)
+/// Keeps OpenEXR from starting threads of its own. OpenImageIO's own threads are forbidden file by
+/// file: its global attribute "threads" starts some in order to end them.
 void forbid_threads() {
   constexpr int no_pool = -1;
   OIIO::attribute("exr_threads", no_pool);
