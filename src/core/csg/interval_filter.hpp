@@ -1,7 +1,7 @@
 // The interval filter finds where a ray first comes into a CSG object, or out of it, by plain
 // formulas. That is what most rays ask, for a fraction of what following all crossings costs.
 //
-// A line enters and leaves each leaf somewhere in an interval (leaf_intervals.hpp): between these
+// A line enters and leaves each leaf somewhere in an interval (enclosed_lines.hpp): between these
 // the leaf is surely inside or outside, and within them it is unknown. Where the root has one value
 // at first, the search advances to the first t at which it may have the other:
 //

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/csg/leaf_intervals.hpp"
+#include "core/csg/enclosed_lines.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/ray_steps.hpp"
 

@@ -1,5 +1,4 @@
-// Where lines enter and leave one leaf of a CSG object, with what rounding and exact tests may make
-// of that.
+// Lines whose parts within the leaves of a CSG object are asked for.
 #pragma once
 
 #include <array>
