@@ -12,7 +12,7 @@ namespace {
 
 constexpr int bits_per_axis = 20;
 
-/// The lowest bits of x, each with two zeros before it.
+/// Returns the lowest bits of x, each with two zeros before it.
 std::uint64_t broadcast(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffffu;
   x = (x | x << 16) & 0x001f0000ff0000ffu;
@@ -22,8 +22,8 @@ std::uint64_t broadcast(std::uint64_t x) {
   return x;
 }
 
-/// Where on the curve of Morton (A computer oriented geodetic data base, IBM 1966) the middle of a
-/// box is: the digits of its coordinates by turns.
+/// A Curve finds where on the curve of Morton the middle of a box is, which has the digits of its
+/// coordinates by turns. Source: Morton, A computer oriented geodetic data base, IBM 1966.
 class Curve {
  public:
   explicit Curve(const Bounds& total) {
