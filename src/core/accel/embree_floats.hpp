@@ -26,10 +26,10 @@ inline float round_down(double value) {
 }
 
 /// No ray is shorter than this, as Embree passes by what is met just where a ray ends.
-inline constexpr float shortest_way = std::numeric_limits<float>::min();
+inline constexpr float shortest_length = std::numeric_limits<float>::min();
 
 inline float round_up_length(double length) {
-  return std::max(round_up(length), shortest_way);
+  return std::max(round_up(length), shortest_length);
 }
 
 /// Returns each length rounded up, if it is not negative.
@@ -38,7 +38,7 @@ inline FloatLanes round_up_length(const Lanes& length) {
   const auto too_low = stdx::static_simd_cast<IntLanes>(
       select(to_doubles(nearest) < length, lanes_of(1), lanes_of(0)));
   const auto rounded_up = bits_as<FloatLanes>(bits_as<IntLanes>(nearest) + too_low);
-  return max(rounded_up, FloatLanes(shortest_way));
+  return max(rounded_up, FloatLanes(shortest_length));
 }
 
 /// Returns a component of a packet's directions as floats, with 0 for what is all but 0. Embree

@@ -13,7 +13,7 @@ namespace {
 constexpr int bits_per_axis = 20;
 
 /// Returns the lowest bits of x, each with two zeros before it.
-std::uint64_t broadcast(std::uint64_t x) {
+std::uint64_t with_gaps(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffffu;
   x = (x | x << 16) & 0x001f0000ff0000ffu;
   x = (x | x << 8) & 0x100f00f00f00f00fu;
@@ -40,7 +40,7 @@ class Curve {
     for (int axis = 0; axis < 3; ++axis) {
       const double half = (box.lower[axis] / 4 + box.upper[axis] / 4) - low_[axis];
       const double step = std::clamp(half * steps_, 0.0, steps - 1);
-      place |= broadcast(static_cast<std::uint64_t>(step)) << axis;
+      place |= with_gaps(static_cast<std::uint64_t>(step)) << axis;
     }
     return place;
   }
