@@ -39,7 +39,7 @@ struct Boxes {
     return sorted == all;
   }
 
-  double way() const {
+  double path_length() const {
     double length = 0;
     for (std::size_t i = 1; i < order.size(); ++i) {
       length += glm::distance(scene.objects[order[i - 1]].bounds.lower,
@@ -62,15 +62,15 @@ Boxes random_points(std::size_t count, const Vec3& size) {
 
 }  // namespace
 
-TEST_CASE("in a cloud the way from object to object is that to near neighbours") {
+TEST_CASE("in a cloud the path from object to object is that to near neighbours") {
   constexpr std::size_t count = 20000;
   Boxes boxes = random_points(count, Vec3(1));
-  const double before = boxes.way();
+  const double before = boxes.path_length();
   boxes.sort();
   CHECK(boxes.has_each_once());
   // In a cube with sides of 2 a neighbour is some 2 / 27 away, and any other object 1.3.
   CHECK(before > 1.2 * count);
-  CHECK(boxes.way() < 0.12 * count);
+  CHECK(boxes.path_length() < 0.12 * count);
 }
 
 TEST_CASE("clouds as large and as small as numbers go are ordered alike") {
@@ -98,5 +98,5 @@ TEST_CASE("a row of objects is followed from end to end, also among objects on t
     boxes.add(Vec3((i * 1031) % count, 0, 0), Vec3((i * 1031) % count, 0, 0));
   boxes.sort();
   CHECK(boxes.has_each_once());
-  CHECK(boxes.way() == count - 1);
+  CHECK(boxes.path_length() == count - 1);
 }

@@ -298,13 +298,13 @@ TEST_CASE("a pit in an infinite ground is seen from above and from below") {
 
 TEST_CASE("surfaces cannot be cut, and cut nothing") {
   const Entity disc = Disc{};
-  const Entity ball = Sphere{};
-  CHECK_THROWS_AS(disc - ball, Error);
-  CHECK_THROWS_AS(ball - disc, Error);
-  CHECK_THROWS_AS(ball ^ disc, Error);
-  CHECK_THROWS_AS(ball - (ball + disc), Error);
-  CHECK_NOTHROW(ball + disc);
-  CHECK_FALSE((ball + disc).is_solid());
+  const Entity sphere = Sphere{};
+  CHECK_THROWS_AS(disc - sphere, Error);
+  CHECK_THROWS_AS(sphere - disc, Error);
+  CHECK_THROWS_AS(sphere ^ disc, Error);
+  CHECK_THROWS_AS(sphere - (sphere + disc), Error);
+  CHECK_NOTHROW(sphere + disc);
+  CHECK_FALSE((sphere + disc).is_solid());
 }
 
 TEST_CASE("a hundred thousand nested operations neither overflow the stack nor take long") {

@@ -278,14 +278,14 @@ TEST_CASE(
   CHECK(flipped > 1000);
 }
 
-TEST_CASE("a ball less itself moved by 1e-40 is a crescent that is entered before it is left") {
-  const Entity ball = Sphere{};
-  const Entity moved = ball.transformed(translate({1e-40, 0, 0}));
-  const std::vector<RayHit> hits = crossings(prepared({ball - moved}), {.origin = {-3, 0, 0},
-                                                                        .direction = {1, 0, 0},
-                                                                        .t_min = -infinity,
-                                                                        .t_max = infinity,
-                                                                        .start = {}});
+TEST_CASE("a sphere less itself moved by 1e-40 is a crescent that is entered before it is left") {
+  const Entity sphere = Sphere{};
+  const Entity moved = sphere.transformed(translate({1e-40, 0, 0}));
+  const std::vector<RayHit> hits = crossings(prepared({sphere - moved}), {.origin = {-3, 0, 0},
+                                                                          .direction = {1, 0, 0},
+                                                                          .t_min = -infinity,
+                                                                          .t_max = infinity,
+                                                                          .start = {}});
   REQUIRE(hits.size() == 2);
   CHECK(hits[0].entering);
   CHECK_FALSE(hits[1].entering);

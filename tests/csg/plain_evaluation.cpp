@@ -92,8 +92,8 @@ class Plain {
     std::size_t end = 1;
     while (end < crossings_.size()) {
       const CsgCrossing& other = crossings_[end];
-      const double way = (other.t - first.t) + (other.t_low - first.t_low);
-      if (!(way <= first.error + other.error && other.enter <= first.t + first.error)) break;
+      const double distance = (other.t - first.t) + (other.t_low - first.t_low);
+      if (!(distance <= first.error + other.error && other.enter <= first.t + first.error)) break;
       ++end;
     }
     std::vector<CsgCrossing> cluster(crossings_.begin(),

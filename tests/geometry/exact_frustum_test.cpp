@@ -46,14 +46,14 @@ struct Span {
 };
 
 Span true_span(const WholeCone& cone, const WholeRay& ray) {
-  const WholeVec way = cone.to - cone.from;
-  const Whole length2 = dot(way, way);
+  const WholeVec axis = cone.to - cone.from;
+  const Whole length2 = dot(axis, axis);
   const WholeVec offset = ray.origin - ray.weight * cone.from;
-  const Whole z0 = dot(offset, way);
-  const Whole z1 = dot(ray.direction, way);
+  const Whole z0 = dot(offset, axis);
+  const Whole z1 = dot(ray.direction, axis);
   const Whole growth = cone.to_radius - cone.from_radius;
-  const WholeVec across = cross(offset, way);
-  const WholeVec turning = cross(ray.direction, way);
+  const WholeVec across = cross(offset, axis);
+  const WholeVec turning = cross(ray.direction, axis);
   const Whole s0 = ray.weight * cone.from_radius * length2 + growth * z0;
   const Whole s1 = growth * z1;
   const Whole a = length2 * dot(turning, turning) - s1 * s1;
@@ -94,7 +94,7 @@ Span true_span(const WholeCone& cone, const WholeRay& ray) {
 
 }  // namespace
 
-TEST_CASE("exact cylinder and cone: whole-number lines that miss, touch and hit are told apart") {
+TEST_CASE("exact cylinder and cone: whole-number lines that miss, touch and hit are separated") {
   Random random(1);
   int hits = 0;
   for (int i = 0; i < 60000; ++i) {

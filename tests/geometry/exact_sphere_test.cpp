@@ -8,7 +8,7 @@
 using namespace crt;
 using namespace crt::test;
 
-TEST_CASE("exact sphere: whole-number lines that miss, touch and hit are told apart") {
+TEST_CASE("exact sphere: whole-number lines that miss, touch and hit are separated") {
   Random random(1);
   int touching = 0;
   int hits = 0;

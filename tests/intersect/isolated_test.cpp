@@ -26,19 +26,19 @@ std::vector<Entity> row_of_solids(double gap, int count) {
   std::vector<Entity> row;
   for (int i = 0; i < count; ++i) {
     const Vec3 center((2 + gap) * i, 0, 0);
-    const Entity ball = Sphere{.center = center, .radius = 1};
+    const Entity sphere = Sphere{.center = center, .radius = 1};
     const Entity box = Box{.corner_a = center - Vec3(1), .corner_b = center + Vec3(1)};
     const Entity bite = Sphere{.center = center + Vec3(0, 1, 0), .radius = 0.5};
     const Vec3 up(0, 1, 0);
     switch (i % 7) {
       case 0:
-        row.push_back(ball);
+        row.push_back(sphere);
         break;
       case 1:
         row.push_back(box);
         break;
       case 2:
-        row.push_back(ball - bite);
+        row.push_back(sphere - bite);
         break;
       case 3:
         row.push_back(box ^ Sphere{.center = center, .radius = 1.2});
@@ -152,15 +152,15 @@ TEST_CASE("a ray inside of a solid that keeps apart finds what it would find oth
   }
 }
 
-TEST_CASE("so do rays side by side that go anywhere, inside of glass balls and outside") {
+TEST_CASE("so do rays side by side that go anywhere, inside of glass spheres and outside") {
   for (const double size : {1.0, 1e-30, 1e30}) {
     for (const double place : {0.0, 1e3, 1e12}) {
       const Vec3 moved = size * place * Vec3(1, -0.7, 0.3);
       std::array<Scene, 2> scenes;
       for (int i = 0; i < 9; ++i) {
-        const Sphere ball{.center = moved + size * Vec3(2.5 * i, 0, 0), .radius = size};
-        scenes[0].entities.push_back(Entity(ball).with_material(glass));
-        scenes[1].entities.emplace_back(ball);
+        const Sphere sphere{.center = moved + size * Vec3(2.5 * i, 0, 0), .radius = size};
+        scenes[0].entities.push_back(Entity(sphere).with_material(glass));
+        scenes[1].entities.emplace_back(sphere);
       }
       CHECK(check_alike(scenes[0], scenes[1], size, moved, 300) > 150);
 
@@ -236,25 +236,25 @@ TEST_CASE("transparent solids keep apart whose boxes do not touch") {
     CHECK(accelerator.entered_isolated(start) == nothing);
     return enters;
   };
-  const Entity ball = Entity(Sphere{}).with_material(glass);
+  const Entity sphere = Entity(Sphere{}).with_material(glass);
   const auto next_to = [](double gap) { return Sphere{.center = {2 + gap, 0, 0}, .radius = 1}; };
   const auto above = [](double gap) {
     return Plane{.normal = {0.6, 0.8, 0}, .position = {0, -2 - gap, 0}};
   };
-  CHECK(is_isolated({ball}));
+  CHECK(is_isolated({sphere}));
   CHECK_FALSE(is_isolated({Sphere{}}));
-  CHECK(is_isolated({ball, next_to(0.1)}));
-  CHECK(is_isolated({ball, next_to(1e-4)}));
-  CHECK_FALSE(is_isolated({ball, next_to(1e-9)}));
-  CHECK_FALSE(is_isolated({ball, next_to(-0.1)}));
-  CHECK_FALSE(is_isolated({ball, Sphere{.radius = 0.1}}));
-  CHECK_FALSE(is_isolated({ball, ball.transformed({.translation = {0, 1e-9, 0}})}));
-  CHECK(is_isolated({ball, ball}));  // which are one
-  CHECK(is_isolated({ball, above(0)}));
-  CHECK_FALSE(is_isolated({ball, above(-0.5)}));
-  CHECK(is_isolated({ball, Plane{.normal = {0, 1, 0}, .position = {0, -1.1, 0}}}));
-  CHECK_FALSE(is_isolated({ball, Plane{.normal = {0, 1, 0}, .position = {0, -1, 0}}}));
-  std::vector<Entity> crowd{ball};
+  CHECK(is_isolated({sphere, next_to(0.1)}));
+  CHECK(is_isolated({sphere, next_to(1e-4)}));
+  CHECK_FALSE(is_isolated({sphere, next_to(1e-9)}));
+  CHECK_FALSE(is_isolated({sphere, next_to(-0.1)}));
+  CHECK_FALSE(is_isolated({sphere, Sphere{.radius = 0.1}}));
+  CHECK_FALSE(is_isolated({sphere, sphere.transformed({.translation = {0, 1e-9, 0}})}));
+  CHECK(is_isolated({sphere, sphere}));  // which are one
+  CHECK(is_isolated({sphere, above(0)}));
+  CHECK_FALSE(is_isolated({sphere, above(-0.5)}));
+  CHECK(is_isolated({sphere, Plane{.normal = {0, 1, 0}, .position = {0, -1.1, 0}}}));
+  CHECK_FALSE(is_isolated({sphere, Plane{.normal = {0, 1, 0}, .position = {0, -1, 0}}}));
+  std::vector<Entity> crowd{sphere};
   for (int i = 0; i < 1000; ++i)
     crowd.emplace_back(
         Sphere{.center = {3.0 * (i % 10 + 1), 3.0 * (i / 100), 3.0 * (i / 10 % 10)}});

@@ -33,14 +33,14 @@ void make_clear(Scene& scene, Numbers& numbers) {
 }
 
 /// Returns paths from surfaces or from anywhere, mostly side by side, to somewhere near.
-std::vector<WorldRay> ways(const PreparedData& data, Numbers& numbers, RayWorkspace& work) {
+std::vector<WorldRay> paths_near(const PreparedData& data, Numbers& numbers, RayWorkspace& work) {
   const Vec3 light = numbers.point(6);
   const Vec3 place = numbers.point(4);
-  const double broadcast = numbers.size(1e-3, 3);
+  const double radius = numbers.size(1e-3, 3);
   std::vector<WorldRay> rays(
       static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
   for (WorldRay& ray : rays) {
-    ray.origin = place + broadcast * numbers.direction();
+    ray.origin = place + radius * numbers.direction();
     ray.direction = glm::normalize(light - ray.origin);
   }
   const auto to_light = [&](const HitPoint& point, WorldRay& ray) {
@@ -61,8 +61,8 @@ struct Counts {
   int free = 0;
 };
 
-void check_way(const PreparedData& data, const std::vector<RayHit>& line, bool blocked,
-               bool filtered, const std::vector<RayHit>& found, Counts& counts) {
+void check_path(const PreparedData& data, const std::vector<RayHit>& line, bool blocked,
+                bool filtered, const std::vector<RayHit>& found, Counts& counts) {
   const bool is_blocked = std::any_of(line.begin(), line.end(), [&](const RayHit& crossing) {
     return data.materials()[data.hit_material(crossing)].opaque;
   });
@@ -75,7 +75,7 @@ void check_way(const PreparedData& data, const std::vector<RayHit>& line, bool b
   ++(blocked ? counts.blocked : filtered ? counts.filtered : counts.free);
 }
 
-void check_ways(Precision precision, int rounds, Packets packets) {
+void check_paths(Precision precision, int rounds, Packets packets) {
   Numbers numbers(seed);
   Counts counts;
   for (int round = 0; round < rounds; ++round) {
@@ -86,16 +86,16 @@ void check_ways(Precision precision, int rounds, Packets packets) {
     RayWorkspace work;
     std::vector<RayHit> line;
     for (int i = 0; i < 200; ++i) {
-      const std::vector<WorldRay> rays = ways(data, numbers, work);
+      const std::vector<WorldRay> rays = paths_near(data, numbers, work);
       const RayMask some = RayPacket::all(rays.size()) & static_cast<RayMask>(~numbers.below(256));
       const RayBatch batch = batch_of(rays, some);
-      const LightPaths ways =
+      const LightPaths paths =
           data.paths_to_light(batch, data.noted_starts(batch, some), some, work, packets);
-      CHECK(((ways.blocked | ways.filtered) & ~some) == 0);
+      CHECK(((paths.blocked | paths.filtered) & ~some) == 0);
       for_each_ray(some, [&](std::size_t k) {
         data.crossings(rays[k], line, work);
-        check_way(data, line, (ways.blocked >> k & 1u) != 0, (ways.filtered >> k & 1u) != 0,
-                  work.on_paths[k], counts);
+        check_path(data, line, (paths.blocked >> k & 1u) != 0, (paths.filtered >> k & 1u) != 0,
+                   work.on_paths[k], counts);
       });
     }
   }
@@ -106,14 +106,14 @@ void check_ways(Precision precision, int rounds, Packets packets) {
 
 }  // namespace
 
-TEST_CASE("ways to a light tell whether something opaque is on them, and else all that is") {
-  check_ways(Precision::standard, 40, Packets::always);
+TEST_CASE("paths to a light report whether something opaque is on them, and else all that is") {
+  check_paths(Precision::standard, 40, Packets::always);
 }
 
 TEST_CASE("so they do where packets do not always pay") {
-  check_ways(Precision::standard, 40, Packets::where_they_pay);
+  check_paths(Precision::standard, 40, Packets::where_they_pay);
 }
 
 TEST_CASE("so they do in the exact tier") {
-  check_ways(Precision::exact, 4, Packets::always);
+  check_paths(Precision::exact, 4, Packets::always);
 }

@@ -48,13 +48,13 @@ TEST_CASE("a cutter matters only where there is something to cut") {
 }
 
 TEST_CASE("the parts of a union matter all over") {
-  const Entity ball = Sphere{.center = {0, 1, 0}, .radius = 2};
-  const auto boxes = boxes_of_leaves(plate + ball);
+  const Entity sphere = Sphere{.center = {0, 1, 0}, .radius = 2};
+  const auto boxes = boxes_of_leaves(plate + sphere);
   CHECK(within(plate_box, boxes[0]));
   CHECK(within({{-2, -1, -2}, {2, 3, 2}}, boxes[1]));
 
   // A union that is endless, cut from a plate, makes all of the plate matter, but no more.
-  const auto cut = boxes_of_leaves(plate - (ball + slope));
+  const auto cut = boxes_of_leaves(plate - (sphere + slope));
   CHECK(within(cut[2], plate_box));
   CHECK(within(plate_box, cut[2]));
 }

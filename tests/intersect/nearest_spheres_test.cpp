@@ -36,47 +36,47 @@ struct Room {
 
 /// Returns spheres of very different sizes. Many are related to one before: they are equal, are in
 /// it with the same center, touch it, or are next to being equal.
-std::vector<BoundedSphere> crowd_of_balls(std::size_t count, const Room& room, double smallest,
-                                          Numbers& numbers) {
-  std::vector<BoundedSphere> balls;
-  while (balls.size() < count) {
-    BoundedSphere ball{room.point(numbers), room.extent * numbers.size(smallest, 0.3)};
-    const int kind = balls.empty() ? 4 : numbers.below(10);
+std::vector<BoundedSphere> crowd_of_spheres(std::size_t count, const Room& room, double smallest,
+                                            Numbers& numbers) {
+  std::vector<BoundedSphere> spheres;
+  while (spheres.size() < count) {
+    BoundedSphere sphere{room.point(numbers), room.extent * numbers.size(smallest, 0.3)};
+    const int kind = spheres.empty() ? 4 : numbers.below(10);
     if (kind < 4) {
       const BoundedSphere other =
-          balls[static_cast<std::size_t>(numbers.below(static_cast<int>(balls.size())))];
-      ball = other;
-      if (kind == 1) ball.radius *= numbers.within(0.3, 1);
-      if (kind == 2) ball.center[numbers.below(3)] += 2 * ball.radius;
-      if (kind == 3) ball.center += numbers.point(numbers.size(1e-9, 1e-4) * room.extent);
+          spheres[static_cast<std::size_t>(numbers.below(static_cast<int>(spheres.size())))];
+      sphere = other;
+      if (kind == 1) sphere.radius *= numbers.within(0.3, 1);
+      if (kind == 2) sphere.center[numbers.below(3)] += 2 * sphere.radius;
+      if (kind == 3) sphere.center += numbers.point(numbers.size(1e-9, 1e-4) * room.extent);
     }
-    balls.push_back(ball);
+    spheres.push_back(sphere);
   }
-  return balls;
+  return spheres;
 }
 
 /// Returns rays in nearly the same direction to a sphere, many of them along its silhouette. They
 /// come from near or far, or from within.
-std::vector<WorldRay> rays_at(const BoundedSphere& ball, const Room& room, Numbers& numbers) {
+std::vector<WorldRay> rays_at(const BoundedSphere& sphere, const Room& room, Numbers& numbers) {
   constexpr std::array<double, 6> distances = {1, 1.2, 1.9, 2.2, 30, 1e4};
   const Vec3 eye = numbers.below(6) == 0
-                       ? ball.center + numbers.point(0.5 * ball.radius)
+                       ? sphere.center + numbers.point(0.5 * sphere.radius)
                        : room.point(numbers, distances[static_cast<std::size_t>(numbers.below(
                                                  static_cast<int>(distances.size())))]);
-  const double broadcast = numbers.size(1e-9, 0.1);
+  const double excess = numbers.size(1e-9, 0.1);
   const int kind = numbers.below(6);
   std::vector<WorldRay> rays(
       static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
   for (WorldRay& ray : rays) {
-    const Vec3 way = ball.center - eye;
-    const Vec3 across = glm::normalize(glm::cross(way, numbers.direction()));
+    const Vec3 offset = sphere.center - eye;
+    const Vec3 across = glm::normalize(glm::cross(offset, numbers.direction()));
     const double rim = numbers.below(2) == 0 ? 1 + numbers.size(1e-9, 1e-2) * numbers.within(-1, 1)
-                                             : numbers.within(0, 1 + broadcast);
+                                             : numbers.within(0, 1 + excess);
     ray.origin = eye;
-    ray.direction = glm::normalize(way + rim * ball.radius * across);
-    if (kind == 0) ray.t_max = numbers.within(0, 2) * glm::length(way);
-    if (kind == 1) ray.t_min = numbers.within(0, 1.2) * glm::length(way);
-    if (kind == 2) ray.t_min = -numbers.within(0, 2) * glm::length(way);
+    ray.direction = glm::normalize(offset + rim * sphere.radius * across);
+    if (kind == 0) ray.t_max = numbers.within(0, 2) * glm::length(offset);
+    if (kind == 1) ray.t_min = numbers.within(0, 1.2) * glm::length(offset);
+    if (kind == 2) ray.t_min = -numbers.within(0, 2) * glm::length(offset);
     if (numbers.below(2) == 0) ray.direction *= 1 / largest_component(ray.direction);
     // Some are a camera's.
     if (numbers.below(2) == 0) ray.start.t_error = start_rounding * largest_component(eye);
@@ -84,10 +84,10 @@ std::vector<WorldRay> rays_at(const BoundedSphere& ball, const Room& room, Numbe
   return rays;
 }
 
-Scene scene_of(const std::vector<BoundedSphere>& balls) {
+Scene scene_of(const std::vector<BoundedSphere>& spheres) {
   Scene scene;
-  for (const BoundedSphere& ball : balls) {
-    scene.entities.emplace_back(Sphere{.center = ball.center, .radius = ball.radius});
+  for (const BoundedSphere& sphere : spheres) {
+    scene.entities.emplace_back(Sphere{.center = sphere.center, .radius = sphere.radius});
   }
   return scene;
 }
@@ -99,8 +99,8 @@ Room some_room(Numbers& numbers, int round) {
   return room;
 }
 
-const BoundedSphere& any_of(const std::vector<BoundedSphere>& balls, Numbers& numbers) {
-  return balls[static_cast<std::size_t>(numbers.below(static_cast<int>(balls.size())))];
+const BoundedSphere& any_of(const std::vector<BoundedSphere>& spheres, Numbers& numbers) {
+  return spheres[static_cast<std::size_t>(numbers.below(static_cast<int>(spheres.size())))];
 }
 
 /// A Chord is where a line enters and leaves a sphere, to many more digits than floats have. It is
@@ -111,25 +111,26 @@ struct Chord {
   double leave = infinity;
 };
 
-Chord exact_chord(const WorldRay& ray, const BoundedSphere& ball) {
+Chord exact_chord(const WorldRay& ray, const BoundedSphere& sphere) {
   using Long = long double;
-  std::array<Long, 3> way;
+  std::array<Long, 3> offset;
   Long squared_length = 0;
   Long along = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    way[static_cast<std::size_t>(axis)] = static_cast<Long>(ball.center[axis]) - ray.origin[axis];
+    offset[static_cast<std::size_t>(axis)] =
+        static_cast<Long>(sphere.center[axis]) - ray.origin[axis];
     squared_length += static_cast<Long>(ray.direction[axis]) * ray.direction[axis];
-    along += way[static_cast<std::size_t>(axis)] * ray.direction[axis];
+    along += offset[static_cast<std::size_t>(axis)] * ray.direction[axis];
   }
   const Long closest = along / squared_length;
   Long squared_distance = 0;
   for (int axis = 0; axis < 3; ++axis) {
-    const Long across = way[static_cast<std::size_t>(axis)] - closest * ray.direction[axis];
+    const Long across = offset[static_cast<std::size_t>(axis)] - closest * ray.direction[axis];
     squared_distance += across * across;
   }
-  const Long room = static_cast<Long>(ball.radius) * ball.radius - squared_distance;
-  if (room < 0) return {};
-  const Long half = std::sqrt(room / squared_length);
+  const Long margin = static_cast<Long>(sphere.radius) * sphere.radius - squared_distance;
+  if (margin < 0) return {};
+  const Long half = std::sqrt(margin / squared_length);
   return {true, static_cast<double>(closest - half), static_cast<double>(closest + half)};
 }
 
@@ -140,7 +141,7 @@ double first_after(const Chord& chord, double t) {
 
 }  // namespace
 
-TEST_CASE("what floats say of rays among balls is true") {
+TEST_CASE("what floats say of rays among spheres is true") {
   Numbers numbers(seed);
   int asked = 0;
   int known = 0;
@@ -148,19 +149,19 @@ TEST_CASE("what floats say of rays among balls is true") {
   int missed = 0;
   for (int round = 0; round < 40; ++round) {
     const Room room = some_room(numbers, round);
-    const std::vector<BoundedSphere> balls = crowd_of_balls(100, room, 1e-3, numbers);
+    const std::vector<BoundedSphere> spheres = crowd_of_spheres(100, room, 1e-3, numbers);
     std::vector<Bounds> boxes;
     Bounds total;
-    for (const BoundedSphere& ball : balls) {
+    for (const BoundedSphere& sphere : spheres) {
       Bounds box;
-      box.include_around(ball.center, Vec3(ball.radius));
+      box.include_around(sphere.center, Vec3(sphere.radius));
       boxes.push_back(box);
       total.include(box);
     }
-    const EmbreeTree tree(boxes, total, balls);
+    const EmbreeTree tree(boxes, total, spheres);
     REQUIRE(tree.filters_spheres());
     for (int i = 0; i < 300; ++i) {
-      const std::vector<WorldRay> rays = rays_at(any_of(balls, numbers), room, numbers);
+      const std::vector<WorldRay> rays = rays_at(any_of(spheres, numbers), room, numbers);
       const RayMask all = RayPacket::all(rays.size());
       const RayBatch batch = batch_of(rays, all);
       const NearestSpheres first = tree.nearest_spheres(batch, batch.t_max, all);
@@ -173,15 +174,16 @@ TEST_CASE("what floats say of rays among balls is true") {
         const bool meets = (first.meeting >> k & 1u) != 0;
         if (!meets && (first.missing >> k & 1u) == 0) continue;
         const double to = meets ? first.to[k / lane_count][k % lane_count] : ray.t_max;
-        for (std::size_t ball = 0; ball < balls.size(); ++ball) {
-          const double t = first_after(exact_chord(ray, balls[ball]), ray.t_min);
-          const bool is_first = meets && first.boxes[k] == ball;
+        for (std::size_t sphere = 0; sphere < spheres.size(); ++sphere) {
+          const double t = first_after(exact_chord(ray, spheres[sphere]), ray.t_min);
+          const bool is_first = meets && first.boxes[k] == sphere;
           // Beyond the ray's end any answer will do.
-          INFO(round, ' ', i, ' ', k, ' ', ball, " t ", t, " to ", to, " meets ", meets, " first ",
-               first.boxes[k], " tmin ", ray.t_min, " tmax ", ray.t_max, " enter ",
-               exact_chord(ray, balls[ball]).enter, " leave ", exact_chord(ray, balls[ball]).leave,
-               " extent ", room.extent, " d ", ray.direction.x, ' ', ray.direction.y, ' ',
-               ray.direction.z, " r ", balls[ball].radius);
+          INFO(round, ' ', i, ' ', k, ' ', sphere, " t ", t, " to ", to, " meets ", meets,
+               " first ", first.boxes[k], " tmin ", ray.t_min, " tmax ", ray.t_max, " enter ",
+               exact_chord(ray, spheres[sphere]).enter, " leave ",
+               exact_chord(ray, spheres[sphere]).leave, " extent ", room.extent, " d ",
+               ray.direction.x, ' ', ray.direction.y, ' ', ray.direction.z, " r ",
+               spheres[sphere].radius);
           REQUIRE((is_first ? t < to : t == infinity || t > std::min(to, ray.t_max)));
         }
         ++(meets ? met : missed);
@@ -195,15 +197,15 @@ TEST_CASE("what floats say of rays among balls is true") {
   CHECK(missed > asked / 50);
 }
 
-TEST_CASE("a ray among balls finds the same alone, in a packet, and without cheap tests") {
+TEST_CASE("a ray among spheres finds the same alone, in a packet, and without cheap tests") {
   Numbers numbers(seed);
   RayWorkspace work;
   int met = 0;
   for (int round = 0; round < 60; ++round) {
     const Room room = some_room(numbers, round);
-    const std::vector<BoundedSphere> balls =
-        crowd_of_balls(static_cast<std::size_t>(65 + numbers.below(300)), room, 1e-4, numbers);
-    Scene scene = scene_of(balls);
+    const std::vector<BoundedSphere> spheres =
+        crowd_of_spheres(static_cast<std::size_t>(65 + numbers.below(300)), room, 1e-4, numbers);
+    Scene scene = scene_of(spheres);
     if (round % 5 == 0) {
       scene.entities.emplace_back(
           Plane{.normal = numbers.direction(), .position = room.point(numbers)});
@@ -213,23 +215,23 @@ TEST_CASE("a ray among balls finds the same alone, in a packet, and without chea
     }
     const PreparedData data(scene);
     check_bounces(
-        data, numbers, 60, [&] { return rays_at(any_of(balls, numbers), room, numbers).front(); },
+        data, numbers, 60, [&] { return rays_at(any_of(spheres, numbers), room, numbers).front(); },
         met);
     for (int i = 0; i < 60; ++i) {
-      check_first_crossings(data, rays_at(any_of(balls, numbers), room, numbers), work, met);
+      check_first_crossings(data, rays_at(any_of(spheres, numbers), room, numbers), work, met);
     }
   }
   CHECK(met > 20000);
 }
 
-TEST_CASE("of a packet among balls only those rays are answered that are asked") {
+TEST_CASE("of a packet among spheres only those rays are answered that are asked") {
   Numbers numbers(seed);
   RayWorkspace work;
   const Room room;
-  const std::vector<BoundedSphere> balls = crowd_of_balls(200, room, 1e-2, numbers);
-  const PreparedData data(scene_of(balls));
+  const std::vector<BoundedSphere> spheres = crowd_of_spheres(200, room, 1e-2, numbers);
+  const PreparedData data(scene_of(spheres));
   for (int i = 0; i < 500; ++i) {
-    std::vector<WorldRay> rays = rays_at(any_of(balls, numbers), room, numbers);
+    std::vector<WorldRay> rays = rays_at(any_of(spheres, numbers), room, numbers);
     rays.resize(packet_size, rays.front());
     const auto some = static_cast<RayMask>(numbers.below(1 << packet_size));
     const RayHit untouched{.t = -1};

@@ -45,20 +45,20 @@ std::vector<WorldRay> some_rays(const Crowd& crowd, const PreparedData& data, Nu
   const Target& target =
       crowd
           .targets[static_cast<std::size_t>(numbers.below(static_cast<int>(crowd.targets.size())))];
-  const double broadcast = numbers.size(1e-6, 2);
+  const double excess = numbers.size(1e-6, 2);
   std::vector<WorldRay> rays(
       static_cast<std::size_t>(1 + numbers.below(static_cast<int>(packet_size))));
   for (WorldRay& ray : rays) {
-    const Vec3 way = target.center - eye;
-    const Vec3 across = glm::normalize(glm::cross(way, numbers.direction()));
+    const Vec3 offset = target.center - eye;
+    const Vec3 across = glm::normalize(glm::cross(offset, numbers.direction()));
     const double off = numbers.below(2) == 0
                            ? 1 + numbers.size(1e-17, 0.1) * (numbers.below(2) == 0 ? 1 : -1)
-                           : numbers.within(0, 1 + broadcast);
+                           : numbers.within(0, 1 + excess);
     ray.origin = eye;
-    ray.direction = glm::normalize(way + off * target.reach * across);
+    ray.direction = glm::normalize(offset + off * target.reach * across);
     const int kind = numbers.below(4);
     if (kind == 2 && target.tube > 0) ray = grazing_ray(target, numbers);
-    if (kind == 0) ray.t_max = numbers.within(0, 2) * glm::length(way);
+    if (kind == 0) ray.t_max = numbers.within(0, 2) * glm::length(offset);
     if (kind != 1) continue;
     const RayHit hit = data.intersect(ray, work);
     if (!hit.found()) continue;
@@ -190,9 +190,9 @@ TEST_CASE("so does what starts on surfaces, in whichever lanes") {
       std::vector<WorldRay> rays(packet_size);
       for (WorldRay& ray : rays) ray = ray_anywhere(numbers);
       const bool alike = numbers.below(2) == 0;
-      const Vec3 way = numbers.direction();
+      const Vec3 direction = numbers.direction();
       go_on(data, numbers, work, rays, [&](const HitPoint&, WorldRay& ray) {
-        if (alike) ray.direction = way + 0.1 * numbers.direction();
+        if (alike) ray.direction = direction + 0.1 * numbers.direction();
         if (numbers.below(3) == 0) ray.t_max = numbers.within(0, 10);
         if (std::isfinite(ray.t_max)) ray.end_error = 1e-14;
       });
@@ -323,7 +323,7 @@ TEST_CASE(
   CHECK(met > 10000);
 }
 
-TEST_CASE("rays go together that go nearly the same way") {
+TEST_CASE("rays travel together that have nearly the same direction") {
   std::vector<WorldRay> rays(6);
   for (WorldRay& ray : rays) ray.direction = {0, 0, 1};
   const RayMask all = RayPacket::all(rays.size());

@@ -19,9 +19,9 @@ struct Stopped {};
 
 /// Returns spheres that all overlap, each a little farther than the one before.
 std::vector<Entity> crowd(int count) {
-  std::vector<Entity> balls;
-  for (int i = 0; i < count; ++i) balls.emplace_back(Sphere{.center = {0, 0, 1e-7 * i}});
-  return balls;
+  std::vector<Entity> spheres;
+  for (int i = 0; i < count; ++i) spheres.emplace_back(Sphere{.center = {0, 0, 1e-7 * i}});
+  return spheres;
 }
 
 Scene scene_of(std::vector<Entity> entities) {

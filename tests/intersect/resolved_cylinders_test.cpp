@@ -45,8 +45,8 @@ PlacedCone some_cone(Numbers& numbers, double scale) {
 /// Returns a ray through its side or its caps, all but along its surface, or past it.
 WorldRay ray_near(const PlacedCone& placed, Numbers& numbers) {
   const Cone& cone = placed.primitive;
-  const Vec3 way = cone.to - cone.from;
-  const Vec3 axis = glm::normalize(way);
+  const Vec3 offset = cone.to - cone.from;
+  const Vec3 axis = glm::normalize(offset);
   const Vec3 radial = glm::normalize(glm::cross(axis, numbers.direction()));
   const double share = numbers.below(4) == 0 ? numbers.size(1e-12, 0.1) : numbers.within(-0.1, 1.1);
   const double radius = cone.radius + share * (cone.radius2 - cone.radius);
@@ -57,8 +57,8 @@ WorldRay ray_near(const PlacedCone& placed, Numbers& numbers) {
   if (numbers.below(4) == 0) d = d - glm::dot(d, radial) * radial;
   if (numbers.below(8) == 0) d = numbers.below(2) == 0 ? axis : radial;
   if (!(largest_component(d) > 0)) d = axis;
-  return ray_through(placed, cone.from + share * way + off * radius * radial, d,
-                     glm::length(way) + cone.radius, numbers);
+  return ray_through(placed, cone.from + share * offset + off * radius * radial, d,
+                     glm::length(offset) + cone.radius, numbers);
 }
 
 void check_cones(Precision precision, int rounds) {
@@ -98,10 +98,10 @@ TEST_CASE("so it does at cylinders and cones in the exact tier") {
   check_cones(Precision::exact, 20);
 }
 
-TEST_CASE("of a cylinder most rays from its side are told, the same by lanes and alone") {
+TEST_CASE("most rays from the side of a cylinder are resolved, the same by lanes and alone") {
   Numbers numbers(seed);
   const FrustumShape shape({1, 2, 3}, {1, 4, 3}, 0.25, 0.25);
-  int told = 0;
+  int resolved = 0;
   int missed = 0;
   constexpr int count = 4'000;
   for (int i = 0; i < count; ++i) {
@@ -125,10 +125,10 @@ TEST_CASE("of a cylinder most rays from its side are told, the same by lanes and
         REQUIRE(entries.t[k] == entry.t);
         REQUIRE(entries.error[k] == entry.error);
       }
-      told += entry.known ? 1 : 0;
+      resolved += entry.known ? 1 : 0;
       missed += entry.rejected ? 1 : 0;
     }
   }
-  CHECK(told > 2 * count);
-  CHECK(told + missed > 3.5 * count);
+  CHECK(resolved > 2 * count);
+  CHECK(resolved + missed > 3.5 * count);
 }

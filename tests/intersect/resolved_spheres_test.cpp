@@ -89,7 +89,7 @@ TEST_CASE("so it does at moved spheres in the exact tier") {
   check_spheres(Precision::exact, 20);
 }
 
-TEST_CASE("spheres are told however they are moved") {
+TEST_CASE("spheres are resolved however they are moved") {
   const Entity sphere = Sphere{.center = {0, 0, 0}, .radius = 1};
   const Entity beside = Sphere{.center = {0.1, 0.7, 0}, .radius = 1};
   for (const Entity& entity : {sphere, beside}) {

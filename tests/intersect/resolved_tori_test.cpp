@@ -154,7 +154,7 @@ TEST_CASE("lines side by side enter a torus where each enters it, to the last bi
   CHECK(found > 10'000);
 }
 
-TEST_CASE("of a torus nearly all rays from outside are told where they enter it") {
+TEST_CASE("for nearly all rays from outside it is resolved where they enter a torus") {
   Numbers numbers(seed);
   const Entity entities[] = {Entity(Torus{.center = {1, 2, 3}, .radius = 1, .thickness = 0.3})
                                  .transformed(rotate(Vec3(20, 30, 40)))};

@@ -49,7 +49,7 @@ TEST_CASE("roots are one if they are so by other equations, too") {
   CHECK(order(root, three) == 0);
 }
 
-TEST_CASE("roots are told apart however close they are") {
+TEST_CASE("roots are separated however close they are") {
   for (const int exponent : {-10, -100, -200, -1000, -5000}) {
     CAPTURE(exponent);
     const Dyadic little = power_of_two(exponent);

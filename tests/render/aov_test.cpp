@@ -130,7 +130,7 @@ TEST_CASE("each AOV is the same by itself as with all others") {
   CHECK(count == all.channels().size());
 }
 
-TEST_CASE("a ball's depth, normal, id and albedo are those of the closed form") {
+TEST_CASE("a sphere's depth, normal, id and albedo are those of the closed form") {
   Scene scene = scene_before_eye(33, 25);
   const Vec3 center(0.3, -0.2, 1);
   const double radius = 1.7;
@@ -264,7 +264,7 @@ TEST_CASE("a lens blurs albedo as it blurs colours, and leaves depth and id shar
   int partly = 0;
   for (int y = 0; y < 24; ++y) {
     for (int x = 0; x < 24; ++x) {
-      // The ball is white and evenly lit, so that its light equals its albedo.
+      // The sphere is white and evenly lit, so that its light equals its albedo.
       REQUIRE(albedo_at(image, x, y).x ==
               doctest::Approx(image.at(x, y).r).epsilon(float_rounding));
       partly += image.at(x, y).r > 0.1 && image.at(x, y).r < 0.9 ? 1 : 0;

@@ -41,12 +41,12 @@ Image picture(const Scene& scene) {
 
 TEST_CASE("a picture with things twice has the bytes of that with them once") {
   const SharedMaterial glass = tinted_glass();
-  const Entity ball = Sphere{.material = glass};
+  const Entity sphere = Sphere{.material = glass};
   const Entity bite = Sphere{.center = {0.6, 0.4, -0.6}, .radius = 0.7};
   const Entity disc =
       Disc{.center = {0, 0, -2}, .normal = {0, 0, 1}, .radius = 0.5, .material = glass};
   for (const Entity& entity :
-       {ball, Entity(Sphere{}), disc, ball - bite, ball + bite, bite ^ ball}) {
+       {sphere, Entity(Sphere{}), disc, sphere - bite, sphere + bite, bite ^ sphere}) {
     const Image once = picture(lit_scene({entity}));
     CHECK(same_pixels(picture(lit_scene({entity, entity, entity})), once));
     CHECK(same_pixels(picture(lit_scene({entity + entity, entity})), once));
@@ -54,24 +54,25 @@ TEST_CASE("a picture with things twice has the bytes of that with them once") {
     CHECK(same_pixels(picture(lit_scene({entity ^ entity})), once));
     CHECK(same_pixels(picture(lit_scene({(entity + bite) ^ entity})), once));
   }
-  const Image cut = picture(lit_scene({ball - bite}));
-  CHECK(same_pixels(picture(lit_scene({csg_difference(ball, std::vector<Entity>(1000, bite))})),
+  const Image cut = picture(lit_scene({sphere - bite}));
+  CHECK(same_pixels(picture(lit_scene({csg_difference(sphere, std::vector<Entity>(1000, bite))})),
                     cut));
-  CHECK(same_pixels(picture(lit_scene({csg_union(std::vector<Entity>(1000, ball - bite))})), cut));
+  CHECK(
+      same_pixels(picture(lit_scene({csg_union(std::vector<Entity>(1000, sphere - bite))})), cut));
 }
 
 TEST_CASE("a hundred thousand equal things cost a ray what one does") {
-  const Entity ball = Sphere{.material = tinted_glass()};
-  const RenderStats one = picture(lit_scene({ball})).stats();
-  const RenderStats many = picture(lit_scene(std::vector<Entity>(100'000, ball))).stats();
+  const Entity sphere = Sphere{.material = tinted_glass()};
+  const RenderStats one = picture(lit_scene({sphere})).stats();
+  const RenderStats many = picture(lit_scene(std::vector<Entity>(100'000, sphere))).stats();
   CHECK(many.intersection_tests == one.intersection_tests);
   CHECK(many.camera_rays == one.camera_rays);
 }
 
 TEST_CASE("a picture whose rays take too many steps is an error, at any number of threads") {
-  std::vector<Entity> balls;
-  for (int i = 0; i < 20'000; ++i) balls.emplace_back(Sphere{.center = {0, 0, 1e-7 * i}});
-  const PreparedScene prepared = prepare(lit_scene({csg_intersection(balls)}));
+  std::vector<Entity> spheres;
+  for (int i = 0; i < 20'000; ++i) spheres.emplace_back(Sphere{.center = {0, 0, 1e-7 * i}});
+  const PreparedScene prepared = prepare(lit_scene({csg_intersection(spheres)}));
   for (const int threads : {1, 3}) {
     const auto failure = [&](std::uint64_t most) {
       try {
@@ -92,13 +93,13 @@ TEST_CASE("a picture whose rays take too many steps is an error, at any number o
 TEST_CASE(
     "light through tens of thousands of absorbing solids that overlap costs no square of their "
     "number") {
-  // Each ball is left in the order in which they are entered.
-  std::vector<Entity> balls;
+  // Each sphere is left in the order in which they are entered.
+  std::vector<Entity> spheres;
   const SharedMaterial clear =
       Material{.color = grey(1), .transparency = 1, .absorption = {1e-6, 1e-6, 1e-6}};
   for (int i = 0; i < 30'000; ++i)
-    balls.emplace_back(Sphere{.center = {1e-6 * i, 0, 0}, .material = clear});
-  Scene scene = lit_scene(balls);
+    spheres.emplace_back(Sphere{.center = {1e-6 * i, 0, 0}, .material = clear});
+  Scene scene = lit_scene(spheres);
   scene.settings.recursion_depth = 0;
   scene.lights = {PointLight{.origin = {0, 20, 0}}};
   scene.camera = {.position = {0, -0.9, -5}, .pointing = {0, -1, 0}};

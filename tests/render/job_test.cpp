@@ -20,7 +20,7 @@ using namespace crt::test;
 
 namespace {
 
-Scene lit_ball(int width, int height) {
+Scene lit_sphere(int width, int height) {
   Scene scene;
   scene.settings.width = width;
   scene.settings.height = height;
@@ -41,7 +41,7 @@ ErrorCode end_of(const RenderJob& job) {
 }  // namespace
 
 TEST_CASE("a job's picture is the one that render() gives, however often it is asked for") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   const Image expected = render(scene);
   for (const int threads : {0, 1, 2}) {
     const RenderJob job(scene, {.threads = threads});
@@ -54,7 +54,7 @@ TEST_CASE("a job's picture is the one that render() gives, however often it is a
 }
 
 TEST_CASE("a job outlives the scene that it renders") {
-  std::optional<PreparedScene> scene = prepare(lit_ball(60, 40));
+  std::optional<PreparedScene> scene = prepare(lit_sphere(60, 40));
   const Image expected = render(*scene);
   const RenderJob job(*scene);
   scene.reset();
@@ -62,15 +62,15 @@ TEST_CASE("a job outlives the scene that it renders") {
 }
 
 TEST_CASE("a job may be moved, and one that takes another's place stops what was there") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   RenderJob first(scene);
-  RenderJob second(prepare(lit_ball(400, 400)));
+  RenderJob second(prepare(lit_sphere(400, 400)));
   second = std::move(first);
   CHECK(second.wait().width() == 60);
 }
 
 TEST_CASE("a cancelled job says so, before its first tile and after") {
-  const PreparedScene scene = prepare(lit_ball(200, 200));
+  const PreparedScene scene = prepare(lit_sphere(200, 200));
   for (const double limit : {0.0, 0.4}) {
     RenderJob* running = nullptr;
     std::atomic<bool> ready = false;
@@ -87,20 +87,20 @@ TEST_CASE("a cancelled job says so, before its first tile and after") {
 }
 
 TEST_CASE("what a callback of a job throws comes out of wait()") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   const RenderJob job(
       scene, {.progress = [](double) -> bool { throw std::out_of_range("the host's own"); }});
   CHECK_THROWS_AS(static_cast<void>(job.wait()), std::out_of_range);
 }
 
 TEST_CASE("a job that cannot start says so at once") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   CHECK_THROWS_AS(RenderJob(scene, {.threads = -2}), Error);
   CHECK_THROWS_AS(RenderJob(scene, {.region = Region{50, 0, 20, 20}}), Error);
 }
 
 TEST_CASE("a batch of rays is asked once each, on one thread or several") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   for (const int threads : {1, 0, 3}) {
     for (const std::size_t count :
          {std::size_t{0}, std::size_t{1}, std::size_t{511}, std::size_t{100'001}}) {
@@ -125,7 +125,7 @@ TEST_CASE("a batch of rays is asked once each, on one thread or several") {
 }
 
 TEST_CASE("what the work on a batch throws comes out") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   CHECK_THROWS_AS(query_in_parallel(scene, 100'000,
                                     [](RayQueries&, std::size_t first, std::size_t) {
                                       if (first > 0) throw std::out_of_range("the host's own");
@@ -134,7 +134,7 @@ TEST_CASE("what the work on a batch throws comes out") {
 }
 
 TEST_CASE("a direction of any length gives the same place, and t in its units") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   RayQueries queries(scene);
   const Hit unit = queries.intersect({.origin = {0.1, 0.2, -1}}).value();
   for (const double length : {1e-300, 0x1p-1022, 0.3, 7.0, 1e300, 0x1p1023}) {
@@ -146,7 +146,7 @@ TEST_CASE("a direction of any length gives the same place, and t in its units") 
 }
 
 TEST_CASE("where t would pass the largest number there is no hit for any question") {
-  const PreparedScene scene = prepare(lit_ball(60, 40));
+  const PreparedScene scene = prepare(lit_sphere(60, 40));
   const Ray ray{.origin = {0.1, 0.2, -1}, .direction = {0, 0, 0x1p-1074}};
   CHECK_FALSE(intersect(scene, ray).has_value());
   CHECK_FALSE(occluded(scene, ray));

@@ -85,9 +85,9 @@ TEST_CASE("the path to a light goes over all mirrors on the way") {
 TEST_CASE("an opaque thing between light and point leaves the ambient light alone") {
   Scene scene = dark_scene();
   const Entity floor = Plane{.material = Material{.color = grey(1)}};
-  const Entity ball = Sphere{.center = {0, 2, 0}, .radius = 0.5};
+  const Entity sphere = Sphere{.center = {0, 2, 0}, .radius = 0.5};
   scene.lights = {PointLight{.origin = {0, 4, 0}, .ambient = 0.125}};
-  scene.entities = {floor, ball};
+  scene.entities = {floor, sphere};
   check_color(seen(scene, {1, 1, 0}, {0, 0, 0}), 0.125, 0.125, 0.125);
   scene.entities = {floor};
   check_color(seen(scene, {1, 1, 0}, {0, 0, 0}), 1.125, 1.125, 1.125);

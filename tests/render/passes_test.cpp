@@ -283,7 +283,7 @@ TEST_CASE("no wire that covers more than a 20th of a pixel vanishes, however it 
   CHECK(vanished == 0);
 }
 
-TEST_CASE("no ball that covers more than a 20th of a pixel vanishes") {
+TEST_CASE("no sphere that covers more than a 20th of a pixel vanishes") {
   Scene scene = dark_scene();
   scene.settings.width = scene.settings.height = 25;
   scene.settings.target_error = 8.0 / 255;

@@ -204,12 +204,12 @@ TEST_CASE("supersampling is the mean over a grid of subpixel centres") {
 }
 
 TEST_CASE("a point out of focus is blurred into a disc of radius aperture |z - f| / z") {
-  // The ball is at twice the focal distance. On the focal plane the blur has half the lens's
+  // The sphere is at twice the focal distance. On the focal plane the blur has half the lens's
   // radius.
   const double lens_radius = 0.2;
   const double focal_distance = 2;
   const double distance = 4;
-  const double ball_radius = 0.02;
+  const double sphere_radius = 0.02;
   Scene scene = dark_scene();
   scene.background = SolidBackground{{1, 1, 1}};
   scene.settings.width = 41;
@@ -220,22 +220,23 @@ TEST_CASE("a point out of focus is blurred into a disc of radius aperture |z - f
                   .fov = 2 * std::atan(0.1),  // the focal plane is 0.4 high: 0.4 / 41 a pixel
                   .aperture = 1000 * lens_radius,
                   .focal_distance = focal_distance};
-  scene.entities = {Sphere{.center = {0, 0, distance}, .radius = ball_radius, .material = inert()}};
+  scene.entities = {
+      Sphere{.center = {0, 0, distance}, .radius = sphere_radius, .material = inert()}};
   const Image image = render(prepare(scene));
 
   const double pixel = 0.4 / 41;
   const double blur = lens_radius * (distance - focal_distance) / distance;
-  const double ball_in_focus = ball_radius * focal_distance / distance;
-  // Inside, the ball covers this share of what the lens sees there.
-  const double share = (ball_in_focus / blur) * (ball_in_focus / blur);
+  const double sphere_in_focus = sphere_radius * focal_distance / distance;
+  // Inside, the sphere covers this share of what the lens sees there.
+  const double share = (sphere_in_focus / blur) * (sphere_in_focus / blur);
   double darkness_inside = 0;
   int pixels_inside = 0;
   for (int y = 0; y < 41; ++y) {
     for (int x = 0; x < 41; ++x) {
       const double from_middle = pixel * std::hypot(x - 20, y - 20);
       const double darkness = 1 - image.at(x, y).r;
-      if (from_middle > blur + 1.02 * ball_in_focus) REQUIRE(darkness == 0);
-      if (from_middle < blur - 1.02 * ball_in_focus) {
+      if (from_middle > blur + 1.02 * sphere_in_focus) REQUIRE(darkness == 0);
+      if (from_middle < blur - 1.02 * sphere_in_focus) {
         REQUIRE(darkness > 0);
         darkness_inside += darkness;
         ++pixels_inside;

@@ -23,7 +23,7 @@ const Transform turned_by_345{{3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};
 
 }  // namespace
 
-TEST_CASE("exact: a ray past a turned ball hits by one ulp, or misses") {
+TEST_CASE("exact: a ray past a turned sphere hits by one ulp, or misses") {
   Scene scene = exact_scene();
   scene.entities.push_back(Entity(Sphere{}).transformed(turned_by_345));
   const PreparedScene prepared = prepare(scene);

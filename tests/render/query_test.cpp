@@ -16,7 +16,7 @@ using namespace crt;
 
 namespace {
 
-PreparedScene two_balls() {
+PreparedScene two_spheres() {
   Scene scene;
   scene.entities = {Sphere{.center = {0, 0, 5}, .radius = 1},
                     Entity(Sphere{.center = {0, 0, 10}}).with_id(77)};
@@ -31,11 +31,11 @@ PreparedScene many_kinds() {
   for (std::uint32_t i = 0; i < 120; ++i) {
     const Vec3 center = {1.5 * real(random), 1.5 * real(random), 5 + real(random)};
     const double size = 0.1 + 0.05 * real(random);
-    const Entity ball = Sphere{.center = center, .radius = size};
+    const Entity sphere = Sphere{.center = center, .radius = size};
     const Entity box = Box{.corner_a = center - Vec3(size), .corner_b = center + Vec3(size)};
     const std::array<Entity, 4> kinds = {
-        ball, box, csg_difference(box, std::array{ball.transformed(translate({0, 0, -size}))}),
-        ball.transformed(scale({1, 0.5, 1}))};
+        sphere, box, csg_difference(box, std::array{sphere.transformed(translate({0, 0, -size}))}),
+        sphere.transformed(scale({1, 0.5, 1}))};
     scene.entities.push_back(kinds[i % 7 < 4 ? i % 7 : 0].with_id(i));
   }
   return prepare(scene);
@@ -52,7 +52,7 @@ bool same(const PlainHit& plain, const std::optional<Hit>& hit) {
 }
 
 std::string rejected(const Ray& ray) {
-  const PreparedScene scene = two_balls();
+  const PreparedScene scene = two_spheres();
   std::string argument;
   const auto ask = [&](const auto& question) {
     try {
@@ -72,7 +72,7 @@ std::string rejected(const Ray& ray) {
 }  // namespace
 
 TEST_CASE("the nearest hit has its place, normal and entity") {
-  const PreparedScene scene = two_balls();
+  const PreparedScene scene = two_spheres();
   const auto hit = intersect(scene, {.origin = {0, 0, 0}, .direction = {0, 0, 1}});
   REQUIRE(hit.has_value());
   CHECK(hit->t == 4);
@@ -84,7 +84,7 @@ TEST_CASE("the nearest hit has its place, normal and entity") {
 }
 
 TEST_CASE("crossings go in and out of every solid in order") {
-  const auto hits = crossings(two_balls(), {.origin = {0, 0, 0}, .direction = {0, 0, 2}});
+  const auto hits = crossings(two_spheres(), {.origin = {0, 0, 0}, .direction = {0, 0, 2}});
   REQUIRE(hits.size() == 4);
   CHECK(hits[0].t == 2);
   CHECK(hits[1].t == 3);
@@ -97,7 +97,7 @@ TEST_CASE("crossings go in and out of every solid in order") {
 }
 
 TEST_CASE("t is in units of the direction's length, whatever that is") {
-  const PreparedScene scene = two_balls();
+  const PreparedScene scene = two_spheres();
   for (const double length : {1e-300, 1e-160, 1e-5, 0.3, 1.0, 7e20, 1e160, 1e307}) {
     const auto hit = intersect(scene, {.origin = {0, 0, 0}, .direction = {0, 0, length}});
     REQUIRE(hit.has_value());
@@ -109,7 +109,7 @@ TEST_CASE("t is in units of the direction's length, whatever that is") {
 }
 
 TEST_CASE("only crossings between t_min and t_max count") {
-  const PreparedScene scene = two_balls();
+  const PreparedScene scene = two_spheres();
   const auto count = [&](double t_min, double t_max) {
     return crossings(scene,
                      {.origin = {0, 0, 0}, .direction = {0, 0, 1}, .t_min = t_min, .t_max = t_max})
@@ -166,8 +166,8 @@ TEST_CASE("the first ray of many that is refused is named") {
 
 TEST_CASE("many rays at once find what each finds, however long they are and whatever they meet") {
   std::optional<PreparedScene> scene;
-  SUBCASE("two balls") {
-    scene = two_balls();
+  SUBCASE("two spheres") {
+    scene = two_spheres();
   }
   SUBCASE("many kinds of things") {
     scene = many_kinds();

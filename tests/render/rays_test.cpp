@@ -42,7 +42,7 @@ TEST_CASE("a mirror shows what lies in the mirrored direction") {
   // (0, 0, 1) is mirrored to (0, 0.96, -0.28).
   check_level(seen(scene, {0, 0, -5}, {0, 0, 0}), 0.75 * 0.96);
 
-  // A tiny ball exactly on the mirrored ray is seen, one a little beside it is not.
+  // A tiny sphere exactly on the mirrored ray is seen, one a little beside it is not.
   scene.background = SolidBackground{{0, 0, 0}};
   scene.lights = {glow(1)};
   const Vec3 on_ray = 7.0 * Vec3(0, 0.96, -0.28);
@@ -74,7 +74,7 @@ TEST_CASE(
   scene.entities = {glass_slab};
   check_level(seen(scene, eye, {0, 0, 0}), f + (1 - f) * (1 - f));
 
-  // A tiny black ball where the displaced ray must come by takes the light that went through.
+  // A tiny black sphere where the displaced ray must come by takes the light that went through.
   const Vec3 expected = 10.0 * direction + shift * across;
   scene.entities = {glass_slab, Sphere{.center = expected, .radius = 1e-7, .material = inert()}};
   check_level(seen(scene, eye, {0, 0, 0}), f);

@@ -10,7 +10,7 @@ namespace crt::core {
 namespace {
 
 /// Visits a box and returns Embree's new end of the ray. No exception may pass through Embree, so
-/// one is kept for later and the ray ended.
+/// one is kept for later and the ray is ended.
 float visit_box(EmbreeContext* context, std::uint32_t box) {
   auto* traversal = reinterpret_cast<Traversal*>(context);
   try {
@@ -22,7 +22,8 @@ float visit_box(EmbreeContext* context, std::uint32_t box) {
   }
 }
 
-/// Embree calls with a packet, with a part of it that has whole groups, or with a single ray of it.
+/// Returns whether what Embree calls with has whole groups. It calls with a packet, with a part of
+/// it that has whole groups, or with a single ray of it.
 bool has_groups(unsigned count) {
   return count % lane_count == 0;
 }
@@ -35,13 +36,13 @@ RayMask mask_of_valid(const int* valid, unsigned count) {
   return mask;
 }
 
-/// Visits a box with those rays of a packet whose own boxes Embree met.
+/// Visits a box with those rays of a packet that meet it, as far as Embree can resolve.
 void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRayN* rays,
                unsigned count) {
   auto* traversal = reinterpret_cast<PacketTraversal*>(context);
   const RayMask mask = mask_of_valid(valid, count);
   if (mask == 0) return;
-  // A ray's number, if it is valid, tells which part of the packet this is.
+  // The number of a valid ray shows which part of the packet this is.
   const auto some = static_cast<unsigned>(std::countr_zero(mask));
   const unsigned first = RTCRayN_id(rays, count, some) - some;
   try {
@@ -62,12 +63,12 @@ void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCR
   }
 }
 
-/// The same with one ray.
+/// Visits a box with one ray.
 void visit_box(EmbreeContext* context, std::uint32_t box, const int* valid, RTCRay& ray) {
   if (valid[0] != 0) ray.tfar = std::min(ray.tfar, visit_box(context, box));
 }
 
-/// Rays of a packet come to a sphere.
+/// Tests a sphere against the rays of a packet that come to its box.
 void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays) {
   auto& traversal = *reinterpret_cast<SphereTraversal*>(arguments.context);
   NearestSphereFilter& search = traversal.search;
@@ -88,7 +89,7 @@ void visit_sphere(const RTCIntersectFunctionNArguments& arguments, RTCRayN* rays
   if (count == octet_size) return meet_octets(*reinterpret_cast<RTCRay8*>(rays));
   for (unsigned i = 0; i < count; ++i) {
     if (arguments.valid[i] == 0) continue;
-    // One ray among others that are not looked at.
+    // This is one ray among others that are not looked at.
     const std::size_t ray = RTCRayN_id(rays, count, i) - traversal.first_ray;
     const std::size_t first = ray - ray % octet_size;
     std::array<std::array<float, octet_size>, 7> columns;
@@ -131,7 +132,8 @@ void intersect_callback(const RTCIntersectFunctionNArguments* arguments) {
   }
 }
 
-/// Only single rays ask in that way.
+/// Visits a box with a single ray. Embree calls it for no packets, as these only use
+/// intersect_callback().
 void occluded_callback(const RTCOccludedFunctionNArguments* arguments) {
   visit_box(arguments->context, arguments->primID, arguments->valid,
             *reinterpret_cast<RTCRay*>(arguments->ray));

@@ -1,4 +1,4 @@
-// The few names that differ between Embree 3 and 4.
+// Embree 3 and 4 differ in a few names, which are made alike here.
 #pragma once
 
 #if __has_include(<embree4/rtcore.h>)
@@ -35,7 +35,7 @@ inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray)
   rtcOccluded1(scene, &ray, &arguments);
 }
 
-/// Of rays that go nearly the same way.
+/// Traverses the tree with rays that have nearly the same direction.
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
                              RTCRayHit8& ray_hits) {
   RTCIntersectArguments arguments = arguments_with(context);
@@ -64,7 +64,7 @@ inline void embree_occluded(RTCScene scene, EmbreeContext& context, RTCRay& ray)
   rtcOccluded1(scene, &context, &ray);
 }
 
-/// Of rays that go nearly the same way.
+/// Traverses the tree with rays that have nearly the same direction.
 inline void embree_intersect(RTCScene scene, EmbreeContext& context, const int* valid,
                              RTCRayHit8& ray_hits) {
   context.flags = RTC_INTERSECT_CONTEXT_FLAG_COHERENT;

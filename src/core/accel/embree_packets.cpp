@@ -1,4 +1,4 @@
-// Packets of rays in the tree.
+// Packets of rays traverse the tree here.
 #include <array>
 #include <cstring>
 #include <exception>
@@ -34,16 +34,16 @@ NearestSpheres EmbreeTree::nearest_spheres(const RayBatch& rays, const RayBatch:
   return known;
 }
 
-/// Where Embree's rays of a group start, and end.
+/// An Entry is where Embree's rays of a group start and end.
 struct EmbreeTree::Entry {
-  Lanes start;        ///< t there
-  Lanes end;          ///< and t where they end
+  Lanes start;        ///< t where they start
+  Lanes end;          ///< t where they end
   VectorLanes place;  ///< where they start, in Embree's units
-  RayMask coming;     ///< those that come to the box around all
-  RayMask near;       ///< among spheres: that start where NearestSphereFilter takes them
+  RayMask coming;     ///< the rays that come to the box around all
+  RayMask near;       ///< among spheres: the rays that start where NearestSphereFilter takes them
 };
 
-/// Some rays of a packet as Embree takes them.
+/// A Part holds some rays of a packet as Embree takes them.
 template <class RayHits>
 struct EmbreeTree::Part {
   static constexpr std::size_t count = sizeof(RayHits::ray.tfar) / sizeof(float);
@@ -56,7 +56,8 @@ struct EmbreeTree::Part {
 
   explicit Part(std::size_t first) : first_ray(first) {}
 
-  /// put(group, lanes) of each group that is in the part.
+  /// Calls put(group, lanes) for each group of the rays that is in the part. Then it sets what all
+  /// rays of the part have alike.
   template <class Put>
   void fill(RayMask rays, const Put& put) {
     for (std::size_t first = 0; first < count; first += lane_count) {
@@ -75,7 +76,7 @@ struct EmbreeTree::Part {
     }
   }
 
-  /// Some lanes of a group.
+  /// Puts some lanes of a group into Embree's rays.
   void put(std::size_t group, RayMask lanes, const Entry& entry, const VectorLanes& direction,
            double scale) {
     const std::size_t first = group * lane_count - first_ray;
@@ -122,7 +123,8 @@ void EmbreeTree::traverse_part(const RayPacket& packet, RayMask rays, std::size_
   if (traversal.failure) std::rethrow_exception(traversal.failure);
 }
 
-/// Rays that start near enough are not moved to the box around all.
+/// Computes the entries of a group's rays among spheres. Rays that start near enough are not moved
+/// to the box around all.
 inline void EmbreeTree::enter_among_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
                                             std::size_t group, RayMask lanes, Entry& entry) const {
   const RayLanes& lines = rays.lines[group];

@@ -1,4 +1,4 @@
-// What Embree's callbacks are told, by those who let it go through the tree.
+// Embree's callbacks get these structs from the code that starts a traversal of the tree.
 #pragma once
 
 #include <array>
@@ -17,13 +17,13 @@ namespace crt::core {
 
 inline constexpr float float_infinity = std::numeric_limits<float>::infinity();
 
-/// In units in which the half extent of all is below 1: Embree takes no ray that starts farther
-/// away. None that does so where it should enter the box around all meets anything, but rounding
-/// may put it there.
+/// Embree takes no ray that starts farther away, in units in which the half extent of all is
+/// below 1. A ray that is so far away where it should enter the box around all meets nothing, but
+/// rounding may put it there.
 inline constexpr double farthest_place = 0x1p60;
 
-/// What the callbacks get of Embree: the context is the first member, so that the two have one
-/// address.
+/// An AnyTraversal is what the callbacks get from Embree. The context is the first member, so that
+/// the two have one address.
 struct AnyTraversal {
   enum class Kind { of_ray, of_packet, among_spheres };
 
@@ -31,7 +31,7 @@ struct AnyTraversal {
   Kind kind = Kind::of_ray;
 };
 
-/// A ray on its way.
+/// A Traversal is what is known of a ray in the tree.
 struct Traversal {
   AnyTraversal any;
   BoxVisitor* visitor = nullptr;
@@ -39,11 +39,11 @@ struct Traversal {
   double scale = 1;    ///< Embree's t for each unit of t
   std::exception_ptr failure;
 
-  /// Embree's end of the ray for the caller's.
+  /// Returns Embree's end of the ray for the caller's.
   float far_end(double t) const { return round_up_length((t - t_start) * scale); }
 };
 
-/// A packet's likewise.
+/// A PacketTraversal is what is known of a packet in the tree.
 struct PacketTraversal {
   AnyTraversal any{.context = {}, .kind = AnyTraversal::Kind::of_packet};
   PacketVisitor* visitor = nullptr;
@@ -62,10 +62,11 @@ struct PacketTraversal {
   }
 };
 
-/// A packet's whose rays are looked for by floats alone.
+/// A SphereTraversal is what is known of a packet among spheres, whose first ones are found by
+/// floats alone.
 struct SphereTraversal {
   AnyTraversal any;
-  std::size_t first_ray;  ///< of the packet, that the search has as its first
+  std::size_t first_ray;  ///< the packet's ray that is the search's first
   NearestSphereFilter search;
 
   explicit SphereTraversal(std::size_t first) : first_ray(first) {
@@ -74,7 +75,7 @@ struct SphereTraversal {
   }
 };
 
-/// What Embree's geometry is of.
+/// Things are what Embree's geometry consists of.
 struct Things {
   std::vector<RTCBounds> boxes;  ///< until Embree has built its tree
   std::vector<FloatSphere> spheres;

@@ -21,23 +21,23 @@ namespace crt::core {
 
 namespace {
 
-/// How much boxes grow by, in units in which the whole scene's half extent is between 1/2 and 1: as
-/// much as roundings may put a ray next to where it is, u = 2^-24 being a float's.
+/// Boxes grow by this much, in units in which the whole scene's half extent is between 1/2 and 1.
+/// It is as much as roundings may displace a ray, with u = 2^-24 for floats.
 ///
-/// Embree gets the ray's start o and direction d as floats, which moves its points by u and, for
-/// each unit of the direction, by u again: rays start within 2 of the middle, so that is 9 u. It
-/// finds where they meet the plane x = l at l r - o r, with r = 1 / d known to 4 u (a processor's
-/// estimate, and a step of Newton's method): another 2 u for the product and 5 u of |l - o| < 3.
-/// RTC_SCENE_FLAG_ROBUST, which would spare the latter, makes no difference to boxes of users
-/// (Embree 3.13).
+/// Embree gets the ray's start o and direction d as floats. That moves its points by u and, for
+/// each unit of the direction, by u again. Rays start within 2 of the middle, so that is 9 u.
+/// Embree finds where they meet the plane x = l at l r - o r. Here r = 1 / d is known to 4 u, by a
+/// processor's estimate and a step of Newton's method. That adds 2 u for the product and 5 u of
+/// |l - o| < 3. RTC_SCENE_FLAG_ROBUST, which would spare the latter, makes no difference to boxes
+/// of users (Embree 3.13).
 constexpr double box_margin = 0x1p-19;  // 32 u
 
-/// And by more than rays' starts may be off what they are on, relative to their coordinates: beside
-/// a scene that is far from the origin that is no small part of it.
+/// Boxes also grow by this share of the farthest coordinate, which is more than rays' starts may be
+/// off what they are on. In a scene that is far from the origin that is no small part of its size.
 constexpr double place_margin = 2 * start_rounding;
 
-/// Builds the tree on the threads of the caller's arena; a small one on this thread alone, which is
-/// not worth starting any for.
+/// Builds the tree on the threads of the caller's arena. A small tree is built on this thread
+/// alone, as it is not worth starting others.
 void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
 #ifndef CRT_TASKS_THREADS
   constexpr std::size_t worth_threads = 2048;
@@ -65,13 +65,15 @@ void check(RTCDevice device) {
   if (error != RTC_ERROR_NONE) fail(error);
 }
 
-/// Is told of what Embree takes (or, as a negative number, gives back); true lets it.
+/// Counts the memory that Embree takes or, as a negative number, gives back. It returns true, which
+/// allows it.
 bool count_memory(void* embree_bytes, ssize_t bytes, bool /*done*/) {
   *static_cast<std::atomic<std::int64_t>*>(embree_bytes) += bytes;
   return true;
 }
 
-/// What Embree asks now and then while it builds. No exception may pass through it, so one is kept.
+/// A StoppableBuild is what Embree passes to may_go_on() now and then while it builds. No exception
+/// may pass through it, so one is kept.
 struct StoppableBuild {
   StopCheck* stop;
   std::exception_ptr failure;
@@ -89,7 +91,8 @@ bool may_go_on(void* stoppable_build, double /*share*/) {
   }
 }
 
-/// None if most of them are so small that floats hardly know them.
+/// Returns spheres as floats. Returns none if more than an eighth of them are so small that floats
+/// hardly resolve them.
 std::vector<FloatSphere> float_spheres(std::span<const BoundedSphere> spheres, const Vec3& center,
                                        double scale) {
   constexpr double smallest = 0x1p-12;
@@ -125,7 +128,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
 
   auto handles = std::make_unique<Handles>();
 #ifdef CRT_TASKS_THREADS
-  // Builds for ThreadSanitizer: it does not see how Embree's own threads agree.
+  // ThreadSanitizer does not see how Embree's own threads agree, so that builds for it use one
+  // thread.
   handles->device = rtcNewDevice("threads=1");
 #else
   handles->device = rtcNewDevice(nullptr);
@@ -188,7 +192,7 @@ void EmbreeTree::traverse(const Vec3& origin, const Vec3& direction, double t_mi
   traversal.t_start = t_start;
   traversal.scale = scale_ * length;
 
-  // Axes side by side, and the start as ObjectRay::from_center() has it.
+  // The axes are side by side, and the start is computed as ObjectRay::from_center() does it.
   const auto by_axis = [](const Vec3& v) { return lanes_of(v.x, v.y, v.z, 0); };
   const Lanes along = by_axis(direction);
   const DoubleDoubleLanes offset = two_sum(by_axis(origin), -by_axis(center_));

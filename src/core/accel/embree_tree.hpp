@@ -1,4 +1,5 @@
-// A bounding volume hierarchy over boxes, by Embree: the only files that know of it are embree_*.
+// EmbreeTree is a bounding volume hierarchy over boxes, built by Embree. Only the files embree_*
+// know of Embree.
 #pragma once
 
 #include <cstdint>
@@ -11,63 +12,66 @@
 
 namespace crt::core {
 
-/// Is told of the boxes that a ray may meet.
+/// A BoxVisitor gets the boxes that a ray may meet.
 class BoxVisitor {
  public:
   virtual ~BoxVisitor() = default;
 
-  /// Returns the t beyond which nothing matters any more (below t_min: stop).
+  /// Returns the t beyond which nothing matters, or one below t_min to stop.
   virtual double visit(std::uint32_t box) = 0;
 };
 
-/// Is told of the boxes that rays of a packet may meet.
+/// A PacketVisitor gets the boxes that rays of a packet may meet.
 class PacketVisitor {
  public:
   virtual ~PacketVisitor() = default;
 
-  /// Returns for which of these rays the packet's limit has changed (below t_min: stop).
+  /// Returns for which of these rays the packet's limit has changed. A limit below t_min stops a
+  /// ray.
   virtual RayMask visit(std::uint32_t box, RayMask rays) = 0;
 };
 
-/// A sphere that is all there is in its box.
+/// A BoundedSphere is all there is in its box.
 struct BoundedSphere {
   Vec3 center;
   double radius;
 };
 
-/// What floats tell of rays among spheres. Of those that are in neither mask nothing is known.
+/// NearestSpheres are what floats resolve of rays among spheres. Nothing is known of rays that are
+/// in neither mask.
 struct NearestSpheres {
-  RayMask meeting = 0;  ///< cross a sphere, if they go on as far as that, and nothing else before
-  RayMask missing = 0;  ///< cross nothing
-  // Of those that meet a sphere:
+  RayMask meeting = 0;  ///< rays that cross a sphere, if they reach that far, and nothing before it
+  RayMask missing = 0;  ///< rays that cross nothing
+  // The following is of rays that meet a sphere.
   std::array<std::uint32_t, packet_size> boxes;  ///< its box
   std::array<Lanes, RayBatch::group_count> to;   ///< up to this t there is nothing else
 };
 
-/// Embree works in floats and silently drops what is too large for it. So it gets the boxes moved
-/// and scaled by a power of two to around 1, and grown by more than all roundings on the way: it
-/// decides nothing, it only spares tests; and what it says of spheres is so whatever the roundings.
-/// The scene's own size and place never matter.
+/// An EmbreeTree gives Embree boxes that are moved and scaled by a power of two to around 1. Embree
+/// works in floats, and silently drops what is too large for it. The boxes are also grown by more
+/// than all roundings add up to. So Embree decides nothing and only spares tests, and what is found
+/// of spheres holds whatever the roundings. The scene's own size and place never matter.
 class EmbreeTree {
  public:
-  /// All boxes must be finite; `total` is the box around them. `spheres` are what is in the boxes,
-  /// if there is a sphere in each; else none. `stop` may stop the building.
+  /// Builds the tree over boxes, all of which must be finite. `total` is the box around them.
+  /// `spheres` are what is in the boxes if there is a sphere in each, else none. `stop` may stop
+  /// the building.
   EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
              std::span<const BoundedSphere> spheres, StopCheck* stop = nullptr);
   ~EmbreeTree();
   EmbreeTree(const EmbreeTree&) = delete;
   EmbreeTree& operator=(const EmbreeTree&) = delete;
 
-  /// Of memory: Embree's and the boxes.
+  /// Returns the bytes of memory that Embree and the spheres take.
   std::uint64_t bytes() const;
 
-  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max:
-  /// roughly from near to far or, which is faster, in any order, where nothing but a stop spares
-  /// boxes. `direction` may have any length.
+  /// Visits at least every box that the ray origin + t * direction meets at t_min <= t <= t_max.
+  /// The order is roughly from near to far. Without `from_near`, which is faster, it is any order,
+  /// where nothing but a stop spares boxes. `direction` may have any length.
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                 bool from_near, BoxVisitor& visitor) const;
 
-  /// The same with visit(box) for a visitor.
+  /// Traverses the tree with visit(box) for a visitor.
   template <class Visit>
   void traverse(const Vec3& origin, const Vec3& direction, double t_min, double t_max,
                 bool from_near, const Visit& visit) const {
@@ -83,7 +87,7 @@ class EmbreeTree {
     traverse(origin, direction, t_min, t_max, from_near, static_cast<BoxVisitor&>(caller));
   }
 
-  /// The same for those of a packet's rays, up to their limits.
+  /// Visits at least every box that one of some rays of a packet meets, up to their limits.
   void traverse(const RayPacket& packet, RayMask rays, PacketVisitor& visitor) const;
   template <class Visit>
   void traverse(const RayPacket& packet, RayMask rays, const Visit& visit) const {
@@ -99,10 +103,10 @@ class EmbreeTree {
     traverse(packet, rays, static_cast<PacketVisitor&>(caller));
   }
 
-  /// Whether nearest_spheres() may be asked: all boxes hold spheres, most of them large enough for
-  /// floats.
+  /// Returns whether nearest_spheres() may be called. For this all boxes must hold spheres, most of
+  /// them large enough for floats.
   bool filters_spheres() const;
-  /// Which spheres some rays cross first, up to their limits. They must start on none.
+  /// Finds which spheres some rays cross first, up to their limits. The rays must start on none.
   NearestSpheres nearest_spheres(const RayBatch& rays, const RayBatch::Numbers& limits,
                                  RayMask some) const;
 
@@ -112,7 +116,7 @@ class EmbreeTree {
   template <class RayHits>
   struct Part;
 
-  /// Those of a group's rays that are asked for.
+  /// Computes where those of a group's rays that are in `lanes` enter and leave the box around all.
   void enter(const FilterLine<Lanes>& lines, const Lanes& limits, RayMask lanes,
              Entry& entry) const;
   void enter_among_spheres(const RayBatch& rays, const RayBatch::Numbers& limits, std::size_t group,
@@ -126,7 +130,7 @@ class EmbreeTree {
 
   Bounds total_;  ///< grown like the boxes
   Vec3 center_{0, 0, 0};
-  double scale_ = 1;  ///< a power of two: of the boxes that Embree gets
+  double scale_ = 1;  ///< a power of two, by which Embree's boxes are scaled
   std::unique_ptr<const Handles> handles_;
 };
 

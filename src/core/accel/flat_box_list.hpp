@@ -1,4 +1,4 @@
-// A few boxes in a row, for rays through scenes of few objects.
+// A flat box list holds a few boxes in a row, for rays through scenes of few objects.
 #pragma once
 
 #include <array>
@@ -16,14 +16,14 @@
 
 namespace crt::core {
 
-/// Does what EmbreeTree does, where that would take longer to begin than this to look at all boxes,
-/// four at a time. All in doubles.
+/// A FlatBoxList does what EmbreeTree does, for boxes so few that to test them all takes less than
+/// a tree takes to begin. It tests four at a time, in doubles.
 class FlatBoxList {
  public:
   static constexpr std::size_t most_boxes = 64;
 
   FlatBoxList() = default;
-  /// Up to most_boxes of them, all finite.
+  /// Takes up to most_boxes boxes, all of them finite.
   explicit FlatBoxList(std::span<const Bounds> boxes)
       : groups_((boxes.size() + lane_count - 1) / lane_count), count_(boxes.size()) {
     for (std::size_t i = 0; i < boxes.size(); ++i) {
@@ -37,7 +37,7 @@ class FlatBoxList {
 
   std::uint64_t bytes() const { return groups_.capacity() * sizeof(Group); }
 
-  /// Whether it can be asked for a ray: not for one that begins behind its origin, or that is
+  /// Returns whether it can be asked for a ray. The ray must not begin behind its origin, nor be
   /// parallel to boxes' sides, or all but.
   static bool takes(const WorldRay& ray) {
     constexpr double least = 1 / RaySlabs::largest_inverse;
@@ -45,7 +45,7 @@ class FlatBoxList {
     return ray.t_min >= 0 && std::abs(d.x) > least && std::abs(d.y) > least &&
            std::abs(d.z) > least;
   }
-  /// The same of some rays of a packet.
+  /// Returns for which of some rays of a packet it can be asked.
   static RayMask takes(const RayPacket& packet, RayMask rays) {
     RayMask taken = 0;
     RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
@@ -59,7 +59,7 @@ class FlatBoxList {
   }
 
   /// Visits, from near to far, at least every box that the ray meets at t_min <= t <= limit.
-  /// visit(box) returns the t beyond which nothing matters any more (below t_min: stop).
+  /// visit(box) returns the t beyond which nothing matters, or one below t_min to stop.
   template <class Visit>
   void traverse(const WorldRay& ray, double limit, const Visit& visit) const {
     BoxTimes enter;
@@ -67,9 +67,10 @@ class FlatBoxList {
     visit_all<true>(met, enter, ray.t_min, limit, visit);
   }
 
-  /// The same for some rays of a packet, all of which it takes: visit(box, met) of a box and those
-  /// rays that may meet it within their limits returns which of these it has changed. What is near
-  /// and what far is the same for all of them; if not even that is asked for, the order is any.
+  /// Visits at least every box that some rays of a packet meet, all of which must be taken.
+  /// visit(box, met) gets a box and those rays that may meet it within their limits, and returns
+  /// the rays whose limits it has changed. All rays share one order from near to far, and without
+  /// FromNear the order is any.
   template <bool FromNear, class Visit>
   void traverse(const RayPacket& packet, RayMask rays, const Visit& visit) const {
     const IntervalPacket intervals(packet, rays);
@@ -85,29 +86,31 @@ class FlatBoxList {
   }
 
  private:
-  /// Lower and upper ends of boxes by axis; or where lines start, and by what to multiply.
+  /// ByAxis has the lower or upper ends of boxes by axis, or the origins of lines, or their inverse
+  /// directions.
   using ByAxis = std::array<Lanes, 3>;
   struct Group {
     ByAxis lower{};
     ByAxis upper{};
   };
 
-  /// When something enters each of them; of use only where it does.
+  /// BoxTimes are when something enters each of the boxes. They are of use only where it does.
   struct BoxTimes {
     alignas(sizeof(Lanes)) std::array<double, most_boxes> of;
 
     void set(std::size_t group, const Lanes& times) { put_lanes(times, of, group * lane_count); }
   };
 
-  /// When lines are in boxes.
+  /// Spans are when lines are in boxes.
   struct Spans {
     Lanes from;
     Lanes to;
 
-    /// From what is not below 0 on. What overflows is no number, and no span is empty that begins
-    /// with it.
+    /// Returns which spans are empty, if `from` is not below 0. What overflows is NaN, and no span
+    /// is empty that begins with it.
     LaneMask empty() const { return safe_from() > to; }
-    /// So much earlier as all roundings can be of what RaySlabs has both ends rounded by.
+    /// Returns `from` made earlier by as much as all roundings of both ends, by which RaySlabs
+    /// widens each end.
     Lanes safe_from() const { return fma(from, lanes_of(-4 * RaySlabs::slack), from); }
   };
 
@@ -150,7 +153,7 @@ class FlatBoxList {
     return nearest;
   }
 
-  /// A bit for each, and when the ray enters those.
+  /// Returns a bit for each box that the ray meets, and sets when it enters those.
   std::uint64_t boxes_met(const WorldRay& ray, double limit, BoxTimes& enter) const {
     ByAxis origin;
     ByAxis inverse;
@@ -167,7 +170,8 @@ class FlatBoxList {
     return ~missed & all_boxes();
   }
 
-  /// A bit for each that some ray may meet, and a time before which none is in there.
+  /// Returns a bit for each box that some ray may meet, and sets a time before which none is in
+  /// there.
   std::uint64_t boxes_met(const IntervalPacket& intervals, BoxTimes& enter) const {
     std::uint64_t missed = 0;
     for (std::size_t i = 0; i < groups_.size(); ++i) {

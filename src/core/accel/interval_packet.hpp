@@ -1,4 +1,4 @@
-// Rays of a packet taken together: what none of them can do.
+// An interval packet takes rays of a packet together, to find what none of them can do.
 #pragma once
 
 #include <algorithm>
@@ -9,7 +9,7 @@
 
 namespace crt::core {
 
-/// The least and the greatest of some numbers that come by lanes.
+/// An Extent is the least and the greatest of some numbers that come by lanes.
 class Extent {
  public:
   void include(const Lanes& values, const LaneMask& lanes) {
@@ -27,12 +27,12 @@ class Extent {
   Lanes high_ = lanes_of(-infinity);
 };
 
-/// Holds some rays of a packet, at least one, of which none is all but parallel to a coordinate
-/// plane.
+/// An IntervalPacket holds at least one ray of a packet. None of its rays is all but parallel to a
+/// coordinate plane.
 ///
-/// At t >= 0 none is above highest origin + t * highest direction on an axis, nor below the same of
-/// the lowest. So the times when those two cross the ends of a box bound when any ray can be in
-/// there.
+/// At t >= 0 no ray is above highest origin + t * highest direction on an axis, nor below lowest
+/// origin + t * lowest direction. So the times when those two cross the ends of a box bound when
+/// any ray can be in there.
 class IntervalPacket {
  public:
   IntervalPacket(const RayPacket& packet, RayMask rays) {
@@ -54,11 +54,11 @@ class IntervalPacket {
       axes_[axis] = Axis(origins[axis], directions[axis]);
   }
 
-  /// From the first ray's begin on, up to the last one's limit.
+  /// The interval of t extends from the first ray's begin to the last one's limit.
   double begin() const { return begin_; }
   double end() const { return end_; }
 
-  /// The limit of that which goes farthest.
+  /// Returns the limit of the ray that goes farthest.
   static double last_limit(const RayPacket& packet, RayMask rays) {
     Extent limits;
     RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
@@ -67,7 +67,8 @@ class IntervalPacket {
     return limits.high();
   }
 
-  /// Narrows down when a ray may be in boxes, of which these are the ends along an axis.
+  /// Narrows down when a ray may be in boxes, of which `lower` and `upper` are the ends along an
+  /// axis.
   void bound(std::size_t axis, const Lanes& lower, const Lanes& upper, Lanes& from,
              Lanes& to) const {
     const Axis& rays = axes_[axis];

@@ -1,7 +1,7 @@
-// Which of many spheres rays cross first, by floats, as far as these can tell: intervals say where
-// a crossing may be, and one that comes before all others is the first, wherever in its interval it
-// is. Where exactly is found afterwards, in double, of one sphere a ray. Rays of which floats
-// cannot tell are told clear_of.
+// The nearest-sphere filter finds which of many spheres rays cross first, by floats, as far as
+// these can resolve it. Intervals say where a crossing may be. One that comes before all others is
+// the first, wherever in its interval it is. Its exact place is found afterwards, in double, for
+// one sphere a ray. Rays that floats cannot resolve are reported as not known.
 #pragma once
 
 #include <array>
@@ -16,46 +16,49 @@
 
 namespace crt::core {
 
-/// A sphere in the units of the tree, in which all spheres are between -1 and 1.
+/// A FloatSphere is in the units of the tree, in which all spheres are between -1 and 1.
 struct FloatSphere {
   std::array<float, 3> center;
   float radius;
 };
 
-/// Rays of a packet as floats, by component, in the same units: from eight rays on.
+/// FloatRays are eight rays of a packet as floats, by component, in the units of the tree.
 struct FloatRays {
   std::array<const float*, 3> origin;
   std::array<const float*, 3> direction;
   float* end;  ///< what is beyond does not matter
 };
 
-/// The search of up to packet_size rays, which are looked at by their places.
+/// A NearestSphereFilter finds the first spheres of up to packet_size rays, which are named by
+/// their places.
 class NearestSphereFilter {
  public:
-  /// Bounds on the errors of what follows, of rays as is_near() and is_plain() have them, with u =
+  /// This bounds the errors of distances, for rays that is_near() and is_plain() accept, with u =
   /// 2^-24.
   ///
-  /// The offset w from a ray's start to a center has components below 3, so |w| < 5.2; |d| > 0.94,
+  /// The offset w from a ray's start to a center has components below 3, so |w| < 5.2. |d| > 0.94,
   /// and rays are next to spheres before t = 7. To round a ray to floats moves its points by less
-  /// than 14 u; to round a sphere, and w, is as if the sphere were 5 u off; and the line's distance
+  /// than 14 u. To round a sphere, and w, is as if the sphere were 5 u off. The line's distance
   /// from the center is found to 12 u. In all it is as if the radius were off by 31 u.
   static constexpr float distance_error = 0x1p-18F;  // 64 u
-  /// The line is closest to the center at t = w . d / d^2, found to 55 u, which is 10 u of |w| /
-  /// |d|. Half the chord is found to 4 u, but for what the distance's error does; sums are rounded
-  /// by 12 u, the exact crossing is known to 2 u, and what is farther than 32 u from the start is
-  /// not at it.
+  /// This bounds the errors of t. The line is closest to the center at t = w . d / d^2, found to 55
+  /// u, which is 10 u of |w| / |d|. Half the chord is found to 4 u, but for what the distance's
+  /// error does. Sums are rounded by 12 u, and the exact crossing is known to 2 u. What is farther
+  /// than 32 u from the start is not at it.
   static constexpr float t_error = 0x1p-17F;  // 128 u
 
-  /// No sphere is as far away as that along a ray that it takes.
+  /// No sphere is as far away as this along a ray that the filter takes.
   static constexpr double farthest = 8;
 
-  /// Whether rays start so that this holds, at a place in the units of the tree and a t likewise.
+  /// Returns whether rays start near enough for the bounds. `place` and `t` are in the units of the
+  /// tree.
   static LaneMask is_near(const VectorLanes& place, const Lanes& t) {
     constexpr double longest_offset = 0x1p20;  // doubles know that to 2^-33
     return (largest_component(place) < 2.0) & (abs(t) < longest_offset);
   }
-  /// Whether their directions are such, and whether is_at_start() is sure of all that is not as
-  /// near to the start as 32 u; start errors likewise.
+  /// Returns whether rays' directions have lengths for which the bounds hold. Also is_at_start()
+  /// must be sure of all that is farther than 32 u from the start. `start_error` is in the units of
+  /// the tree.
   static LaneMask is_plain(const Lanes& squared_length, const Lanes& start_error) {
     constexpr double largest_start_error = 0x1p-19 / flattest_start;
     return (squared_length > 0.9) & (squared_length < 12.1) & (start_error <= largest_start_error);
@@ -67,12 +70,12 @@ class NearestSphereFilter {
     others_from_.fill(std::numeric_limits<float>::infinity());
   }
 
-  /// d^2 of the four rays from one on.
+  /// Sets d^2 of the four rays from `first_ray` on.
   void set_squared_lengths(std::size_t first_ray, const FloatLanes& squares) {
     put_lanes(1.0F / squares, inverse_squared_lengths_, first_ray);
   }
 
-  /// Eight rays, from one on, meet a sphere or pass by it.
+  /// Tests a sphere against the eight rays from `first_ray` on.
   void meet(const FloatSphere& sphere, std::uint32_t number, std::size_t first_ray,
             const OctetMask& valid, const FloatRays& rays) {
     const auto offset = [&](std::size_t axis) {
@@ -92,14 +95,14 @@ class NearestSphereFilter {
     const auto end = lanes_at<FloatOctet>(rays.end);
     const OctetMask counts =
         valid && approach.margin >= 0.0F && !part.is_outside(FloatOctet{}, end);
-    // The others start on it, as far as floats know.
+    // The other rays start on the sphere, as far as floats know.
     const OctetMask is_before = part.enter_from > 0.0F;
     const OctetMask is_inside = part.enter_to < 0.0F;
     const FloatOctet from = select(is_inside, part.leave_from, part.enter_from);
     const FloatOctet to = select(is_inside, part.leave_to, part.enter_to);
     const OctetMask sure =
         counts && part.is_met() && (is_before || (is_inside && part.leave_from > 0.0F));
-    // Others that are so near may be at the same place.
+    // Other crossings that are so near may be at the same place.
     const FloatOctet clear_of = to + t_error;
     const OctetMask is_first = sure && clear_of < end;
 
@@ -113,10 +116,10 @@ class NearestSphereFilter {
     put_lanes(select(is_first, clear_of, end), rays.end, 0);
   }
 
-  /// What there is to say in the end of the first rays, as many as there are ends.
+  /// An Outcome is what is known in the end of the first rays, as many as there are ends.
   struct Outcome {
-    RayMask known = 0;    ///< all that they cross but the first sphere is beyond their ends
-    RayMask meeting = 0;  ///< there is one that they cross first
+    RayMask known = 0;    ///< rays for which all but the first sphere is beyond their ends
+    RayMask meeting = 0;  ///< rays that cross a first sphere
   };
   template <std::size_t Count>
   Outcome outcome(const float (&ends)[Count]) const {
@@ -128,14 +131,14 @@ class NearestSphereFilter {
     }
     return result;
   }
-  /// The number of the sphere that rays cross first, by ray; or nothing.
+  /// Returns the number of the sphere that each ray crosses first, or nothing.
   const std::array<std::uint32_t, packet_size>& first() const { return first_; }
 
  private:
   alignas(32) std::array<float, packet_size> inverse_squared_lengths_;
-  alignas(32) std::array<float, packet_size> first_from_;   ///< no crossing with the sphere found
-                                                            ///< first is before that
-  alignas(32) std::array<float, packet_size> others_from_;  ///< no crossing with others
+  alignas(32) std::array<float, packet_size> first_from_;   ///< no crossing with the first sphere
+                                                            ///< is before that
+  alignas(32) std::array<float, packet_size> others_from_;  ///< and none with any other
   alignas(32) std::array<std::uint32_t, packet_size> first_;
 };
 

@@ -12,8 +12,8 @@ namespace {
 
 constexpr int bits_per_axis = 20;
 
-/// The lowest bits of x, each with two zeros before it.
-std::uint64_t broadcast(std::uint64_t x) {
+/// Returns the lowest bits of x, each with two zeros before it.
+std::uint64_t with_gaps(std::uint64_t x) {
   x = (x | x << 32) & 0x001f00000000ffffu;
   x = (x | x << 16) & 0x001f0000ff0000ffu;
   x = (x | x << 8) & 0x100f00f00f00f00fu;
@@ -22,8 +22,8 @@ std::uint64_t broadcast(std::uint64_t x) {
   return x;
 }
 
-/// Where on the curve of Morton (A computer oriented geodetic data base, IBM 1966) the middle of a
-/// box is: the digits of its coordinates by turns.
+/// A Curve finds where on the curve of Morton the middle of a box is, which has the digits of its
+/// coordinates by turns. Source: Morton, A computer oriented geodetic data base, IBM 1966.
 class Curve {
  public:
   explicit Curve(const Bounds& total) {
@@ -40,7 +40,7 @@ class Curve {
     for (int axis = 0; axis < 3; ++axis) {
       const double half = (box.lower[axis] / 4 + box.upper[axis] / 4) - low_[axis];
       const double step = std::clamp(half * steps_, 0.0, steps - 1);
-      place |= broadcast(static_cast<std::uint64_t>(step)) << axis;
+      place |= with_gaps(static_cast<std::uint64_t>(step)) << axis;
     }
     return place;
   }

@@ -1,4 +1,4 @@
-// An order of objects in which neighbours in space are neighbours in memory, too.
+// Objects are sorted into an order in which neighbours in space are neighbours in memory, too.
 #pragma once
 
 #include <cstdint>

@@ -1,4 +1,5 @@
-// Lines whose parts within the leaves of a CSG object are asked for.
+// Lines are enclosed here: the parts of them within the leaves of a CSG object are found as
+// intervals.
 #pragma once
 
 #include <array>
@@ -9,7 +10,7 @@
 
 namespace crt::core {
 
-/// Lines whose intervals within leaves are asked for.
+/// EnclosedLines are lines whose intervals within leaves are to be found.
 template <class Real>
 class EnclosedLines {
  public:
@@ -28,24 +29,24 @@ class EnclosedLines {
 
   const FilterLine<Real>& lines() const { return lines_; }
   const Real& limits() const { return limits_; }  ///< finite, unlike what never comes
-  /// Those of the lines whose directions can be squared and divided by. The intervals of the others
-  /// mean nothing.
+  /// Returns those of the lines whose directions can be squared and divided by. The intervals of
+  /// the others mean nothing.
   const Mask& asked() const { return asked_; }
 
   /// Encloses the part of the lines in a leaf. Returns false if all lines surely are outside as
-  /// long as it matters; the enclosure then means nothing.
+  /// long as it matters. The enclosure then means nothing.
   template <class Solid>
   bool enclose(const Solid& solid, Enclosure<Real>& part) const {
     return core::enclose(solid, lines_, asked_, part)&& restrict(part);
   }
 
-  /// Returns whether a ray's origin is off a sphere by what rounding makes of 0.
+  /// Returns whether a ray's origin is off a sphere by no more than what rounding makes of 0.
   bool starts_on(const Sphere& sphere, std::size_t lane) const {
     return any(lane_bit(lane) && core::starts_on(sphere, lines_));
   }
 
-  /// Returns whether a ray comes at an upper face of a box across an axis from its outside, or else
-  /// at a lower one.
+  /// Returns whether a ray comes from outside to the upper face of a box across an axis, or else to
+  /// the lower one.
   bool goes_into_box(std::size_t axis, bool upper, std::size_t lane) const {
     const Real& speed = lines_.direction[axis];
     return any(lane_bit(lane) && (upper ? speed < 0.0 : speed > 0.0));
@@ -61,7 +62,7 @@ class EnclosedLines {
   static Mask lane_bit(std::size_t lane) { return lanes_of_mask<Real>(std::uint32_t{1} << lane); }
 
  private:
-  /// Leaves what matters of an enclosure. What may be at the start may be before it as well.
+  /// Restricts an enclosure to what matters. What may be at the start may be before it as well.
   /// Returns false if nothing matters.
   bool restrict(Enclosure<Real>& part) const {
     const auto widened = [&](const Real& from) {

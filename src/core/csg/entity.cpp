@@ -23,7 +23,7 @@ Entity make_entity(EntityNode::Content content) {
   return Entity(std::make_shared<const EntityNode>(std::move(content)));
 }
 
-/// The entity's wrapper to add to: its own, or a new one that changes nothing.
+/// Returns a wrapper of the entity to add to: its own, or a new one that changes nothing.
 EntityWrapper wrapper_of(const Entity& entity) {
   if (const auto* wrapper = std::get_if<EntityWrapper>(&entity.node().content)) return *wrapper;
   EntityWrapper wrapper;
@@ -39,7 +39,8 @@ void require_solid(const Entity& entity, const char* operation) {
           " has no inside: Disc, Triangle and HalfPlane are surfaces, and only solids can be cut");
 }
 
-/// Of parts of which empty ones make no difference, the first one is not empty if there are any.
+/// Combines the parts that are not empty. Empty ones must make no difference, so the first part of
+/// a difference must not be empty.
 Entity combine(CsgOperator op, std::span<const Entity> parts) {
   CsgOperation operation{.op = op, .parts = {}};
   operation.parts.reserve(parts.size());
@@ -63,7 +64,7 @@ void require_finite(const Transform& transform) {
 constexpr double smallest_scale = 1e-100;
 constexpr double largest_scale = 1e100;
 
-/// Refuses what flattens space or leaves the range of sizes that geometry is made for.
+/// Refuses transforms that flatten space or leave the range of sizes that geometry is made for.
 void require_usable(const core::PreciseTransform& transform) {
   const Transform map = transform.rounded();
   double largest = 0;
@@ -77,7 +78,8 @@ void require_usable(const core::PreciseTransform& transform) {
     throw Error(ErrorCode::invalid_argument,
                 "a transform must keep sizes and places between 1e-100 and 1e100", "transform");
   }
-  // The determinant of the map with its largest entry brought to about 1, where 0 means flat.
+  // The determinant is that of the map with its largest entry brought to about 1, where 0 means
+  // flat.
   const double unit = std::exp2(-std::ilogb(largest));
   const core::PreciseTransform scaled(
       Transform{map.row_x * unit, map.row_y * unit, map.row_z * unit, Vec3(0)});
@@ -96,7 +98,7 @@ void require_usable(const core::PreciseTransform& transform) {
 
 using ChainPointer = std::shared_ptr<const core::TransformChain>;
 
-/// What `earlier` (or nothing) and then `transform` do.
+/// Returns what `earlier` (or nothing, if it is null) and then `transform` do together.
 ChainPointer transformed_more(ChainPointer earlier, const Transform& transform) {
   if (!earlier) return std::make_shared<const core::TransformChain>(transform);
   struct Both {
@@ -130,11 +132,11 @@ EntityNode::EntityNode(Content new_content) : content(std::move(new_content)) {
 }
 
 EntityNode::~EntityNode() {
-  // A list of nodes that only this destructor still holds, linked through themselves.
+  // This is a list of nodes that only this destructor still holds, linked through themselves.
   EntityPointer doomed;
   const auto release = [&doomed](EntityPointer& child) {
     if (child && child.use_count() == 1) {
-      // Nobody else can see the node any more, so it may be changed.
+      // Nobody else can see the node, so it may be changed.
       auto& node =
           const_cast<EntityNode&>(*child);  // NOLINT(cppcoreguidelines-pro-type-const-cast)
       node.next_to_free_ = std::move(doomed);

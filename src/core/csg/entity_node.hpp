@@ -1,4 +1,4 @@
-// The CSG tree as a user builds it: immutable nodes that entities share.
+// The CSG tree as a user builds it consists of immutable nodes, which entities share.
 #pragma once
 
 #include <cstdint>
@@ -16,18 +16,19 @@ using EntityPointer = std::shared_ptr<const EntityNode>;
 
 enum class CsgOperator { set_union, intersection, difference };
 
-/// A combination of at least two parts, none of them empty; a difference takes all others from the
-/// first. The empty entity is a union without parts, and no part of anything.
+/// A CsgOperation combines at least two parts, none of them empty. A difference takes all others
+/// from the first. The empty entity is a union without parts, and no part of anything.
 struct CsgOperation {
   CsgOperator op = CsgOperator::set_union;
   std::vector<EntityPointer> parts;
 };
 
-/// What an entity wears: where it is, its material and number. Wrappers never nest: wrapping one
-/// again makes a new one around the same child, so chains of a million transforms cost nothing
-/// later.
+/// An EntityWrapper has what is put around an entity: where it is, its material and its number.
+/// Wrappers never nest. Wrapping one again makes a new one around the same child, so chains of a
+/// million transforms cost nothing later.
 struct EntityWrapper {
-  /// Behind a pointer, as most nodes are primitives and all nodes have one size; none: as it is.
+  /// The map is behind a pointer, as most nodes are primitives and all nodes have one size. Null
+  /// leaves the child as it is.
   std::shared_ptr<const core::TransformChain> to_parent;
   std::optional<SharedMaterial> material;  ///< for parts without one of their own
   std::optional<std::uint32_t> id;
@@ -45,7 +46,8 @@ struct EntityNode {
 
   Content content;
   bool solid = true;
-  /// Primitives in the tree below, each path counted (saturates at the largest value).
+  /// This counts the primitives in the tree below, each path to one, and saturates at the largest
+  /// value.
   std::uint64_t primitive_count = 1;
 
  private:

@@ -49,10 +49,10 @@ bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& ob
 
 namespace {
 
-/// Of a line with one surface, a torus.
+/// A line has at most this many crossings with one surface, as with a torus.
 constexpr std::size_t most_roots = 4;
 
-/// For a heap that has the nearest on top.
+/// This orders a heap that has the nearest on top.
 constexpr auto is_opened_later = [](const auto& a, const auto& b) {
   return a.enter != b.enter ? a.enter > b.enter : b.child < a.child;
 };
@@ -182,7 +182,7 @@ void CsgEvaluation::open_what_may_coincide() {
 void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   work_.steps.step();
   const Leaf& leaf = leaves_[index];
-  // Leaves that are placed alike often follow one another: the ray is taken to their space once.
+  // Leaves that are placed alike often follow one another, so the ray is taken to their space once.
   if (leaf.placement != placement_) {
     placement_ = leaf.placement;
     object_ray_ = placement_->to_object(ray_.origin, ray_.direction);
@@ -194,8 +194,8 @@ void CsgEvaluation::open_leaf(std::uint32_t index, double enter) {
   for (const Crossing& crossing : work_.leaf_crossings_) {
     const FaceSurface& surface = face_surfaces_[leaf.first_face + crossing.face];
     const bool before_box = crossing.t < enter;
-    // Before the box nothing of it matters, but the crossing may be in the box for all that is
-    // known. (In the exact tier that is less than what boxes are larger by.)
+    // Before the box nothing of the leaf matters, but the crossing may be in the box for all that
+    // is known. (In the exact tier its error is less than what boxes are larger by.)
     if (before_box && (exact_ || crossing.t + crossing.error < enter)) {
       inside = crossing.entering;
       continue;
@@ -359,8 +359,8 @@ void CsgEvaluation::find_causes() {
 CsgHit CsgEvaluation::blame() {
   const CsgCrossing* first = work_.cluster_.front();
   const CsgCrossing* cause = nullptr;
-  // What changed the root and is known best tells the place: others may be known far worse, where
-  // the ray grazes them.
+  // The place is that of the crossing that changed the root and is known best. Others may be known
+  // far worse, where the ray grazes them.
   const CsgCrossing* place = nullptr;
   find_causes();
   for (const CsgCrossing* crossing : work_.causes_) {

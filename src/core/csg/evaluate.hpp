@@ -1,4 +1,4 @@
-// Interval evaluation of a CSG object along a ray.
+// A CSG object is evaluated along a ray by intervals.
 #pragma once
 
 #include <cstdint>
@@ -14,7 +14,7 @@
 
 namespace crt::core {
 
-/// A leaf's crossing among those of its whole object.
+/// A CsgCrossing is a leaf's crossing among those of its whole object.
 struct CsgCrossing {
   double t = 0;
   double error = 0;
@@ -27,11 +27,11 @@ struct CsgCrossing {
   bool entering = false;  ///< the primitive, whether or not it is complemented
   std::uint32_t shared =
       FaceSurface::not_shared;  ///< the number of its surface, if it is another leaf's too
-  std::uint32_t place = 0;  ///< if not 0: at one place are those that have the same, and no others
-  bool moved = false;       ///< t is that of the start, and not where the surface is
+  std::uint32_t place = 0;      ///< if not 0: exactly the crossings at one place have it in common
+  bool moved = false;           ///< t is that of the start, and not where the surface is
 };
 
-/// A crossing of the object's own boundary.
+/// A CsgHit is a crossing of the object's own boundary.
 struct CsgHit {
   double t = 0;
   double error = 0;
@@ -43,20 +43,22 @@ struct CsgHit {
   bool entering = false;  ///< the object
 };
 
-/// Memory that one thread reuses from ray to ray.
+/// A CsgWorkspace is memory that one thread reuses from ray to ray.
 class CsgWorkspace {
  public:
-  /// Crossings handled since it was made.
+  /// This counts the crossings handled since the workspace was made.
   std::uint64_t events = 0;
-  /// Questions of the exact tier that only exact arithmetic answered.
+  /// This counts the exact fallbacks: the questions of the exact tier that only exact arithmetic
+  /// answered.
   std::uint64_t escalations = 0;
-  /// Of the ray that is followed now.
+  /// These are the steps of the ray that is followed now.
   RaySteps steps;
 
  private:
   friend class CsgEvaluation;
 
-  /// State of another ray, or of another object, counts as that outside of all leaves.
+  /// A NodeState is the state of a node. That of another ray, or of another object, counts as that
+  /// outside of all leaves.
   struct NodeState {
     std::uint32_t count = 0;
     std::uint64_t stamp = 0;  ///< of the cluster in which it was last touched
@@ -66,33 +68,33 @@ class CsgWorkspace {
     std::uint64_t stamp = 0;
     bool inside = false;
   };
-  /// Of a shared surface and a root: how many crossings are to come, and the last cluster that has
-  /// one.
+  /// A SharedState is of a shared surface and a root number. It says how many crossings are to
+  /// come, and which is the last cluster that has one.
   struct SharedState {
     std::uint64_t stamp = 0;
     std::uint32_t to_come = 0;
     std::uint64_t cluster = 0;
   };
-  /// A box that the line enters at `enter`.
+  /// An Opening is a box that the line enters at `enter`.
   struct Opening {
     double enter = 0;
     LeafBvh::Child child;
   };
-  /// One of met_.
+  /// A ToCome is one of met_ that is still to come.
   struct ToCome {
     double t = 0;
     std::uint32_t index = 0;
   };
 
   std::uint64_t stamp_ = 0;
-  std::uint32_t places_ = 0;  ///< told apart along this ray
+  std::uint32_t places_ = 0;  ///< resolved along this ray
   CrossingList leaf_crossings_;
   std::vector<Opening> openings_;       ///< a heap, the nearest first
   std::vector<std::uint32_t> to_open_;  ///< nodes of the tree that are next
   std::vector<CsgCrossing> met_;        ///< all crossings of this ray so far
   std::vector<ToCome> to_come_;         ///< a heap, the nearest first
   std::vector<const CsgCrossing*> cluster_;
-  std::vector<ToCome> near_;  ///< what is to be told apart
+  std::vector<ToCome> near_;  ///< what is to be resolved
   std::vector<NearCrossing> near_crossings_;
   std::vector<const CsgCrossing*> causes_;
   std::vector<NodeState> nodes_;
@@ -101,27 +103,28 @@ class CsgWorkspace {
   std::vector<SharedState> shared_;
 };
 
-/// A face of `leaf` (which has the number `index` in the scene) that lies on the surface a ray
-/// starts on, as the leaf's own ray needs to know it; none if there is no such face.
+/// Returns a face of `leaf` that lies on the surface a ray starts on, as the leaf's own ray needs
+/// to know it. Returns none if there is no such face. The leaf has the number `index` in the scene.
 RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
                        std::span<const FaceSurface> face_surfaces, const StartPoint& start);
 
-/// The crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's space, by
-/// the leaf's tier.
+/// Appends the crossings of a leaf with a ray in the world, which is `object_ray` in the leaf's
+/// space, by the leaf's tier. Returns whether the line is inside at t = -inf.
 bool leaf_crossings(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                     CrossingList& out, std::uint64_t& escalations);
 
-/// The ray in the space of a leaf of the exact tier, where it is `object_ray`, which must outlive
-/// it.
+/// Returns the ray in the space of a leaf of the exact tier. There it is `object_ray`, which must
+/// outlive it.
 ExactRay exact_ray(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                    std::uint64_t& escalations);
 
-/// Whether a crossing near the start is of a surface through it.
+/// Returns whether a crossing near the start is of a surface through it.
 bool is_through_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                       const Crossing& crossing);
 
-/// Whether a crossing of another surface than the one that the ray starts on is at the start, or
-/// before it: whether it is ahead is left to rounding. `object_ray` is the ray in the leaf's space.
+/// Returns whether a crossing is at the start, or before it, so that rounding decides whether it is
+/// ahead. It is of another surface than the one that the ray starts on. `object_ray` is the ray in
+/// the leaf's space.
 inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& object_ray,
                         const Crossing& crossing) {
   const double distance = crossing.t - ray.t_min - crossing.error;
@@ -129,69 +132,69 @@ inline bool is_at_start(const Leaf& leaf, const WorldRay& ray, const ObjectRay& 
   return distance <= ray.start.t_error || is_through_start(leaf, ray, object_ray, crossing);
 }
 
-/// Walks along a ray through one CSG object, from one crossing of its boundary to the next.
+/// A CsgEvaluation walks along a ray through one CSG object, from one crossing of its boundary to
+/// the next.
 ///
 ///  1. The boxes of the tree are opened in the order in which the line enters them, and no further
-///  than the
-///     next crossing asks for. A leaf whose box is opened puts its crossings among those to come.
-///  2. The first of these and all that coincide with it form a *cluster*: crossings that the bounds
-///  of
-///     their errors cannot tell apart, and those of one surface. In the exact tier the former are
-///     told apart nevertheless (exact_order.hpp).
-///  3. A cluster's flips happen all at once: counters up the tree change only as far as values do.
-///  In deep
-///     programs paths take their place (heavy_paths.hpp).
-///     Only the root's value before and after counts, so pieces without length vanish.
+///     than the next crossing asks for. A leaf whose box is opened puts its crossings among those
+///     to come.
+///  2. The first of these and all that coincide with it form a *cluster*. Those are crossings that
+///     the bounds of their errors cannot separate, and those of one surface. In the exact tier the
+///     former are separated nevertheless (exact_order.hpp).
+///  3. A cluster's flips happen all at once. Counters up the tree change only as far as values do,
+///     and in deep programs paths take their place (heavy_paths.hpp). Only the root's value before
+///     and after counts, so pieces without length vanish.
 ///  4. What is up to t_min (and what coincides with the surface the ray starts on) only sets the
-///     state; after that each change of the root is a hit. Its face is that of the lowest leaf
+///     state. After that each change of the root is a hit. Its face is that of the lowest leaf
 ///     through whose changes, node by node, the root changed.
 ///
 /// A leaf is outside of its primitive before the line enters its box, as far as it matters. So the
-/// costs follow what the ray meets: O(log leaves) for each box that it comes near, O(depth) for
-/// each crossing, and O(log^2 nodes) if the program is deep.
+/// costs follow what the ray meets. They are O(log leaves) for each box that it comes near and
+/// O(depth) for each crossing, or O(log^2 nodes) if the program is deep.
 class CsgEvaluation {
  public:
   CsgEvaluation(const CsgProgram& program, std::span<const Leaf> leaves,
                 std::span<const FaceSurface> face_surfaces, const WorldRay& ray,
                 CsgWorkspace& workspace);
 
-  /// Whether the start of the ray (just after t_min) is inside the object.
+  /// Returns whether the start of the ray (just after t_min) is inside the object.
   bool starts_inside() const { return starts_inside_; }
 
-  /// The next crossing of the boundary with t < t_max; false if there is none.
+  /// Finds the next crossing of the boundary with t < t_max. Returns false if there is none.
   bool next(CsgHit& hit);
 
  private:
   using NodeState = CsgWorkspace::NodeState;
   using SharedState = CsgWorkspace::SharedState;
 
-  /// What is entered there is opened when it is asked for.
+  /// Puts off a child that is entered at `enter`, to be opened when it is asked for.
   void put_off(LeafBvh::Child child, double enter);
   /// Opens all boxes that are entered up to t.
   void open_up_to(double t);
-  /// The same of those below a node.
+  /// Opens all boxes below a node that are entered up to t.
   void open_node(std::uint32_t node, double t);
-  /// Opens boxes until there is a crossing, and all that can coincide with it.
+  /// Opens boxes until there is a crossing, and all that can coincide with it. Returns false if
+  /// there is none.
   bool find_crossing();
   void open_what_may_coincide();
-  /// Of the exact tier: what is near the next crossing, so that which of it coincides is known for
-  /// good.
+  /// Orders what is near the next crossing, in the exact tier, so that what of it coincides is
+  /// known for good.
   void order_near_crossings();
   bool is_near_next(double t) const;
   void gather_near();
   void open_leaf(std::uint32_t index, double enter);
-  /// Of handling one crossing: whoever may stop the ray is asked now and then.
+  /// Counts the handling of one crossing. Whoever may stop the ray is asked now and then.
   void tick() {
     if (++ticks_ % steps_per_look == 0) [[unlikely]]
       work_.steps.poll();
   }
   const CsgCrossing& next_crossing() const { return work_.met_[work_.to_come_.front().index]; }
   bool is_later(const CsgWorkspace::ToCome& a, const CsgWorkspace::ToCome& b) const;
-  /// For the heap of what is to come.
+  /// Returns the order of the heap of what is to come.
   auto later() const {
     return [this](const auto& a, const auto& b) { return is_later(a, b); };
   }
-  /// Takes what coincides with the next crossing from those to come.
+  /// Takes the next crossing, and what coincides with it, from those to come.
   void gather_cluster();
   void add_to_cluster(const CsgCrossing& crossing);
   void gather_shared();
@@ -199,13 +202,13 @@ class CsgEvaluation {
   bool flip_cluster();
   void flip_leaf(std::uint32_t leaf);
   NodeState& state(std::uint32_t node);
-  /// Of a crossing whose surface is shared.
+  /// Returns the state of a crossing whose surface is shared.
   SharedState& shared_state(const CsgCrossing& crossing);
   bool value(std::uint32_t node);
   bool root_value() { return paths_ ? paths_->root() : value(0); }
   bool leaf_inside(std::uint32_t leaf) const;
   CsgHit blame();
-  /// The crossings of the cluster through whose changes, node by node, the root changed.
+  /// Finds the crossings of the cluster through whose changes, node by node, the root changed.
   void find_causes();
   bool is_changed_up_to_root(std::uint32_t leaf, bool now);
 

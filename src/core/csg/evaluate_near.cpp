@@ -1,5 +1,5 @@
-// The part of CsgEvaluation about crossings of the exact tier that are so near to each other that t
-// does not tell which of them are at one place.
+// This part of CsgEvaluation handles crossings of the exact tier that are near to each other. There
+// t does not show which of them are at one place.
 #include <algorithm>
 
 #include "core/csg/evaluate.hpp"
@@ -12,7 +12,7 @@ void CsgEvaluation::order_near_crossings() {
   while (!openings.empty() && is_near_next(openings.front().enter))
     open_up_to(openings.front().enter);
   if (next_crossing().place != 0) return;
-  // The second is one of the two below the first.
+  // The second crossing is one of the two below the first in the heap.
   const bool has_coincident = (to_come.size() > 1 && is_near_next(to_come[1].t)) ||
                               (to_come.size() > 2 && is_near_next(to_come[2].t));
   if (has_coincident) gather_near();
@@ -32,7 +32,7 @@ void CsgEvaluation::gather_near() {
   bool is_one = true;
   bool is_known = true;
   double end = to_come.front().t;
-  // What one of them may be at the place of is among them, too.
+  // All that may be at the place of one of them is among them, too.
   while (true) {
     while (!work_.openings_.empty() && work_.openings_.front().enter <= end) {
       open_up_to(work_.openings_.front().enter);

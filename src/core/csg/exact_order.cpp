@@ -18,17 +18,17 @@ constexpr auto is_before = [](const NearCrossing& a, const NearCrossing& b) {
   return std::tie(a.t, a.t_low) < std::tie(b.t, b.t_low);
 };
 
-/// Below 0, 0 or above it, if their bounds or surfaces tell; nothing if only the roots do.
+/// Returns a number below 0, 0 or above it, if their bounds or surfaces decide the order. Returns
+/// nothing if only the roots do.
 std::optional<int> order_by_bounds(const NearCrossing& a, const NearCrossing& b) {
   if (a.surface == b.surface && a.root == b.root) return 0;
   const double distance = (a.t - b.t) + (a.t_low - b.t_low);
-  // The rounding of the distance is far less than what the errors have in them beside what they
-  // must.
+  // The rounding of the distance is far less than the margin in the errors.
   if (std::abs(distance) > a.error + b.error) return distance > 0 ? 1 : -1;
   return std::nullopt;
 }
 
-/// Gives crossings that are sorted by t their ranks, if it takes no roots.
+/// Gives crossings that are sorted by t their ranks. Returns false if this takes roots.
 bool rank_by_bounds(std::span<NearCrossing> crossings) {
   crossings[0].rank = 1;
   for (std::size_t i = 1; i < crossings.size(); ++i) {
@@ -51,7 +51,7 @@ class ExactOrder {
         escalations_(escalations),
         places_(crossings.size()) {}
 
-  /// The numbers of the crossings, sorted.
+  /// Returns the numbers of the crossings, sorted.
   std::vector<std::size_t> sorted() {
     std::vector<std::size_t> numbers(crossings_.size());
     std::iota(numbers.begin(), numbers.end(), std::size_t{0});
@@ -68,7 +68,7 @@ class ExactOrder {
     return first && second ? order(*first, *second) : 0;
   }
 
-  /// Whether all places that were asked for are known.
+  /// Returns whether all places that were asked for are known.
   bool all_known() const { return all_known_; }
 
  private:
@@ -103,8 +103,8 @@ class ExactOrder {
   bool all_known_ = true;
 };
 
-/// Moves a crossing beyond those of lower ranks, of which `last` is told to be the farthest, if it
-/// is not.
+/// Moves a crossing beyond those of lower ranks, if it is not there already. `last` is the farthest
+/// of these.
 void move_beyond(const NearCrossing& last, NearCrossing& crossing) {
   if (is_before(last, crossing)) return;
   const double t_low = std::nextafter(last.t_low, std::numeric_limits<double>::infinity());

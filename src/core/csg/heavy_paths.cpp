@@ -15,7 +15,8 @@ std::uint64_t bit_of(std::uint32_t place) {
   return std::uint64_t{1} << (place % word_bits);
 }
 
-/// Whether a node is forced to a value by its side children. The last of a path has no others.
+/// Returns whether a node is forced to a value by its side children. The last of a path has no
+/// others.
 bool is_forced_to(bool value, std::uint32_t sides, std::uint32_t needed, bool last) {
   if (value) return sides >= needed;
   return sides + (last ? 0 : 1) < needed;
@@ -145,7 +146,7 @@ void PathValues::toggle(std::uint32_t place, bool value) {
     const std::uint64_t before = word(value, index);
     const std::uint64_t after = before ^ bit_of(bit);
     work_.forced[value ? 1 : 0][index] = {stamp_, after};
-    // What is above tells only whether there is any.
+    // The levels above only say whether a word has any bit.
     if ((before == 0) == (after == 0)) return;
     bit /= word_bits;
   }

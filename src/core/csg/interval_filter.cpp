@@ -15,12 +15,13 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// Of a box.
+/// Returns whether a face of a box is the upper one across its axis.
 constexpr bool is_upper(std::uint32_t face) {
   return face % 2 == 1;
 }
 
-/// Returns a leaf in the world; nothing if it is no sphere, or not where doubles tell exactly.
+/// Returns a leaf as a sphere in the world. Returns nothing if it is none of a fair size, or is not
+/// where doubles can be exactly.
 std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
   if (shape_as<SphereShape>(leaf.shape->typed()) == nullptr) return {};
   const Surface surface = leaf.shape->surface(0);
@@ -29,7 +30,8 @@ std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
   return IntervalFilter::Sphere{{*place, surface.sizes[0]}};
 }
 
-/// Returns a leaf in the world; nothing if it is no box. A box's faces are two across each axis.
+/// Returns a leaf as a box in the world. Returns nothing if it is none, or is not where doubles can
+/// be exactly. A box's faces are two across each axis.
 std::optional<IntervalFilter::Box> box_of(const Leaf& leaf) {
   if (shape_as<BoxShape>(leaf.shape->typed()) == nullptr) return {};
   IntervalFilter::Box box{};
@@ -99,7 +101,7 @@ bool IntervalFilter::enclose(std::uint32_t leaf, const EnclosedLines<Real>& line
                       : lines.enclose(spheres_[place.index], interval);
 }
 
-/// Searches the first changes of some rays.
+/// A Search finds the first changes of some rays.
 template <class Real>
 class IntervalFilter::Search {
  public:
@@ -142,14 +144,14 @@ class IntervalFilter::Search {
   }
   Real horizon() const { return broadcast<Real>(near_.horizon()); }
 
-  /// Returns a t before which the root surely does not have a value, if it does not before this
-  /// one: the first at which it may, or the horizon.
+  /// Returns a t before which the root surely does not have a value, if it does not before the
+  /// given one. It is the first t at which the root may have it, or the horizon.
   Real root_possible_from(const Real& t, bool value) {
     return min(possible_from(near_.node(0), t, value), horizon());
   }
 
-  /// Goes from a t before which the root surely does not have a value to where it has it, for those
-  /// rays that are going.
+  /// Advances the rays that are going, from a t before which the root surely does not have a value
+  /// to where it has it.
   void advance(bool value, Real t, Mask going) {
     while (true) {
       const Mask beyond = going && !(t <= lines_.limits());
@@ -187,7 +189,7 @@ class IntervalFilter::Search {
       const Mask is_seen = to < horizon() || to >= lines_.limits();
       unseen = unseen || (here && !is_seen);
       here = here && is_seen;
-      // Next to grazing it, the leaf may not be met at all.
+      // A ray that nearly grazes the leaf may not meet it at all.
       const Mask is_isolated = leaving ? interval.enter_to < from : interval.leave_from > to;
       const Mask sure = here && to < lines_.limits() && is_isolated && depends_on(leaf, from, to);
       changes_.one = changes_.one || sure;
@@ -200,9 +202,8 @@ class IntervalFilter::Search {
     return unseen;
   }
 
-  /// Makes the interval of the leaf that a ray starts on agree with that: where the ray meets the
-  /// surface is known otherwise there. Returns false if that does not follow from what is known
-  /// here.
+  /// Makes the interval of the leaf that a ray starts on agree with that start, which settles where
+  /// the ray meets the surface. Returns false if that does not follow from what is known here.
   bool set_start(const StartPoint& start, std::uint32_t lane, std::span<const Leaf> leaves,
                  std::span<const FaceSurface> faces, std::uint32_t first_leaf) {
     const std::uint32_t index = start.leaf - first_leaf;
@@ -233,12 +234,12 @@ class IntervalFilter::Search {
     return lines_.goes_into_box(face / 2, is_upper(face), lane);
   }
 
-  /// Returns whether a leaf's being outside makes for a value of the root.
+  /// Returns whether a leaf must be outside to make for a value of the root.
   static bool wants_outside(const NearLeaf<Real>& leaf, bool value) {
     return value == leaf.complemented;
   }
 
-  /// Returns the first t not before this one at which a node may have a value.
+  /// Returns the first t not before the given one at which a node may have a value.
   Real possible_from(const NearNode& node, Real t, bool value) {
     const bool needs_all = node.all == value;
     if (node.deciding > 0) return needs_all ? broadcast<Real>(infinity) : t;
@@ -264,7 +265,8 @@ class IntervalFilter::Search {
   }
 
   /// Returns whether all leaves but one are certain between two t, and the root depends on that
-  /// one: on its path to the root all other children leave the decision to the child on the path.
+  /// one. On its path to the root all other children must leave the decision to the child on the
+  /// path.
   Mask depends_on(const NearLeaf<Real>& open, const Real& from, const Real& to) {
     Mask result = lanes_of_mask<Real>(~std::uint32_t{0});
     for (std::uint32_t i = open.node; i != no_item; i = near_.node(i).parent) {
@@ -298,7 +300,7 @@ class IntervalFilter::Search {
     return wants_outside(leaf, value) ? leaf.interval.is_outside(from, to)
                                       : leaf.interval.is_inside(from, to);
   }
-  /// Returns whether a node has a value, whose leaves are certain between two t.
+  /// Returns whether a node, whose leaves are certain between two t, has a value.
   Mask has_value(const NearNode& node, bool value, const Real& from, const Real& to) {
     const bool needs_all = node.all == value;
     const Mask everywhere = lanes_of_mask<Real>(~std::uint32_t{0});

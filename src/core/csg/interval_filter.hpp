@@ -6,12 +6,12 @@
 // at first, the search advances to the first t at which it may have the other:
 //
 //  - A leaf that surely does not have the wanted value at t advances to where that ends.
-//  - A node that has the value if all of its children do advances to the last of what these say,
-//    and one that has it if any child does to the first.
+//  - A node that has the value if all of its children do advances to the last of what these say.
+//    A node that has it if any child does advances to the first.
 //
-// If there is no such t, the ray misses. Else t is where the end of one leaf begins. If all other
-// leaves are certain along the interval of that end, and the root depends on that leaf, the root
-// changes there, and one crossing is left to be found exactly.
+// If there is no such t, the ray misses. Else t is where the end of one leaf begins. The root
+// changes there if all other leaves are certain along the interval of that end, and the root
+// depends on that leaf. Then one crossing is left to be found exactly.
 //
 // The leaves are gathered from the object's BVH in the order in which lines come to their boxes
 // (near_leaves.hpp), as far as the search goes.
@@ -33,7 +33,8 @@ struct FaceSurface;
 struct Leaf;
 struct StartPoint;
 
-/// Rays as a filter takes them: one, or as many side by side as a Real has lanes.
+/// IntervalFilterRays are rays as a filter takes them: one, or as many side by side as a Real has
+/// lanes.
 template <class Real>
 struct IntervalFilterRays {
   const FilterLine<Real>& lines;
@@ -43,14 +44,14 @@ struct IntervalFilterRays {
   std::span<const StartPoint> starts;  ///< of these
 };
 
-/// What a filter says of each of them.
+/// BoundaryChanges are what a filter says of each of the rays.
 template <class Real>
 struct BoundaryChanges {
   using Mask = MaskOf<Real>;
 
   Mask none{};  ///< no crossing of the object's boundary counts
   Mask one{};   ///< the first that counts is of `leaf` alone, somewhere from `from` to `to`
-  // Where neither is so nothing is sure.
+  // Where neither is true, nothing is sure.
 
   Mask into_object{};
   Mask into_leaf{};  ///< its primitive, whether or not it is complemented
@@ -74,8 +75,8 @@ class EnclosedLines;
 class NearLeavesWorkspace;
 class RaySteps;
 
-/// The filter of a program whose leaves all are spheres or boxes that are not turned. Deep programs
-/// have none.
+/// An IntervalFilter is the filter of a program whose leaves all are spheres, or boxes that are not
+/// turned. Deep programs have none.
 class IntervalFilter {
  public:
   struct Sphere : EnclosedSphere {
@@ -85,9 +86,9 @@ class IntervalFilter {
     std::uint32_t leaf = 0;
   };
 
-  /// Makes one that is empty, as other programs have it.
+  /// Makes an empty filter, which is what other programs have.
   IntervalFilter() = default;
-  /// `leaves` are those of the program.
+  /// Makes the filter of a program, or an empty one. `leaves` are those of the program.
   IntervalFilter(const CsgProgram& program, std::span<const Leaf> leaves,
                  std::span<const FaceSurface> faces);
 
@@ -95,15 +96,16 @@ class IntervalFilter {
   /// Returns the bytes that it takes beside the object itself.
   std::size_t bytes() const;
 
-  /// Finds the first crossings of the boundary with t_min < t <= limit that count, by what
-  /// CsgEvaluation says of the ray. `leaves` are those of `program`, the filter's own.
+  /// Finds the first crossings of the boundary with t_min < t <= limit that count, as CsgEvaluation
+  /// finds them. `leaves` are those of `program`, the filter's own.
   template <class Real>
   BoundaryChanges<Real> first_changes(const IntervalFilterRays<Real>& rays,
                                       const CsgProgram& program, std::span<const Leaf> leaves,
                                       std::span<const FaceSurface> faces,
                                       NearLeavesWorkspace& workspace, const RaySteps& steps) const;
 
-  /// Returns a leaf in the world, by its number within the object; null if it is of the other kind.
+  /// Returns a leaf in the world by its number within the object, or null if it is of the other
+  /// kind.
   const Sphere* sphere(std::uint32_t leaf) const;
   const Box* box(std::uint32_t leaf) const;
   bool is_complemented(std::uint32_t leaf) const { return places_[leaf].complemented; }
@@ -115,7 +117,7 @@ class IntervalFilter {
     for (const Box& box : boxes_) use(box);
   }
 
-  /// Encloses the part of lines in a leaf, as EnclosedLines has it.
+  /// Encloses the part of lines in a leaf, as EnclosedLines does it.
   template <class Real>
   bool enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
                Enclosure<Real>& interval) const;
@@ -124,7 +126,7 @@ class IntervalFilter {
   template <class Real>
   class Search;
 
-  /// Where a leaf is among those of its kind.
+  /// A Place is where a leaf is among those of its kind.
   struct Place {
     std::uint32_t index = 0;
     bool is_box = false;
@@ -136,7 +138,7 @@ class IntervalFilter {
   std::vector<Place> places_;     ///< by leaf
   std::uint32_t first_face_ = 0;  ///< in the scene
   std::uint32_t end_face_ = 0;
-  bool shares_surfaces_ = false;  ///< with what was written before
+  bool shares_surfaces_ = false;  ///< with an object before it in the scene
 };
 
 }  // namespace crt::core

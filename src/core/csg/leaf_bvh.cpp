@@ -15,7 +15,7 @@ namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
-/// A box in vector lanes: x, y, z and one that is not used.
+/// A LaneBox is a box in vector lanes: x, y, z and one that is not used.
 struct LaneBox {
   Lanes lower = infinity;
   Lanes upper = lanes_of(-infinity, -infinity, -infinity, -infinity);
@@ -33,7 +33,7 @@ struct LaneBox {
   }
 };
 
-/// A leaf to put into the tree.
+/// An Item is a leaf to put into the tree.
 struct Item {
   LaneBox box;  ///< with the leaf's number in the lane that is not used
 
@@ -46,7 +46,7 @@ struct Item {
   double middle(int axis) const { return 0.5 * box.lower[axis] + 0.5 * box.upper[axis]; }
 };
 
-/// Some of the items, which lie side by side.
+/// A Part is some of the items, which lie side by side.
 struct Part {
   std::span<Item> items;
   LaneBox box{};      ///< around them
@@ -70,7 +70,7 @@ struct TwoParts {
   Part right;
 };
 
-/// Divides in the middle, by number.
+/// Divides a part in the middle, by the number of items.
 TwoParts halves(const Part& part, int axis) {
   const std::size_t half = part.items.size() / 2;
   std::nth_element(part.items.begin(), part.items.begin() + static_cast<std::ptrdiff_t>(half),
@@ -82,7 +82,7 @@ TwoParts halves(const Part& part, int axis) {
   return {part_of(part.items.first(half)), part_of(part.items.subspan(half))};
 }
 
-/// What of a part has its middle in one of several equal slices across an axis.
+/// A Bin is what of a part has its middle in one of several equal slices across an axis.
 struct Bin {
   LaneBox box;
   LaneBox middles;
@@ -119,7 +119,7 @@ TwoParts split(const Part& part) {
     bin.middles.include(middle, middle);
     ++bin.count;
   }
-  // What is to the right of each boundary, then what is to the left.
+  // `right` is what is to the right of each boundary, then `left` is what is to the left.
   std::array<Bin, bin_count> right;
   right[bin_count - 1] = bins[bin_count - 1];
   for (std::size_t i = bin_count - 1; i-- > 1;) {
@@ -148,12 +148,12 @@ TwoParts split(const Part& part) {
           {part.items.subspan(count), right[best].box, right[best].middles}};
 }
 
-/// What becomes the children of one node.
+/// A Division is what becomes the children of one node.
 struct Division {
   std::array<Part, LeafBvh::width> parts;
   std::size_t count = 1;
 
-  /// The largest part is divided until there are as many as a node has margin for.
+  /// Divides the largest part until there are as many as a node has places for.
   explicit Division(const Part& whole) : parts{whole} {
     while (count < parts.size()) {
       const auto largest = std::max_element(
@@ -169,8 +169,8 @@ struct Division {
 
 }  // namespace
 
-/// The upper nodes are divided level by level, a task a node; what is below them in pieces of their
-/// own, a task a piece. Neither hangs on the number of threads.
+/// A Builder divides the upper nodes level by level, a task a node. What is below them is divided
+/// in pieces of their own, a task a piece. Neither depends on the number of threads.
 class LeafBvh::Builder {
  public:
   Builder(std::vector<Node>& nodes, const Workers& workers) : nodes_(nodes), workers_(workers) {}
@@ -202,7 +202,7 @@ class LeafBvh::Builder {
     return static_cast<std::uint32_t>(nodes.size() - 1);
   }
 
-  /// Divides what is large and leaves what is not for later; returns the next level.
+  /// Divides what is large and leaves what is not for later. Returns the next level.
   std::vector<Pending> divide_level(const std::vector<Pending>& level) {
     std::vector<std::size_t> large;
     for (std::size_t i = 0; i < level.size(); ++i) {
@@ -236,7 +236,7 @@ class LeafBvh::Builder {
     }
   }
 
-  /// The tree over one part, its root first.
+  /// Returns the tree over one part, its root first.
   static std::vector<Node> tree_over(const Part& part) {
     std::vector<Node> nodes;
     std::vector<Pending> open{{add_node(nodes), part}};
@@ -248,7 +248,8 @@ class LeafBvh::Builder {
     return nodes;
   }
 
-  /// The root of each lower part is there already; its other nodes go behind all there are.
+  /// Builds the trees over the lower parts. The root of each is there already, and its other nodes
+  /// go behind all there are.
   void build_lower_parts() {
     std::vector<std::vector<Node>> trees(lower_parts_.size());
     for_ranges(trees.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {

@@ -1,8 +1,8 @@
-// A tree of boxes over the leaves of a CSG object, so that a ray asks only those that it comes
-// near.
+// A BVH over the leaves of a CSG object is here, so that a ray asks only those that it comes near.
 //
-// Four boxes a node, in double precision, built by the surface area heuristic with bins (Wald, On
-// fast construction of SAH-based bounding volume hierarchies, 2007) and then two levels in one.
+// It has four boxes a node, in double precision. It is built by the surface area heuristic with
+// bins (Wald, On fast construction of SAH-based bounding volume hierarchies, 2007), and then two
+// levels become one.
 #pragma once
 
 #include <array>
@@ -21,7 +21,7 @@ class LeafBvh {
  public:
   static constexpr std::size_t width = lane_count;
 
-  /// A node of the tree or a leaf of the object.
+  /// A Child is a node of the tree or a leaf of the object.
   class Child {
    public:
     static Child leaf(std::uint32_t index) { return Child(index | leaf_bit); }
@@ -40,19 +40,19 @@ class LeafBvh {
   };
 
   LeafBvh() = default;
-  /// Over one box a leaf. Empty boxes are left out; infinite ones are kept apart. Built on up to
-  /// `threads` threads (as run_tasks() has it); the tree is always the same.
+  /// Builds the tree over one box a leaf. Empty boxes are left out, and infinite ones are kept
+  /// separately. The tree is always the same, whatever the number of `workers`.
   explicit LeafBvh(std::span<const Bounds> boxes, const Workers& workers = {});
 
-  /// The leaves that a line may meet anywhere.
+  /// Returns the leaves that a line may meet anywhere.
   std::span<const std::uint32_t> unbounded() const { return unbounded_; }
-  /// Of memory, beside the object itself.
+  /// Returns the bytes of memory that it takes beside the object itself.
   std::size_t bytes() const {
     return nodes_.capacity() * sizeof(Node) + unbounded_.capacity() * sizeof(std::uint32_t);
   }
   bool has_root() const { return !nodes_.empty(); }
 
-  /// Calls meet(child, enter) for what the line comes near below a node, within that part of it.
+  /// Calls meet(child, enter) for what the line comes near below a node, within `part` of it.
   template <class Meet>
   void visit(std::uint32_t node_index, const RaySlabs& slabs, const LineSpan& part,
              const Meet& meet) const {

@@ -1,4 +1,4 @@
-// The leaves of a CSG object that some rays come near, with the nodes above them.
+// The leaves of a CSG object that some rays come near are gathered here, with the nodes above them.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ namespace crt::core {
 
 inline constexpr std::uint32_t no_item = 0xffffffffu;
 
-/// A leaf that some line comes near.
+/// A NearLeaf is a leaf that some line comes near.
 template <class Real>
 struct NearLeaf {
   Enclosure<Real> interval;
@@ -27,7 +27,7 @@ struct NearLeaf {
   bool complemented = false;
 };
 
-/// A node of the program above such leaves.
+/// A NearNode is a node of the program above such leaves.
 struct NearNode {
   bool all = false;            ///< whether it is true if all of its children are, else if any is
   std::uint32_t deciding = 0;  ///< its other children that alone decide its value
@@ -40,17 +40,17 @@ struct NearNode {
   bool is_on_path = false;       ///< for whoever follows a path up to the root
 };
 
-/// Memory that one thread reuses from ray to ray.
+/// A NearLeavesWorkspace is memory that one thread reuses from ray to ray.
 class NearLeavesWorkspace {
   template <class Real>
   friend class NearLeaves;
 
-  /// Where a node of the program is among the nodes here.
+  /// A Slot is where a node of the program is among the nodes here.
   struct Slot {
     std::uint64_t stamp = 0;
     std::uint32_t node = 0;
   };
-  /// A box that some line enters at `enter`, and none before.
+  /// An Opening is a box that some line enters at `enter`, and none before.
   struct Opening {
     double enter = 0;
     LeafBvh::Child child;
@@ -73,14 +73,14 @@ class NearLeavesWorkspace {
   std::vector<NearLeaf<Lanes>> leaves_of_lanes_;
 };
 
-/// Gathers leaves in the order in which lines come to their boxes, as far as that is asked for: up
-/// to the horizon, beyond which there may be more. All other leaves are outside of their primitives
-/// up to there, as far as it matters.
+/// NearLeaves gathers leaves in the order in which lines come to their boxes, as far as that is
+/// asked for. That is up to the horizon, beyond which there may be more. All other leaves are
+/// outside of their primitives up to there, as far as it matters.
 template <class Real>
 class NearLeaves {
  public:
-  /// All arguments must outlive it; `asked` has a bit for each line. Of a small object all leaves
-  /// are gathered at once: that costs less than their boxes.
+  /// All arguments must outlive it, and `asked` has a bit for each line. All leaves of a small
+  /// object are gathered at once, which costs less than their boxes.
   NearLeaves(const IntervalFilter& filter, const CsgProgram& program,
              const EnclosedLines<Real>& lines, std::uint32_t asked, NearLeavesWorkspace& workspace,
              const RaySteps& steps)
@@ -107,17 +107,17 @@ class NearLeaves {
     if (program.tree.has_root()) put_off(LeafBvh::Child::node(0), -infinity);
   }
 
-  /// Returns the root for 0.
+  /// Returns a node by its index, which is 0 for the root.
   NearNode& node(std::uint32_t index) { return work_.nodes_[index]; }
   std::span<NearLeaf<Real>> leaves() { return {leaves_.data(), count_}; }
 
-  /// Beyond that there may be other leaves; infinity if there are none.
+  /// Returns the t beyond which there may be other leaves, or infinity if there are none.
   double horizon() const {
     return work_.openings_.empty() ? infinity : work_.openings_.front().enter;
   }
 
-  /// Gathers so many leaves more if there are so many, and all that lines may come to up to t; but
-  /// not many more than a ray may come near.
+  /// Gathers `more` leaves if there are so many, and all that lines may come to up to t. It does
+  /// not gather many more than a ray may come near.
   void gather(std::size_t more, double t) {
     const std::size_t enough = count_ + more;
     auto& openings = work_.openings_;
@@ -142,7 +142,7 @@ class NearLeaves {
 
  private:
   static constexpr double infinity = std::numeric_limits<double>::infinity();
-  /// The leaves of an object that is small.
+  /// An object with up to this many leaves is small.
   static constexpr std::uint32_t most_small = 32;
 
   static bool is_later(const NearLeavesWorkspace::Opening& a,
@@ -154,7 +154,7 @@ class NearLeaves {
     std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_later);
   }
 
-  /// One line's slabs, or nothing: lines side by side have what it takes.
+  /// Slabs are those of one line, or nothing, as lines side by side have what it takes.
   using Slabs = std::conditional_t<std::is_same_v<Real, double>, RaySlabs, std::monostate>;
   static Slabs slabs_of(const FilterLine<Real>& line) {
     if constexpr (std::is_same_v<Real, double>) {
@@ -173,7 +173,7 @@ class NearLeaves {
     }
   }
 
-  /// Returns where the first of the lines enters a box; infinity if none does while it matters.
+  /// Returns where the first of the lines enters a box, or infinity if none does while it matters.
   double first_enter(const Bounds& box) const {
     const FilterLine<Real>& lines = lines_.lines();
     const auto part = span_in(box);
@@ -200,8 +200,8 @@ class NearLeaves {
     count_ = static_cast<std::size_t>(next - leaves_.data());
   }
 
-  /// Links the leaves that were added to the nodes above them: afterwards, so that the processor
-  /// encloses several leaves at once.
+  /// Links the leaves that were added to the nodes above them. It does so afterwards, so that the
+  /// processor encloses several leaves at once.
   void link_added() {
     std::uint32_t node = no_item;
     std::uint32_t slot = no_item;
@@ -249,7 +249,8 @@ class NearLeaves {
     return index;
   }
 
-  /// Takes a child, with its value where all leaves are outside, out of those that decide a node.
+  /// Takes a child out of those that decide a node. `value_outside` is the child's value where all
+  /// leaves are outside.
   static void take(NearNode& node, bool value_outside) {
     if (value_outside != node.all) --node.deciding;
   }
@@ -259,7 +260,7 @@ class NearLeaves {
   const EnclosedLines<Real>& lines_;
   std::uint32_t asked_;
   NearLeavesWorkspace& work_;
-  std::vector<NearLeaf<Real>>& leaves_;  ///< more of them than there are
+  std::vector<NearLeaf<Real>>& leaves_;  ///< at least count_ of them
   std::size_t count_ = 0;
   std::size_t linked_ = 0;
   const RaySteps& steps_;

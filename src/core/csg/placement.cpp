@@ -52,7 +52,7 @@ Placement::Placement(const TransformChain& to_world) {
     precise.translation[i] = nearest(map.translation[i]);
     back.translation[i] = -(moved[i].rounded() / weight).unscaled();
   }
-  // Even what only moves: by more than doubles tell.
+  // Even a map that only moves is affine here, as doubles do not hold by how much it moves.
   kind_ = Kind::affine;
   to_world_ = precise.rounded();
   take_inverse(back);
@@ -99,7 +99,7 @@ void Placement::take_inverse(const PreciseTransform& inverse) {
   }
 }
 
-/// The largest sum of sizes in a row.
+/// Returns the largest sum of absolute values in a row.
 double Placement::inverse_size() const {
   double result = 0;
   for (const PreciseVec3& row : to_object_.rows) {
@@ -108,9 +108,10 @@ double Placement::inverse_size() const {
   return result;
 }
 
-/// With B the computed inverse of A, A^-1 - B = A^-1 (I - A B), which is at most |B| e / (1 - e)
-/// where e bounds |I - A B| and the rounding of computing that. All norms are the largest sum of
-/// sizes in a row.
+/// Returns a bound on the relative error of a vector taken to object space. With B the computed
+/// inverse of A, A^-1 - B = A^-1 (I - A B). That is at most |B| e / (1 - e), where e bounds
+/// |I - A B| and the rounding of computing it. All norms are the largest sum of absolute values in
+/// a row.
 double Placement::inverse_error() const {
   const PreciseTransform forth(to_world_);
   double residual = 0;
@@ -131,7 +132,7 @@ double Placement::inverse_error() const {
   constexpr double largest_residual =
       0.5;  // beyond it nothing is known, and every answer is found exactly
   if (!(residual < largest_residual)) return std::numeric_limits<double>::infinity();
-  // And the roundings of the product with the vector itself.
+  // The roundings of the product with the vector itself are added.
   return inverse_size() * (2 * residual + precise_roundoff);
 }
 
@@ -165,7 +166,7 @@ void Placement::move_to_object(ObjectRay& ray) const {
 
 namespace {
 
-/// The three components of a vector in double-double, each of component(axis).
+/// Sets the three components of a vector in double-double, each to component(axis).
 template <class Component>
 void set(VectorLanes& high, VectorLanes& low, const Component& component) {
   const auto set_axis = [&](Lanes& hi, Lanes& lo, int axis) {
@@ -178,7 +179,7 @@ void set(VectorLanes& high, VectorLanes& low, const Component& component) {
   set_axis(high.z, low.z, 2);
 }
 
-/// Rays of a camera without a lens have one origin.
+/// Returns whether all points are one, as the origins of a camera's rays without a lens are.
 bool is_one_point(const VectorLanes& v) {
   return all(v.x == lanes_of(v.x[0]) && v.y == lanes_of(v.y[0]) && v.z == lanes_of(v.z[0]));
 }
@@ -305,8 +306,8 @@ Bounds Placement::bounds_to_world(const Bounds& object) const {
   constexpr double inf = std::numeric_limits<double>::infinity();
   Bounds result;
   for (int axis = 0; axis < 3; ++axis) {
-    // Interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics Gems
-    // 1990); `size` bounds the rounding of the sums.
+    // This is interval arithmetic by rows (Arvo, Transforming axis-aligned bounding boxes, Graphics
+    // Gems 1990). `size` bounds the rounding of the sums.
     double lower = to_world_.translation[axis];
     double upper = lower;
     double size = std::abs(lower);
@@ -329,7 +330,7 @@ Bounds Placement::bounds_to_world(const Bounds& object) const {
 
 void Placement::plane_to_world(const PreciseVec3& normal, const DoubleDouble& offset,
                                PreciseVec3& world_normal, DoubleDouble& world_offset) const {
-  // n . (A p + a) = offset  <=>  (n A) . p = offset - n . a, with (A, a) the map to object space.
+  // With (A, a) the map to object space, n . (A p + a) = offset  <=>  (n A) . p = offset - n . a.
   if (kind_ == Kind::identity) {
     world_normal = normal;
     world_offset = offset;

@@ -1,9 +1,11 @@
-// A CSG tree compiled for rays: complements pushed to the leaves, equal operators merged, so that
-// only monotone AND and OR nodes are left, each a counter of its true children.
+// A program is a CSG tree compiled for rays. Complements are pushed to the leaves and equal
+// operators are merged, so that only monotone AND and OR nodes are left. Each is a counter of its
+// true children.
 //
-// Notation: a *leaf* is a primitive with its placement; its *value* at a point is whether the point
-// is inside (for a complemented leaf: outside). A node is true if at least `needed` of its children
-// are: 1 for OR, all for AND. Node 0 is the root; its value says whether the point is in the solid.
+// A *leaf* is a primitive with its placement. Its *value* at a point is whether the point is
+// inside, or for a complemented leaf outside. A node is true if at least `needed` of its children
+// are: 1 for OR, all for AND. Node 0 is the root, and its value says whether the point is in the
+// solid.
 #pragma once
 
 #include <cstdint>
@@ -18,23 +20,23 @@
 
 namespace crt::core {
 
-/// The id of a whole surface, shared by all faces that lie on it, and which way the face is turned
-/// against the surface's own canonical orientation.
+/// A FaceSurface has the id of a whole surface, which is shared by all faces that lie on it. It
+/// also says whether the face is turned against the surface's own canonical orientation.
 struct FaceSurface {
   std::uint32_t surface = 0;
   bool flipped = false;
-  /// Where other faces of the same object lie on it, too: a number among such surfaces of the
-  /// object.
+  /// This is set where other faces of the same object lie on the surface, too. It is a number among
+  /// such surfaces of the object.
   std::uint32_t shared = not_shared;
 
   static constexpr std::uint32_t not_shared = 0xffffffffu;
 };
 
-/// A primitive in its place.
+/// A Leaf is a primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
   std::unique_ptr<const ExactShape>
-      exact;  ///< the same in the exact tier; none in the standard one
+      exact;  ///< the shape in the exact tier; none in the standard one
   const Placement* placement =
       nullptr;  ///< shared by leaves that are placed alike; the scene owns it
   const SphereShape* plain_sphere =
@@ -51,15 +53,16 @@ struct Leaf {
 struct CsgNode {
   std::uint32_t parent = 0;
   std::uint32_t needed = 1;
-  /// True children where every leaf is outside of its primitive: at infinity, for bounded leaves.
+  /// This counts the true children where every leaf is outside of its primitive. Bounded leaves are
+  /// so at infinity.
   std::uint32_t count_outside = 0;
 };
 
 struct CsgProgram {
   std::vector<CsgNode> nodes;
-  /// The node above each leaf, in the order of leaves.
+  /// This has the node above each leaf, in the order of leaves.
   std::vector<std::uint32_t> leaf_parents;
-  /// Leaves of the object are this and the following ones of the scene.
+  /// The leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
   HeavyPaths paths;  ///< of deep programs: what takes the place of walking up from node to node
   LeafBvh tree;      ///< over what of each leaf's box matters
@@ -68,8 +71,8 @@ struct CsgProgram {
   std::uint32_t shared_surfaces = 0;
 
   std::uint32_t leaf_count() const { return static_cast<std::uint32_t>(leaf_parents.size()); }
-  /// Whether all of the object is within one of its leaves: a part of an intersection, or what a
-  /// difference takes from.
+  /// Returns whether all of the object is within one of its leaves. Such a leaf is a part of an
+  /// intersection, or what a difference takes from.
   bool is_within(std::uint32_t index, const Leaf& leaf) const {
     return leaf_parents[index] == 0 && nodes[0].needed > 1 && !leaf.complemented;
   }

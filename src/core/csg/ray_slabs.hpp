@@ -1,4 +1,4 @@
-// A line against axis-parallel boxes, by slabs.
+// A line is tested against axis-parallel boxes by slabs.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +15,8 @@
 
 namespace crt::core {
 
-/// The part of a line inside a box, rounded outwards; empty (enter > leave) if it misses the box.
+/// A LineSpan is the part of a line inside a box, rounded outwards. It is empty (enter > leave) if
+/// the line misses the box.
 struct LineSpan {
   double enter = 0;
   double leave = 0;
@@ -23,21 +24,22 @@ struct LineSpan {
   bool empty() const { return !(enter <= leave); }
 };
 
-/// The same of several lines.
+/// LineSpanLanes are spans side by side, of several lines or of several boxes.
 struct LineSpanLanes {
   Lanes enter;
   Lanes leave;
 };
 
-/// What of a line does not change from box to box.
+/// RaySlabs are what of a line does not change from box to box.
 class RaySlabs {
  public:
   /// Three roundings go into each t: of the difference, the inverse and the product.
   static constexpr double slack = 4 * std::numeric_limits<double>::epsilon();
-  /// Above that the line is parallel to the slab, or all but, and the quotient must be taken.
+  /// If an inverse is above this, the line is parallel to the slab, or all but, and the quotient
+  /// must be taken.
   static constexpr double largest_inverse = 0x1p1000;
 
-  /// `origin_error` is how far rounding may have put the origin from where it is meant to be: the
+  /// `origin_error` is how far rounding may have put the origin from where it is meant to be. The
   /// spans hold those of all lines that may be meant.
   RaySlabs(const Vec3& origin, const Vec3& direction, double origin_error = 0)
       : origin_(origin),
@@ -53,7 +55,7 @@ class RaySlabs {
     return span;
   }
 
-  /// Of several boxes side by side, by axis.
+  /// Corners are those of several boxes side by side, by axis.
   using Corners = std::array<std::array<double, lane_count>, 3>;
   LineSpanLanes spans(const Corners& lower, const Corners& upper) const {
     LineSpanLanes spans;
@@ -61,8 +63,8 @@ class RaySlabs {
     return spans;
   }
 
-  /// Returns the spans of lines that have their bit in `some`, in one box, as span() of each has
-  /// them.
+  /// Returns the spans in one box of the lines that have their bit in `some`, as span() of each
+  /// returns them.
   static LineSpanLanes spans(const FilterLine<Lanes>& lines, const Bounds& box, std::uint32_t some,
                              const Lanes& origin_errors = Lanes{}) {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -80,8 +82,8 @@ class RaySlabs {
       span.leave = min(span.leave, high + slack * abs(high) + error);
       LaneMask is_steep = abs(inverse) > largest_inverse;
       if (any(is_steep)) {
-        // Between planes that it goes along a line is from minus infinity to infinity, as told
-        // above.
+        // A line that runs along two planes, between them, is there from minus infinity to
+        // infinity, as computed above.
         const LaneMask between =
             (lines.origin[i] > box.lower[axis]) & (lines.origin[i] < box.upper[axis]);
         is_steep &= !(between & (lines.direction[i] == 0.0));
@@ -99,7 +101,7 @@ class RaySlabs {
     return span;
   }
 
-  /// The span of a line whose origin is what is meant, axes side by side.
+  /// Returns the span of a line whose origin is what is meant, with the axes side by side.
   static LineSpan span(const Vec3& origin, const Vec3& direction, const Bounds& box) {
     const auto by_axis = [](const Vec3& v) { return lanes_of(v.x, v.y, v.z, v.z); };
     const Lanes inverse = 1.0 / by_axis(direction);
@@ -121,7 +123,8 @@ class RaySlabs {
     return lanes_at<Lanes>(numbers.data());
   }
 
-  /// Of one box, or of as many as a Real has lanes: the same bits as of each alone.
+  /// Computes the span in one box, or in as many as a Real has lanes. Each lane has the bits that
+  /// it would have alone.
   template <class Real, class Corners>
   void span_of(const Corners& lowers, const Corners& uppers, Real& enter, Real& leave) const {
     constexpr double infinity = std::numeric_limits<double>::infinity();
@@ -142,14 +145,14 @@ class RaySlabs {
     }
   }
 
-  /// By where the line meets the planes across an axis, in either order.
+  /// Clips a span by where the line meets the planes across an axis, in either order.
   template <class Real>
   static void clip(const Real& first, const Real& second, double error, Real& enter, Real& leave) {
     const Real low = min(first, second);
     const Real high = max(first, second);
     const Real safe_low = low - slack * abs(low) - error;
     const Real safe_high = high + slack * abs(high) + error;
-    // What is no number, as infinity less infinity, says nothing.
+    // NaN, as from infinity less infinity, clips nothing.
     enter = select(safe_low > enter, safe_low, enter);
     leave = select(safe_high < leave, safe_high, leave);
   }
@@ -170,7 +173,7 @@ class RaySlabs {
   Vec3 direction_;
   Vec3 inverse_{0, 0, 0};
   double origin_error_;
-  /// Rounding may have put a line that starts on the side of a box next to it.
+  /// Rounding may have put a line that starts on the side of a box next to it by this much.
   double origin_slack_;
 };
 

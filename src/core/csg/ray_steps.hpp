@@ -1,4 +1,4 @@
-// How much one ray may do, and who may stop it while it does.
+// How much one ray may do is limited here, and its work may be stopped.
 #pragma once
 
 #include <cstdint>
@@ -6,40 +6,43 @@
 
 namespace crt::core {
 
-/// Of a ray, if nobody says otherwise: more than any picture needs, and about a second's work.
+/// A ray may take this many steps if nobody says otherwise. They are more than any picture needs,
+/// and about a second's work.
 inline constexpr std::uint64_t usual_most_steps = std::uint64_t{1} << 22;
 
-/// Steps between two looks at whether to go on: some ten microseconds.
+/// So many steps are between two looks at whether to continue, some ten microseconds.
 inline constexpr std::uint64_t steps_per_look = 1024;
 
-/// Shared by the threads of a render; does not change.
+/// StepRules are shared by the threads of a render and do not change.
 struct StepRules {
   std::uint64_t most = usual_most_steps;
   std::function<void()> poll;  ///< is called often, and throws to end everything; or empty
 };
 
-/// The steps of the ray that a thread follows. A step is an object that the ray is tested against,
-/// or a leaf of a CSG object. Only rays with many steps are ever looked at.
+/// RaySteps are the steps of the ray that a thread follows. A step is an object that the ray is
+/// tested against, or a leaf of a CSG object. Only rays with many steps are ever looked at.
 class RaySteps {
  public:
-  const StepRules* rules = nullptr;  ///< none: the usual ones
+  const StepRules* rules = nullptr;  ///< null for the usual ones
 
   void begin_ray() { taken_ = 0; }
   std::uint64_t taken() const { return taken_; }
 
-  /// Throws Error (limit) soon after there have been too many, and what the rules' poll() throws.
+  /// Counts a step. Throws Error (limit) soon after there have been too many, and what the rules'
+  /// poll() throws.
   void step() {
     if (++taken_ % steps_per_look == 0) [[unlikely]]
       look(taken_);
   }
 
-  /// The same of a ray that has taken so many steps.
+  /// Throws Error (limit) if so many steps are too many for a ray, and what the rules' poll()
+  /// throws.
   void look(std::uint64_t taken) const;
 
   /// Returns how many steps a ray may take.
   std::uint64_t most() const { return rules == nullptr ? usual_most_steps : rules->most; }
 
-  /// Asks whether to go on, for work that is not counted.
+  /// Asks whether to continue, for work that is not counted.
   void poll() const;
 
  private:

@@ -1,5 +1,5 @@
-// Arithmetic with error bounds on lanes: what core/math/vector.hpp and double_double.hpp have for
-// one number, with the same bits in each lane.
+// Arithmetic with error bounds on lanes is here. It gives in each lane the bits that
+// core/math/vector.hpp and double_double.hpp give for one number.
 #pragma once
 
 #include "core/math/vector.hpp"
@@ -27,7 +27,8 @@ inline Lanes difference_of_products(const Lanes& a, const Lanes& b, const Lanes&
   return fma(a, b, -product) + rest;
 }
 
-/// Four numbers of about 106 bits; the operators are those of double_double.hpp.
+/// A DoubleDoubleLanes holds four numbers of about 106 bits. The operators are those of
+/// double_double.hpp.
 struct DoubleDoubleLanes {
   Lanes hi{};
   Lanes lo{};
@@ -35,7 +36,7 @@ struct DoubleDoubleLanes {
   Lanes value() const { return hi + lo; }
 };
 
-/// The same number in each lane.
+/// Returns lanes that all hold the number.
 inline DoubleDoubleLanes lanes_of(const DoubleDouble& value) {
   return {lanes_of(value.hi), lanes_of(value.lo)};
 }

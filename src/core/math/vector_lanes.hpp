@@ -1,5 +1,5 @@
-// Four vectors side by side, by component: each operation does to every one of them what it does to
-// a Vec3, to the last bit.
+// A VectorLanes holds four vectors side by side, by component. Each operation does to every one of
+// them what it does to a Vec3, to the last bit.
 #pragma once
 
 #include <array>
@@ -17,7 +17,7 @@ struct VectorLanes {
   Lanes y{};
   Lanes z{};
 
-  /// By axis.
+  /// Returns the component along an axis.
   Lanes& operator[](int axis) { return axis == 0 ? x : axis == 1 ? y : z; }
   const Lanes& operator[](int axis) const { return axis == 0 ? x : axis == 1 ? y : z; }
 
@@ -29,25 +29,25 @@ struct VectorLanes {
   }
 };
 
-/// A Vec3, or for lanes as many of them.
+/// Vec3Of<Real> is a Vec3 for a double, and as many of them side by side for lanes.
 template <class Real>
 using Vec3Of = std::conditional_t<std::is_same_v<Real, double>, Vec3, VectorLanes>;
 
-/// Of a Vec3Of<Real> the Real.
+/// RealOf names the Real of a Vec3Of<Real>.
 template <class Vector>
 using RealOf = std::decay_t<decltype(std::declval<Vector>().x)>;
 
-/// The same vector in each lane.
+/// Returns lanes that all hold the vector.
 inline VectorLanes lanes_of(const Vec3& v) {
   return {lanes_of(v.x), lanes_of(v.y), lanes_of(v.z)};
 }
 
-/// The vectors one after the other, each with 0 behind its components.
+/// Returns the vectors one after the other, each with 0 behind its components.
 inline std::array<Lanes, lane_count> by_lane(const VectorLanes& v) {
   return transposed({v.x, v.y, v.z, Lanes{}});
 }
 
-/// The same vector in a Vec3, or in each lane.
+/// Returns the vector itself, or lanes that all hold it.
 template <class Real>
 Vec3Of<Real> broadcast(const Vec3& v) {
   return {broadcast<Real>(v.x), broadcast<Real>(v.y), broadcast<Real>(v.z)};
@@ -84,7 +84,7 @@ inline Lanes largest_component(const VectorLanes& v) {
   return max(max(abs(v.x), abs(v.y)), abs(v.z));
 }
 
-// By component.
+// These two work by component.
 inline VectorLanes min(const VectorLanes& a, const VectorLanes& b) {
   return {min(a.x, b.x), min(a.y, b.y), min(a.z, b.z)};
 }
@@ -105,13 +105,13 @@ inline VectorLanes select(const LaneMask& first, const VectorLanes& a, const Vec
   return {select(first, a.x, b.x), select(first, a.y, b.y), select(first, a.z, b.z)};
 }
 
-/// As core/math/vector.hpp has it, of each.
+/// Returns the cross product of each pair, as core/math/vector.hpp computes it.
 inline VectorLanes accurate_cross(const VectorLanes& a, const VectorLanes& b) {
   return {difference_of_products(a.y, b.z, a.z, b.y), difference_of_products(a.z, b.x, a.x, b.z),
           difference_of_products(a.x, b.y, a.y, b.x)};
 }
 
-/// As accurate_dot() has it, before its last rounding.
+/// Returns the dot product of each pair, as core/math/vector.hpp computes it.
 inline DoubleDoubleLanes accurate_dot(const VectorLanes& a, const VectorLanes& b) {
   const DoubleDoubleLanes x = two_product(a.x, b.x);
   const DoubleDoubleLanes y = two_product(a.y, b.y);
@@ -127,9 +127,9 @@ inline VectorLanes unit_vector(const VectorLanes& v) {
   return scaled / sqrt(square.hi + square.lo);
 }
 
-/// Of four vectors what direction_and_length() says of each, to where it stays: GCC copies structs
-/// by halves of these vectors, and who reads a whole one next waits until both have reached the
-/// cache.
+/// Splits four vectors as direction_and_length() splits each, and writes the results where they
+/// stay. GCC copies structs by halves of these vectors. A read of a whole one that follows waits
+/// until both halves have reached the cache.
 inline void directions_and_lengths(const VectorLanes& v, VectorLanes& directions, Lanes& lengths) {
   const Lanes squares = dot(v, v);
   if (all((squares > safe_square_min) & (squares < safe_square_max))) {

@@ -72,25 +72,25 @@ class QueryPacket {
       find_distances(first, count);
       find_sides(first);
       find_points(first);
-      tell(answers.subspan(first, count));
+      write(answers.subspan(first, count));
     }
   }
 
   /// Finds nearest hits, with answers in columns.
   void nearest(const Distances& answers) {
     FirstLeaves leaves;
-    const bool are_told = data_.first_leaves(rays_, all(), leaves);
-    if (!are_told) data_.intersect_each(rays_, all(), hits_, work_);
+    const bool are_resolved = data_.first_leaves(rays_, all(), leaves);
+    if (!are_resolved) data_.intersect_each(rays_, all(), hits_, work_);
     for (std::size_t first = 0; first < count_; first += lane_count) {
       const std::size_t group = first / lane_count;
       const std::size_t count = std::min<std::size_t>(lane_count, count_ - first);
-      if (are_told) {
+      if (are_resolved) {
         set_distances(group, leaves.t[group], RayPacket::lanes(leaves.found, group),
                       [&](std::size_t lane) { return leaves.leaves[first + lane]; });
       } else {
         find_distances(first, count);
       }
-      tell(answers.subspan(first, count));
+      write(answers.subspan(first, count));
     }
   }
 
@@ -178,7 +178,7 @@ class QueryPacket {
     }
   }
 
-  void tell(std::span<std::optional<Hit>> answers) const {
+  void write(std::span<std::optional<Hit>> answers) const {
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       if ((found_ >> lane & 1u) == 0) {
         answers[lane].reset();
@@ -191,21 +191,21 @@ class QueryPacket {
   }
 
   /// Writes answers by whole vectors.
-  void tell(std::span<PlainHit> answers) const {
+  void write(std::span<PlainHit> answers) const {
     static_assert(sizeof(PlainHit) == 56 && offsetof(PlainHit, normal) == 8 &&
                   offsetof(PlainHit, u) == 32);
     static_assert(offsetof(PlainHit, v) == 40 && offsetof(PlainHit, entity_id) == 48 &&
                   offsetof(PlainHit, side) == 52);
     const LaneMask found = lanes_with(found_);
-    const auto told = [&](const Lanes& value) { return select(found, value, Lanes{}); };
-    const auto heads = transposed(
-        {told_t(), told(points_.normal.x), told(points_.normal.y), told(points_.normal.z)});
+    const auto or_zero = [&](const Lanes& value) { return select(found, value, Lanes{}); };
+    const auto heads = transposed({found_t(), or_zero(points_.normal.x), or_zero(points_.normal.y),
+                                   or_zero(points_.normal.z)});
     // Each id has its side behind it.
     constexpr std::uint64_t lower_half = 0xffffffffu;
     const WordLanes ids_and_sides = (stdx::static_simd_cast<WordLanes>(ids_) & lower_half) |
                                     stdx::static_simd_cast<WordLanes>(sides_) << 32;
     const auto tails = transposed(
-        {told(points_.u), told(points_.v), told(bits_as<Lanes>(ids_and_sides)), Lanes{}});
+        {or_zero(points_.u), or_zero(points_.v), or_zero(bits_as<Lanes>(ids_and_sides)), Lanes{}});
     constexpr std::size_t head = offsetof(PlainHit, u);
     for (std::size_t lane = 0; lane < answers.size(); ++lane) {
       auto* place = reinterpret_cast<std::byte*>(&answers[lane]);
@@ -214,8 +214,8 @@ class QueryPacket {
     }
   }
 
-  void tell(const Distances& answers) const {
-    const Lanes t = told_t();
+  void write(const Distances& answers) const {
+    const Lanes t = found_t();
     const IntLanes ids = ids_ & int_lanes_with(found_);
     put(t, answers.t);
     if (!answers.ids.empty()) put(ids, answers.ids);
@@ -230,7 +230,7 @@ class QueryPacket {
     }
   }
 
-  Lanes told_t() const {
+  Lanes found_t() const {
     return select(lanes_with(found_), t_, lanes_of(std::numeric_limits<double>::infinity()));
   }
 

@@ -253,7 +253,7 @@ void Rendering::run() {
     stats.memory = data_.memory();
     stats.trace_seconds = std::chrono::duration<double>(Clock::now() - begin).count();
     canvas_.set_stats(stats);
-    tell(stats);
+    report(stats);
   } catch (const std::bad_alloc&) {
     throw Error(ErrorCode::out_of_memory, "there is not enough memory to render the picture");
   } catch (const Error& error) {
@@ -262,7 +262,7 @@ void Rendering::run() {
   }
 }
 
-void Rendering::tell(const RenderStats& stats) const {
+void Rendering::report(const RenderStats& stats) const {
   if (!options_.log) return;
   for (const std::string& warning : data_.warnings()) log(LogLevel::warning, warning);
   log(LogLevel::info,

@@ -60,7 +60,7 @@ class Rendering {
   /// is empty.
   void trace_tile(const Frame& frame, const Region& tile, Tracer& tracer,
                   std::span<FirstHit> first_hits, Workspace& work);
-  void tell(const RenderStats& stats) const;
+  void report(const RenderStats& stats) const;
   void log(LogLevel level, const std::string& line) const;
 
   const PreparedData& data_;

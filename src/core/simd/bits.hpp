@@ -1,5 +1,6 @@
-// Operations on the bits of whole numbers side by side for which instruction sets have better
-// instructions than the compiler finds. Each has a plain form for all others, with the same result.
+// Operations on the bits of whole numbers side by side are here, for which instruction sets have
+// better instructions than the compiler finds. Each has a plain form for all other targets, with
+// the same result.
 #pragma once
 
 #include <cstdint>
@@ -43,7 +44,7 @@ using plain_bits::reversed;
       _mm256_mul_epu32(std::bit_cast<__m256i>(numbers), _mm256_set1_epi64x(factor)));
 }
 
-/// Looks the halves of bytes up.
+/// Returns the numbers with the bits in reverse order. It looks the halves of bytes up.
 [[gnu::always_inline]] inline BitOctet reversed(const BitOctet& bits) {
   const auto in_both_halves = [](const __m128i& bytes) {
     return _mm256_broadcastsi128_si256(bytes);

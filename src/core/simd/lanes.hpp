@@ -1,9 +1,9 @@
-// Numbers side by side, on which one instruction works at once: four doubles, floats or integers,
-// or eight floats. Each lane has the bits that it would have alone, on every target.
+// One instruction works at once on numbers side by side: four doubles, floats or integers, or eight
+// floats. Each lane has the bits that it would have alone, on every target.
 //
 // The lanes are those of std::experimental::simd (ISO/IEC TS 19570:2018), for the instruction set
-// that the compiler is told of. Comparing two of them gives a mask, with a bool for each lane;
-// masks are combined by && || ! (or & |), as bools are.
+// that the compiler targets. Comparing two of them gives a mask, with a bool for each lane. Masks
+// are combined by && || ! (or & |), as bools are.
 #pragma once
 
 #include <algorithm>
@@ -25,9 +25,9 @@ namespace crt::core {
 namespace stdx = std::experimental;
 
 // GCC takes much of what follows for too large to be inlined, and does not see that its fma's are
-// one instruction: these two things are helped along.
+// one instruction. Attributes and intrinsics help it along.
 
-/// `count` numbers side by side.
+/// SideBySide is `count` numbers side by side.
 template <class Number, std::size_t count>
 using SideBySide = stdx::simd<Number, stdx::simd_abi::deduce_t<Number, count>>;
 
@@ -52,7 +52,7 @@ template <class Number, class Abi>
   return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
-/// Returns the mask with those bits, of which higher ones than there are lanes do not count.
+/// Returns the mask with those bits. Bits above the number of lanes do not count.
 template <class Mask>
 Mask mask_with(std::uint32_t bits) {
   return Mask::__from_bitset(bits);
@@ -71,7 +71,8 @@ Mask mask_cast(const stdx::simd_mask<Number, Abi>& mask) {
   }
 }
 
-/// Returns whether a mask is true in all of its lanes, or in any; of one number its own.
+/// Returns whether a mask is true in all of its lanes, or in any. A bool counts as a mask of one
+/// lane.
 template <class Number, class Abi>
 [[gnu::always_inline]] inline bool all(const stdx::simd_mask<Number, Abi>& mask) {
   return stdx::all_of(mask);
@@ -126,7 +127,7 @@ inline IntLanes int_lanes_with(std::uint32_t bits) {
   return select(mask_with<IntLanes::mask_type>(bits), -1, 0);
 }
 
-/// Writes lanes into a column of numbers, from one on.
+/// Writes lanes into a column of numbers, from place `first` on.
 template <class Numbers, class Column>
 void put_lanes(const Numbers& lanes, Column& column, std::size_t first) {
   lanes.copy_to(&column[first], stdx::element_aligned);
@@ -143,7 +144,7 @@ template <class To, class From>
   if constexpr (std::is_trivially_copyable_v<To> && std::is_trivially_copyable_v<From>) {
     return std::bit_cast<To>(from);
   } else {
-    // More lanes than the machine has side by side.
+    // These are more lanes than the machine has side by side.
     std::array<typename From::value_type, From::size()> numbers;
     from.copy_to(numbers.data(), stdx::element_aligned);
     const auto bits = std::bit_cast<std::array<typename To::value_type, To::size()>>(numbers);
@@ -159,7 +160,7 @@ inline Lanes to_doubles(const FloatLanes& a) {
   return stdx::static_simd_cast<Lanes>(a);
 }
 
-/// Returns which of eight numbers in a row are that one, as bits.
+/// Returns as bits which of eight numbers in a row are equal to `one`.
 inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t one) {
   return mask_of(lanes_at<BitOctet>(numbers) == one);
 }
@@ -189,11 +190,11 @@ inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t 
 
 // ---- formulas for one double or for lanes: templates over a Real, which is either ------------
 
-/// What comparing gives.
+/// MaskOf is what comparing two Reals gives.
 template <class Real>
 using MaskOf = decltype(Real{} < Real{});
 
-// Those of lanes are found where lanes come from.
+// Argument-dependent lookup finds those of lanes.
 using std::abs;
 using std::floor;
 using std::sqrt;
@@ -203,8 +204,8 @@ using std::fma;
 using std::max;
 using std::min;
 
-// Of two doubles of which one is NaN, max() returns the first, as std::max() does, and min() the
-// second. Of two floats both return the first.
+// If one of two doubles is NaN, max() returns the first, as std::max() does, and min() the second.
+// If one of two floats is NaN, both return the first.
 [[gnu::always_inline]] inline Lanes min(const Lanes& a, const Lanes& b) {
   return select(a < b, a, b);
 }
@@ -230,8 +231,8 @@ using std::min;
 #endif
 }
 
-/// Returns a b + c, rounded once or twice, whichever is faster: of use where a bound on the error
-/// covers both.
+/// Returns a b + c, rounded once or twice, whichever is faster. It is of use where a bound on the
+/// error covers both.
 [[gnu::always_inline]] inline FloatOctet multiply_add(const FloatOctet& a, const FloatOctet& b,
                                                       const FloatOctet& c) {
 #ifdef __FMA__
@@ -250,7 +251,7 @@ template <class Real>
 #endif
 }
 
-/// Whole numbers of as many bits as a Real's numbers have, by lane.
+/// BitsOf has whole numbers of as many bits as a Real's numbers have, by lane.
 template <class Real>
 using BitsOf =
     std::conditional_t<std::is_same_v<Real, double>, std::uint64_t,
@@ -282,7 +283,8 @@ inline double least(const Lanes& x) {
   return std::min(std::min<double>(x[0], x[1]), std::min<double>(x[2], x[3]));
 }
 
-/// Returns the same number in a Real, or numbers that are by lane already.
+/// Returns a Real whose lanes all hold the number. Numbers that are by lane already stay as they
+/// are.
 template <class Real>
 Real broadcast(double value) {
   return value;
@@ -292,7 +294,8 @@ Lanes broadcast(const Lanes& values) {
   return values;
 }
 
-/// Returns a mask for a Real, of bits as mask_of() has them; of one number the first.
+/// Returns a mask for a Real from bits in the order of mask_of(). For one number the first bit
+/// counts.
 template <class Real>
 MaskOf<Real> lanes_of_mask(std::uint32_t bits) {
   if constexpr (std::is_same_v<Real, double>) {
