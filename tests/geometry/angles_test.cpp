@@ -87,16 +87,16 @@ TEST_CASE("angles side by side are what each is by itself, to the last bit") {
   for (int i = 0; i < 100000; ++i) {
     Lanes x;
     Lanes y;
-    for (int lane = 0; lane < lane_count; ++lane) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const auto next = coordinates.next();
       x[lane] = next[0];
       y[lane] = next[1];
     }
     const Lanes turns = turn(x, y);
     const Lanes latitudes = latitude(abs(x), y);
-    for (int lane = 0; lane < lane_count; ++lane) {
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const double one_turn = turn(double{x[lane]}, double{y[lane]});
-      const double one_latitude = latitude(std::abs(x[lane]), double{y[lane]});
+      const double one_latitude = latitude(std::abs(double{x[lane]}), double{y[lane]});
       REQUIRE(double{turns[lane]} == one_turn);
       REQUIRE(double{latitudes[lane]} == one_latitude);
     }

@@ -144,7 +144,7 @@ banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verd
   'lamps?' 'eye rays?' 'eye-rays?' FirstBalls BallSearch Spine CsgSketch RayBundle small_things
   leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed)
 # What was not yet gone through: it holds the old words in comments.
-old_words_in='^src/core/((intersect|simd|accel|csg)/|render/(tracer|secondary_rays)\.|'
+old_words_in='^src/core/((intersect|simd|accel|csg)/|'
 old_words_in+='math/(vector_)?lanes\.hpp:)'
 # These hold the old words in names of variables and tests, but not in comments.
 old_names_in='^(src/core/render/query_packet\.hpp|tests/math/real_root_test\.cpp|'
@@ -163,8 +163,7 @@ sentences_in=('include/*' 'src/lang/*' 'src/cli/*' 'src/capi/*' 'src/core/base/*
   'src/core/ray/*' 'src/core/tasks/*' 'src/core/sampling/*' 'src/core/geometry/*'
   'src/core/shading/*' 'src/core/camera/*' 'src/core/compile/*' 'src/core/prepare/*'
   'src/core/render/*' 'src/core/image/*' 'tests/math/*' 'tests/geometry/*' 'tests/intersect/*'
-  'tests/csg/*' 'tests/accel/*' ':!src/core/math/lanes.hpp' ':!src/core/math/vector_lanes.hpp'
-  ':!src/core/render/tracer.*' ':!src/core/render/secondary_rays.*')
+  'tests/csg/*' 'tests/accel/*' ':!src/core/math/lanes.hpp' ':!src/core/math/vector_lanes.hpp')
 check_sentences() {
   # shellcheck disable=SC2016 # $0 is awk's
   tracked "${sentences_in[@]}" | xargs -r -d '\n' awk '

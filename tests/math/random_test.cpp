@@ -119,7 +119,8 @@ TEST_CASE("bits at the ends of their range are the same numbers four at a time")
   constexpr std::uint64_t all = 0xffffffffffffffffu;
   for (const std::uint64_t bits :
        {std::uint64_t{0}, all, all - 2047, std::uint64_t{2048}, all >> 21, all << 43}) {
-    CHECK(to_unit_interval(WordLanes{bits, 0, bits, all})[2] == to_unit_interval(bits));
+    const Lanes numbers = to_unit_interval(lanes_of<WordLanes>(bits, 0, bits, all));
+    CHECK(double{numbers[2]} == to_unit_interval(bits));
   }
   CHECK(to_unit_interval(all) < 1);
 }

@@ -133,7 +133,11 @@ TEST_CASE("a line that an proxy says to miss a torus, or to meet it, does") {
     const double end = random.integer(0, 1) == 0 ? 0x1p100 : random.uniform(0, 2) * distance;
 
     const FilterLine<double> line = filter_line(origin, direction, end);
-    const Decision<bool> decision = test_torus(torus.proxy(), torus.axis(), line, end);
+    Enclosure<double> part;
+    const Decision<bool> decision =
+        enclose(enclosed_torus(torus.proxy(), torus.axis()), line, true, part)
+            ? decide(part, line, end, true)
+            : Decision<bool>{.rejected = true, .accepted = false};
     const bool truth = is_met(torus.truth(origin, direction), end);
     CAPTURE(i);
     REQUIRE_FALSE((decision.rejected && truth));

@@ -22,6 +22,9 @@ TEST_CASE("each pixel has memory of its own, be it of small pages or large ones"
     }
     const auto value = [](std::size_t i) { return static_cast<double>(i % 4096); };
     for (std::size_t i = 0; i < count; ++i) pixels[i]->add_step({}, lanes_of(value(i)));
-    for (std::size_t i = 0; i < count; ++i) CHECK(pixels[i]->mean(SampleCount(1))[0] == value(i));
+    for (std::size_t i = 0; i < count; ++i) {
+      const double mean = pixels[i]->mean(SampleCount(1))[0];
+      CHECK(mean == value(i));
+    }
   }
 }

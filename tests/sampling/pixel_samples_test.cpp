@@ -58,7 +58,7 @@ PixelSamples sampled(const PixelSequence& sequence, std::int64_t end, const Func
   while (count < end) {
     add_step(pixel, count, [&](std::int64_t i) {
       const double value = function(sequence.point(static_cast<std::uint32_t>(i)));
-      return OneSample{Lanes{value, value, value, 1}, value > 0.5 ? 1u : 2u, 0.25};
+      return OneSample{lanes_of(value, value, value, 1), value > 0.5 ? 1u : 2u, 0.25};
     });
     count += samples_of_next_step(count);
   }
@@ -77,7 +77,7 @@ TEST_CASE("a pixel of one colour has that mean to the last bit, and no width") {
   PixelSamples pixel;
   std::int64_t count = 0;
   for (int pass = 0; pass < 40; ++pass) {
-    add_step(pixel, count, [](std::int64_t) { return OneSample{Lanes{0.1, 0.2, 1.0 / 3, 1}}; });
+    add_step(pixel, count, [](std::int64_t) { return OneSample{lanes_of(0.1, 0.2, 1.0 / 3, 1)}; });
     count += samples_of_next_step(count);
     const auto mean = pixel.mean(SampleCount(count));
     CHECK(static_cast<float>(mean[0]) == 0.1f);
@@ -98,7 +98,7 @@ TEST_CASE("the mean is that of all samples, whatever the pass") {
     for (std::int64_t i = 0; i < count; ++i)
       sum += wave(sequence.point(static_cast<std::uint32_t>(i)));
     const PixelSamples pixel = sampled(sequence, count, wave);
-    CHECK(pixel.mean(SampleCount(count))[1] ==
+    CHECK(double{pixel.mean(SampleCount(count))[1]} ==
           doctest::Approx(sum / static_cast<double>(count)).epsilon(1e-6));
     CHECK(pixel.dropped(count) == doctest::Approx(0.25));
   }
@@ -125,7 +125,7 @@ TEST_CASE(
     "what neighbours show counts more where a pixel shows several things itself or is out of "
     "focus") {
   const auto of_thing = [](double value, std::uint64_t identity) {
-    return [=](std::int64_t) { return OneSample{Lanes{value, value, value, 1}, identity}; };
+    return [=](std::int64_t) { return OneSample{lanes_of(value, value, value, 1), identity}; };
   };
   PixelSamples neighbour;
   add_step(neighbour, 0, of_thing(0.9, 1));
@@ -145,14 +145,14 @@ TEST_CASE("a pixel with a sample that is no number claims nothing") {
   PixelSamples pixel;
   for (std::int64_t i = 0; i < 8; ++i) {
     const double value = i == 3 ? std::numeric_limits<double>::quiet_NaN() : 0.5;
-    add_step(pixel, i, [&](std::int64_t) { return OneSample{Lanes{value, value, value, 1}}; });
+    add_step(pixel, i, [&](std::int64_t) { return OneSample{lanes_of(value, value, value, 1)}; });
   }
   CHECK(half_width(pixel, 8) == 1);
 }
 
 TEST_CASE("things that look alike keep a width where they meet") {
-  const auto one = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 1}; };
-  const auto other = [](std::int64_t) { return OneSample{Lanes{0.5, 0.5, 0.5, 1}, 2}; };
+  const auto one = [](std::int64_t) { return OneSample{lanes_of(0.5, 0.5, 0.5, 1), 1}; };
+  const auto other = [](std::int64_t) { return OneSample{lanes_of(0.5, 0.5, 0.5, 1), 2}; };
   PixelSamples pixel;
   for (std::int64_t i = 0; i < 8; ++i) add_step(pixel, i, one);
   CHECK(half_width(pixel, 8) == 0);
@@ -187,14 +187,16 @@ TEST_CASE("what a display clips has no width, and dark colours at a high gamma h
 
 TEST_CASE(
     "a width on a display is that of the worst channel, whatever pixels are looked at beside it") {
-  const MeanInterval dark{.mean = {0.01, 0.5, 0.2, 1}, .half_width = {0.01, 0.01, 0.3, 0}};
-  const MeanInterval bright{
-      .mean = {2, 0.9, 0.7, 1}, .half_width = {0.5, 0.2, 0.01, 0}, .least_shown = 0.2};
+  const MeanInterval dark{.mean = lanes_of(0.01, 0.5, 0.2, 1),
+                          .half_width = lanes_of(0.01, 0.01, 0.3, 0)};
+  const MeanInterval bright{.mean = lanes_of(2, 0.9, 0.7, 1),
+                            .half_width = lanes_of(0.5, 0.2, 0.01, 0),
+                            .least_shown = 0.2};
   const MeanInterval none{};
   const MeanInterval known{.least_shown = 0.5};
   for (const double gamma : {0.5, 1.0, 2.2}) {
     const DisplayScale scale(gamma);
-    const auto alone = [&](const MeanInterval& interval) {
+    const auto alone = [&](const MeanInterval& interval) -> double {
       return scale.half_widths({interval})[0];
     };
     const Lanes together = scale.half_widths({dark, none, bright, known});
@@ -216,9 +218,9 @@ TEST_CASE("values beyond all bounds do no harm") {
   for (const double last : {0.0, none}) {
     PixelSamples pixel;
     for (std::int64_t i = 0; i < 8; ++i) {
-      add_step(pixel, i, [&](std::int64_t) { return OneSample{Lanes{1e300, -1e300, last, 1}}; });
+      add_step(pixel, i, [&](std::int64_t) { return OneSample{lanes_of(1e300, -1e300, last, 1)}; });
     }
-    CHECK(std::isfinite(pixel.mean(SampleCount(8))[0]));
+    CHECK(std::isfinite(double{pixel.mean(SampleCount(8))[0]}));
     CHECK(half_width(pixel, 8) >= 0);
     CHECK(half_width(pixel, 8) <= 1);
   }
@@ -258,7 +260,7 @@ TEST_CASE("what steps show may be added together") {
   const double none = std::numeric_limits<double>::quiet_NaN();
   const auto sample_at = [&](std::int64_t i) {
     const double value = i % 5 == 3 ? none : std::sin(static_cast<double>(7 * i));
-    return OneSample{Lanes{value, -value, 0.1 * value, 1}, static_cast<std::uint64_t>(i > 11),
+    return OneSample{lanes_of(value, -value, 0.1 * value, 1), static_cast<std::uint64_t>(i > 11),
                      0.1 * static_cast<double>(i)};
   };
   for (const std::int64_t end : {8, 16, 32, 64}) {

@@ -116,9 +116,8 @@ TEST_CASE("points side by side are those that are found one by one") {
     for (const std::uint32_t first : {0u, 8u, 16u, 21u, 248u, 0xffffffc0u, 0xfffffff0u}) {
       const std::uint32_t end = first == 8 ? 13 : first == 16 ? 48 : first / size * size + size - 1;
       sequence.points(first, end, with_lens, window);
-      const auto number = [&](std::size_t dimension, std::uint32_t i) {
-        return window
-            .coordinates[dimension][i % size / lane_count][static_cast<int>(i % lane_count)];
+      const auto number = [&](std::size_t dimension, std::uint32_t i) -> double {
+        return window.coordinates[dimension][i % size / lane_count][i % lane_count];
       };
       for (std::uint32_t i = first; i < end; ++i) {
         const SequencePoint expected = with_lens ? sequence.point(i) : sequence.pixel_point(i);

@@ -184,7 +184,7 @@ TEST_CASE("four rays side by side are refracted as each alone, to the last bit")
       }
       const auto together = refract(lanes, lanes_of(up), lanes_of(n1), n2);
       for (std::size_t lane = 0; lane < lane_count; ++lane) {
-        const auto alone = refract(lanes.lane(lane), up, n1, n2[lane]);
+        const auto alone = refract(lanes.lane(lane), up, n1, double{n2[lane]});
         REQUIRE(together.reflectance[lane] == alone.reflectance);
         REQUIRE(together.direction.lane(lane) == alone.direction);
       }

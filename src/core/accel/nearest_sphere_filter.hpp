@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "core/csg/evaluate.hpp"
+#include "core/geometry/sphere/enclose.hpp"
 #include "core/ray/ray_packet.hpp"
 #include "core/simd/lanes.hpp"
 
@@ -82,34 +83,25 @@ class NearestSphereFilter {
                                          lanes_at<FloatOctet>(rays.direction[1]),
                                          lanes_at<FloatOctet>(rays.direction[2])};
     const auto inverse_squared_length = lanes_at<FloatOctet>(&inverse_squared_lengths_[first_ray]);
-    const FloatOctet closest = dot(w, d) * inverse_squared_length;
-    const std::array<FloatOctet, 3> across = {multiply_add(-closest, d[0], w[0]),
-                                              multiply_add(-closest, d[1], w[1]),
-                                              multiply_add(-closest, d[2], w[2])};
-    // Half the chord squared is between margin - slack and margin + slack, and that times d^2.
-    const float slack = distance_error * (2 * sphere.radius + distance_error);
-    const FloatOctet margin = sphere.radius * sphere.radius - dot(across, across);
-    const FloatOctet most = (margin + slack) * inverse_squared_length;
-    const FloatOctet half = sqrt(max(most, FloatOctet{}));
-    // sqrt(a^2 - x) >= a - x / a.
-    const FloatOctet less = 2 * slack * inverse_squared_length * inverse_or_more(half) + t_error;
-    const FloatOctet enters_from = closest - half - t_error;
-    const FloatOctet enters_to = closest - half + less;
-    const FloatOctet leaves_from = closest + half - less;
-    const FloatOctet leaves_to = closest + half + t_error;
+    const float margin_error = distance_error * (2 * sphere.radius + distance_error);
+    const auto approach =
+        closest_approach(w, d, inverse_squared_length, sphere.radius, margin_error);
+    const auto part =
+        enclosed_chord(approach, inverse_squared_length, margin_error, FloatOctet(t_error));
 
     const auto end = lanes_at<FloatOctet>(rays.end);
-    const OctetMask counts = valid & (most >= 0.0F) & (leaves_to >= 0.0F) & (enters_from <= end);
+    const OctetMask counts =
+        valid && approach.margin >= 0.0F && !part.is_outside(FloatOctet{}, end);
     // The others start on it, as far as floats know.
-    const OctetMask is_before = enters_from > 0.0F;
-    const OctetMask is_inside = enters_to < 0.0F;
-    const FloatOctet from = select(is_inside, leaves_from, enters_from);
-    const FloatOctet to = select(is_inside, leaves_to, enters_to);
+    const OctetMask is_before = part.enter_from > 0.0F;
+    const OctetMask is_inside = part.enter_to < 0.0F;
+    const FloatOctet from = select(is_inside, part.leave_from, part.enter_from);
+    const FloatOctet to = select(is_inside, part.leave_to, part.enter_to);
     const OctetMask sure =
-        counts & (margin > 1.5F * slack) & (is_before | (is_inside & (leaves_from > 0.0F)));
+        counts && part.is_met() && (is_before || (is_inside && part.leave_from > 0.0F));
     // Others that are so near may be at the same place.
     const FloatOctet clear_of = to + t_error;
-    const OctetMask is_first = sure & (clear_of < end);
+    const OctetMask is_first = sure && clear_of < end;
 
     const auto first_from = lanes_at<FloatOctet>(&first_from_[first_ray]);
     const auto others_from = lanes_at<FloatOctet>(&others_from_[first_ray]);
@@ -140,17 +132,6 @@ class NearestSphereFilter {
   const std::array<std::uint32_t, packet_size>& first() const { return first_; }
 
  private:
-  /// 1 / x or up to an eighth more, without a quotient, which takes long; x is not negative. The
-  /// bits of a float are nearly its logarithm (Blinn, Floating-point tricks, IEEE Computer Graphics
-  /// and Applications 17(4), 1997).
-  static FloatOctet inverse_or_more(const FloatOctet& x) {
-    constexpr std::uint32_t bits_of_one_twice = 0x7f000000;
-    return bits_as<FloatOctet>(bits_of_one_twice - bits_as<BitOctet>(x));
-  }
-  static FloatOctet dot(const std::array<FloatOctet, 3>& a, const std::array<FloatOctet, 3>& b) {
-    return multiply_add(a[2], b[2], multiply_add(a[1], b[1], a[0] * b[0]));
-  }
-
   alignas(32) std::array<float, packet_size> inverse_squared_lengths_;
   alignas(32) std::array<float, packet_size> first_from_;   ///< no crossing with the sphere found
                                                             ///< first is before that

@@ -26,7 +26,7 @@ std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
   const Surface surface = leaf.shape->surface(0);
   const std::optional<Vec3> place = leaf.placement->exactly_to_world(surface.position);
   if (!place || !has_fair_size(surface.sizes[0])) return {};
-  return IntervalFilter::Sphere{*place, surface.sizes[0]};
+  return IntervalFilter::Sphere{{*place, surface.sizes[0]}};
 }
 
 /// Returns a leaf in the world; nothing if it is no box. A box's faces are two across each axis.
@@ -93,7 +93,7 @@ const IntervalFilter::Box* IntervalFilter::box(std::uint32_t leaf) const {
 
 template <class Real>
 bool IntervalFilter::enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
-                             LeafInterval<Real>& interval) const {
+                             Enclosure<Real>& interval) const {
   const Place& place = places_[leaf];
   return place.is_box ? lines.enclose(boxes_[place.index], interval)
                       : lines.enclose(spheres_[place.index], interval);
@@ -178,7 +178,7 @@ class IntervalFilter::Search {
     rays = rays && from > lines_.lines().certain_from;
     for (const NearLeaf<Real>& leaf : near_.leaves()) {
       if (!any(rays)) break;
-      const LeafInterval<Real>& interval = leaf.interval;
+      const Enclosure<Real>& interval = leaf.interval;
       const bool leaving = wants_outside(leaf, value);
       Mask here = rays && (leaving ? interval.leave_from : interval.enter_from) == from;
       if (!any(here)) continue;

@@ -1,7 +1,7 @@
 // The interval filter finds where a ray first comes into a CSG object, or out of it, by plain
 // formulas. That is what most rays ask, for a fraction of what following all crossings costs.
 //
-// A line enters and leaves each leaf somewhere in an interval (leaf_intervals.hpp): between these
+// A line enters and leaves each leaf somewhere in an interval (enclosed_lines.hpp): between these
 // the leaf is surely inside or outside, and within them it is unknown. Where the root has one value
 // at first, the search advances to the first t at which it may have the other:
 //
@@ -23,7 +23,8 @@
 #include <span>
 #include <vector>
 
-#include "core/ray/filter_line.hpp"
+#include "core/geometry/box/enclose.hpp"
+#include "core/geometry/sphere/enclose.hpp"
 
 namespace crt::core {
 
@@ -70,8 +71,6 @@ inline BoundaryChanges<double> lane_of(const BoundaryChanges<Lanes>& changes, st
 
 template <class Real>
 class EnclosedLines;
-template <class Real>
-struct LeafInterval;
 class NearLeavesWorkspace;
 class RaySteps;
 
@@ -79,14 +78,10 @@ class RaySteps;
 /// have none.
 class IntervalFilter {
  public:
-  struct Sphere {
-    Vec3 center;
-    double radius;
+  struct Sphere : EnclosedSphere {
     std::uint32_t leaf = 0;  ///< its number within the object
   };
-  struct Box {
-    Vec3 lower{0, 0, 0};
-    Vec3 upper{0, 0, 0};
+  struct Box : EnclosedBox {
     std::uint32_t leaf = 0;
   };
 
@@ -123,7 +118,7 @@ class IntervalFilter {
   /// Encloses the part of lines in a leaf, as EnclosedLines has it.
   template <class Real>
   bool enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
-               LeafInterval<Real>& interval) const;
+               Enclosure<Real>& interval) const;
 
  private:
   template <class Real>

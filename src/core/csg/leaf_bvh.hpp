@@ -61,8 +61,8 @@ class LeafBvh {
     const LaneMask near =
         (spans.enter <= spans.leave) & (spans.leave >= part.enter) & (spans.enter <= part.leave);
     for (std::uint32_t met = mask_of(near) & ((1u << node.count) - 1); met != 0; met &= met - 1) {
-      const int i = std::countr_zero(met);
-      meet(node.children[static_cast<std::size_t>(i)], spans.enter[i]);
+      const auto i = static_cast<std::size_t>(std::countr_zero(met));
+      meet(node.children[i], spans.enter[i]);
     }
   }
 

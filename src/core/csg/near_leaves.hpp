@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include "core/csg/leaf_intervals.hpp"
+#include "core/csg/enclosed_lines.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/ray_steps.hpp"
 
@@ -20,7 +20,7 @@ inline constexpr std::uint32_t no_item = 0xffffffffu;
 /// A leaf that some line comes near.
 template <class Real>
 struct NearLeaf {
-  LeafInterval<Real> interval;
+  Enclosure<Real> interval;
   std::uint32_t leaf = 0;        ///< its number within the object
   std::uint32_t node = 0;        ///< the node above it
   std::uint32_t next = no_item;  ///< the next leaf below the same node

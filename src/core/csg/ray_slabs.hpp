@@ -89,7 +89,7 @@ class RaySlabs {
       steep |= is_steep;
     }
     for (std::uint32_t left = mask_of(steep) & some; left != 0; left &= left - 1) {
-      const int i = std::countr_zero(left);
+      const auto i = static_cast<std::size_t>(std::countr_zero(left));
       const Vec3 origin(lines.origin[0][i], lines.origin[1][i], lines.origin[2][i]);
       const Vec3 direction(lines.direction[0][i], lines.direction[1][i], lines.direction[2][i]);
       const LineSpan of_line = RaySlabs(origin, direction, origin_errors[i]).span(box);

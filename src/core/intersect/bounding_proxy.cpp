@@ -110,8 +110,7 @@ BoundingProxy proxy_of_csg(const CompiledScene& scene, const SceneObject& object
 ProxyBox proxy_box(const CompiledScene& scene, std::uint32_t index) {
   const Leaf& leaf = scene.leaves[index];
   const Bounds bounds = leaf.shape->bounds();
-  ProxyBox box{
-      .lower = bounds.lower, .upper = bounds.upper, .leaf = index, .is_resolved = !leaf.exact};
+  ProxyBox box{{bounds.lower, bounds.upper}, index, !leaf.exact};
   for (std::size_t face = 0; face < ProxyBox::face_count; ++face) {
     const FaceSurface& surface = scene.face_surfaces[leaf.first_face + face];
     box.surfaces[face] = surface.surface;

@@ -120,10 +120,9 @@ FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const Pr
 }
 
 /// Finds where lines that pass through a box enter it, or else leave it, if that is plainly on one
-/// face. Next to an edge the exact test says which face is met. The box has members `lower` and
-/// `upper`, as ProxyBox does.
-template <class Real, class Box>
-FirstCrossing<Real> end_in_box(const Box& box, const BoxMeetings<Real>& meetings,
+/// face. Next to an edge the exact test says which face is met.
+template <class Real>
+FirstCrossing<Real> end_in_box(const EnclosedBox& box, const BoxMeetings<Real>& meetings,
                                const FilterLine<Real>& line, const MaskOf<Real>& enters) {
   // The greatest of three, of which the second must plainly be less.
   const std::array<Real, 3> t = {select(enters, meetings.enter[0], -meetings.leave[0]),

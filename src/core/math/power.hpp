@@ -15,10 +15,6 @@ namespace crt::core {
 
 namespace power_detail {
 
-/// BitsOf has 64 bits for each number of a Real.
-template <class Real>
-using BitsOf = std::conditional_t<std::is_same_v<Real, double>, std::uint64_t, WordLanes>;
-
 inline constexpr int fraction_bits = 52;
 inline constexpr std::uint64_t bits_of_one = 0x3ff0000000000000;
 /// Adding this puts a whole number that is not too large into the lowest bits of the sum.

@@ -31,18 +31,4 @@ PlainRay<Real> plain_ray(const FilterLine<Real>& line) {
   return {.origin = {o[0], o[1], o[2]}, .direction = {d[0], d[1], d[2]}};
 }
 
-template <class Mask>
-struct Decision {
-  Mask rejected;  ///< no crossing counts
-  Mask accepted;  ///< at least one crossing surely counts
-};
-
-namespace filter_detail {
-
-/// This relative margin is 128 roundings. It covers the rounding of the sums in the conservative
-/// tests and what the exact test may decide otherwise.
-inline constexpr double slack = 0x1p-46;
-
-}  // namespace filter_detail
-
 }  // namespace crt::core

@@ -54,14 +54,14 @@ void add_light(ByteHash& hash, const Frame& frame, const Region& region, Progres
   std::array<LensPointLanes, RayPacket::group_count> lens_points;
   lens_points.fill(frame.camera().lens_points(lanes_of(middle), lanes_of(middle)));
   std::array<RayLanes, RayPacket::group_count> rays;
-  std::array<Tracer::Sample, packet_size> all_samples;
+  std::array<Sample, packet_size> all_samples;
   std::size_t count = 0;
   const auto trace = [&] {
-    const std::span<Tracer::Sample> samples = std::span(all_samples).first(count);
+    const std::span<Sample> samples = std::span(all_samples).first(count);
     const std::size_t with_lens = frame.features().lens ? lens_points.size() : 0;
     frame.camera().rays(count, places, std::span(lens_points).first(with_lens), rays);
     tracer.trace(rays, samples);
-    for (const Tracer::Sample& sample : samples) {
+    for (const Sample& sample : samples) {
       for (std::size_t channel = 0; channel < lane_count; ++channel)
         add(hash, sample.channels[channel]);
     }

@@ -25,14 +25,14 @@ class PacketTracer {
         tracer_(tracer) {}
 
   struct Traced {
-    std::span<const Tracer::Sample> samples;
+    std::span<const Sample> samples;
     std::span<const FirstHit> first_hits;  ///< none if nobody asks for them
   };
   /// Traces the first `count` rays.
   Traced trace(const RayPlaces& places, std::size_t count) {
     const std::size_t with_lens = with_lens_ ? places.lens.size() : 0;
     camera_.rays(count, places.picture, std::span(places.lens).first(with_lens), rays_);
-    const std::span<Tracer::Sample> samples = std::span(samples_).first(count);
+    const std::span<Sample> samples = std::span(samples_).first(count);
     const std::span<FirstHit> first_hits =
         std::span(first_hits_).first(with_first_hits_ ? count : 0);
     tracer_.trace(rays_, samples, first_hits);
@@ -45,7 +45,7 @@ class PacketTracer {
   bool with_first_hits_;
   Tracer& tracer_;
   std::array<RayLanes, RayPacket::group_count> rays_;
-  std::array<Tracer::Sample, packet_size> samples_;
+  std::array<Sample, packet_size> samples_;
   std::array<FirstHit, packet_size> first_hits_;
 };
 

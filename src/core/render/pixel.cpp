@@ -143,7 +143,7 @@ class GridSums {
 
   void add(const PacketTracer::Traced& traced, const GridRays::Pixels& pixels) {
     for (std::size_t i = 0; i < traced.samples.size(); ++i) {
-      const Tracer::Sample& sample = traced.samples[i];
+      const Sample& sample = traced.samples[i];
       PixelMean& pixel = sums_[pixels[i]];
       PixelMean& sum = lens_points_ == 1 ? pixel : lens_sum_;
       sum.channels += sample.channels;

@@ -10,7 +10,7 @@ namespace crt::core {
 /// A PixelMean is a pixel: the mean over its samples.
 struct PixelMean {
   Lanes channels;  ///< red, green, blue, alpha
-  double dropped;  ///< see Tracer::Sample
+  double dropped;  ///< see Sample
 };
 
 /// Computes the pixels of a part of the picture, row by row, into `pixels`. Each is the mean over a

@@ -159,14 +159,14 @@ class PassSums {
     missing_ = steps_[0].size;
   }
 
-  void add(std::span<const Tracer::Sample> samples) {
+  void add(std::span<const Sample> samples) {
     const PixelPlace* pixel = pixel_;
     const Step* step = &steps_[step_];
     std::int64_t missing = missing_;
     Lanes sum = sum_;
     SeenSamples seen = seen_;
-    const Tracer::Sample* const end = samples.data() + samples.size();
-    for (const Tracer::Sample* sample = samples.data(); sample != end;) {
+    const Sample* const end = samples.data() + samples.size();
+    for (const Sample* sample = samples.data(); sample != end;) {
       const bool begins_pixel = step == steps_.data() && missing == step->size;
       if (begins_pixel) {
         if (is_first_range_) std::construct_at(pixel->samples, blank_);
@@ -179,7 +179,7 @@ class PassSums {
           ++step;
         } while (++sample != end && step->size == 1);
       } else {
-        const Tracer::Sample* const until = sample + std::min(end - sample, missing);
+        const Sample* const until = sample + std::min(end - sample, missing);
         missing -= until - sample;
         do {
           seen.add(sample->channels, sample->dropped, sample->identity);

@@ -20,20 +20,19 @@ struct SurfaceGroup {
   Lanes reflectivity{};     ///< of the materials
   Lanes transparency{};
   RayMask sending_on = 0;  ///< those whose materials do not end paths
-  RayMask like_first = 0;  ///< those on the same side of the same face as the first of them
   Lanes path_length{};     ///< from the camera
-  VectorLanes light;       ///< the light that they send back, as far as it is added up
 };
 
 /// A SurfaceLane is one surface of a group.
 struct SurfaceLane {
-  SurfaceGroup& group;
+  const SurfaceGroup& group;
   std::size_t lane;
 
   Vec3 position() const { return group.position.lane(lane); }
   Vec3 normal() const { return group.phong.normal.lane(lane); }
   Rgb color() const { return group.phong.color.lane(lane); }
-  Rgb light() const { return group.light.lane(lane); }
+  double transparency() const { return group.transparency[lane]; }
+  double path_length() const { return group.path_length[lane]; }
 
   /// Returns the start of a ray that leaves to the viewer's side.
   StartPoint start() const {
@@ -47,6 +46,14 @@ struct SurfaceLane {
     behind.side = opposite(behind.side);
     return behind;
   }
+};
+
+/// Surfaces are what the rays of a packet meet.
+struct Surfaces {
+  RayMask rays = 0;  ///< those that meet a surface
+  std::array<SurfaceGroup, RayPacket::group_count> groups;
+
+  SurfaceLane of(std::size_t ray) const { return {groups[ray / lane_count], ray % lane_count}; }
 };
 
 }  // namespace crt::core

@@ -86,7 +86,6 @@ void look_up(const PreparedData& data, const RayLanes& rays,
     const PreparedMaterial& material = data.materials()[data.hit_material(first)];
     const AlikeRays rays_alike = faces.alike(to_come);
     const AlikeHits alike = {hits, first, material, rays_alike.all()};
-    if (to_come == seen) group.like_first = rays_alike.on_face;
     to_come &= ~alike.rays;
 
     const Side side = first.entering ? Side::outside : Side::inside;

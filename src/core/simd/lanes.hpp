@@ -271,6 +271,38 @@ using std::min;
   return a * b + c;
 #endif
 }
+template <class Real>
+[[gnu::always_inline]] inline Real multiply_add(const Real& a, const Real& b, const Real& c) {
+#ifdef __FMA__
+  return fma(a, b, c);
+#else
+  return a * b + c;
+#endif
+}
+
+/// Whole numbers of as many bits as a Real's numbers have, by lane.
+template <class Real>
+using BitsOf =
+    std::conditional_t<std::is_same_v<Real, double>, std::uint64_t,
+                       std::conditional_t<std::is_same_v<Real, Lanes>, WordLanes, BitOctet>>;
+
+/// Returns 1 / x or up to an eighth more, without a quotient, which takes long. x is not negative;
+/// above 2^100 the result is that of 2^100. The bits of a number are nearly its logarithm (Blinn,
+/// Floating-point tricks, IEEE Computer Graphics and Applications 17(4), 1997).
+template <class Real>
+[[gnu::always_inline]] inline Real inverse_or_more(const Real& x) {
+  using Bits = BitsOf<Real>;
+  constexpr bool is_double = !std::is_same_v<Real, FloatOctet>;
+  constexpr auto bits_of_one_twice = [] {
+    if constexpr (is_double) {
+      return std::uint64_t{0x7fe0000000000000};
+    } else {
+      return std::uint32_t{0x7f000000};
+    }
+  }();
+  const Real within = min(x, Real(0x1p100F));
+  return bits_as<Real>(Bits(bits_of_one_twice - bits_as<Bits>(within)));
+}
 
 /// Returns the least of all lanes.
 inline double least(double x) {
@@ -298,6 +330,14 @@ MaskOf<Real> lanes_of_mask(std::uint32_t bits) {
   } else {
     return lanes_with(bits);
   }
+}
+
+/// Returns the scalar product of vectors by component, of doubles or of lanes, as multiply_add()
+/// rounds it.
+template <class Real>
+[[gnu::always_inline]] inline Real fused_dot(const std::array<Real, 3>& a,
+                                             const std::array<Real, 3>& b) {
+  return multiply_add(a[2], b[2], multiply_add(a[1], b[1], a[0] * b[0]));
 }
 
 /// Returns the scalar product of vectors by component, of doubles or of lanes.

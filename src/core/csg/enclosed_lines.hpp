@@ -1,0 +1,83 @@
+// Lines whose parts within the leaves of a CSG object are asked for.
+#pragma once
+
+#include <array>
+#include <limits>
+
+#include "core/csg/interval_filter.hpp"
+#include "core/ray/enclosure.hpp"
+
+namespace crt::core {
+
+/// Lines whose intervals within leaves are asked for.
+template <class Real>
+class EnclosedLines {
+ public:
+  using Mask = MaskOf<Real>;
+  using Sphere = IntervalFilter::Sphere;
+  using Box = IntervalFilter::Box;
+
+  EnclosedLines(const FilterLine<Real>& lines, const Real& limits, const Mask& asked)
+      : lines_(lines), asked_(asked), limits_(finite(limits)) {
+    constexpr double steepest = 0x1p500;
+    asked_ = asked_ && lines.squared_length > 1 / steepest && lines.squared_length < steepest;
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      asked_ = asked_ && (lines.direction[axis] == 0.0 || abs(lines.inverse[axis]) < steepest);
+    }
+  }
+
+  const FilterLine<Real>& lines() const { return lines_; }
+  const Real& limits() const { return limits_; }  ///< finite, unlike what never comes
+  /// Those of the lines whose directions can be squared and divided by. The intervals of the others
+  /// mean nothing.
+  const Mask& asked() const { return asked_; }
+
+  /// Encloses the part of the lines in a leaf. Returns false if all lines surely are outside as
+  /// long as it matters; the enclosure then means nothing.
+  template <class Solid>
+  bool enclose(const Solid& solid, Enclosure<Real>& part) const {
+    return core::enclose(solid, lines_, asked_, part)&& restrict(part);
+  }
+
+  /// Returns whether a ray's origin is off a sphere by what rounding makes of 0.
+  bool starts_on(const Sphere& sphere, std::size_t lane) const {
+    return any(lane_bit(lane) && core::starts_on(sphere, lines_));
+  }
+
+  /// Returns whether a ray comes at an upper face of a box across an axis from its outside, or else
+  /// at a lower one.
+  bool goes_into_box(std::size_t axis, bool upper, std::size_t lane) const {
+    const Real& speed = lines_.direction[axis];
+    return any(lane_bit(lane) && (upper ? speed < 0.0 : speed > 0.0));
+  }
+  bool starts_at_0(std::size_t lane) const { return any(lane_bit(lane) && lines_.begin == 0.0); }
+  /// Returns whether a ray that starts into a leaf is inside of it as soon as crossings count.
+  bool is_inside_soon(const Enclosure<Real>& interval, std::size_t lane) const {
+    const Mask soon =
+        interval.enter_to <= lines_.certain_from && interval.leave_from > lines_.certain_from;
+    return any(lane_bit(lane) && soon);
+  }
+
+  static Mask lane_bit(std::size_t lane) { return lanes_of_mask<Real>(std::uint32_t{1} << lane); }
+
+ private:
+  /// Leaves what matters of an enclosure. What may be at the start may be before it as well.
+  /// Returns false if nothing matters.
+  bool restrict(Enclosure<Real>& part) const {
+    const auto widened = [&](const Real& from) {
+      return select(from <= lines_.certain_from, min(from, lines_.begin), from);
+    };
+    part.enter_from = widened(part.enter_from);
+    part.leave_from = widened(part.leave_from);
+    const Mask outside = part.is_outside(lines_.begin, limits_);
+    if (!any(asked_ && !outside)) return false;
+    if (any(outside)) part.set_outside(outside);
+    return true;
+  }
+
+  const FilterLine<Real>& lines_;
+  Mask asked_;
+  Real limits_;
+};
+
+}  // namespace crt::core

@@ -1,0 +1,118 @@
+#include "core/render/direct_light.hpp"
+
+#include <bit>
+#include <limits>
+
+#include "core/math/vector.hpp"
+#include "core/render/sample_identity.hpp"
+#include "core/render/shadow.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Returns how far rounding may put a light from surfaces that it is meant to be on.
+Lanes light_errors(const VectorLanes& points, const LightSamples& light) {
+  constexpr double roundings = 16;
+  const Lanes error =
+      roundings * unit_roundoff *
+      fma(light.distances, largest_component(light.directions), largest_component(points));
+  return select(light.distances == std::numeric_limits<double>::infinity(), Lanes{}, error);
+}
+
+/// Lets shadow rays start at the surfaces that any light makes brighter.
+void start_at(const Surfaces& surfaces, RayBatch& batch) {
+  batch.with_starts = 0;
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
+    const SurfaceGroup& group = surfaces.groups[i];
+    const LaneMask is_lit = (group.phong.diffuse > 0.0) | (group.phong.specular > 0.0);
+    batch.start_errors[i] = group.start_errors;
+    for_each_ray(lanes & mask_of(is_lit), [&](std::size_t lane) {
+      batch.starts[i * lane_count + lane] = group.starts[lane];
+      batch.with_starts |= RayMask{1} << (i * lane_count + lane);
+    });
+  });
+}
+
+/// Aims shadow rays from some surfaces at a light. Returns to which it may come at all.
+RayMask aim_at(const PreparedLight& source, const Surfaces& surfaces, RayMask some,
+               ShadowRays& rays) {
+  RayMask aimed = 0;
+  LightSamples& samples = rays.samples;
+  RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
+    const SurfaceGroup& group = surfaces.groups[i];
+    LaneMask lit = lanes_with(lanes);
+    lit &= source.sample(group.position, group.path_length, samples);
+    lit &= dot(samples.directions, group.face_normal) > 0.0;
+    direct_light(group.phong, samples, source.color(), lit, rays.light[i]);
+    lit &= !is_black(rays.light[i]);
+    aimed |= mask_of(lit) << (i * lane_count);
+    rays.batch.lines[i] = {group.position, samples.directions};
+    rays.batch.t_max[i] = samples.distances;
+    rays.batch.end_errors[i] = light_errors(group.position, samples);
+  });
+  return aimed;
+}
+
+/// Finds what is on the paths of some shadow rays.
+LightPaths paths_to_light(TraceContext& context, const RayBatch& batch, const PacketStarts& starts,
+                          RayMask some) {
+  const auto count = static_cast<unsigned>(std::popcount(some));
+  context.work.stats.shadow_rays += count;
+  context.count_rays(count);
+  const PreparedData& data = context.data;
+  RayWorkspace& work = context.work.rays;
+  if (data.features().transparency) return data.paths_to_light(batch, starts, some, work);
+  return {.blocked = data.occluded_each(batch, starts, some, work)};
+}
+
+/// Adds what gets through from all lights to surfaces and is sent back.
+void add_lights(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
+                ShadowRays& shadow_rays, PathLight& sum) {
+  Workspace& work = context.work;
+  RayBatch& batch = shadow_rays.batch;
+  start_at(surfaces, batch);
+  const RayMask some = batch.with_starts;
+  if (some == 0) return;
+  const PacketStarts starts = context.data.noted_starts(batch, some);
+  const RayMask absorbed = context.data.features().absorption ? rays.in_media() : 0;
+  std::size_t light_index = 0;
+  for (const PreparedLight& source : context.frame.lights()) {
+    const RayMask sent = aim_at(source, surfaces, some, shadow_rays);
+    const LightPaths paths = paths_to_light(context, batch, starts, sent);
+    if (context.identifies) identify_shadows(rays, light_index, paths.blocked | paths.filtered);
+    ++light_index;
+    const RayMask unblocked = sent & ~paths.blocked;
+    const RayMask filtered = paths.filtered | (unblocked & absorbed);
+    RayPacket::for_each_group(unblocked & ~filtered, [&](std::size_t i, RayMask lanes) {
+      VectorLanes& light = sum.colors[i];
+      light = select(lanes_with(lanes), light + shadow_rays.light[i], light);
+    });
+    for_each_ray(filtered, [&](std::size_t i) {
+      const Rgb share = light_share(context.data, batch.ray(i), work.rays.on_paths[i],
+                                    rays.works[i]->media, rays.states[i].media, work);
+      const std::size_t lane = i % lane_count;
+      VectorLanes& light = sum.colors[i / lane_count];
+      light.set(lane, light.lane(lane) + shadow_rays.light[i / lane_count].lane(lane) * share);
+    });
+  }
+}
+
+}  // namespace
+
+PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
+                       ShadowRays& shadow_rays) {
+  PathLight light;
+  if (surfaces.rays == 0) return light;
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask) {
+    light.colors[i] = ambient_light(context.frame.ambient(), surfaces.groups[i].reflectivity);
+  });
+  add_lights(context, rays, surfaces, shadow_rays, light);
+  RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {
+    light.rays |= (lanes & ~mask_of(is_black(light.colors[i]))) << (i * lane_count);
+    light.colors[i] = rays.weights[i] * light.colors[i];
+  });
+  return light;
+}
+
+}  // namespace crt::core

@@ -1,0 +1,19 @@
+// Direct light is what surfaces send back along paths of the light that comes straight from lights.
+#pragma once
+
+#include "core/render/path_hits.hpp"
+
+namespace crt::core {
+
+/// ShadowRays are memory for the rays from a round's surfaces to a light.
+struct ShadowRays {
+  RayBatch batch;
+  std::array<VectorLanes, RayPacket::group_count> light;  ///< that comes if they meet nothing
+  LightSamples samples;  ///< of a group; a new one for each would be filled with zeros first
+};
+
+/// Returns what surfaces send back of the ambient light, and of all lights that reach them.
+PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfaces& surfaces,
+                       ShadowRays& shadow_rays);
+
+}  // namespace crt::core

@@ -1,0 +1,74 @@
+#include "core/render/path_hits.hpp"
+
+#include <limits>
+
+#include "core/render/surface_hit.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// Returns the hit of that surface which is seen of several at the place of a ray's first hit.
+RayHit seen_hit(TraceContext& context, const WorldRay& ray) {
+  Workspace& work = context.work;
+  RayHit seen = context.data.intersect(ray, work.rays);
+  double least = std::numeric_limits<double>::infinity();
+  for (const RayHit& crossing : work.rays.here) {
+    const double transparency =
+        crossing_filter(context.data, ray, crossing, work.stats).transparency;
+    if (!(transparency < least)) continue;
+    least = transparency;
+    seen = crossing;
+  }
+  seen.has_coincident = true;
+  return seen;
+}
+
+}  // namespace
+
+PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits) {
+  const PreparedData& data = context.data;
+  context.count_rays(static_cast<unsigned>(rays.count));
+  data.intersect_each(rays.batch, rays.all(), hits.hits, context.work.rays);
+  data.prefetch_points(hits.hits, rays.all());
+  hits.found = 0;
+  hits.seen = rays.all();
+  for (std::size_t i = 0; i < rays.count; ++i) {
+    RayHit& hit = hits.hits[i];
+    if (hit.has_coincident && data.features().transparency) {
+      hit = seen_hit(context, rays.batch.ray(i));
+    }
+    hits.found |= static_cast<RayMask>(hit.found()) << i;
+  }
+  return hits;
+}
+
+void absorb(const TraceContext& context, PathRays& rays, PathHits& hits) {
+  if (!context.data.features().absorption) return;
+  for_each_ray(rays.in_media(), [&](std::size_t i) {
+    const Medium& medium = rays.works[i]->media.innermost(rays.states[i].media);
+    VectorLanes& weights = rays.weights[i / lane_count];
+    const Rgb left = weights.lane(i % lane_count) *
+                     transmittance(context.data.materials()[medium.material], hits.hits[i].t);
+    weights.set(i % lane_count, left);
+    if (is_black(left)) hits.seen &= ~(RayMask{1} << i);
+  });
+}
+
+const Surfaces& surfaces_of(TraceContext& context, const PathRays& rays, const PathHits& hits,
+                            bool with_unseen, Surfaces& surfaces) {
+  surfaces.rays = hits.on_surface();
+  const RayMask some = with_unseen ? hits.found : surfaces.rays;
+  RayPacket::for_each_group(some, [&](std::size_t i, RayMask lanes) {
+    SurfaceGroup& group = surfaces.groups[i];
+    const std::size_t first = i * lane_count;
+    const auto of_group = std::span(hits.hits).subspan(first).first<lane_count>();
+    look_up(context.data, rays.batch.lines[i], of_group, lanes, group, context.work);
+    const PathState* const states = &rays.states[first];
+    group.path_length =
+        Lanes([&](auto lane) { return states[lane].path_length + of_group[lane].t; });
+  });
+  return surfaces;
+}
+
+}  // namespace crt::core

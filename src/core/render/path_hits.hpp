@@ -1,0 +1,32 @@
+// These steps of the loop find what the rays of a round meet, and what of it is seen.
+#pragma once
+
+#include "core/render/path_rays.hpp"
+#include "core/render/surface_group.hpp"
+#include "core/render/trace_context.hpp"
+
+namespace crt::core {
+
+/// PathHits are where the rays of a round end.
+struct PathHits {
+  std::array<RayHit, packet_size> hits;
+  RayMask found = 0;  ///< rays that have met a surface
+  RayMask seen = 0;   ///< rays from whose ends light gets through
+
+  RayMask on_surface() const { return found & seen; }
+  RayMask on_background() const { return seen & ~found; }
+};
+
+/// Finds what the rays meet first. Where several objects have surfaces at that place, the hit is of
+/// the one that lets the least light through, of equal ones the one that was written first.
+PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits);
+
+/// Takes from the rays' weights what the media around them absorb on the way to their hits. The
+/// hits of those of which nothing is left are not seen.
+void absorb(const TraceContext& context, PathRays& rays, PathHits& hits);
+
+/// Looks up the surfaces that are seen, and the others too if they are asked for.
+const Surfaces& surfaces_of(TraceContext& context, const PathRays& rays, const PathHits& hits,
+                            bool with_unseen, Surfaces& surfaces);
+
+}  // namespace crt::core

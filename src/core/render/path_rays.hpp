@@ -1,0 +1,73 @@
+// Samples follow these rays side by side, and this light comes along them.
+#pragma once
+
+#include <array>
+#include <span>
+
+#include "core/render/workspace.hpp"
+
+namespace crt::core {
+
+/// A Sample is what comes along a camera ray.
+struct Sample {
+  /// They are red, green and blue, premultiplied with the last, alpha.
+  Lanes channels = lanes_of(0, 0, 0, 1);
+  /// The weight of rays that were not followed, of the channel that lost most.
+  double dropped = 0;
+  std::uint64_t identity = 0;  ///< see sample_identity.hpp; 0 if nobody asks for it
+};
+
+/// PathRays are those of one round: one for each sample that is not done. They are known by their
+/// numbers. Either all of them come from the camera, or none does.
+struct PathRays {
+  std::size_t count = 0;
+  RayBatch batch;
+  std::array<VectorLanes, RayPacket::group_count> weights;  ///< shares of the pixels' light
+  std::array<PathState, packet_size> states;
+  std::array<SampleWork*, packet_size> works;
+  std::array<Sample*, packet_size> samples;
+
+  bool empty() const { return count == 0; }
+  RayMask all() const { return RayPacket::all(count); }
+  /// Returns those that start within a transparent solid.
+  RayMask in_media() const {
+    RayMask mask = 0;
+    for (std::size_t i = 0; i < count; ++i) {
+      mask |= static_cast<RayMask>(states[i].media != MediaLists::empty) << i;
+    }
+    return mask;
+  }
+  bool are_from_camera() const { return states[0].kind == RayKind::camera; }
+
+  /// Adds the ray that a sample follows next.
+  void add(const PathRay& ray, SampleWork& work, Sample& sample) {
+    batch.set(count, ray.origin, ray.direction, ray.start);
+    weights[count / lane_count].set(count % lane_count, ray.weight);
+    states[count] = ray.path;
+    works[count] = &work;
+    samples[count] = &sample;
+    ++work.rays;
+    ++count;
+  }
+};
+
+/// A PathLight reaches the camera along some rays of a round.
+struct PathLight {
+  RayMask rays = 0;
+  std::array<VectorLanes, RayPacket::group_count> colors;
+};
+
+/// Adds light to the samples of the rays that it comes along.
+inline void add(std::span<Sample* const, packet_size> samples, const PathLight& light) {
+  RayPacket::for_each_group(light.rays, [&](std::size_t group, RayMask lanes) {
+    const auto colors = by_lane(light.colors[group]);
+    Sample* const* const first = &samples[group * lane_count];
+    if (lanes == RayPacket::group_mask) {  // Most groups are full, and this needs no branches.
+      for (std::size_t lane = 0; lane < lane_count; ++lane) first[lane]->channels += colors[lane];
+    } else {
+      for_each_ray(lanes, [&](std::size_t lane) { first[lane]->channels += colors[lane]; });
+    }
+  });
+}
+
+}  // namespace crt::core

@@ -1,0 +1,231 @@
+// What the primitives' enclose() says is certain holds for what their shapes find: where lines
+// enter and leave, and what follows for the crossings that count.
+#include <doctest/doctest.h>
+
+#include <array>
+#include <cmath>
+#include <limits>
+
+#include "core/geometry/box/enclose.hpp"
+#include "core/geometry/frustum/enclose.hpp"
+#include "core/geometry/plane/enclose.hpp"
+#include "core/geometry/shape.hpp"
+#include "core/geometry/sphere/enclose.hpp"
+#include "core/geometry/torus/enclose.hpp"
+#include "core/ray/line_of_ray.hpp"
+#include "geometry/oracle.hpp"
+
+using namespace crt;
+using namespace crt::core;
+using namespace crt::test;
+
+namespace {
+
+/// Returns a ray towards a solid of about that size around a center. Some are along a coordinate
+/// axis, some end within the solid, and some start there.
+WorldRay random_ray(Random& random, const Vec3& center, double size) {
+  const Vec3 aim = center + 1.5 * size * random.in_cube();
+  Vec3 direction = random.direction();
+  if (random.one_in(4)) direction = {0, 0, random.one_in(2) ? 1.0 : -1.0};
+  const double distance = random.uniform(-1, 6) * size;
+  WorldRay ray{.origin = aim - distance * direction, .direction = direction};
+  if (random.one_in(3)) ray.t_max = random.uniform(0, 8) * size;
+  return ray;
+}
+
+/// Returns four lines side by side.
+FilterLine<Lanes> side_by_side(const std::array<FilterLine<double>, lane_count>& lines) {
+  FilterLine<Lanes> result;
+  const auto column = [&](auto number_of) {
+    return Lanes([&](auto lane) { return double{number_of(lines[lane])}; });
+  };
+  using Line = FilterLine<double>;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    result.origin[axis] = column([axis](const Line& line) { return line.origin[axis]; });
+    result.direction[axis] = column([axis](const Line& line) { return line.direction[axis]; });
+    result.inverse[axis] = column([axis](const Line& line) { return line.inverse[axis]; });
+  }
+  result.squared_length = column([](const Line& line) { return line.squared_length; });
+  result.inverse_squared_length =
+      column([](const Line& line) { return line.inverse_squared_length; });
+  result.inverse_length = column([](const Line& line) { return line.inverse_length; });
+  result.begin = column([](const Line& line) { return line.begin; });
+  result.start_error = column([](const Line& line) { return line.start_error; });
+  result.certain_from = column([](const Line& line) { return line.certain_from; });
+  result.certain_to = column([](const Line& line) { return line.certain_to; });
+  return result;
+}
+
+/// Counts what is certain of lines.
+struct Counts {
+  int rejected = 0;
+  int accepted = 0;
+  int missing = 0;
+  int meeting = 0;
+};
+
+/// Checks that crossings are where the enclosure of a solid has them. What is NaN says nothing.
+void check_enclosed(const CrossingList& crossings, const Enclosure<double>& part) {
+  if (crossings.empty()) {
+    REQUIRE_FALSE(part.is_met());
+    return;
+  }
+  const Crossing& first = crossings.front();
+  const Crossing& last = crossings.back();
+  REQUIRE_FALSE(first.t - first.error < part.enter_from);
+  REQUIRE_FALSE(last.t + last.error > part.leave_to);
+  if (!part.is_met()) return;
+  REQUIRE_FALSE(first.t + first.error > part.enter_to);
+  REQUIRE_FALSE(last.t - last.error < part.leave_from);
+  for (const Crossing& crossing : crossings) {
+    REQUIRE_FALSE((crossing.t > part.enter_to && crossing.t < part.leave_from));
+  }
+}
+
+/// Checks what is decided of the crossings that count.
+void check_decision(const CrossingList& crossings, const WorldRay& ray,
+                    const Decision<bool>& decision, Counts& counts) {
+  bool one_counts = false;
+  for (const Crossing& crossing : crossings) {
+    one_counts = one_counts || (crossing.t > ray.t_min && crossing.t <= ray.t_max);
+  }
+  REQUIRE_FALSE((decision.rejected && one_counts));
+  REQUIRE_FALSE((decision.accepted && !one_counts));
+  ++(one_counts ? counts.meeting : counts.missing);
+  counts.rejected += decision.rejected ? 1 : 0;
+  counts.accepted += decision.accepted ? 1 : 0;
+}
+
+Enclosure<double> lane_of(const Enclosure<Lanes>& part, std::size_t lane) {
+  return {part.enter_from[lane], part.enter_to[lane], part.leave_from[lane], part.leave_to[lane]};
+}
+
+/// Checks rays, alone and side by side, with a solid's shape and what encloses it.
+template <class Solid>
+void check_rays(const Primitive& primitive, const Solid& solid, const Vec3& center, double size,
+                Random& random, Counts& counts) {
+  const auto shape = make_shape(primitive);
+  std::array<WorldRay, lane_count> rays;
+  std::array<FilterLine<double>, lane_count> lines;
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    rays[i] = random_ray(random, center, size);
+    lines[i] = line_of(rays[i]);
+  }
+  Enclosure<Lanes> parts;
+  const bool some = enclose(solid, side_by_side(lines), lanes_with(15), parts);
+  for (std::size_t i = 0; i < lane_count; ++i) {
+    CrossingList crossings;
+    shape->crossings({.origin = rays[i].origin, .direction = rays[i].direction}, crossings);
+    Enclosure<double> part;
+    const bool alone = enclose(solid, lines[i], true, part);
+    if (!some) REQUIRE_FALSE(alone);
+    if (!alone) {
+      REQUIRE(crossings.empty());
+      if (some) REQUIRE(lane_of(parts, i).is_outside(-1e300, 1e300));
+      check_decision(crossings, rays[i], {.rejected = true, .accepted = false}, counts);
+      continue;
+    }
+    check_enclosed(crossings, part);
+    check_enclosed(crossings, lane_of(parts, i));
+    check_decision(crossings, rays[i], decide(part, lines[i], rays[i].t_max, true), counts);
+  }
+}
+
+/// Calls check(scale, random, counts) often, for scales of 36 decades, and expects that most of
+/// what the rays do was certain.
+template <class Check>
+void for_scales(const Check& check) {
+  Random random(41);
+  Counts counts;
+  for (int i = 0; i < 3000; ++i) check(std::exp2(random.uniform(-60, 60)), random, counts);
+  CHECK(counts.missing > 1000);
+  CHECK(counts.meeting > 1000);
+  CHECK(counts.rejected > counts.missing * 9 / 10);
+  CHECK(counts.accepted > counts.meeting * 9 / 10);
+}
+
+}  // namespace
+
+TEST_CASE("a sphere is entered and left where its enclosure says") {
+  for_scales([](double scale, Random& random, Counts& counts) {
+    const Vec3 center = 10 * scale * random.in_cube();
+    check_rays(Sphere{.center = center, .radius = scale}, EnclosedSphere{center, scale}, center,
+               scale, random, counts);
+  });
+}
+
+TEST_CASE("a box is entered and left where its enclosure says") {
+  for_scales([](double scale, Random& random, Counts& counts) {
+    const Vec3 lower = 10 * scale * random.in_cube();
+    const Vec3 upper = lower + scale * Vec3(random.uniform(0.1, 2), random.uniform(0.1, 2), 1);
+    check_rays(Box{.corner_a = lower, .corner_b = upper}, EnclosedBox{lower, upper},
+               0.5 * (lower + upper), scale, random, counts);
+  });
+}
+
+TEST_CASE("a torus is entered and left where its enclosure says") {
+  Random random(43);
+  Counts counts;
+  for (int i = 0; i < 5000; ++i) {
+    const double scale = std::exp2(random.uniform(-60, 60));
+    const Vec3 center = 10 * scale * random.in_cube();
+    const double ring = scale * random.uniform(0.5, 1);
+    const double tube = ring * (random.one_in(4) ? random.uniform(1, 2) : random.uniform(0.01, 1));
+    const Vec3 axis = random.direction();
+    const EnclosedTorus solid{center, axis / std::sqrt(dot(axis, axis)), ring,
+                              tube + 0x1p-30 * (ring + tube)};
+    check_rays(Torus{.center = center, .axis = axis, .radius = ring, .thickness = tube}, solid,
+               center, ring + tube, random, counts);
+  }
+  CHECK(counts.rejected > counts.missing * 3 / 4);
+  CHECK(counts.accepted > counts.meeting / 3);
+}
+
+TEST_CASE("a plane is crossed where its enclosure says") {
+  Random random(44);
+  Counts counts;
+  for (int i = 0; i < 3000; ++i) {
+    const double scale = std::exp2(random.uniform(-60, 60));
+    const Vec3 position = 10 * scale * random.in_cube();
+    Vec3 normal = random.direction();
+    normal /= std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
+    const auto shape = make_shape(Plane{.normal = normal, .position = position});
+    const WorldRay ray = random_ray(random, position, scale);
+    const FilterLine<double> line = line_of(ray);
+    CrossingList crossings;
+    shape->crossings({.origin = ray.origin, .direction = ray.direction}, crossings);
+    Enclosure<double> part;
+    REQUIRE(enclose(EnclosedPlane{position, normal}, line, true, part));
+    for (const Crossing& crossing : crossings) {
+      REQUIRE_FALSE(crossing.t - crossing.error < part.enter_from);
+      REQUIRE_FALSE(crossing.t + crossing.error > part.enter_to);
+    }
+    check_decision(crossings, ray, decide(part, line, ray.t_max, true), counts);
+  }
+  CHECK(counts.rejected > counts.missing * 9 / 10);
+  CHECK(counts.accepted > counts.meeting * 9 / 10);
+}
+
+TEST_CASE("only lines that miss an endless cylinder are outside of it") {
+  Random random(45);
+  int missing = 0;
+  for (int i = 0; i < 10'000; ++i) {
+    const double scale = std::exp2(random.uniform(-60, 60));
+    const Vec3 place = 10 * scale * random.in_cube();
+    const WorldRay ray = random_ray(random, place, 2 * scale);
+    Enclosure<double> part;
+    const EndlessCylinder cylinder{place, {0, 0, 1}, scale};
+    const bool is_near = enclose(cylinder, line_of(ray), true, part);
+    // Seen along the axis it is a circle.
+    const double length = std::hypot(ray.direction.x, ray.direction.y);
+    const Vec3 offset = place - ray.origin;
+    const double distance =
+        length > 0 ? std::abs(offset.x * ray.direction.y - offset.y * ray.direction.x) / length
+                   : std::hypot(offset.x, offset.y);
+    if (!is_near) REQUIRE(distance > scale);
+    if (length > 0 && distance > 1.001 * scale) REQUIRE_FALSE(is_near);
+    if (is_near) REQUIRE_FALSE(part.is_outside(-1e300, 1e300));
+    missing += is_near ? 0 : 1;
+  }
+  CHECK(missing > 1000);
+}
