@@ -8,6 +8,7 @@
 #include <glm/geometric.hpp>
 #include <vector>
 
+#include "core/compile/compile.hpp"
 #include "core/intersect/filter_rays.hpp"
 #include "core/prepare/prepared_data.hpp"
 #include "support/numbers.hpp"
@@ -172,15 +173,17 @@ TEST_CASE("the proxy of a box tells nearly all rays where they first cross it") 
   const CompiledScene scene = compile(entities);
   const std::uint32_t first[] = {0};
   const BoundingProxies proxies(scene, first);
-  const Accelerator accelerator(compile(entities), {});
   int unknown = 0;
   int found = 0;
   constexpr int count = 10'000;
   for (int i = 0; i < count; ++i) {
     const WorldRay ray{.origin = Vec3(1.5, 3, 3.5) + numbers.point(2),
                        .direction = numbers.direction()};
-    const FilterRay filter(accelerator, ray);
-    const FirstCrossing<double> crossing = filter.first_crossing(proxies.list.front(), proxies);
+    const PacketStartsOf<1> starts;
+    const SingleRay packet(ray, starts, 1);
+    const FilterRays<double> filter(packet);
+    const FirstCrossing<double> crossing =
+        filter.first_crossing(proxies.list.front(), proxies, 0, 1, {});
     unknown += crossing.unknown ? 1 : 0;
     found += crossing.found ? 1 : 0;
   }

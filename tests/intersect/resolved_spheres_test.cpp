@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "core/compile/compile.hpp"
 #include "core/intersect/filter_rays.hpp"
 #include "core/prepare/prepared_data.hpp"
 #include "support/numbers.hpp"

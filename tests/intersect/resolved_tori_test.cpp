@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <glm/geometric.hpp>
 
+#include "core/compile/compile.hpp"
 #include "core/geometry/torus/spans.hpp"
 #include "core/intersect/filter_rays.hpp"
 #include "core/prepare/prepared_data.hpp"
@@ -161,7 +162,6 @@ TEST_CASE("for nearly all rays from outside it is resolved where they enter a to
   const CompiledScene scene = compile(entities);
   const std::uint32_t first[] = {0};
   const BoundingProxies proxies(scene, first);
-  const Accelerator accelerator(compile(entities), {});
   const Vec3 center = scene.objects[0].bounds.lower +
                       0.5 * (scene.objects[0].bounds.upper - scene.objects[0].bounds.lower);
   int unknown = 0;
@@ -170,8 +170,11 @@ TEST_CASE("for nearly all rays from outside it is resolved where they enter a to
   for (int i = 0; i < count; ++i) {
     const Vec3 d = numbers.direction();
     const WorldRay ray{.origin = center + numbers.point(1) - 10.0 * d, .direction = d};
-    const FilterRay filter(accelerator, ray);
-    const FirstCrossing<double> crossing = filter.first_crossing(proxies.list.front(), proxies);
+    const PacketStartsOf<1> starts;
+    const SingleRay packet(ray, starts, 1);
+    const FilterRays<double> filter(packet);
+    const FirstCrossing<double> crossing =
+        filter.first_crossing(proxies.list.front(), proxies, 0, 1, {});
     unknown += crossing.unknown ? 1 : 0;
     found += crossing.found ? 1 : 0;
   }

@@ -129,7 +129,7 @@ TEST_CASE(
   };
   PixelSamples neighbour;
   add_step(neighbour, 0, of_thing(0.9, 1));
-  const auto width_of = [&](std::uint64_t last_identity, bool with_lens) {
+  const auto width_of = [&](std::uint64_t last_identity, bool with_lens) -> double {
     PixelSamples pixel;
     for (std::int64_t i = 0; i < 8; ++i)
       add_step(pixel, i, of_thing(0.5, i == 7 ? last_identity : 1));

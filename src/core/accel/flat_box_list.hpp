@@ -37,23 +37,17 @@ class FlatBoxList {
 
   std::uint64_t bytes() const { return groups_.capacity() * sizeof(Group); }
 
-  /// Returns whether it can be asked for a ray. The ray must not begin behind its origin, nor be
-  /// parallel to boxes' sides, or all but.
-  static bool takes(const WorldRay& ray) {
-    constexpr double least = 1 / RaySlabs::largest_inverse;
-    const Vec3& d = ray.direction;
-    return ray.t_min >= 0 && std::abs(d.x) > least && std::abs(d.y) > least &&
-           std::abs(d.z) > least;
-  }
-  /// Returns for which of some rays of a packet it can be asked.
-  static RayMask takes(const RayPacket& packet, RayMask rays) {
+  /// Returns for which rays of a packet it can be asked: not for those that begin behind their
+  /// origin, or that are all but parallel to boxes' sides.
+  template <class Real>
+  static RayMask takes(const RayPacketOf<Real>& packet, RayMask rays) {
     RayMask taken = 0;
-    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
-      const FilterLine<Lanes>& lines = packet.groups[group];
-      const Lanes steepest =
+    packet.for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      const FilterLine<Real>& lines = packet.groups[group];
+      const Real steepest =
           max(max(abs(lines.inverse[0]), abs(lines.inverse[1])), abs(lines.inverse[2]));
-      const LaneMask is_taken = lines.begin >= 0.0 && steepest < RaySlabs::largest_inverse;
-      taken |= (lanes & mask_of(is_taken)) << (group * lane_count);
+      const auto is_taken = lines.begin >= 0.0 && steepest < RaySlabs::largest_inverse;
+      taken |= (lanes & mask_of(is_taken)) << (group * packet.group_size);
     });
     return taken;
   }
@@ -61,10 +55,10 @@ class FlatBoxList {
   /// Visits, from near to far, at least every box that the ray meets at t_min <= t <= limit.
   /// visit(box) returns the t beyond which nothing matters, or one below t_min to stop.
   template <class Visit>
-  void traverse(const WorldRay& ray, double limit, const Visit& visit) const {
+  void traverse(const SingleRay& ray, const Visit& visit) const {
     BoxTimes enter;
-    const std::uint64_t met = boxes_met(ray, limit, enter);
-    visit_all<true>(met, enter, ray.t_min, limit, visit);
+    const std::uint64_t met = boxes_met(ray.groups[0], ray.limits[0], enter);
+    visit_all<true>(met, enter, ray.groups[0].begin, ray.limits[0], visit);
   }
 
   /// Visits at least every box that some rays of a packet meet, all of which must be taken.
@@ -114,8 +108,9 @@ class FlatBoxList {
     Lanes safe_from() const { return fma(from, lanes_of(-4 * RaySlabs::slack), from); }
   };
 
-  static Spans spans(const Group& boxes, const ByAxis& origin, const ByAxis& inverse,
-                     const Lanes& begin, const Lanes& limit) {
+  [[gnu::always_inline]] static Spans spans(const Group& boxes, const ByAxis& origin,
+                                            const ByAxis& inverse, const Lanes& begin,
+                                            const Lanes& limit) {
     Spans result{begin, limit};
     for (std::size_t axis = 0; axis < 3; ++axis) {
       const Lanes first = (boxes.lower[axis] - origin[axis]) * inverse[axis];
@@ -154,16 +149,18 @@ class FlatBoxList {
   }
 
   /// Returns a bit for each box that the ray meets, and sets when it enters those.
-  std::uint64_t boxes_met(const WorldRay& ray, double limit, BoxTimes& enter) const {
+  [[gnu::always_inline]] std::uint64_t boxes_met(const FilterLine<double>& line, double limit,
+                                                 BoxTimes& enter) const {
     ByAxis origin;
     ByAxis inverse;
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      origin[axis] = lanes_of(ray.origin[static_cast<int>(axis)]);
-      inverse[axis] = lanes_of(1 / ray.direction[static_cast<int>(axis)]);
+      origin[axis] = lanes_of(line.origin[axis]);
+      inverse[axis] = lanes_of(line.inverse[axis]);
     }
     std::uint64_t missed = 0;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
-      const Spans of_ray = spans(groups_[i], origin, inverse, lanes_of(ray.t_min), lanes_of(limit));
+      const Spans of_ray =
+          spans(groups_[i], origin, inverse, lanes_of(line.begin), lanes_of(limit));
       enter.set(i, of_ray.safe_from());
       missed |= static_cast<std::uint64_t>(mask_of(of_ray.empty())) << (i * lane_count);
     }

@@ -3,13 +3,11 @@
 #include <algorithm>
 #include <cmath>
 #include <glm/geometric.hpp>
-#include <limits>
 #include <span>
 
 #include "core/accel/embree_tree.hpp"
 #include "core/accel/space_order.hpp"
 #include "core/compile/memory.hpp"
-#include "core/intersect/all_crossings.hpp"
 #include "core/intersect/isolated.hpp"
 #include "core/math/vector.hpp"
 #include "core/tasks/parallel.hpp"
@@ -17,8 +15,6 @@
 namespace crt::core {
 
 namespace {
-
-constexpr double infinity = std::numeric_limits<double>::infinity();
 
 bool any_surface_is_shared(const CompiledScene& scene) {
   std::vector<std::uint32_t> owners(scene.face_surfaces.size(), nothing);
@@ -35,7 +31,7 @@ bool any_surface_is_shared(const CompiledScene& scene) {
   return false;
 }
 
-/// More than what boxes grow by for Embree, and more than the roundings of places.
+/// Returns more than what boxes grow by for Embree, and more than the roundings of places.
 double margin_of(const Bounds& total) {
   constexpr double of_extent = 0x1p-17;
   constexpr double of_place = 0x1p-40;
@@ -61,7 +57,7 @@ std::vector<std::uint32_t> enclosed_objects(const CompiledScene& scene, const Wo
   return enclosed;
 }
 
-/// The spheres that some objects are; none if one is something else.
+/// Returns the spheres that some objects are; none if one is something else.
 std::vector<BoundedSphere> spheres_of(const BoundingProxies& proxies) {
   std::vector<BoundedSphere> spheres;
   if (proxies.list.size() <= FlatBoxList::most_boxes) return spheres;
@@ -173,83 +169,6 @@ bool Accelerator::is_at_end(const WorldRay& ray, const RayHit& hit) const {
       compiled_.leaves[hit.leaf].placement->normal_to_world(surface_point(ray, hit, false).normal);
   const double slope = std::abs(glm::dot(normal, ray.direction));
   return (ray.t_max - hit.t - hit.error) * slope <= ray.end_error;
-}
-
-template <class Kind>
-void Accelerator::traverse(Kind& query) const {
-  for (const BoundingProxy& proxy : unbounded_.list) {
-    if (query.limit() <= query.ray().t_min) return;
-    query.step();
-    query.test(proxy.object);
-  }
-  if (query.limit() <= query.ray().t_min) return;
-  constexpr bool from_near = false;
-  visit_boxes<from_near>(query.ray(), query.limit(), [&](std::uint32_t box) {
-    query.step();
-    query.test(bounded_.list[box].object);
-    return query.limit();
-  });
-}
-
-namespace {
-
-class Stayed final : public ObjectQuery<Stayed> {
- public:
-  using ObjectQuery::ObjectQuery;
-  static constexpr bool takes_one = false;
-  Stay result;
-
-  bool begin(std::uint32_t /*object*/, bool starts_inside) {
-    result.inside = starts_inside;
-    return starts_inside;
-  }
-  bool take(const RayHit& hit) {
-    result.exit = hit;
-    return false;
-  }
-};
-
-class Surrounding final : public ObjectQuery<Surrounding> {
- public:
-  static constexpr bool takes_one = false;
-
-  Surrounding(const Accelerator& accelerator, const WorldRay& world_ray, RayWorkspace& workspace,
-              std::vector<RayHit>& hits)
-      : ObjectQuery(accelerator, world_ray, workspace), out_(hits) {}
-
-  bool begin(std::uint32_t /*object*/, bool starts_inside) { return starts_inside; }
-  bool take(const RayHit& hit) {
-    out_.push_back(hit);
-    return false;
-  }
-  void end(std::uint32_t object, std::uint32_t leaf, bool inside) {
-    if (inside)
-      out_.push_back({.t = infinity, .error = 0, .object = object, .leaf = leaf, .face = no_face});
-  }
-
- private:
-  std::vector<RayHit>& out_;
-};
-
-}  // namespace
-
-bool Accelerator::all(const WorldRay& ray, const Opacity* opacity, std::vector<RayHit>& out,
-                      RayWorkspace& work) const {
-  All query(*this, ray, work, opacity, out);
-  traverse(query);
-  return !query.stopped;
-}
-
-Stay Accelerator::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
-  Stayed query(*this, ray, work);
-  query.test(object);
-  return query.result;
-}
-
-void Accelerator::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
-                              RayWorkspace& work) const {
-  Surrounding query(*this, ray, work, out);
-  traverse(query);
 }
 
 }  // namespace crt::core

@@ -1,4 +1,4 @@
-// The objects of a scene made ready for rays: which of them a ray meets, and where.
+// The objects of a scene are made ready here for finding what rays meet, and where.
 #pragma once
 
 #include <cmath>
@@ -19,12 +19,12 @@
 
 namespace crt::core {
 
-/// Finds crossings: a tree of boxes says which objects a ray may meet, cheap tests which of these
-/// it surely misses, the rest happens exactly, in double. Objects without end stay outside of the
-/// tree.
+/// An Accelerator finds crossings in stages. A tree of boxes finds which objects a ray may meet,
+/// and conservative tests which of these it surely misses. All else is computed exactly, in double.
+/// Unbounded objects stay outside of the tree.
 class Accelerator {
  public:
-  /// `materials` are those of the scene, which need not hold them itself.
+  /// Makes it of a scene with those materials, which the scene need not hold itself.
   Accelerator(CompiledScene compiled, std::span<const SharedMaterial> materials,
               const Workers& workers = {});
   ~Accelerator();
@@ -34,29 +34,27 @@ class Accelerator {
   RayHit nearest(const WorldRay& ray, RayWorkspace& work) const;
   bool any(const WorldRay& ray, RayWorkspace& work) const;
 
-  /// The same for some of a batch, each with what it finds alone; but RayWorkspace::here and near
-  /// are of no use after it. Hits of other rays stay as they are.
+  /// Finds the nearest hits of some of a batch's rays, as nearest() does of each; but what it
+  /// leaves in RayWorkspace::here and near is of no use. Hits of other rays stay as they are.
   void nearest_each(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                     Packets packets, RayWorkspace& work) const;
   /// See PreparedData::first_leaves().
   bool first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const;
-  /// Which of the rays; `starts` says what these start on.
+  /// Returns for which of some rays there is any crossing; `starts` says what these start on.
   RayMask any_each(const RayBatch& rays, const PacketStarts& starts, RayMask some, Packets packets,
                    RayWorkspace& work) const;
-  /// On what some rays start, and what they have left for good.
+  /// Finds on what some rays start, and what they have left for good.
   PacketStarts noted_starts(const RayBatch& rays, RayMask some) const;
 
-  /// Appends every crossing, unsorted; stops early and returns false at the first of an opaque
-  /// thing, if it is told which these are.
-  bool all(const WorldRay& ray, const Opacity* opacity, std::vector<RayHit>& out,
-           RayWorkspace& work) const;
-  /// See PreparedData::paths_to_light(); but for the crossings' order.
+  /// Appends every crossing, unsorted.
+  void all(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
+  /// See PreparedData::paths_to_light(), which sorts the crossings.
   LightPaths paths_to_light(const RayBatch& rays, const PacketStarts& starts, RayMask some,
                             const Opacity& opacity, Packets packets, RayWorkspace& work) const;
   /// Appends for each solid around the ray's start its next crossing, unsorted. A solid that the
   /// ray never leaves counts as left at infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
-  /// The same for one solid object.
+  /// Finds whether a ray starts inside of one solid object, and where it leaves that.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
 
   /// Puts what all() has appended into order.
@@ -64,13 +62,13 @@ class Accelerator {
     sort_crossings(compiled_, ray, objects_share_surfaces_, crossings, work);
   }
 
-  /// What it takes of memory, but for materials.
+  /// Returns the bytes it takes, but for materials.
   MemoryUse memory() const;
 
   const CompiledScene& compiled() const { return compiled_; }
   const Leaf& leaf(std::uint32_t index) const { return compiled_.leaves[index]; }
   const SceneObject& object(std::uint32_t index) const { return compiled_.objects[index]; }
-  /// Of a CSG object, if it has one.
+  /// Returns the filter of a CSG object that has one, else null.
   const IntervalFilter* filter(std::uint32_t object) const {
     const SceneObject& solid = compiled_.objects[object];
     if (!solid.is_csg()) return nullptr;
@@ -80,79 +78,90 @@ class Accelerator {
   const FaceSurface& face_surface(const Leaf& leaf, std::uint32_t face) const {
     return compiled_.face_surfaces[leaf.first_face + face];
   }
-  /// The point of a hit that `ray` found, in the space of its leaf; u and v only if asked for.
+  /// Returns the point of a hit that `ray` found, in the space of its leaf; u and v only if asked
+  /// for.
   SurfacePoint surface_point(const WorldRay& ray, const RayHit& hit, bool with_uv) const;
-  /// Lets memory fetch beforehand what surface_point() looks at.
+  /// Fetches beforehand what surface_point() looks at.
   void prefetch_surface_points(std::span<const RayHit, packet_size> hits, RayMask some) const;
-  /// A leaf's own ray for a ray in the world.
+  /// Returns a ray in the world as it is in the space of a leaf.
   ObjectRay object_ray(std::uint32_t index, const WorldRay& ray) const;
-  /// Whether a crossing near the ray's end is of a surface through that end.
+  /// Returns whether a crossing near the ray's end is of a surface through that end.
   bool is_at_end(const WorldRay& ray, const RayHit& hit) const;
-  /// The object that a ray has left for good when it starts: it cannot meet the object again.
+  /// Returns the object that a ray has left for good when it starts: it cannot meet that again.
   std::uint32_t left_for_good(const StartPoint& start) const;
-  /// The solid that a ray starts on the surface of, into it, if it keeps apart from all else; by
-  /// its place among those that have an end.
+  /// Returns the isolated solid that a ray starts into from its surface, by its place among the
+  /// bounded objects.
   std::uint32_t entered_isolated(const StartPoint& start) const;
 
  private:
-  template <class Kind>
-  void traverse(Kind& query) const;
-  /// The boxes of those that have an end, as EmbreeTree::traverse() has it.
+  // The driver is templates over a Real: double for a single ray, Lanes for a batch. `Rays` and
+  // `Starts` are those of a RayPacketOf<Real>.
+  template <class Real>
+  using Rays = typename RayPacketOf<Real>::Rays;
+  template <class Real>
+  using Starts = typename RayPacketOf<Real>::Starts;
+
+  /// Visits the boxes of bounded objects, as EmbreeTree::traverse() does.
   template <bool FromNear, class Visit>
-  void visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const;
+  void visit_boxes(const SingleRay& ray, RayMask, const Visit& visit) const;
   template <bool FromNear, class Visit>
   void visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const;
-  /// Whether there are so few boxes that all of them are looked at.
+  /// Tests the rays of a packet against all objects that they may meet.
+  template <class Real, class Tests>
+  void traverse(const RayPacketOf<Real>& packet, Tests& tests) const;
+  /// Follows some rays until they have found what is asked. Returns the rays that would go on.
+  template <class Real, class Asked>
+  RayMask follow(const Rays<Real>& rays, const Starts<Real>& starts, RayMask some,
+                 const Asked& asked, RayWorkspace& work) const;
+  /// Calls test(object) for all objects that a ray may meet, in any order.
+  template <class Test>
+  void test_all(const WorldRay& ray, RayWorkspace& work, const Test& test) const;
+  /// Finds the nearest hits of rays whose hits are empty.
+  template <class Real>
+  void find_nearest(const Rays<Real>& rays, RayMask some, std::span<RayHit> hits,
+                    RayWorkspace& work) const;
+  PacketStartsOf<1> noted_starts(const WorldRay& ray, RayMask = 1) const;
+
+  /// Returns whether there are so few boxes that all of them are looked at.
   bool has_flat_box_list() const { return bounded_.list.size() <= FlatBoxList::most_boxes; }
-  /// Whether floats can tell what rays cross first.
+  /// Returns whether floats can find what rays cross first.
   bool filters_spheres() const { return tree_ && !has_flat_box_list() && tree_->filters_spheres(); }
-  /// Whether that is all there is.
+  /// Returns whether all objects are spheres for which floats can.
   bool has_only_spheres() const { return unbounded_.list.empty() && filters_spheres(); }
-  /// Whether some rays are to be followed as a packet.
+  /// Returns whether some rays are to be followed as a packet.
   bool pay_together(const RayBatch& rays, RayMask some, Packets packets) const;
-  template <class Kind>
-  void traverse_filtered(Kind& query) const;
-  /// Returns the rays that still go, of those which do.
-  template <class Answers>
-  RayMask traverse_filtered(RayPacket& packet, RayMask going, Answers& answers) const;
-  /// Where nothing but an object is that keeps apart.
+  /// Returns the box around an isolated object in which there is nothing else.
   Bounds box_around(std::uint32_t object) const {
     return compiled_.objects[object].bounds.grown(margin_);
   }
-  /// nearest_each() for rays whose hits are empty, as a packet.
-  void nearest_together(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
-                        RayWorkspace& work) const;
-  /// The same by floats first, where has_only_spheres(), for rays that start in free space; also
-  /// for hits that hold something. Returns of which rays it is known; the hits of the others stay
-  /// as they are.
+  /// Finds nearest hits by floats first, where has_only_spheres(), for rays that start in free
+  /// space. Their hits may hold anything. Returns the rays it has found them for; the hits of the
+  /// others stay as they are.
   RayMask find_all_nearest_spheres(const RayBatch& rays, RayMask some,
                                    std::span<RayHit, packet_size> hits, RayWorkspace& work) const;
-  RayHit nearest_elsewhere(const WorldRay& ray, RayWorkspace& work) const;
-  /// Takes those of a batch's rays that start into solids which keep apart to where they leave
-  /// these: what there is elsewhere they cannot meet before. Returns which; the hits of the others
-  /// are left empty.
+  /// Takes rays that start into isolated solids to where they leave these: before that they cannot
+  /// meet anything else. Returns which rays do; the hits of the others are left empty.
   RayMask leave_isolated(const RayBatch& rays, RayMask some, std::span<RayHit, packet_size> hits,
                          RayWorkspace& work) const;
-  /// The same of those rays of a group that start into one such solid.
-  RayMask leave_isolated(const BoundingProxy& solid, const RayBatch& rays, std::size_t group,
-                         RayMask some, std::span<RayHit, lane_count> hits,
-                         RayWorkspace& work) const;
-  /// The same of one ray.
-  bool leaves_isolated(const WorldRay& ray, RayWorkspace& work, RayHit& hit) const;
-  /// The same of one ray and the solid that it starts into, by the exact test.
-  bool leaves_isolated(const BoundingProxy& solid, const WorldRay& ray, RayWorkspace& work,
-                       RayHit& hit) const;
-  /// The crossings around the place of a hit that has company, into `work`; returns the first of
-  /// those at it.
+  RayMask leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const;
+  /// Does so for those lanes of a group that start into one such solid.
+  template <class SomeRays>
+  RayMask leave_isolated(const BoundingProxy& solid, const SomeRays& rays, std::size_t group,
+                         RayMask lanes, std::span<RayHit> hits, RayWorkspace& work) const;
+  /// Does so for one ray by the exact test.
+  bool leave_isolated(const BoundingProxy& solid, const WorldRay& ray, RayHit& hit,
+                      RayWorkspace& work) const;
+  /// Gathers the crossings around the place of a hit with coincident ones into `work`. Returns the
+  /// first of those at it.
   RayHit gather_coincident(const WorldRay& ray, const RayHit& nearest, RayWorkspace& work) const;
 
   CompiledScene compiled_;
   BoundingProxies unbounded_;
   BoundingProxies bounded_;  ///< in the order in which Embree numbers them
-  /// By leaf: the object that is all within it; nothing if there is none, or if a line may leave
-  /// the leaf and meet it again.
+  /// Holds by leaf the object that is all within it; nothing if there is none, or if a line may
+  /// leave the leaf and meet it again.
   std::vector<std::uint32_t> enclosed_;
-  /// More than what rounding does to places in the scene: of two objects that are farther apart
+  /// Rounding moves places in the scene by less than that. Of two objects that are farther apart
   /// neither matters where the other is.
   double margin_ = 0;
   std::vector<std::uint32_t> isolated_;     ///< by object: see isolated_objects()
@@ -161,23 +170,5 @@ class Accelerator {
   bool objects_share_surfaces_ =
       false;  ///< whether some surface has faces of several objects on it
 };
-
-template <bool FromNear, class Visit>
-void Accelerator::visit_boxes(const WorldRay& ray, double limit, const Visit& visit) const {
-  if (!tree_) return;
-  if (has_flat_box_list() && FlatBoxList::takes(ray)) {
-    flat_box_list_.traverse(ray, limit, visit);
-  } else {
-    tree_->traverse(ray.origin, ray.direction, ray.t_min, limit, FromNear, visit);
-  }
-}
-
-template <bool FromNear, class Visit>
-void Accelerator::visit_boxes(const RayPacket& packet, RayMask rays, const Visit& visit) const {
-  if (!tree_) return;
-  const RayMask in_row = has_flat_box_list() ? FlatBoxList::takes(packet, rays) : 0;
-  if (in_row != 0) flat_box_list_.traverse<FromNear>(packet, in_row, visit);
-  if (rays != in_row) tree_->traverse(packet, rays & ~in_row, visit);
-}
 
 }  // namespace crt::core

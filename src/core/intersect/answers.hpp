@@ -1,4 +1,4 @@
-// What rays may ask for beside the nearest hit.
+// Rays may ask for these things beside the nearest hit.
 #pragma once
 
 #include <array>
@@ -10,30 +10,30 @@
 
 namespace crt::core {
 
-/// A solid that a ray is inside of when it starts, and where the ray leaves it (at infinity:
-/// never).
+/// A Stay says whether a ray starts inside of a solid, and where it leaves that; at infinity if
+/// never.
 struct Stay {
   bool inside = false;
   RayHit exit;
 };
 
-/// The nearest crossings of a batch's rays, without what else a hit tells.
+/// A FirstLeaves has the nearest crossings of a batch's rays, without what else a hit has.
 struct FirstLeaves {
-  RayMask found = 0;  ///< of the others nothing here means anything
+  RayMask found = 0;  ///< for other rays nothing here means anything
   RayBatch::Numbers t;
   std::array<std::uint32_t, packet_size> leaves;
 };
 
-/// Which things let no light through.
+/// An Opacity says which things let no light through.
 struct Opacity {
   std::vector<bool> of_materials;
-  std::vector<bool> of_objects;  ///< of objects of opaque materials alone
+  std::vector<bool> of_objects;  ///< true for objects of opaque materials alone
 };
 
-/// What is on the paths of a batch's rays to a light.
+/// A LightPaths says what is on the paths of a batch's rays to a light.
 struct LightPaths {
-  RayMask blocked = 0;   ///< those that something opaque is on
-  RayMask filtered = 0;  ///< of the others those that anything else is on
+  RayMask blocked = 0;   ///< rays that meet something opaque
+  RayMask filtered = 0;  ///< other rays that meet anything
 };
 
 }  // namespace crt::core

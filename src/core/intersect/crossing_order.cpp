@@ -21,7 +21,7 @@ void take_place(RayHit& hit, const RayHit& from) {
   hit.t_low = from.t_low;
 }
 
-/// Gives crossings of one surface one t, whosever they are.
+/// Gives crossings of one surface one t, whichever objects they belong to.
 void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>& numbers) {
   numbers.resize(crossings.size());
   std::iota(numbers.begin(), numbers.end(), 0u);
@@ -35,7 +35,7 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
     RayHit& next = crossings[numbers[i]];
     if (next.surface == first.surface && next.root == first.root) take_place(next, first);
   }
-  // An object's own are still in order, whatever another knows of one of them.
+  // An object's own crossings stay in order.
   for (std::size_t i = 1; i < crossings.size(); ++i) {
     const bool of_one = crossings[i].object == crossings[i - 1].object;
     if (of_one && is_before(crossings[i], crossings[i - 1]))
@@ -43,9 +43,8 @@ void unify_coincident(std::vector<RayHit>& crossings, std::vector<std::uint32_t>
   }
 }
 
-/// Of crossings at one place, those of one object side by side: what is left comes before what is
-/// entered. An object that has several takes its turns: it leaves or enters, then enters or leaves,
-/// and so on.
+/// Sorts crossings at one place, where those of one object are side by side: what is left comes
+/// before what is entered. An object with several crossings takes turns with the others.
 void sort_one_place(std::span<RayHit> crossings,
                     std::vector<std::pair<std::uint32_t, RayHit>>& turns) {
   turns.clear();
@@ -60,8 +59,8 @@ void sort_one_place(std::span<RayHit> crossings,
   for (std::size_t i = 0; i < crossings.size(); ++i) crossings[i] = turns[i].second;
 }
 
-/// Calls take(piece) for pieces of two and more that follow one another: each with the one before
-/// it as `belong` says.
+/// Calls take(run) for each run of two or more crossings in which belong(previous, next) holds for
+/// all neighbours.
 template <class Belong, class Take>
 void each_run(std::span<RayHit> crossings, const Belong& belong, const Take& take) {
   std::size_t begin = 0;
@@ -78,8 +77,7 @@ void sort_places(std::span<RayHit> crossings, RayWorkspace& work) {
            [&](std::span<RayHit> some) { sort_one_place(some, work.turns); });
 }
 
-/// Sorts what is too near to each other for t to tell, of the exact tier, and unifies what is at
-/// one place.
+/// Sorts crossings of the exact tier that t alone cannot separate, and unifies those at one place.
 void sort_near(const CompiledScene& scene, const WorldRay& ray, std::span<RayHit> crossings,
                RayWorkspace& work) {
   std::vector<NearCrossing>& near = work.near_crossings;

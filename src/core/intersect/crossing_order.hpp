@@ -1,4 +1,4 @@
-// In which order crossings of one ray with several objects are told.
+// The crossings of one ray with several objects are put into order here.
 #pragma once
 
 #include <cstdint>
@@ -11,9 +11,9 @@ namespace crt::core {
 
 /// Puts the crossings of a ray into order. They come object after object, each object's in its own
 /// order, which they keep. Those of one surface get one t if objects `share_surfaces`. Where solids
-/// touch, those that are left come before those that are entered. In the exact tier all are in the
-/// order in which they are, and have one (t, t_low) if they are at one place and no others do, but
-/// for what only the rounding of the ray's start could tell.
+/// touch, those that are left come before those that are entered. In the exact tier the order is
+/// exact, and crossings have one (t, t_low) if and only if they are at one place. There only the
+/// rounding of the ray's start may decide otherwise.
 void sort_crossings(const CompiledScene& scene, const WorldRay& ray, bool share_surfaces,
                     std::vector<RayHit>& crossings, RayWorkspace& work);
 

@@ -1,251 +1,200 @@
-// Rays as the cheap tests take them, one or a packet: which objects they leave open.
+// The filter stage decides by conservative tests for which rays of a packet an object is to be
+// looked at more closely.
 #pragma once
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-#include <span>
+#include <cstddef>
 
-#include "core/intersect/accelerator.hpp"
-#include "core/intersect/box_starts.hpp"
+#include "core/intersect/bounding_proxy.hpp"
 #include "core/intersect/first_crossing.hpp"
-#include "core/ray/line_of_ray.hpp"
 #include "core/ray/ray_packet.hpp"
 
 namespace crt::core {
 
-/// What a cheap test may say of an object.
-enum class Answer { undecided, rejected, accepted };
-
-/// To find where a box is met costs hardly more than to ask whether it is.
-inline bool has_test(const ProxyBox& box, bool any_will_do) {
-  return any_will_do || !box.is_resolved;
-}
-
-/// One ray and the cheap tests.
-class FilterRay {
- public:
-  FilterRay(const Accelerator& accelerator, const WorldRay& ray)
-      : line_(line_of(ray)),
-        start_surface_(ray.start.surface),
-        start_leaf_(ray.start.leaf),
-        start_side_(ray.start.side),
-        left_object_(accelerator.left_for_good(ray.start)) {}
-
-  const FilterLine<double>& line() const { return line_; }
-
-  /// `any_will_do` where it is asked whether there is a crossing, and not which is the nearest.
-  Answer decide(const BoundingProxy& proxy, const BoundingProxies& proxies, double limit,
-                bool any_will_do) const {
-    double last;
-    return decide(proxy, proxies, limit, any_will_do, last);
-  }
-
-  /// `last` is set for a plane that is met, to a t not before that.
-  Answer decide(const BoundingProxy& proxy, const BoundingProxies& proxies, double limit,
-                bool any_will_do, double& last) const {
-    if (proxy.object == left_object_) return Answer::rejected;
-    if (!proxy.has_test) return Answer::undecided;
-    if (proxy.kind == BoundingProxy::Kind::box) {
-      const ProxyBox& box = proxies.box(proxy);
-      return has_test(box, any_will_do) ? decide_box(box, limit) : Answer::undecided;
-    }
-    // Of that surface it is known otherwise where the ray meets it.
-    if (proxy.surface == start_surface_) {
-      const bool has_left = proxy.kind == BoundingProxy::Kind::torus &&
-                            start_side_ == Side::outside &&
-                            leaves_torus(proxy, proxies.axis(proxy), line_);
-      return has_left ? Answer::rejected : Answer::undecided;
-    }
-    return answer(test_proxy(proxy, proxies, line_, limit, any_will_do, last));
-  }
-
-  /// Of one that resolved_leaf() knows of.
-  FirstCrossing<double> first_crossing(const BoundingProxy& proxy,
-                                       const BoundingProxies& proxies) const {
-    if (proxy.kind == BoundingProxy::Kind::box) return first_crossing_of_box(proxies.box(proxy));
-    if (proxy.kind == BoundingProxy::Kind::torus) return first_crossing_at_torus(proxy, proxies);
-    if (proxy.surface == start_surface_ || starts_on_cap(proxy, proxies)) return {.unknown = true};
-    return core::first_crossing(proxy, proxies, line_);
-  }
-
- private:
-  static Answer answer(const Decision<bool>& decision) {
-    if (decision.rejected) return Answer::rejected;
-    return decision.accepted ? Answer::accepted : Answer::undecided;
-  }
-
-  bool starts_on_cap(const BoundingProxy& proxy, const BoundingProxies& proxies) const {
-    if (proxy.kind != BoundingProxy::Kind::cylinder || start_surface_ == nothing) return false;
-    const auto& [from, to] = proxies.axis(proxy).caps;
-    return start_surface_ == from || start_surface_ == to;
-  }
-
-  friend struct BoxStarts;
-  RayMask starting_on(std::uint32_t surface) const { return RayMask{surface == start_surface_}; }
-  RayMask starting_on_leaf(std::uint32_t leaf) const { return RayMask{leaf == start_leaf_}; }
-  RayMask starting_outwards() const { return RayMask{start_side_ == Side::outside}; }
-  RayMask at_front() const { return RayMask{line_.begin >= 0}; }
-
-  BoxStarts starts_on(const ProxyBox& box) const;
-  Answer decide_box(const ProxyBox& box, double limit) const;
-  FirstCrossing<double> first_crossing_of_box(const ProxyBox& box) const;
-  FirstCrossing<double> first_crossing_at_torus(const BoundingProxy& torus,
-                                                const BoundingProxies& proxies) const;
-
-  FilterLine<double> line_;
-  std::uint32_t start_surface_;
-  std::uint32_t start_leaf_;
-  Side start_side_;
-  std::uint32_t left_object_;
+/// BoxStarts says what the tests make of rays that start on one of a box's surfaces. Most of them
+/// start on something else which touches the box, or whose faces are in line with its own.
+struct BoxStarts {
+  RayMask some = 0;  ///< those rays; without any the rest means nothing
+  RayMask left;      ///< the rays that go away from the box, which is all behind them
+  RayMask unknown;   ///< the rays of which these tests cannot say where they meet the box
+  std::array<RayMask, ProxyBox::face_count> on;
 };
 
-/// A packet and the cheap tests.
-class FilterPacket {
+/// A FilterRays applies the conservative tests to the rays of a packet. Crossings at the start of a
+/// ray are known by identity: the tests leave a surface undecided for the rays that start on it.
+template <class Real>
+class FilterRays {
  public:
-  explicit FilterPacket(const RayPacket& packet) : packet_(packet) {}
+  using Packet = RayPacketOf<Real>;
+  using ByGroup = std::array<Real, Packet::group_count>;
 
-  /// Those that have left an object for good.
+  explicit FilterRays(const Packet& packet) : packet_(packet), starts_(packet.starts) {}
+
+  /// Returns the rays that have left an object for good.
   RayMask left(const BoundingProxy& proxy) const {
-    return packet_.starts.left_some == 0 ? 0 : rays_with(packet_.starts.left_objects, proxy.object);
+    return starts_.left_some == 0 ? 0 : rays_with(starts_.left_objects, proxy.object);
   }
 
-  /// Of those rays, if it is a box.
+  /// Returns how some rays start on a box, if the proxy is one.
   BoxStarts box_starts(const BoundingProxy& proxy, const BoundingProxies& proxies,
                        RayMask rays) const {
-    if ((rays & packet_.starts.on_surface) == 0 || proxy.kind != BoundingProxy::Kind::box)
-      return {};
-    return BoxStarts::of(proxies.box(proxy), *this);
+    BoxStarts starts;
+    if ((rays & starts_.on_surface) == 0 || proxy.kind != BoundingProxy::Kind::box) return starts;
+    const ProxyBox& box = proxies.box(proxy);
+    RayMask away = 0;
+    for (std::size_t face = 0; face < ProxyBox::face_count; ++face) {
+      const RayMask here = rays_with(starts_.surfaces, box.surfaces[face]);
+      starts.on[face] = here;
+      starts.some |= here;
+      away |= here & (box.flipped[face] ? ~starts_.outwards : starts_.outwards);
+    }
+    if (starts.some == 0) return starts;
+    const RayMask at_front =
+        in_groups(starts.some, [&](std::size_t group) { return lines(group).begin >= 0.0; });
+    starts.left = away & at_front;
+    starts.unknown = starts.some & ~starts.left & (~at_front | rays_with(starts_.leaves, box.leaf));
+    return starts;
   }
 
-  /// Of rays that have not left the object for good; `any_will_do` as FilterRay::decide() has it.
-  Decision<RayMask> decide(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
-                           const BoxStarts& starts, bool any_will_do) const {
+  /// Decides for rays that have not left the object for good. With `any_will_do` it matters
+  /// whether there is a crossing, and not which is the nearest.
+  [[gnu::always_inline]] Decision<RayMask> decide(const BoundingProxy& proxy,
+                                                  const BoundingProxies& proxies, RayMask rays,
+                                                  const BoxStarts& starts, bool any_will_do) const {
     if (!proxy.has_test) return {};
-    if (proxy.kind == BoundingProxy::Kind::box) {
+    if (proxy.kind == BoundingProxy::Kind::box)
       return decide_box(proxies.box(proxy), rays, starts, any_will_do);
-    }
-    std::array<Lanes, RayPacket::group_count> last;
+    ByGroup last;
     return decide(proxy, proxies, rays, any_will_do, last);
   }
 
-  /// Whatever it is, if it is known and no box; `last` as FilterRay::decide() has it.
-  Decision<RayMask> decide(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
-                           bool any_will_do,
-                           std::array<Lanes, RayPacket::group_count>& last) const {
-    Decision<RayMask> decision = decide_groups(rays, [&](std::size_t group) {
-      return test_proxy(proxy, proxies, packet_.groups[group], packet_.limits[group], any_will_do,
-                        last[group]);
-    });
-    if ((rays & packet_.starts.on_surface) != 0) {
-      const RayMask open = starting_on(proxy.surface);
-      decision.rejected &= ~open;
-      decision.accepted &= ~open;
-      const RayMask outwards = open & rays & packet_.starts.outwards;
-      if (proxy.kind == BoundingProxy::Kind::torus && outwards != 0)
-        decision.rejected |= outwards & leaving(proxy, proxies.axis(proxy), outwards);
+  /// Decides for an object that has a test and is no box. For a plane, `last` gets a t for each
+  /// accepted ray up to which the ray has surely met the plane.
+  [[gnu::always_inline]] Decision<RayMask> decide(const BoundingProxy& proxy,
+                                                  const BoundingProxies& proxies, RayMask rays,
+                                                  bool any_will_do, ByGroup& last) const {
+    const RayMask starting =
+        (rays & starts_.on_surface) != 0 ? rays & rays_with(starts_.surfaces, proxy.surface) : 0;
+    Decision<RayMask> decision{};
+    for (std::size_t group = 0; group < Packet::group_count; ++group) {
+      const RayMask lanes = Packet::lanes(rays & ~starting, group);
+      if (lanes == 0) continue;
+      put(decision, group, lanes,
+          test_proxy(proxy, proxies, lines(group), packet_.limits[group], any_will_do,
+                     last[group]));
     }
-    return among(rays, decision);
+    const RayMask outwards = starting & starts_.outwards;
+    if (outwards != 0 && proxy.kind == BoundingProxy::Kind::torus) {
+      decision.rejected |= outwards & in_groups(outwards, [&](std::size_t group) {
+                             return leaves_torus(proxy, proxies.axis(proxy), lines(group));
+                           });
+    }
+    return decision;
   }
 
-  /// Those whose crossings first_crossing() tells, of one that resolved_leaf() knows of.
+  /// Returns the rays for which first_crossing() finds the crossing with an object that
+  /// resolved_leaf() has a leaf for. Bits of other rays mean nothing.
   RayMask resolved(const BoundingProxy& proxy, const BoundingProxies& proxies,
                    const BoxStarts& starts) const {
-    if (packet_.starts.on_surface == 0) return ~RayMask{0};
-    if (proxy.kind == BoundingProxy::Kind::box)
-      return starts.some == 0 ? ~RayMask{0} : ~starts.open;
-    RayMask starting = starting_on(proxy.surface);
-    if (proxy.kind == BoundingProxy::Kind::cylinder) {
-      for (const std::uint32_t cap : proxies.axis(proxy).caps) {
-        if (cap != nothing) starting |= starting_on(cap);
-      }
-    }
-    return proxy.kind == BoundingProxy::Kind::torus ? ~starting | packet_.starts.outwards
-                                                    : ~starting;
+    return starts_.on_surface == 0 ? ~RayMask{0} : resolved_of_starting(proxy, proxies, starts);
   }
 
-  /// Of rays that it is asked for, by lane.
-  FirstCrossing<Lanes> first_crossing(const BoundingProxy& proxy, const BoundingProxies& proxies,
-                                      std::size_t group, RayMask asked,
-                                      const BoxStarts& starts) const {
-    const FilterLine<Lanes>& lines = packet_.groups[group];
+  /// Finds the first crossings of some resolved() rays of a group, by lane.
+  FirstCrossing<Real> first_crossing(const BoundingProxy& proxy, const BoundingProxies& proxies,
+                                     std::size_t group, RayMask asked,
+                                     const BoxStarts& starts) const {
     if (proxy.kind == BoundingProxy::Kind::torus)
       return first_crossing_at_torus(proxy, proxies, group, asked);
-    if (proxy.kind != BoundingProxy::Kind::box) return core::first_crossing(proxy, proxies, lines);
+    if (proxy.kind != BoundingProxy::Kind::box)
+      return core::first_crossing(proxy, proxies, lines(group));
     const ProxyBox& box = proxies.box(proxy);
-    return first_crossing_of_box(box, starts.meetings(box, lines, group), lines);
+    return first_crossing_of_box(box, meetings(box, starts, group), lines(group));
   }
 
  private:
-  friend struct BoxStarts;
-  RayMask starting_on(std::uint32_t surface) const {
-    return rays_with(packet_.starts.surfaces, surface);
-  }
-  RayMask starting_on_leaf(std::uint32_t leaf) const {
-    return rays_with(packet_.starts.leaves, leaf);
-  }
-  RayMask starting_outwards() const { return packet_.starts.outwards; }
-  RayMask at_front() const {
-    return in_groups(~RayMask{0},
-                     [&](std::size_t group) { return packet_.groups[group].begin >= 0.0; });
+  RayMask resolved_of_starting(const BoundingProxy& proxy, const BoundingProxies& proxies,
+                               const BoxStarts& starts) const {
+    if (proxy.kind == BoundingProxy::Kind::box)
+      return starts.some == 0 ? ~RayMask{0} : ~starts.unknown;
+    RayMask starting = rays_with(starts_.surfaces, proxy.surface);
+    if (proxy.kind == BoundingProxy::Kind::cylinder) {
+      for (const std::uint32_t cap : proxies.axis(proxy).caps) {
+        if (cap != nothing) starting |= rays_with(starts_.surfaces, cap);
+      }
+    }
+    return proxy.kind == BoundingProxy::Kind::torus ? ~starting | starts_.outwards : ~starting;
   }
 
-  FirstCrossing<Lanes> first_crossing_at_torus(const BoundingProxy& torus,
-                                               const BoundingProxies& proxies, std::size_t group,
-                                               RayMask asked) const;
+  const FilterLine<Real>& lines(std::size_t group) const { return packet_.groups[group]; }
 
-  /// Those of some rays for which a test of a group says yes.
+  /// Returns where a group's lines meet the planes of a box, on which some of them start.
+  BoxMeetings<Real> meetings(const ProxyBox& box, const BoxStarts& starts,
+                             std::size_t group) const {
+    auto result = BoxMeetings<Real>::of(box, lines(group));
+    if (Packet::lanes(starts.some, group) == 0) return result;
+    for (std::size_t face = 0; face < ProxyBox::face_count; ++face) {
+      const RayMask lanes = Packet::lanes(starts.on[face], group);
+      if (lanes != 0) result.start_on(face, lanes_of_mask<Real>(lanes), lines(group));
+    }
+    return result;
+  }
+
+  /// Returns the rays of some groups for which a test of the group is true.
   template <class Test>
   static RayMask in_groups(RayMask rays, const Test& test) {
     RayMask result = 0;
-    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask) {
-      result |= mask_of(test(group)) << (group * lane_count);
+    Packet::for_each_group(rays, [&](std::size_t group, RayMask) {
+      result |= mask_of(test(group)) << (group * Packet::group_size);
     });
     return result;
   }
 
-  /// decide(group) of each group that has some of the rays.
-  template <class Decide>
-  static Decision<RayMask> decide_groups(RayMask rays, const Decide& decide) {
-    Decision<RayMask> decision{};
-    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask) {
-      const std::size_t first = group * lane_count;
-      const Decision<LaneMask> of_lanes = decide(group);
-      decision.rejected |= mask_of(of_lanes.rejected) << first;
-      decision.accepted |= mask_of(of_lanes.accepted) << first;
-    });
-    return decision;
+  /// Puts in what is said of some lanes of a group. No ray is both rejected and accepted.
+  static void put(Decision<RayMask>& decision, std::size_t group, RayMask lanes,
+                  const Decision<MaskOf<Real>>& of_lanes) {
+    const std::size_t first = group * Packet::group_size;
+    const RayMask rejected = lanes & mask_of(of_lanes.rejected);
+    decision.rejected |= rejected << first;
+    decision.accepted |= (lanes & ~rejected & mask_of(of_lanes.accepted)) << first;
   }
 
   Decision<RayMask> decide_box(const ProxyBox& box, RayMask rays, const BoxStarts& starts,
                                bool any_will_do) const {
-    Decision<RayMask> decision{};
-    if (has_test(box, any_will_do)) {
-      decision = decide_groups(rays, [&](std::size_t group) {
-        const FilterLine<Lanes>& lines = packet_.groups[group];
-        return test_box(starts.meetings(box, lines, group), lines, packet_.limits[group]);
-      });
+    // To find where a resolved box is met costs hardly more than to ask whether it is.
+    const bool has_test = any_will_do || !box.is_resolved;
+    const RayMask left = starts.some != 0 ? rays & starts.left : 0;
+    if (!has_test) return {.rejected = left, .accepted = 0};
+    const RayMask tested = starts.some != 0 ? rays & ~left & ~starts.unknown : rays;
+    Decision<RayMask> decision{.rejected = left, .accepted = 0};
+    Packet::for_each_group(tested, [&](std::size_t group, RayMask lanes) {
+      put(decision, group, lanes,
+          test_box(meetings(box, starts, group), lines(group), packet_.limits[group]));
+    });
+    return decision;
+  }
+
+  FirstCrossing<Real> first_crossing_at_torus(const BoundingProxy& torus,
+                                              const BoundingProxies& proxies, std::size_t group,
+                                              RayMask asked) const {
+    const ProxyAxis& axis = proxies.axis(torus);
+    const RayMask starting =
+        starts_.on_surface != 0
+            ? asked & Packet::lanes(rays_with(starts_.surfaces, torus.surface), group)
+            : 0;
+    const RayMask elsewhere = asked & ~starting;
+    FirstCrossing<Real> first;
+    if (elsewhere != 0)
+      first = first_crossing_of_torus(axis, lines(group), lanes_of_mask<Real>(elsewhere));
+    if (starting != 0) {
+      const auto again =
+          first_crossing_from_torus(axis, lines(group), lanes_of_mask<Real>(starting));
+      first.unknown = first.unknown || again.unknown;
     }
-    if (starts.some != 0) {
-      decision.rejected = (decision.rejected & ~starts.open) | starts.left;
-      decision.accepted &= ~starts.open;
-    }
-    return among(rays, decision);
+    return first;
   }
 
-  /// What is said of those rays alone.
-  static Decision<RayMask> among(RayMask rays, const Decision<RayMask>& decision) {
-    const RayMask rejected = decision.rejected & rays;
-    return {.rejected = rejected, .accepted = decision.accepted & rays & ~rejected};
-  }
-
-  /// Those that leave a torus for good, of rays that start on it.
-  RayMask leaving(const BoundingProxy& torus, const ProxyAxis& axis, RayMask rays) const {
-    return in_groups(
-        rays, [&](std::size_t group) { return leaves_torus(torus, axis, packet_.groups[group]); });
-  }
-
-  const RayPacket& packet_;
+  const Packet& packet_;
+  const typename Packet::Starts& starts_;
 };
 
 }  // namespace crt::core

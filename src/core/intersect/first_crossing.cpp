@@ -14,7 +14,7 @@ ObjectRayLanes object_ray(const Placement& placement, const RayLanes& rays) {
   return placement.to_object(rays);
 }
 
-/// The shape of an object of that kind.
+/// Returns the shape of an object of that kind.
 template <class Kind>
 const Kind& shape_of(const ProxyAxis& object) {
   return *shape_as<Kind>(object.typed);

@@ -1,6 +1,6 @@
-// Where rays first cross the objects whose proxy alone tells it: boxes, and planes across a
-// coordinate axis, in the standard tier and without a transform; spheres, tori, cylinders and
-// cones, transformed or not. The same as their shapes say, to the last bit.
+// First crossings are found here of objects whose bounding proxy suffices. In the standard tier
+// these are boxes, and planes across a coordinate axis, without a transform. Spheres, tori,
+// cylinders and cones may have one. The results are those of their shapes, to the last bit.
 #pragma once
 
 #include <array>
@@ -14,19 +14,23 @@
 
 namespace crt::core {
 
-/// Of one ray, or of as many side by side as a Real has lanes.
+/// A FirstCrossing is that of one ray, or of as many side by side as a Real has lanes.
 template <class Real>
 struct FirstCrossing {
   using Mask = MaskOf<Real>;
 
   Mask found{};    ///< there is one after the start; else what follows means nothing
-  Mask unknown{};  ///< it takes a closer look to tell: nothing here means anything
+  Mask unknown{};  ///< only the exact test can find it: nothing else here means anything
   Mask entering{};
   Real t{};
   Real error{};
   Real face{};  ///< its number
 };
 
+inline const FirstCrossing<double>& lane_of(const FirstCrossing<double>& first,
+                                            std::size_t /*lane*/) {
+  return first;
+}
 inline FirstCrossing<double> lane_of(const FirstCrossing<Lanes>& first, std::size_t lane) {
   return {.found = first.found[lane],
           .unknown = first.unknown[lane],
@@ -36,7 +40,8 @@ inline FirstCrossing<double> lane_of(const FirstCrossing<Lanes>& first, std::siz
           .face = first.face[lane]};
 }
 
-/// Whether a crossing is after the start of a ray that does not start on its surface.
+/// An AfterStart says whether a crossing is after the start of a ray that does not start on its
+/// surface.
 template <class Mask>
 struct AfterStart {
   Mask surely;
@@ -53,7 +58,7 @@ auto after_start(const FilterLine<Real>& line, const Real& t, const Real& error)
                           .unknown = after && !clear && !(distance <= line.start_error)};
 }
 
-/// Of a sphere that is not moved.
+/// Returns the chord in a sphere that is not moved.
 template <class Real>
 SphereChord<Real> chord_of_sphere(const BoundingProxy& sphere, const FilterLine<Real>& line) {
   const double unit = power_of_two_below(sphere.radius);
@@ -63,7 +68,7 @@ SphereChord<Real> chord_of_sphere(const BoundingProxy& sphere, const FilterLine<
 template <class Real>
 SphereChord<Real> chord_of_moved_sphere(const ProxyAxis& sphere, const FilterLine<Real>& line);
 
-/// Where lines that do not start on a sphere enter and leave it, moved or not.
+/// Finds where lines that do not start on a sphere, moved or not, enter and leave it.
 template <class Real>
 std::array<FirstCrossing<Real>, 2> crossings_of_sphere(const BoundingProxy& sphere,
                                                        const BoundingProxies& proxies,
@@ -100,7 +105,7 @@ FirstCrossing<Real> first_crossing_of_sphere(const BoundingProxy& sphere,
 template <class Real>
 FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const ProxyAxis& of_plane,
                                             const FilterLine<Real>& line) {
-  // Of the normal one component alone is not 0.
+  // One component of the normal alone is not 0.
   const int axis = of_plane.normal.x != 0 ? 0 : of_plane.normal.y != 0 ? 1 : 2;
   const auto i = static_cast<std::size_t>(axis);
   const Real& speed = line.direction[i];
@@ -114,9 +119,8 @@ FirstCrossing<Real> first_crossing_of_plane(const BoundingProxy& plane, const Pr
           .error = meeting.error};
 }
 
-/// Where lines that pass through a box enter it, or else leave it, if that is plainly on one face;
-/// next to an edge it is the exact test that says which face is met. The box has what ProxyBox
-/// calls lower and upper.
+/// Finds where lines that pass through a box enter it, or else leave it, if that is plainly on one
+/// face. Next to an edge the exact test says which face is met.
 template <class Real>
 FirstCrossing<Real> end_in_box(const EnclosedBox& box, const BoxMeetings<Real>& meetings,
                                const FilterLine<Real>& line, const MaskOf<Real>& enters) {
@@ -175,23 +179,23 @@ FirstCrossing<Real> first_crossing_of_box(const ProxyBox& box, const BoxMeetings
   return first;
 }
 
-/// Of lines that start on none of a cylinder's or cone's faces.
+/// Finds the first crossings of lines that start on none of a cylinder's or cone's faces.
 template <class Real>
 FirstCrossing<Real> first_crossing_of_frustum(const ProxyAxis& cylinder,
                                               const FilterLine<Real>& line);
 
-/// Of asked lines that do not start on the torus.
+/// Finds the first crossings of asked lines that do not start on the torus.
 template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked);
 
-/// Of asked lines that start on the torus and outwards: those that do not meet it again are told.
+/// Finds which of the asked lines, which start on the torus and outwards, do not meet it again.
 template <class Real>
 FirstCrossing<Real> first_crossing_from_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                               const typename FirstCrossing<Real>::Mask& asked);
 
-/// Of a sphere, plane or cylinder that BoundingProxies::resolved_leaf() knows of, and rays that do
-/// not start on its surfaces.
+/// Finds the first crossings with a sphere, plane or cylinder that BoundingProxies::resolved_leaf()
+/// has a leaf for. The lines do not start on its surfaces.
 template <class Real>
 FirstCrossing<Real> first_crossing(const BoundingProxy& proxy, const BoundingProxies& proxies,
                                    const FilterLine<Real>& line) {
@@ -201,13 +205,13 @@ FirstCrossing<Real> first_crossing(const BoundingProxy& proxy, const BoundingPro
   return first_crossing_of_plane(proxy, proxies.axis(proxy), line);
 }
 
-/// Whether the proxy alone tells where lines cross a sphere or a box, a leaf of a CSG object.
+/// Returns whether crossing_of_change() may be asked of a sphere or box, a leaf of a CSG object.
 inline bool has_resolved_crossings(const Leaf& leaf) {
   return !leaf.exact && leaf.placement->is_identity();
 }
 
-/// Of such a leaf, by its number, where lines that do not start on it come into it, or else out of
-/// it; as its filter has found that they do.
+/// Finds where lines that do not start on such a leaf come into it, or else out of it. The filter
+/// has found that they do; `leaf` is its number within the object.
 template <class Real>
 FirstCrossing<Real> crossing_of_change(const IntervalFilter& filter, std::uint32_t leaf,
                                        bool into_leaf, const FilterLine<Real>& line) {
@@ -222,7 +226,7 @@ FirstCrossing<Real> crossing_of_change(const IntervalFilter& filter, std::uint32
   return {.found = chord.found, .t = t, .error = chord.error_of(t)};
 }
 
-/// Whether a line is within a box at t.
+/// Returns whether a line is within a box at t.
 template <class Real>
 auto is_within(const Bounds& box, const PlainRay<Real>& line, const Real& t) {
   const Vec3Of<Real> place = line.at(t);
@@ -234,13 +238,13 @@ auto is_within(const Bounds& box, const PlainRay<Real>& line, const Real& t) {
          is_between(box.lower.z, place.z, box.upper.z);
 }
 
-/// Whether the proxy alone tells where rays leave that start into the object.
+/// Returns whether isolated_exit() may be asked where rays leave that start into the object.
 inline bool resolves_exit(const BoundingProxy& proxy) {
   return proxy.kind == BoundingProxy::Kind::sphere && proxy.detail != nothing;
 }
 
-/// Where rays that start into a sphere leave it which keeps apart from all else; nothing else is in
-/// `margin`. Where that is not found it takes a closer look.
+/// Finds where rays that start into an isolated sphere leave it. Nothing else is in `margin`. Where
+/// it finds nothing the exact test must.
 template <class Real>
 FirstCrossing<Real> isolated_exit(const BoundingProxy& sphere, const Bounds& margin,
                                   const PlainRay<Real>& line, const Real& begin, const Real& end) {
@@ -252,7 +256,7 @@ FirstCrossing<Real> isolated_exit(const BoundingProxy& sphere, const Bounds& mar
   return {.found = ahead && stays, .t = other.t, .error = other.error};
 }
 
-/// As the general test has it.
+/// Writes a hit as the exact test has it.
 inline void write_first(const BoundingProxy& proxy, const BoundingProxies& proxies,
                         const FirstCrossing<double>& first, RayHit& hit) {
   const bool is_second = proxy.is_sphere() && !first.entering;

@@ -13,11 +13,11 @@ namespace crt::core {
 
 namespace {
 
-/// So many boxes are looked at for one object.
+/// At most so many boxes are looked at for one object.
 constexpr int most_looks = 1024;
 
-/// Boxes of objects that lie in memory as they lie in space, and boxes around every few of them,
-/// and so on.
+/// A BoxLevels has boxes of objects that lie in memory as they lie in space, then boxes around
+/// every few of them, and so on.
 class BoxLevels {
  public:
   BoxLevels(const CompiledScene& scene, std::span<const std::uint32_t> objects)
@@ -29,7 +29,7 @@ class BoxLevels {
     }
   }
 
-  /// Whether a box touches that of any object but one.
+  /// Returns whether a box touches that of any object but one.
   bool touches_other(const Bounds& margin, std::uint32_t object) const {
     int looks = 0;
     return touches(margin, object, levels_.size(), 0, looks);
@@ -62,7 +62,7 @@ class BoxLevels {
   std::vector<std::vector<Bounds>> levels_;
 };
 
-/// Whether a plane's surface passes by a box.
+/// Returns whether a plane's surface passes by a box.
 bool passes_by(const BoundingProxy& plane, const ProxyAxis& axis, const Bounds& box) {
   const Vec3 middle = 0.5 * box.lower + 0.5 * box.upper;
   const Vec3 steepness = glm::abs(axis.normal);

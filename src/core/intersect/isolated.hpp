@@ -1,4 +1,4 @@
-// Which solids keep apart from everything else: a ray inside of one can meet nothing but it.
+// Isolated solids are disjoint from all else: a ray inside of one can meet nothing but it.
 #pragma once
 
 #include <cstdint>
@@ -11,11 +11,11 @@
 
 namespace crt::core {
 
-/// By object: its place in `bounded` if light enters it and its box, grown by `margin`, touches no
-/// other object's, grown likewise; else nothing. `bounded` are the objects that have an end, in an
-/// order in which neighbours are near each other; `unbounded` the others. O(n log n); where that
-/// does not suffice to find out, an object does not count as one that keeps apart. Empty if there
-/// are none.
+/// Returns by object its place in `bounded` if it is isolated, else `nothing`; empty if there is
+/// none. Light enters such an object, and its box, grown by `margin`, touches no other object's,
+/// grown likewise. `bounded` must be in an order in which neighbours are near each other;
+/// `unbounded` are the other objects. It takes O(n log n), and objects for which that does not
+/// suffice do not count as isolated.
 std::vector<std::uint32_t> isolated_objects(const CompiledScene& scene,
                                             std::span<const SharedMaterial> materials,
                                             std::span<const std::uint32_t> bounded,

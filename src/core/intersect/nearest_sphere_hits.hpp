@@ -1,4 +1,4 @@
-// Where rays cross the spheres that floats have found to be the first.
+// Rays' crossings with the spheres that floats have found to be the first are found here.
 #pragma once
 
 #include <array>
@@ -14,11 +14,11 @@
 
 namespace crt::core {
 
-/// Of a batch's rays that meet one. What floats have left open is not known.
+/// A NearestSphereHits has those of a batch's rays. It does not know what floats have left open.
 class NearestSphereHits {
  public:
-  /// Step by step for all groups: a step waits for its roots and quotients, and one group's for no
-  /// other's.
+  /// Takes each step for all groups before the next: a step waits for its roots and quotients, but
+  /// not for those of other groups.
   NearestSphereHits(const NearestSpheres& spheres, const BoundingProxies& proxies,
                     const RayBatch& rays) {
     std::array<NearGroup, RayBatch::group_count> near;
@@ -32,12 +32,12 @@ class NearestSphereHits {
 
   RayMask known() const { return known_; }
   const Lanes& t(std::size_t group) const { return t_[group]; }
-  /// Up to where a crossing may have company.
+  /// Returns up to where other crossings may coincide with a ray's.
   const Lanes& reach(std::size_t group) const { return reach_[group]; }
   std::uint32_t object(std::size_t ray) const { return spheres_[ray]->object; }
   std::uint32_t leaf(std::size_t ray) const { return spheres_[ray]->detail; }
 
-  /// As the general test has it; or that there is nothing.
+  /// Writes a hit as the exact test has it, or that there is none.
   void write(std::size_t ray, bool found, RayHit& hit) const {
     const BoundingProxy& sphere = *spheres_[ray];
     const auto lane = static_cast<int>(ray % lane_count);

@@ -164,7 +164,7 @@ LightPaths PreparedData::paths_to_light(const RayBatch& rays, const PacketStarts
 void PreparedData::crossings(const WorldRay& ray, std::vector<RayHit>& out,
                              RayWorkspace& work) const {
   out.clear();
-  accelerator_->all(ray, nullptr, out, work);
+  accelerator_->all(ray, out, work);
   accelerator_->sort(ray, out, work);
 }
 

@@ -11,7 +11,8 @@ namespace crt::core {
 /// is wide, as the next ray may meet at right angles what this one grazes. It only decides where to
 /// look. It is computed for one ray, or for as many as a Real has lanes.
 template <class Real>
-Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t, const Real& error) {
+[[gnu::always_inline]] inline Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t,
+                                                         const Real& error) {
   constexpr double error_factor = 4;
   constexpr double relative_width = 0x1p-40;
   const Real farthest =
@@ -19,7 +20,7 @@ Real coincidence_tolerance(const PlainRay<Real>& ray, const Real& t, const Real&
   return error_factor * error + relative_width * farthest;
 }
 inline double coincidence_tolerance(const WorldRay& ray, double t, double error) {
-  return coincidence_tolerance(PlainRay<double>{ray.origin, ray.direction}, t, error);
+  return coincidence_tolerance(plain_ray(ray), t, error);
 }
 
 }  // namespace crt::core

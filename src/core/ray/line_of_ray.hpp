@@ -1,27 +1,59 @@
-// A ray is brought into the form that conservative tests take.
+// A ray is brought into the form that conservative tests take. Crossings before certain_end() are
+// surely not at its end.
 #pragma once
 
-#include <cmath>
-#include <glm/geometric.hpp>
-
-#include "core/ray/certain_end.hpp"
 #include "core/ray/filter_line.hpp"
+#include "core/ray/world_ray.hpp"
 
 namespace crt::core {
 
+/// Returns the t before which no crossing can be of a surface through the ray's end. It does so for
+/// one ray, or for as many as a Real has lanes.
+template <class Real>
+[[gnu::always_inline]] inline Real certain_end(const PlainRay<Real>& ray, const Real& t_max,
+                                               const Real& end_error) {
+  const auto ends_on_surface = end_error > 0.0;
+  if (!any(ends_on_surface)) return t_max;
+  // The crossing of a surface through the end may be so far before it. The flatter the ray meets
+  // the surface, the farther it may be.
+  constexpr double relative_width = 0x1p-26;
+  const Real width =
+      relative_width * fma(t_max, largest_component(ray.direction), largest_component(ray.origin));
+  return select(ends_on_surface, t_max - width, t_max);
+}
+
+inline double certain_end(const WorldRay& ray) {
+  return certain_end(plain_ray(ray), ray.t_max, ray.end_error);
+}
+
+/// Clamps an end to 2^900, as conservative tests take only finite ends.
+template <class Real>
+Real finite_end(const Real& end) {
+  constexpr double largest = 0x1p900;
+  return select(end > largest, broadcast<Real>(largest), end);
+}
+
+/// Sets a line to a ray from `begin` to `end`, whose start and end have those rounding errors. It
+/// does so for one ray, or for as many as a Real has lanes.
+template <class Real>
+void set_line(const PlainRay<Real>& ray, const Real& begin, const Real& start_error,
+              const Real& end, const Real& end_error, FilterLine<Real>& line) {
+  const auto& [origin, direction] = ray;
+  line.origin = {origin.x, origin.y, origin.z};
+  line.direction = {direction.x, direction.y, direction.z};
+  line.squared_length = dot(line.direction, line.direction);
+  line.inverse_squared_length = 1.0 / line.squared_length;
+  line.inverse_length = sqrt(line.inverse_squared_length);
+  for (std::size_t axis = 0; axis < 3; ++axis) line.inverse[axis] = 1.0 / line.direction[axis];
+  line.begin = begin;
+  line.start_error = start_error;
+  line.certain_from = farthest_start(begin, start_error);
+  line.certain_to = finite_end(certain_end(ray, end, end_error));
+}
+
 inline FilterLine<double> line_of(const WorldRay& ray) {
-  const Vec3& d = ray.direction;
   FilterLine<double> line;
-  line.origin = {ray.origin.x, ray.origin.y, ray.origin.z};
-  line.direction = {d.x, d.y, d.z};
-  line.squared_length = glm::dot(d, d);
-  line.inverse_squared_length = 1 / line.squared_length;
-  line.inverse_length = std::sqrt(line.inverse_squared_length);
-  line.inverse = {1 / d.x, 1 / d.y, 1 / d.z};
-  line.begin = ray.t_min;
-  line.start_error = ray.start.t_error;
-  line.certain_from = farthest_start(ray);
-  line.certain_to = finite_end(certain_end(ray));
+  set_line(plain_ray(ray), ray.t_min, ray.start.t_error, ray.t_max, ray.end_error, line);
   return line;
 }
 

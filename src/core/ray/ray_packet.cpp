@@ -2,7 +2,7 @@
 
 #include <glm/geometric.hpp>
 
-#include "core/ray/certain_end.hpp"
+#include "core/ray/line_of_ray.hpp"
 
 namespace crt::core {
 
@@ -28,23 +28,13 @@ void RayBatch::set(std::size_t index, const WorldRay& ray) {
   end_errors[group][i] = ray.end_error;
 }
 
-RayPacket::RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some)
-    : starts(of_rays) {
+template <>
+RayPacketOf<Lanes>::RayPacketOf(const RayBatch& rays, const Starts& of_rays, RayMask some)
+    : source(rays), starts(of_rays) {
   for_each_group(some, [&](std::size_t group, RayMask) {
-    const auto& [origin, direction] = rays.lines[group];
-    FilterLine<Lanes>& lines = groups[group];
-    lines.origin = {origin.x, origin.y, origin.z};
-    lines.direction = {direction.x, direction.y, direction.z};
-    lines.squared_length = dot(lines.direction, lines.direction);
-    lines.inverse_squared_length = 1.0 / lines.squared_length;
-    lines.inverse_length = sqrt(lines.inverse_squared_length);
-    for (std::size_t axis = 0; axis < 3; ++axis) lines.inverse[axis] = 1.0 / lines.direction[axis];
-    lines.begin = rays.t_min[group];
-    lines.start_error = rays.start_errors[group];
-    lines.certain_from = farthest_start(lines.begin, lines.start_error);
     limits[group] = rays.t_max[group];
-    lines.certain_to =
-        finite_end(certain_end(rays.lines[group], limits[group], rays.end_errors[group]));
+    set_line(rays.lines[group], rays.t_min[group], rays.start_errors[group], limits[group],
+             rays.end_errors[group], groups[group]);
   });
 }
 

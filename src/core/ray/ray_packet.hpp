@@ -1,12 +1,14 @@
-// Packets are rays that travel through a scene side by side.
+// Packets are rays that travel through a scene side by side. A single ray is a packet of one.
 #pragma once
 
 #include <array>
 #include <bit>
 #include <cstdint>
 #include <limits>
+#include <span>
+#include <type_traits>
 
-#include "core/ray/filter_line.hpp"
+#include "core/ray/line_of_ray.hpp"
 #include "core/ray/plain_ray.hpp"
 #include "core/ray/world_ray.hpp"
 
@@ -30,22 +32,24 @@ void for_each_ray(RayMask mask, const Use& use) {
   for (; mask != 0; mask &= mask - 1) use(first_ray(mask));
 }
 
-/// A PacketStarts says on what the rays of a packet start.
-struct PacketStarts {
-  std::array<std::uint32_t, packet_size> surfaces;
-  std::array<std::uint32_t, packet_size> leaves;
+/// A PacketStartsOf says on what the rays of a packet start, which has `count` rays at most.
+template <std::size_t count>
+struct PacketStartsOf {
+  std::array<std::uint32_t, count> surfaces;
+  std::array<std::uint32_t, count> leaves;
   RayMask on_surface = 0;  ///< the rays that start on a surface
   RayMask outwards = 0;    ///< the rays of `on_surface` that leave to the outside
   /// Each entry is the object that a ray has left for good.
-  std::array<std::uint32_t, packet_size> left_objects;
+  std::array<std::uint32_t, count> left_objects;
   RayMask left_some = 0;  ///< the rays that have left an object
 
-  PacketStarts() {
+  PacketStartsOf() {
     surfaces.fill(nothing);
     leaves.fill(nothing);
     left_objects.fill(nothing);
   }
 };
+using PacketStarts = PacketStartsOf<packet_size>;
 
 /// A RayBatch has up to packet_size rays by component. A mask that comes with it says which of them
 /// there are. The others may hold anything.
@@ -66,6 +70,12 @@ struct RayBatch {
 
   /// Returns one of the rays.
   WorldRay ray(std::size_t index) const;
+  const RayLanes& line(std::size_t group) const { return lines[group]; }
+  const Lanes& begin(std::size_t group) const { return t_min[group]; }
+  const Lanes& end(std::size_t group) const { return t_max[group]; }
+  std::span<const StartPoint> group_starts(std::size_t group) const {
+    return std::span(starts).subspan(group * lane_count, lane_count);
+  }
   Vec3 direction(std::size_t index) const {
     return lines[index / lane_count].direction.lane(index % lane_count);
   }
@@ -85,24 +95,31 @@ inline void RayBatch::set(std::size_t index, const Vec3& origin, const Vec3& dir
   with_starts |= RayMask{1} << index;
 }
 
-/// A RayPacket has up to packet_size rays in the form that vector instructions take.
-struct RayPacket {
-  static constexpr std::size_t group_count = packet_size / lane_count;
-  static constexpr RayMask group_mask = (1u << lane_count) - 1;
+/// A RayPacketOf has rays in the form that the conservative tests take. Of doubles it has one group
+/// of one ray, and of Lanes several groups of lane_count rays.
+template <class Real>
+struct RayPacketOf {
+  static constexpr bool is_single = std::is_same_v<Real, double>;
+  static constexpr std::size_t group_size = lanes_in<Real>;
+  static constexpr std::size_t size = is_single ? 1 : packet_size;
+  static constexpr std::size_t group_count = size / group_size;
+  static constexpr RayMask group_mask = (1u << group_size) - 1;
+  using Rays = std::conditional_t<is_single, WorldRay, RayBatch>;
+  using Starts = PacketStartsOf<size>;
 
-  /// Makes a packet of some rays of a batch. `of_rays` are their starts, which must outlive the
-  /// packet.
-  RayPacket(const RayBatch& rays, const PacketStarts& of_rays, RayMask some);
+  /// Makes a packet of some rays. They and their starts must outlive the packet.
+  RayPacketOf(const Rays& rays, const Starts& of_rays, RayMask some);
 
   /// Groups without a ray hold nothing.
-  std::array<FilterLine<Lanes>, group_count> groups;
+  std::array<FilterLine<Real>, group_count> groups;
   /// Nothing beyond its limit matters to a ray.
-  std::array<Lanes, group_count> limits;
-  const PacketStarts& starts;
+  std::array<Real, group_count> limits;
+  const Rays& source;  ///< which the packet was made of
+  const Starts& starts;
 
   /// Returns the rays of a group by lane.
   static RayMask lanes(RayMask rays, std::size_t group) {
-    return rays >> (group * lane_count) & group_mask;
+    return rays >> (group * group_size) & group_mask;
   }
 
   /// Calls use(group, lanes) for each group that has some of the rays.
@@ -116,20 +133,35 @@ struct RayPacket {
   static RayMask all(std::size_t count) {
     return static_cast<RayMask>((std::uint64_t{1} << count) - 1);
   }
-  double limit(std::size_t ray) const { return limits[ray / lane_count][ray % lane_count]; }
+  double limit(std::size_t ray) const {
+    return lane_of(limits[ray / group_size], ray % group_size);
+  }
   void set_limit(std::size_t ray, double limit) {
-    limits[ray / lane_count][ray % lane_count] = limit;
+    set_lane(limits[ray / group_size], ray % group_size, limit);
   }
 };
+template <>
+inline RayPacketOf<double>::RayPacketOf(const WorldRay& ray, const Starts& of_ray, RayMask)
+    : limits{ray.t_max}, source(ray), starts(of_ray) {
+  set_line(plain_ray(ray), ray.t_min, ray.start.t_error, ray.t_max, ray.end_error, groups[0]);
+}
+template <>
+RayPacketOf<Lanes>::RayPacketOf(const RayBatch&, const Starts&, RayMask);
+using RayPacket = RayPacketOf<Lanes>;
+using SingleRay = RayPacketOf<double>;
 
 /// Returns the rays whose value is the given one.
-inline RayMask rays_with(const std::array<std::uint32_t, packet_size>& values,
-                         std::uint32_t value) {
-  RayMask mask = 0;
-  for (std::size_t first = 0; first < packet_size; first += 8) {
-    mask |= which_of_eight(&values[first], value) << first;
+template <std::size_t count>
+RayMask rays_with(const std::array<std::uint32_t, count>& values, std::uint32_t value) {
+  if constexpr (count == 1) {
+    return mask_of(values[0] == value);
+  } else {
+    RayMask mask = 0;
+    for (std::size_t first = 0; first < count; first += 8) {
+      mask |= which_of_eight(&values[first], value) << first;
+    }
+    return mask;
   }
-  return mask;
 }
 
 /// Says which rays of a batch are followed together.

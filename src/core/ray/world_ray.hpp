@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <span>
 
 #include "core/ray/object_ray.hpp"
 
@@ -52,7 +53,18 @@ struct WorldRay {
   /// If the ray ends at something that may be on a surface, this is how far rounding may have put
   /// that from the surface. Surfaces through the end do not count as in between.
   double end_error = 0;
+
+  // A packet is made of one ray or of a RayBatch, which has these functions as well.
+  const WorldRay& ray(std::size_t /*index*/) const { return *this; }
+  PlainRay<double> line(std::size_t /*group*/) const { return {origin, direction}; }
+  const double& begin(std::size_t /*group*/) const { return t_min; }
+  const double& end(std::size_t /*group*/) const { return t_max; }
+  std::span<const StartPoint> group_starts(std::size_t /*group*/) const { return {&start, 1}; }
 };
+
+inline PlainRay<double> plain_ray(const WorldRay& ray) {
+  return {.origin = ray.origin, .direction = ray.direction};
+}
 
 /// A surface through the start may be met as far from the start as this many times the rounding of
 /// the start. The flatter the ray meets it, the farther that is.

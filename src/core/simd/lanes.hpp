@@ -52,6 +52,10 @@ template <class Number, class Abi>
   return static_cast<std::uint32_t>(mask.__to_bitset().to_ulong());
 }
 
+inline std::uint32_t mask_of(bool mask) {
+  return mask ? 1 : 0;
+}
+
 /// Returns the mask with those bits. Bits above the number of lanes do not count.
 template <class Mask>
 Mask mask_with(std::uint32_t bits) {
@@ -193,6 +197,32 @@ inline std::uint32_t which_of_eight(const std::uint32_t* numbers, std::uint32_t 
 /// MaskOf is what comparing two Reals gives.
 template <class Real>
 using MaskOf = decltype(Real{} < Real{});
+
+/// The number of lanes that a Real has.
+template <class Real>
+inline constexpr std::size_t lanes_in = std::is_same_v<Real, double> ? 1 : lane_count;
+
+/// Returns one lane of numbers or of a mask; one number has one lane.
+inline double lane_of(double x, std::size_t /*lane*/) {
+  return x;
+}
+inline bool lane_of(bool x, std::size_t /*lane*/) {
+  return x;
+}
+inline double lane_of(const Lanes& x, std::size_t lane) {
+  return x[lane];
+}
+inline bool lane_of(const LaneMask& x, std::size_t lane) {
+  return x[lane];
+}
+
+/// Sets one lane of numbers; one number has one lane.
+inline void set_lane(double& x, std::size_t /*lane*/, double value) {
+  x = value;
+}
+inline void set_lane(Lanes& x, std::size_t lane, double value) {
+  x[lane] = value;
+}
 
 // Argument-dependent lookup finds those of lanes.
 using std::abs;

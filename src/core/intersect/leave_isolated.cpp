@@ -1,0 +1,119 @@
+// Some rays find their nearest hits without the driver: those that start into an isolated solid,
+// and those among spheres alone.
+#include <array>
+#include <bit>
+
+#include "core/intersect/first_crossing.hpp"
+#include "core/intersect/nearest_sphere_hits.hpp"
+#include "core/intersect/queries.hpp"
+
+namespace crt::core {
+
+bool Accelerator::leave_isolated(const BoundingProxy& solid, const WorldRay& ray, RayHit& hit,
+                                 RayWorkspace& work) const {
+  work.csg.steps.begin_ray();
+  Nearest query(*this, ray, work, hit);
+  query.test(solid.object);
+  const Bounds margin = box_around(solid.object);
+  const PlainRay<double> line = plain_ray(ray);
+  if (hit.found() && is_within(margin, line, ray.t_min) && is_within(margin, line, query.limit()))
+    return true;
+  hit = {};
+  return false;
+}
+
+template <class SomeRays>
+RayMask Accelerator::leave_isolated(const BoundingProxy& solid, const SomeRays& rays,
+                                    std::size_t group, RayMask lanes, std::span<RayHit> hits,
+                                    RayWorkspace& work) const {
+  RayMask done = 0;
+  if (resolves_exit(solid)) {
+    const auto exit = isolated_exit(solid, box_around(solid.object), rays.line(group),
+                                    rays.begin(group), rays.end(group));
+    done = lanes & mask_of(exit.found);
+    for_each_ray(done, [&](std::size_t lane) {
+      write_first(solid, bounded_, lane_of(exit, lane), hits[lane]);
+    });
+    work.intersection_tests += static_cast<unsigned>(std::popcount(done));
+  }
+  for_each_ray(lanes & ~done, [&](std::size_t lane) {
+    const WorldRay& ray = rays.ray(group * lane_count + lane);
+    done |= mask_of(leave_isolated(solid, ray, hits[lane], work)) << lane;
+  });
+  return done;
+}
+
+RayMask Accelerator::leave_isolated(const WorldRay& ray, RayHit& hit, RayWorkspace& work) const {
+  const std::uint32_t place = entered_isolated(ray.start);
+  return place == nothing ? 0 : leave_isolated(bounded_.list[place], ray, 0, 1, {&hit, 1}, work);
+}
+
+RayMask Accelerator::leave_isolated(const RayBatch& rays, RayMask some,
+                                    std::span<RayHit, packet_size> hits, RayWorkspace& work) const {
+  if (isolated_.empty()) return 0;
+  RayMask done = 0;
+  RayPacket::for_each_group(some & rays.with_starts, [&](std::size_t group, RayMask to_come) {
+    const std::size_t first = group * lane_count;
+    std::array<std::uint32_t, lane_count> places;
+    const StartPoint* before = nullptr;
+    std::uint32_t place = nothing;
+    for_each_ray(to_come, [&](std::size_t lane) {
+      const StartPoint& start = rays.starts[first + lane];
+      if (before == nullptr || !start.is_to_same_side(*before)) place = entered_isolated(start);
+      before = &start;
+      places[lane] = place;
+      if (place == nothing) to_come &= ~(RayMask{1} << lane);
+    });
+    while (to_come != 0) {
+      place = places[first_ray(to_come)];
+      RayMask alike = 0;
+      for_each_ray(to_come, [&](std::size_t i) { alike |= mask_of(places[i] == place) << i; });
+      to_come &= ~alike;
+      done |= leave_isolated(bounded_.list[place], rays, group, alike, hits.subspan(first), work)
+              << first;
+    }
+  });
+  return done;
+}
+
+bool Accelerator::first_leaves(const RayBatch& rays, RayMask some, FirstLeaves& first) const {
+  if (!has_only_spheres() || (some & rays.with_starts) != 0 || !go_together(rays, some))
+    return false;
+  const NearestSpheres spheres = tree_->nearest_spheres(rays, rays.t_max, some);
+  const NearestSphereHits crossings(spheres, bounded_, rays);
+  if ((some & ~spheres.missing & ~crossings.known()) != 0) return false;
+  RayPacket::for_each_group(crossings.known(), [&](std::size_t group, RayMask lanes) {
+    const Lanes& t = crossings.t(group);
+    first.found |= (lanes & mask_of(t < rays.t_max[group])) << (group * lane_count);
+    first.t[group] = t;
+    for (std::size_t i = group * lane_count; i < (group + 1) * lane_count; ++i) {
+      first.leaves[i] = crossings.leaf(i);
+    }
+  });
+  return true;
+}
+
+RayMask Accelerator::find_all_nearest_spheres(const RayBatch& rays, RayMask some,
+                                              std::span<RayHit, packet_size> hits,
+                                              RayWorkspace& work) const {
+  const NearestSpheres spheres = tree_->nearest_spheres(rays, rays.t_max, some);
+  const NearestSphereHits crossings(spheres, bounded_, rays);
+  const RayMask known = spheres.missing | crossings.known();
+  for (std::size_t group = 0; group < RayBatch::group_count; ++group) {
+    const std::size_t first = group * lane_count;
+    const RayMask lanes = RayPacket::lanes(known, group);
+    RayMask found = RayPacket::lanes(crossings.known(), group);
+    if (found == 0) {
+      for_each_ray(lanes, [&](std::size_t lane) { hits[first + lane] = {}; });
+      continue;
+    }
+    found &= mask_of(crossings.t(group) < rays.t_max[group]);
+    for_each_ray(lanes, [&](std::size_t lane) {
+      crossings.write(first + lane, (found >> lane & 1u) != 0, hits[first + lane]);
+    });
+  }
+  work.intersection_tests += static_cast<unsigned>(std::popcount(crossings.known()));
+  return known;
+}
+
+}  // namespace crt::core

@@ -1,0 +1,381 @@
+// The rays of a packet are tested against one object after the other: filter, solve, commit.
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <limits>
+#include <new>
+#include <span>
+#include <utility>
+#include <vector>
+
+#include "core/intersect/filter_rays.hpp"
+#include "core/intersect/first_crossing.hpp"
+#include "core/intersect/nearest_sphere_hits.hpp"
+#include "core/intersect/queries.hpp"
+
+namespace crt::core {
+
+inline const BoundaryChanges<double>& lane_of(const BoundaryChanges<double>& change,
+                                              std::size_t /*lane*/) {
+  return change;
+}
+
+inline LineSpan spans_in(const Bounds& box, const FilterLine<double>& line, RayMask /*some*/) {
+  const auto& [origin, direction] = plain_ray(line);
+  return RaySlabs::span(origin, direction, box);
+}
+inline LineSpanLanes spans_in(const Bounds& box, const FilterLine<Lanes>& lines, RayMask some) {
+  return RaySlabs::spans(lines, box, some);
+}
+
+/// An ObjectTests tests the rays of a packet against objects. Each ray finds the same in any
+/// packet.
+template <class Real, class Asked>
+class ObjectTests {
+ public:
+  using Packet = RayPacketOf<Real>;
+  static constexpr bool any_will_do = Asked::any_will_do;
+  /// To find the nearest crossing, objects are to come from near to far.
+  static constexpr bool from_near = !any_will_do;
+
+  ObjectTests(const Accelerator& accelerator, Packet& packet, RayMask going, const Asked& asked,
+              RayWorkspace& work)
+      : accelerator_(accelerator),
+        packet_(packet),
+        filter_(packet),
+        going_(going),
+        asked_(asked),
+        work_(work) {
+    work.csg.steps.begin_ray();
+  }
+
+  /// Returns the rays that have not found all they ask for.
+  RayMask going() const { return going_; }
+
+  /// Tests some rays against an object. Returns the rays whose limits it changed.
+  RayMask test(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays) {
+    changed_ = 0;
+    step(rays);
+    rays &= ~filter_.left(proxy);
+    if (rays == 0) return 0;
+    const BoxStarts starts = filter_.box_starts(proxy, proxies, rays);
+    if constexpr (Asked::gathers) {
+      if (asked_.is_gathered(proxy.object)) return gather(proxy, proxies, rays, starts);
+    }
+    const Decision<RayMask> decision = filter_.decide(proxy, proxies, rays, starts, any_will_do);
+    RayMask open = rays & ~decision.rejected;
+    if constexpr (any_will_do) {
+      open &= ~decision.accepted;
+      settle(decision.accepted);
+    }
+    if (open != 0 && proxies.resolved_leaf(proxy) != nothing) {
+      const RayMask resolved = open & filter_.resolved(proxy, proxies, starts);
+      open = (open & ~resolved) | test_resolved(proxy, proxies, resolved, starts);
+    }
+    if (open == 0) return changed_;  // what follows looks farther away in memory
+    if (const IntervalFilter* filter = accelerator_.filter(proxy.object)) {
+      Packet::for_each_group(std::exchange(open, 0), [&](std::size_t group, RayMask lanes) {
+        open |= test_changes(proxy.object, *filter, group, lanes) << (group * group_size);
+      });
+    }
+    for_each_ray(
+        open, [&](std::size_t ray) { ask(ray, [&](auto& query) { query.test(proxy.object); }); });
+    return changed_;
+  }
+
+  /// Takes the spheres that rays cross first, as far as floats can find them. Returns the rays for
+  /// which they can.
+  RayMask take_nearest_spheres(const NearestSpheres& spheres, const BoundingProxies& proxies) {
+    const NearestSphereHits crossings(spheres, proxies, packet_.source);
+    Packet::for_each_group(crossings.known(), [&](std::size_t group, RayMask known) {
+      const std::size_t first = group * group_size;
+      const Lanes& t = crossings.t(group);
+      commit(
+          group, t, crossings.reach(group), known & mask_of(t <= packet_.limits[group]),
+          [&](std::size_t lane) { return crossings.object(first + lane); },
+          [&](std::size_t lane, RayHit& hit) { crossings.write(first + lane, true, hit); });
+    });
+    count_tests(crossings.known());
+    return spheres.missing | crossings.known();
+  }
+
+  /// Lets a plane that rays surely meet bound what else matters to them.
+  void limit_by(const BoundingProxy& plane, const BoundingProxies& proxies) {
+    typename FilterRays<Real>::ByGroup last;
+    step(going_);
+    const RayMask accepted =
+        filter_.decide(plane, proxies, going_ & ~filter_.left(plane), any_will_do, last).accepted;
+    Packet::for_each_group(accepted, [&](std::size_t group, RayMask lanes) {
+      // A hit there would have this reach.
+      const FilterLine<Real>& lines = packet_.groups[group];
+      const Real reach = last[group] + coincidence_tolerance(plain_ray(lines), last[group], Real{});
+      Real& limits = packet_.limits[group];
+      limits = select(lanes_of_mask<Real>(lanes) && reach < limits, reach, limits);
+      going_ &= ~((lanes & mask_of(limits <= lines.begin)) << (group * group_size));
+    });
+  }
+
+ private:
+  static constexpr double infinity = std::numeric_limits<double>::infinity();
+  static constexpr std::size_t group_size = Packet::group_size;
+
+  /// A GroupCrossing has memory for what a group crosses, which is written where it stays.
+  union GroupCrossing {
+    GroupCrossing() {}  // NOLINT(modernize-use-equals-default): that would be deleted
+    FirstCrossing<Real> first;
+  };
+
+  void count_tests(RayMask rays) {
+    work_.intersection_tests += static_cast<unsigned>(std::popcount(rays));
+  }
+
+  /// Ends rays that have found what they ask for.
+  void settle(RayMask rays) {
+    changed_ |= rays;
+    going_ &= ~rays;
+    Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      Real& limits = packet_.limits[group];
+      limits = select(lanes_of_mask<Real>(lanes), broadcast<Real>(-infinity), limits);
+    });
+  }
+
+  /// Calls use(query) with the exact query of one ray, and takes what that changes.
+  template <class Use>
+  void ask(std::size_t number, const Use& use) {
+    const double before = packet_.limit(number);
+    const WorldRay& ray = packet_.source.ray(number);
+    auto query = asked_.query(accelerator_, ray, number, work_);
+    query.set_limit(before);
+    begin_steps();
+    use(query);
+    add_steps(number);
+    if (query.limit() == before) return;
+    packet_.set_limit(number, query.limit());
+    const RayMask bit = RayMask{1} << number;
+    changed_ |= bit;
+    if (query.limit() <= ray.t_min) going_ &= ~bit;
+  }
+
+  /// Tests an object whose proxy suffices to find its first crossings. Returns the rays for which
+  /// it does not.
+  RayMask test_resolved(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
+                        const BoxStarts& starts) {
+    // All are found before any is taken, so that none waits for what is made of another.
+    std::array<GroupCrossing, Packet::group_count> crossings;
+    Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      new (&crossings[group].first)
+          FirstCrossing<Real>(filter_.first_crossing(proxy, proxies, group, lanes, starts));
+    });
+    RayMask open = 0;
+    Packet::for_each_group(rays, [&](std::size_t group, RayMask lanes) {
+      const FirstCrossing<Real>& first = crossings[group].first;
+      const RayMask known = lanes & ~mask_of(first.unknown);
+      open |= (lanes & ~known) << (group * group_size);
+      count_tests(known);
+      const RayMask found = known & mask_of(first.found && first.t <= packet_.limits[group]);
+      if (found == 0) return;
+      take(proxy.object, group, first, found, [&](std::size_t lane, RayHit& hit) {
+        write_first(proxy, proxies, lane_of(first, lane), hit);
+      });
+    });
+    return open;
+  }
+
+  /// Takes crossings with an object before the limits; write(lane, hit) writes one where it stays.
+  template <class Write>
+  void take(std::uint32_t object, std::size_t group, const FirstCrossing<Real>& first,
+            RayMask found, const Write& write) {
+    const FilterLine<Real>& lines = packet_.groups[group];
+    const std::size_t first_ray = group * group_size;
+    if constexpr (any_will_do) {
+      const RayMask surely = found & mask_of(first.t < lines.certain_to);
+      settle(surely << first_ray);
+      for_each_ray(found & ~surely, [&](std::size_t lane) {
+        RayHit hit;
+        write(lane, hit);
+        ask(first_ray + lane, [&](Any& query) { query.take(hit); });
+      });
+    } else {
+      const Real reach = first.t + coincidence_tolerance(plain_ray(lines), first.t, first.error);
+      commit(
+          group, first.t, reach, found, [object](std::size_t) { return object; }, write);
+    }
+  }
+
+  /// Keeps crossings that are the nearest so far, each of object_of(lane). Others may coincide with
+  /// them up to `reach`.
+  template <class ObjectOf, class Write>
+  void commit(std::size_t group, const Real& t, const Real& reach, RayMask found,
+              const ObjectOf& object_of, const Write& write) {
+    Real& limits = packet_.limits[group];
+    const std::size_t first_ray = group * group_size;
+    RayMask best = 0;
+    for_each_ray(found & mask_of(t < packet_.source.end(group)), [&](std::size_t lane) {
+      const bool is_best =
+          Nearest::commit(asked_.hits[first_ray + lane], lane_of(t, lane), 0, object_of(lane),
+                          lane_of(reach, lane), [&](RayHit& hit) { write(lane, hit); });
+      best |= mask_of(is_best) << lane;
+    });
+    // These limits are after the rays' starts, so that the rays go on.
+    const auto nearer = lanes_of_mask<Real>(best) && reach < limits;
+    limits = select(nearer, reach, limits);
+    changed_ |= mask_of(nearer) << first_ray;
+  }
+
+  /// Gathers all crossings with an object, of which not all is opaque.
+  RayMask gather(const BoundingProxy& proxy, const BoundingProxies& proxies, RayMask rays,
+                 const BoxStarts& starts) {
+    RayMask open = rays & ~filter_.decide(proxy, proxies, rays, starts, false).rejected;
+    if (proxy.is_sphere() && proxies.resolved_leaf(proxy) != nothing) {
+      Packet::for_each_group(
+          open & filter_.resolved(proxy, proxies, starts), [&](std::size_t group, RayMask lanes) {
+            open &= ~(gather_chords(proxy, proxies, group, lanes) << (group * group_size));
+          });
+    }
+    for_each_ray(open, [&](std::size_t number) {
+      const WorldRay& ray = packet_.source.ray(number);
+      All query(accelerator_, ray, work_, &asked_.opacity, asked_.found[number]);
+      begin_steps();
+      query.test(proxy.object);
+      add_steps(number);
+      if (query.stopped) settle(RayMask{1} << number);
+    });
+    return changed_;
+  }
+
+  /// Gathers the crossings with a sphere of lanes that do not start on it. Returns the lanes for
+  /// which its proxy suffices.
+  RayMask gather_chords(const BoundingProxy& sphere, const BoundingProxies& proxies,
+                        std::size_t group, RayMask lanes) {
+    const FilterLine<Real>& lines = packet_.groups[group];
+    const Real& limits = packet_.limits[group];
+    const auto ends = crossings_of_sphere(sphere, proxies, lines);
+    const auto is_clear = [&](const FirstCrossing<Real>& end) {
+      return !end.unknown && (!end.found || end.t < lines.certain_to || end.t > limits);
+    };
+    const RayMask done = lanes & mask_of(is_clear(ends[0]) && is_clear(ends[1]));
+    count_tests(done);
+    for (const FirstCrossing<Real>& end : ends) {
+      for_each_ray(done & mask_of(end.found && end.t <= limits), [&](std::size_t lane) {
+        write_first(sphere, proxies, lane_of(end, lane),
+                    asked_.found[group * group_size + lane].emplace_back());
+      });
+    }
+    return done;
+  }
+
+  /// Tests a CSG object by its interval filter. Returns the lanes that this leaves open.
+  RayMask test_changes(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
+                       RayMask asked) {
+    const CompiledScene& scene = accelerator_.compiled();
+    const SceneObject& solid = scene.objects[object];
+    const FilterLine<Real>& lines = packet_.groups[group];
+    const auto changes =
+        filter.first_changes<Real>({.lines = lines,
+                                    .limits = packet_.limits[group],
+                                    .asked = asked,
+                                    .on_surface = Packet::lanes(packet_.starts.on_surface, group),
+                                    .starts = packet_.source.group_starts(group)},
+                                   scene.programs[solid.program], scene.leaves_of(solid),
+                                   scene.face_surfaces, work_.near_leaves, work_.csg.steps);
+    RayMask to_come = asked & mask_of(changes.one);
+    RayMask open = asked & ~mask_of(changes.one || changes.none);
+    if constexpr (any_will_do) {
+      const RayMask surely = to_come & mask_of(changes.to < lines.certain_to);
+      settle(surely << (group * group_size));
+      to_come &= ~surely;
+    }
+    while (to_come != 0) {
+      const std::size_t first = first_ray(to_come);
+      const RayMask into_leaf = mask_of(changes.into_leaf);
+      const RayMask same_way = (into_leaf >> first & 1u) != 0 ? into_leaf : ~into_leaf;
+      const RayMask alike = to_come & same_way &
+                            mask_of(changes.leaf == broadcast<Real>(lane_of(changes.leaf, first)));
+      to_come &= ~alike;
+      open |= take_changes(object, filter, group, alike, changes);
+    }
+    count_tests(asked & ~open);
+    return open;
+  }
+
+  /// Takes changes of one leaf, all into it or all out of it. Returns where none has been found.
+  RayMask take_changes(std::uint32_t object, const IntervalFilter& filter, std::size_t group,
+                       RayMask alike, const BoundaryChanges<Real>& changes) {
+    const CompiledScene& scene = accelerator_.compiled();
+    const FilterLine<Real>& lines = packet_.groups[group];
+    const std::size_t first = first_ray(alike);
+    const auto number = static_cast<std::uint32_t>(lane_of(changes.leaf, first));
+    const std::uint32_t index = scene.objects[object].first_leaf + number;
+    const Leaf& leaf = scene.leaves[index];
+    RayMask resolved = 0;
+    if (has_resolved_crossings(leaf)) {
+      const bool into_leaf = lane_of(changes.into_leaf, first);
+      const FirstCrossing<Real> crossing = crossing_of_change(filter, number, into_leaf, lines);
+      const RayMask starting = Packet::lanes(rays_with(packet_.starts.leaves, index), group);
+      const auto span = spans_in(leaf.bounds, lines, alike);
+      const auto in_span = crossing.t >= span.enter && crossing.t <= span.leave;
+      resolved = alike & ~starting & mask_of(crossing.found && in_span);
+      work_.csg.events += static_cast<unsigned>(std::popcount(resolved));
+      take(object, group, crossing, resolved, [&](std::size_t lane, RayHit& hit) {
+        const auto face = static_cast<std::uint32_t>(lane_of(crossing.face, lane));
+        hit = {.t = lane_of(crossing.t, lane),
+               .error = lane_of(crossing.error, lane),
+               .object = object,
+               .leaf = index,
+               .face = face,
+               .surface = scene.face_surfaces[leaf.first_face + face].surface,
+               .root = static_cast<std::uint8_t>(filter.sphere(number) != nullptr && !into_leaf),
+               .entering = lane_of(changes.into_object, lane)};
+      });
+    }
+    RayMask open = 0;
+    for_each_ray(alike & ~resolved, [&](std::size_t lane) {
+      ask(group * group_size + lane, [&](auto& query) {
+        if (!query.test_change(object, lane_of(changes, lane))) open |= RayMask{1} << lane;
+      });
+    });
+    return open;
+  }
+
+  // A single ray counts every step. A packet counts its rays' steps only where there are many.
+
+  /// Counts that some rays come to one object more.
+  void step(RayMask rays) {
+    RaySteps& steps = work_.csg.steps;
+    if constexpr (Packet::is_single) {
+      steps.step();
+    } else {
+      if (++visits_ < steps_per_look) [[likely]]
+        return;
+      std::uint64_t most = 0;
+      for_each_ray(rays, [&](std::size_t ray) { most = std::max(most, ++steps_[ray]); });
+      if (visits_ % steps_per_look == 0) steps.look(most);
+    }
+  }
+  /// Begins to count the steps of one ray within an object.
+  void begin_steps() {
+    if constexpr (!Packet::is_single) work_.csg.steps.begin_ray();
+  }
+  void add_steps(std::size_t ray) {
+    if constexpr (!Packet::is_single) {
+      const RaySteps& steps = work_.csg.steps;
+      if (steps.taken() < steps_per_look) return;
+      steps_[ray] += steps.taken();
+      steps.look(steps_[ray]);
+    }
+  }
+
+  const Accelerator& accelerator_;
+  Packet& packet_;
+  FilterRays<Real> filter_;
+  RayMask going_;
+  RayMask changed_ = 0;
+  const Asked& asked_;
+  RayWorkspace& work_;
+  std::uint64_t visits_ = 0;
+  std::array<std::uint64_t, Packet::size> steps_{};
+};
+
+}  // namespace crt::core
