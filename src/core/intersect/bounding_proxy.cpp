@@ -10,8 +10,8 @@ namespace crt::core {
 
 namespace {
 
-/// By how much a transform scales, if it does so alike in all directions (but for its own
-/// roundings); else 0.
+/// Returns by how much a transform scales, if it does so alike in all directions but for its own
+/// roundings; else 0.
 double even_scale(const Transform& transform) {
   const std::array<Vec3, 3> rows = {transform.row_x, transform.row_y, transform.row_z};
   const double square = glm::dot(rows[0], rows[0]);
@@ -25,15 +25,14 @@ double even_scale(const Transform& transform) {
   return std::sqrt(square);
 }
 
-/// BoundingProxies of spheres and planes are where the objects are to the last bit, or there are
-/// none.
+/// Places a proxy where its sphere or plane is, to the last bit. Returns false if no doubles do.
 bool place_exactly(const Surface& surface, const Placement& placement, BoundingProxy& proxy) {
   const std::optional<Vec3> place = placement.exactly_to_world(surface.position);
   if (place) proxy.place = *place;
   return place.has_value();
 }
 
-/// That of a torus is thicker by more than all roundings.
+/// Places a torus, thicker by more than all roundings. Returns false if that cannot be done.
 bool place_torus(const Surface& surface, const Placement& placement, BoundingProxy& proxy,
                  ProxyAxis& of_torus) {
   const double scale = even_scale(placement.to_world());
@@ -53,7 +52,8 @@ bool place_torus(const Surface& surface, const Placement& placement, BoundingPro
   return true;
 }
 
-/// That of something long is thicker by more than all roundings.
+/// Places a cylinder around something long, thicker by more than all roundings. Returns false if
+/// there is nothing long, or if that cannot be done.
 bool place_cylinder(const Shape& shape, const Placement& placement, BoundingProxy& proxy,
                     ProxyAxis& of_cylinder) {
   const std::optional<CoreSegment> segment = shape.core_segment();
@@ -78,8 +78,8 @@ bool place_cylinder(const Shape& shape, const Placement& placement, BoundingProx
   return true;
 }
 
-/// That of the smallest sphere that has the object within it, a little larger than that: crossings
-/// of other solids on its rim are known less well.
+/// Returns the smallest sphere that has a CSG object within it, and a little more: crossings of
+/// other solids next to its surface are known less well.
 BoundingProxy proxy_of_csg(const CompiledScene& scene, const SceneObject& object) {
   BoundingProxy smallest;
   const CsgProgram& program = scene.programs[object.program];
@@ -106,7 +106,7 @@ BoundingProxy proxy_of_csg(const CompiledScene& scene, const SceneObject& object
   return smallest;
 }
 
-/// Without a transform a box is what its bounds are.
+/// Returns the box of a leaf without a transform, which is what its bounds are.
 ProxyBox proxy_box(const CompiledScene& scene, std::uint32_t index) {
   const Leaf& leaf = scene.leaves[index];
   const Bounds bounds = leaf.shape->bounds();
@@ -119,7 +119,7 @@ ProxyBox proxy_box(const CompiledScene& scene, std::uint32_t index) {
   return box;
 }
 
-/// A leaf that is an object of its own.
+/// A LoneLeaf is a leaf that is an object of its own.
 struct LoneLeaf {
   const CompiledScene& scene;
   std::uint32_t index;
@@ -128,7 +128,7 @@ struct LoneLeaf {
   Surface surface;  ///< of the first face
 };
 
-/// From then on the axis tells the leaf's crossings.
+/// Makes the axis give the leaf's crossings.
 void resolve(const LoneLeaf& lone, ProxyAxis& axis) {
   axis.leaf = lone.index;
   axis.moved = &lone.leaf;

@@ -1,5 +1,5 @@
-// Cheap tests that spare most exact ones: whether a line surely misses an object, or surely meets
-// it.
+// Conservative tests spare most exact ones: they say whether a line surely misses an object, or
+// surely meets it.
 #pragma once
 
 #include <algorithm>
@@ -17,21 +17,21 @@
 
 namespace crt::core {
 
-/// An object as the cheap tests see it. Few objects have an proxy: those that scenes have many of
-/// and whose exact test costs much more. Small, as rays come by many of them.
+/// A BoundingProxy is an object as the conservative tests see it. It is small, as rays come by many
+/// of them. Objects have one if scenes have many of them and their exact test costs much more.
 struct BoundingProxy {
   enum class Kind : std::uint8_t { unknown, sphere, moved_sphere, plane, torus, cylinder, box };
 
   Kind kind = Kind::unknown;
-  /// Whether there is a cheap test that may say of a line that it misses or meets the object.
+  /// This says whether there is a conservative test of the object.
   bool has_test = false;
-  /// The object is somewhere within: only what misses it is sure.
+  /// If it encloses the object, which is somewhere within, only what misses it is sure.
   bool encloses = false;
   std::uint32_t object = nothing;
   std::uint32_t surface =
       nothing;  ///< its whole surface, or that of what encloses it; a box has six
-  /// Of a sphere its leaf, if the proxy alone tells its crossings (in the standard tier, without a
-  /// transform); of others the number of their ProxyAxis or ProxyBox.
+  /// For a sphere this is its leaf, if the proxy alone gives its crossings: in the standard tier,
+  /// without a transform. For others it is the number of their ProxyAxis or ProxyBox.
   std::uint32_t detail = nothing;
   Vec3 place{0, 0, 0};  ///< the center, or a point of the plane
   double radius = 0;    ///< the torus's is that of its ring
@@ -42,17 +42,17 @@ struct BoundingProxy {
   bool is_sphere() const { return kind == Kind::sphere || kind == Kind::moved_sphere; }
 };
 
-/// What more there is to tell of some.
+/// A ProxyAxis has what some proxies need besides.
 struct ProxyAxis {
   Vec3 normal{
       0, 0,
       0};  ///< of the plane, its largest component about 1; the axis of the torus or the cylinder
   double thickness =
       0;  ///< of the torus, and a little more for all roundings on the offset to the world
-  /// Of a plane across a coordinate axis, of a torus, a moved sphere, a cylinder and a cone: as
-  /// BoundingProxy::detail of a sphere.
+  /// The leaf is as BoundingProxy::detail has it for a sphere. Planes across a coordinate axis have
+  /// one, and tori, moved spheres, cylinders and cones.
   std::uint32_t leaf = nothing;
-  /// Of a cylinder or cone the surfaces of the caps, if it has them.
+  /// The caps are surfaces of a cylinder or cone, if it has them.
   std::array<std::uint32_t, 2> caps = {nothing, nothing};
   const Leaf* moved = nullptr;  ///< that leaf, but for planes, moved or not; the scene owns it
   TypedShape typed;             ///< its shape
@@ -65,7 +65,8 @@ struct BoundingProxies {
   std::vector<ProxyAxis> axes;
   std::vector<ProxyBox> boxes;
 
-  /// Those of some objects, in their order; of unknown kind where there is none.
+  /// Makes the proxies of some objects, in their order. They are of unknown kind where an object
+  /// has none.
   BoundingProxies() = default;
   BoundingProxies(const CompiledScene& scene, std::span<const std::uint32_t> objects,
                   const Workers& workers = {});
@@ -73,7 +74,7 @@ struct BoundingProxies {
   const ProxyAxis& axis(const BoundingProxy& proxy) const { return axes[proxy.detail]; }
   const ProxyBox& box(const BoundingProxy& proxy) const { return boxes[proxy.detail]; }
 
-  /// The leaf of an object whose proxy alone tells its crossings; else nothing.
+  /// Returns the leaf of an object whose proxy alone gives its crossings; else nothing.
   std::uint32_t resolved_leaf(const BoundingProxy& proxy) const {
     switch (proxy.kind) {
       case BoundingProxy::Kind::sphere:
