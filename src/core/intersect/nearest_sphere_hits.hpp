@@ -40,7 +40,7 @@ class NearestSphereHits {
   /// Writes a hit as the exact test has it, or that there is none.
   void write(std::size_t ray, bool found, RayHit& hit) const {
     const BoundingProxy& sphere = *spheres_[ray];
-    const auto lane = static_cast<int>(ray % lane_count);
+    const std::size_t lane = ray % lane_count;
     const bool entering = found && (entering_ >> ray & 1u) != 0;
     hit = {.t = found ? t_[ray / lane_count][lane] : std::numeric_limits<double>::infinity(),
            .error = found ? errors_[ray / lane_count][lane] : 0,
