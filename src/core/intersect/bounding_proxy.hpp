@@ -104,26 +104,6 @@ MaskOf<Real> leaves_torus(const BoundingProxy& torus, const ProxyAxis& axis,
   return leaves_for_good(enclosed_torus(torus, axis), line);
 }
 
-/// Encloses the part of lines in a proxy that has a test and is no box, as the primitives'
-/// enclose() does.
-template <class Real>
-bool enclose(const BoundingProxy& proxy, const BoundingProxies& proxies,
-             const FilterLine<Real>& line, Enclosure<Real>& part) {
-  const auto all_lines = lanes_of_mask<Real>(~std::uint32_t{0});
-  switch (proxy.kind) {
-    case BoundingProxy::Kind::sphere:
-    case BoundingProxy::Kind::moved_sphere:
-      return enclose(EnclosedSphere{proxy.place, proxy.radius}, line, all_lines, part);
-    case BoundingProxy::Kind::torus:
-      return enclose(enclosed_torus(proxy, proxies.axis(proxy)), line, all_lines, part);
-    case BoundingProxy::Kind::cylinder:
-      return enclose(EndlessCylinder{proxy.place, proxies.axis(proxy).normal, proxy.radius}, line,
-                     all_lines, part);
-    default:
-      return enclose(EnclosedPlane{proxy.place, proxies.axis(proxy).normal}, line, all_lines, part);
-  }
-}
-
 /// Decides whether crossings with a proxy that has a test and is no box count up to a limit. `last`
 /// is set for a plane, to a t up to which it surely has been met if it is met at all. Nothing else
 /// is accepted unless `any_will_do`, as nobody asks for that.
@@ -131,13 +111,30 @@ template <class Real>
 Decision<MaskOf<Real>> test_proxy(const BoundingProxy& proxy, const BoundingProxies& proxies,
                                   const FilterLine<Real>& line, const Real& limit, bool any_will_do,
                                   Real& last) {
-  Enclosure<Real> part;
-  if (!enclose(proxy, proxies, line, part)) {
-    return {.rejected = lanes_of_mask<Real>(~std::uint32_t{0}), .accepted = {}};
+  // Each primitive has its own copy of what follows from its enclosure: much of that is constant.
+  const auto by_enclosure = [&](const auto& solid, bool may_accept) {
+    const auto all_lines = lanes_of_mask<Real>(~std::uint32_t{0});
+    Enclosure<Real> part;
+    if (!enclose(solid, line, all_lines, part)) {
+      return Decision<MaskOf<Real>>{.rejected = all_lines, .accepted = {}};
+    }
+    last = part.enter_to;
+    if (proxy.encloses) return Decision<MaskOf<Real>>{is_outside(part, line, limit), {}};
+    return decide(part, line, limit, may_accept);
+  };
+  switch (proxy.kind) {
+    case BoundingProxy::Kind::sphere:
+    case BoundingProxy::Kind::moved_sphere:
+      return by_enclosure(EnclosedSphere{proxy.place, proxy.radius}, any_will_do);
+    case BoundingProxy::Kind::torus:
+      return by_enclosure(enclosed_torus(proxy, proxies.axis(proxy)), any_will_do);
+    case BoundingProxy::Kind::cylinder: {
+      const Vec3& axis = proxies.axis(proxy).normal;
+      return by_enclosure(EndlessCylinder{proxy.place, axis, proxy.radius}, false);
+    }
+    default:
+      return by_enclosure(EnclosedPlane{proxy.place, proxies.axis(proxy).normal}, true);
   }
-  last = part.enter_to;
-  if (proxy.encloses) return {.rejected = is_outside(part, line, limit), .accepted = {}};
-  return decide(part, line, limit, any_will_do || proxy.kind == BoundingProxy::Kind::plane);
 }
 
 }  // namespace crt::core

@@ -85,21 +85,22 @@ Real finite(const Real& limit) {
 /// Returns whether lines surely are outside between their begin and a limit. It is all that is
 /// certain of what is somewhere within the solid.
 template <class Real>
-MaskOf<Real> is_outside(const Enclosure<Real>& part, const FilterLine<Real>& line,
-                        const Real& limit) {
+[[gnu::always_inline]] inline MaskOf<Real> is_outside(const Enclosure<Real>& part,
+                                                      const FilterLine<Real>& line,
+                                                      const Real& limit) {
   return part.is_outside(line.begin, finite(limit));
 }
 
 /// Decides whether crossings count between a line's begin and a limit. `may_accept` is false where
 /// nobody asks whether one surely does.
 template <class Real>
-auto decide(const Enclosure<Real>& part, const FilterLine<Real>& line, const Real& limit,
-            bool may_accept) {
+[[gnu::always_inline]] inline auto decide(const Enclosure<Real>& part, const FilterLine<Real>& line,
+                                          const Real& limit, bool may_accept) {
   using Mask = MaskOf<Real>;
   Decision<Mask> decision{
       .rejected = is_outside(part, line, limit) || part.is_inside(line.begin, finite(limit)),
       .accepted = {}};
-  if (!may_accept) return decision;
+  if (!may_accept || all(decision.rejected)) return decision;
   const auto counts = [&](const Real& from, const Real& to) {
     return from > line.certain_from && to < line.certain_to;
   };

@@ -142,7 +142,7 @@ class QueryPacket {
     t_ = factors * t;
     for_each_ray(found & ~mask_of(has_all_digits(t_)), [&](std::size_t lane) {
       const std::size_t index = group * lane_count + lane;
-      t_[lane] = users_t(users_[index], t_[lane], hits_[index].t_low);
+      t_[lane] = users_t(users_[index], t[lane], hits_[index].t_low);
     });
     const auto id = [&](std::size_t lane) {
       return static_cast<std::int32_t>(data_.entity_id_or_any(leaf_of(lane)));

@@ -20,8 +20,8 @@ struct EnclosedPlane {
 /// With n the normal and w the offset to a point of the plane, t is n . w / n . d. Both sums are
 /// off by less than 4 u of the sums of their terms' sizes.
 template <class Real>
-bool enclose(const EnclosedPlane& plane, const FilterLine<Real>& line, const MaskOf<Real>&,
-             Enclosure<Real>& part) {
+[[gnu::always_inline]] inline bool enclose(const EnclosedPlane& plane, const FilterLine<Real>& line,
+                                           const MaskOf<Real>&, Enclosure<Real>& part) {
   const std::array<Real, 3> offset = offset_to(line, plane.position);
   const auto along_normal = [&n = plane.normal](const std::array<Real, 3>& v) {
     return n.x * v[0] + n.y * v[1] + n.z * v[2];
