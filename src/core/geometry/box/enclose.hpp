@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cmath>
 #include <cstddef>
 
 #include "core/ray/enclosure.hpp"
@@ -25,7 +26,7 @@ struct BoxMeetings {
   std::array<Real, 3> leave;
   /// Where this is false nothing is certain. The line is not so flat to any face that quotients
   /// fail; or it goes just along a face and is plainly not on it: what lies between two planes
-  /// comes there at minus infinity and leaves at infinity.
+  /// comes there at minus infinity and leaves at infinity, and what lies beside them comes never.
   Mask known;
 
   static BoxMeetings of(const EnclosedBox& box, const FilterLine<Real>& line);
@@ -62,6 +63,9 @@ struct BoxMeetings {
   static constexpr double next_to_nothing = 0x1p-450;
   static constexpr double before_start = -0x1p-400;
   static constexpr double steepest = 0x1p500;
+  static constexpr double never = 0x1p1000;
+  /// A start that rounding has put off a surface is off it by less than so many of its errors.
+  static constexpr double surfaces_off = 32;
 };
 
 template <class Real>
@@ -82,9 +86,14 @@ BoxMeetings<Real> BoxMeetings<Real>::of(const EnclosedBox& box, const FilterLine
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const auto i = static_cast<int>(axis);
     const Real& origin = line.origin[axis];
-    const Mask between =
-        line.direction[axis] == 0.0 && origin > box.lower[i] && origin < box.upper[i];
-    result.known = result.known && (between || abs(inverse[axis]) < steepest);
+    const Mask along = line.direction[axis] == 0.0;
+    const Mask between = along && origin > box.lower[i] && origin < box.upper[i];
+    const double size = enclosing_slack * (std::abs(box.lower[i]) + std::abs(box.upper[i]));
+    const Real margin = size + surfaces_off * line.start_error;
+    const Mask beside = along && (origin < box.lower[i] - margin || origin > box.upper[i] + margin);
+    result.enter[axis] = select(beside, broadcast<Real>(never), result.enter[axis]);
+    result.leave[axis] = select(beside, broadcast<Real>(-never), result.leave[axis]);
+    result.known = result.known && (between || beside || abs(inverse[axis]) < steepest);
   }
   return result;
 }
