@@ -1,5 +1,4 @@
-// Lines are enclosed here: the parts of them within the leaves of a CSG object are found as
-// intervals.
+// The parts of lines within the leaves of a CSG object are enclosed here, as far as they matter.
 #pragma once
 
 #include <array>
@@ -37,7 +36,8 @@ class EnclosedLines {
   /// long as it matters. The enclosure then means nothing.
   template <class Solid>
   bool enclose(const Solid& solid, Enclosure<Real>& part) const {
-    return core::enclose(solid, lines_, asked_, part)&& restrict(part);
+    if (!core::enclose(solid, lines_, asked_, part)) return false;
+    return restrict(part);
   }
 
   /// Returns whether a ray's origin is off a sphere by no more than what rounding makes of 0.
