@@ -43,7 +43,7 @@ struct Item {
 
   std::uint32_t leaf() const { return static_cast<std::uint32_t>(box.lower[3]); }
   Lanes middle() const { return 0.5 * box.lower + 0.5 * box.upper; }
-  double middle(int axis) const { return 0.5 * box.lower[axis] + 0.5 * box.upper[axis]; }
+  double middle(std::size_t axis) const { return 0.5 * box.lower[axis] + 0.5 * box.upper[axis]; }
 };
 
 /// A Part is some of the items, which lie side by side.
@@ -71,7 +71,7 @@ struct TwoParts {
 };
 
 /// Divides a part in the middle, by the number of items.
-TwoParts halves(const Part& part, int axis) {
+TwoParts halves(const Part& part, std::size_t axis) {
   const std::size_t half = part.items.size() / 2;
   std::nth_element(part.items.begin(), part.items.begin() + static_cast<std::ptrdiff_t>(half),
                    part.items.end(), [&](const Item& a, const Item& b) {
@@ -98,7 +98,7 @@ struct Bin {
 
 TwoParts split(const Part& part) {
   const Lanes size = part.middles.upper - part.middles.lower;
-  int axis = size[1] > size[0] ? 1 : 0;
+  std::size_t axis = size[1] > size[0] ? 1 : 0;
   if (size[2] > size[axis]) axis = 2;
 
   constexpr std::size_t bin_count = 16;

@@ -87,12 +87,11 @@ bool Placement::has_map_of(const Placement& other) const {
 
 void Placement::take_inverse(const PreciseTransform& inverse) {
   to_object_ = inverse;
-  for (int row = 0; row < 3; ++row) {
+  for (std::size_t i = 0; i < 3; ++i) {
     const auto set = [&](DoubleDoubleLanes& column, const DoubleDouble& entry) {
-      column.hi[row] = entry.hi;
-      column.lo[row] = entry.lo;
+      column.hi[i] = entry.hi;
+      column.lo[i] = entry.lo;
     };
-    const auto i = static_cast<std::size_t>(row);
     for (std::size_t column = 0; column < 3; ++column)
       set(columns_[column], to_object_.rows[i][column]);
     set(columns_[3], to_object_.translation[i]);
@@ -139,10 +138,8 @@ double Placement::inverse_error() const {
 namespace {
 
 void split(const DoubleDoubleLanes& lanes, Vec3& high, Vec3& low) {
-  for (int axis = 0; axis < 3; ++axis) {
-    high[axis] = lanes.hi[axis];
-    low[axis] = lanes.lo[axis];
-  }
+  high = {lanes.hi[0], lanes.hi[1], lanes.hi[2]};
+  low = {lanes.lo[0], lanes.lo[1], lanes.lo[2]};
 }
 
 }  // namespace
@@ -206,7 +203,8 @@ ObjectRayLanes Placement::to_object(const RayLanes& rays) const {
   if (is_one_point(o)) {
     const DoubleDoubleLanes one = turned_by_rows(o.lane(0)) + columns_[3];
     set(result.origin, result.origin_low, [&](int axis) {
-      return DoubleDoubleLanes{lanes_of(one.hi[axis]), lanes_of(one.lo[axis])};
+      const auto i = static_cast<std::size_t>(axis);
+      return DoubleDoubleLanes{lanes_of(one.hi[i]), lanes_of(one.lo[i])};
     });
     return result;
   }

@@ -62,8 +62,8 @@ std::vector<std::uint8_t> display_bytes(const Image& image, AlphaMode mode) {
     if (exponent != 1) levels = power(levels, lanes_of(exponent));
     levels[3] = alpha;
     levels = levels_of(levels);
-    for (int channel = 0; channel < 4; ++channel) {
-      bytes[i + static_cast<std::size_t>(channel)] = static_cast<std::uint8_t>(levels[channel]);
+    for (std::size_t channel = 0; channel < lane_count; ++channel) {
+      bytes[i + channel] = static_cast<std::uint8_t>(levels[channel]);
     }
     if (show_clip && any(clips(whole)))
       std::copy(clip_mark.begin(), clip_mark.end(), bytes.begin() + static_cast<std::ptrdiff_t>(i));
@@ -87,8 +87,8 @@ std::vector<float> linear_floats(const Image& image) {
     const LaneMask are_numbers = values > 0.0 || values <= 0.0;
     values = select(are_numbers, clamp(values, lanes_of(-largest), lanes_of(largest)), Lanes{});
     const FloatLanes in_range = to_floats(values);
-    for (int channel = 0; channel < 4; ++channel) {
-      floats[i + static_cast<std::size_t>(channel)] = in_range[channel];
+    for (std::size_t channel = 0; channel < lane_count; ++channel) {
+      floats[i + channel] = in_range[channel];
     }
   }
   return floats;

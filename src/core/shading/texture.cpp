@@ -20,8 +20,8 @@ std::shared_ptr<const Image> to_linear_light(const Image& encoded, double gamma)
     if (!(alpha > 0)) continue;
     const Lanes shown = lanes_of(values[pixel], values[pixel + 1], values[pixel + 2], 0);
     const Lanes light = alpha * power(max(Lanes{}, shown / alpha), lanes_of(gamma));
-    for (int channel = 0; channel < 3; ++channel) {
-      values[pixel + static_cast<std::size_t>(channel)] = static_cast<float>(light[channel]);
+    for (std::size_t channel = 0; channel < 3; ++channel) {
+      values[pixel + channel] = static_cast<float>(light[channel]);
     }
   }
   linear->set_display_encoded(false);
