@@ -43,7 +43,7 @@ class Coordinates {
 
 TEST_CASE("angles are the true ones to a few roundings") {
   Coordinates coordinates;
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const auto [x, y] = coordinates.next();
     const long double true_angle = true_turn(x, y);
     const double quarter = quarter_turn(std::abs(x), std::abs(y));
@@ -106,7 +106,7 @@ TEST_CASE("angles side by side are what each is by itself, to the last bit") {
 TEST_CASE("sine and cosine up to an eighth of a turn are the true ones") {
   std::mt19937_64 engine(2);
   std::uniform_real_distribution<double> eighths(-1, 1);
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const double q = i == 0 ? 0 : i == 1 ? 1 : i == 2 ? -1 : eighths(engine);
     const long double angle = std::numbers::pi_v<long double> / 4 * q;
     const auto [sine, cosine] = of_eighth_turns(q);

@@ -253,7 +253,7 @@ void check_side_by_side(const core::Shape& shape, ObjectRay ray) {
       const double factor = lane == 2 ? 1 : 0.5 + static_cast<double>(lane);
       rays.origin.set(lane, factor * ray.origin);
       rays.direction.set(lane, ray.direction / factor);
-      t[static_cast<int>(lane)] = crossing.t * factor;
+      t[lane] = crossing.t * factor;
     }
     core::SurfacePointLanes points;
     shape.points_on(rays.from_center(shape.anchor(crossing.face), t), rays.direction, crossing.face,

@@ -118,7 +118,7 @@ TEST_CASE("most rays from the side of a cylinder are resolved, the same by lanes
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       const PlainRay<double> ray{rays.origin.lane(lane), rays.direction.lane(lane)};
       const auto entry = shape.first_entry<double>(ray);
-      const auto k = static_cast<int>(lane);
+      const std::size_t k = lane;
       REQUIRE((entries.known[k] != 0) == entry.known);
       REQUIRE((entries.rejected[k] != 0) == entry.rejected);
       if (entry.known) {

@@ -138,7 +138,7 @@ TEST_CASE("lines side by side enter a torus where each enters it, to the last bi
     const Lanes roots = together.root(entries.bracket, entries.found);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
       TorusLine alone(lines[lane].point, lines[lane].direction, ring, tube, false);
-      const auto k = static_cast<int>(lane);
+      const std::size_t k = lane;
       const auto entry = alone.first_entry(true);
       const TorusLine::Intervals intervals = alone.intervals();
       REQUIRE(entry.found == (intervals.count > 0));

@@ -25,7 +25,7 @@ TEST_CASE("logarithms are true to two units, near 1 as well, and by lanes the sa
   std::mt19937_64 engine(1);
   std::uniform_real_distribution<double> exponents(-1022, 1024);
   std::uniform_real_distribution<double> small(-60, -1);
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const double beside_one = 1 + (i % 4 == 1 ? -1 : 1) * std::exp2(small(engine));
     const double x = i % 2 == 0 ? std::exp2(exponents(engine)) : beside_one;
     const double found = logarithm2(x);
@@ -41,7 +41,7 @@ TEST_CASE("logarithms are true to two units, near 1 as well, and by lanes the sa
 TEST_CASE("powers of two are true to a unit, up to where they end, and by lanes the same") {
   std::mt19937_64 engine(2);
   std::uniform_real_distribution<double> exponents(-1022, 1024);
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const double e = exponents(engine);
     const double found = exponential2(e);
     REQUIRE(error_of(found, std::exp2(static_cast<long double>(e))) <= 1);
@@ -58,7 +58,7 @@ TEST_CASE("powers are as true as their documentation says, and by lanes the same
   std::mt19937_64 engine(3);
   std::uniform_real_distribution<double> exponents(-1000, 0);
   std::uniform_real_distribution<double> up_to_one(0, 1);
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const double base = i % 2 == 0 ? up_to_one(engine) : std::exp2(exponents(engine));
     const double exponent = i % 3 == 0 ? up_to_one(engine) : std::exp2(10 * up_to_one(engine));
     const long double truth =
@@ -78,7 +78,7 @@ TEST_CASE("rough powers of what is at most 1 are within 10^-9, and by lanes the 
   std::uniform_real_distribution<double> exponents(-1074, 0);
   std::uniform_real_distribution<double> up_to_one(0, 1);
   std::uniform_real_distribution<double> of_gammas(-1, 1);
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const double base = i % 2 == 0 ? up_to_one(engine) : std::exp2(exponents(engine));
     const double exponent = std::pow(10, of_gammas(engine));
     const long double truth =
@@ -96,7 +96,7 @@ TEST_CASE("rough powers of what is at most 1 are within 10^-9, and by lanes the 
 TEST_CASE("cube roots are true to a unit, and by lanes the same") {
   std::mt19937_64 engine(4);
   std::uniform_real_distribution<double> exponents(-1022, 1024);
-  for (int i = 0; i < 1000000; ++i) {
+  for (std::size_t i = 0; i < 1000000; ++i) {
     const double x = std::exp2(exponents(engine));
     const double found = cube_root(x);
     REQUIRE(error_of(found, std::cbrt(static_cast<long double>(x))) <= 1);

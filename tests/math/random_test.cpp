@@ -108,7 +108,7 @@ TEST_CASE("pairs of four samples are those of each") {
       for (std::uint32_t i = 0; i < 4; ++i) {
         RandomUse one = use;
         one.sample += i;
-        const auto lane = static_cast<int>(i);
+        const std::size_t lane = i;
         CHECK(std::array{first[lane], second[lane]} == random_pair(seed, one));
       }
     }

@@ -56,7 +56,7 @@ TEST_CASE("vectors side by side are computed with as each by itself, to the last
     Lanes lengths;
     directions_and_lengths(lanes_a, directions, lengths);
     for (std::size_t lane = 0; lane < lane_count; ++lane) {
-      const int k = static_cast<int>(lane);
+      const std::size_t k = lane;
       REQUIRE((lanes_a + lanes_b).lane(lane) == a[lane] + b[lane]);
       REQUIRE((lanes_a / lanes_b).lane(lane) == a[lane] / b[lane]);
       REQUIRE(floor(lanes_a).lane(lane) == glm::floor(a[lane]));

@@ -80,7 +80,7 @@ void check_alone(const PreparedData& data, const WorldRay& ray, const RayHit& hi
   const Color color = material.pattern ? material.pattern->color(in_object) : material.color;
   const double transparency = material.transparency(color.a);
   const double to_viewer = hit.entering ? 1 : -1;
-  const int lane = static_cast<int>(found.lane);
+  const std::size_t lane = found.lane;
 
   const double found_transparency = found.group.transparency[lane];
   REQUIRE(found_transparency == transparency);

@@ -167,7 +167,7 @@ TEST_CASE("things that look alike keep a width where they meet") {
 
 TEST_CASE("what a display clips has no width, and dark colours at a high gamma have more") {
   const DisplayScale scale(2.2);
-  const auto of_channel = [](int channel, double mean, double half_width) {
+  const auto of_channel = [](std::size_t channel, double mean, double half_width) {
     MeanInterval interval;
     interval.mean[channel] = mean;
     interval.half_width[channel] = half_width;

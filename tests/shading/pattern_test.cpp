@@ -86,7 +86,7 @@ class Coordinates {
 };
 
 void set_lane(SurfacePointLanes& points, std::size_t lane, const SurfacePoint& point) {
-  const int i = static_cast<int>(lane);
+  const std::size_t i = lane;
   points.position.set(lane, point.position);
   points.normal.set(lane, point.normal);
   points.u[i] = point.u;
