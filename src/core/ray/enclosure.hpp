@@ -78,7 +78,7 @@ struct Decision {
 
 /// Returns a limit below infinity, which is where solids that lines never enter or leave are put.
 template <class Real>
-Real finite(const Real& limit) {
+[[gnu::always_inline]] inline Real finite(const Real& limit) {
   return min(limit, broadcast<Real>(std::numeric_limits<double>::max()));
 }
 
