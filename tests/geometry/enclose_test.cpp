@@ -12,7 +12,7 @@
 #include "core/geometry/shape.hpp"
 #include "core/geometry/sphere/enclose.hpp"
 #include "core/geometry/torus/enclose.hpp"
-#include "core/ray/line_of_ray.hpp"
+#include "core/ray/ray_packet.hpp"
 #include "geometry/oracle.hpp"
 
 using namespace crt;
@@ -31,29 +31,6 @@ WorldRay random_ray(Random& random, const Vec3& center, double size) {
   WorldRay ray{.origin = aim - distance * direction, .direction = direction};
   if (random.one_in(3)) ray.t_max = random.uniform(0, 8) * size;
   return ray;
-}
-
-/// Returns four lines side by side.
-FilterLine<Lanes> side_by_side(const std::array<FilterLine<double>, lane_count>& lines) {
-  FilterLine<Lanes> result;
-  const auto column = [&](auto number_of) {
-    return Lanes([&](auto lane) { return double{number_of(lines[lane])}; });
-  };
-  using Line = FilterLine<double>;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.origin[axis] = column([axis](const Line& line) { return line.origin[axis]; });
-    result.direction[axis] = column([axis](const Line& line) { return line.direction[axis]; });
-    result.inverse[axis] = column([axis](const Line& line) { return line.inverse[axis]; });
-  }
-  result.squared_length = column([](const Line& line) { return line.squared_length; });
-  result.inverse_squared_length =
-      column([](const Line& line) { return line.inverse_squared_length; });
-  result.inverse_length = column([](const Line& line) { return line.inverse_length; });
-  result.begin = column([](const Line& line) { return line.begin; });
-  result.start_error = column([](const Line& line) { return line.start_error; });
-  result.certain_from = column([](const Line& line) { return line.certain_from; });
-  result.certain_to = column([](const Line& line) { return line.certain_to; });
-  return result;
 }
 
 /// Counts what is certain of lines.
@@ -106,18 +83,21 @@ void check_rays(const Primitive& primitive, const Solid& solid, const Vec3& cent
                 Random& random, Counts& counts) {
   const auto shape = make_shape(primitive);
   std::array<WorldRay, lane_count> rays;
-  std::array<FilterLine<double>, lane_count> lines;
+  RayBatch batch;
   for (std::size_t i = 0; i < lane_count; ++i) {
     rays[i] = random_ray(random, center, size);
-    lines[i] = line_of(rays[i]);
+    batch.set(i, rays[i]);
   }
+  const PacketStarts starts;
+  const RayPacket packet(batch, starts, RayPacket::all(lane_count));
   Enclosure<Lanes> parts;
-  const bool some = enclose(solid, side_by_side(lines), lanes_with(15), parts);
+  const bool some = enclose(solid, packet.groups[0], lanes_with(15), parts);
   for (std::size_t i = 0; i < lane_count; ++i) {
     CrossingList crossings;
     shape->crossings({.origin = rays[i].origin, .direction = rays[i].direction}, crossings);
+    const FilterLine<double> line = line_of(rays[i]);
     Enclosure<double> part;
-    const bool alone = enclose(solid, lines[i], true, part);
+    const bool alone = enclose(solid, line, true, part);
     if (!some) REQUIRE_FALSE(alone);
     if (!alone) {
       REQUIRE(crossings.empty());
@@ -127,17 +107,20 @@ void check_rays(const Primitive& primitive, const Solid& solid, const Vec3& cent
     }
     check_enclosed(crossings, part);
     check_enclosed(crossings, lane_of(parts, i));
-    check_decision(crossings, rays[i], decide(part, lines[i], rays[i].t_max, true), counts);
+    check_decision(crossings, rays[i], decide(part, line, rays[i].t_max, true), counts);
   }
 }
 
-/// Calls check(scale, random, counts) often, for scales of 36 decades, and expects that most of
-/// what the rays do was certain.
+/// Calls check(scale, random, counts) so often, for scales of 36 decades, and returns the counts.
 template <class Check>
-void for_scales(const Check& check) {
-  Random random(41);
+Counts for_scales(std::uint64_t seed, int times, const Check& check) {
+  Random random(seed);
   Counts counts;
-  for (int i = 0; i < 3000; ++i) check(std::exp2(random.uniform(-60, 60)), random, counts);
+  for (int i = 0; i < times; ++i) check(std::exp2(random.uniform(-60, 60)), random, counts);
+  return counts;
+}
+
+void check_most_are_certain(const Counts& counts) {
   CHECK(counts.missing > 1000);
   CHECK(counts.meeting > 1000);
   CHECK(counts.rejected > counts.missing * 9 / 10);
@@ -147,27 +130,26 @@ void for_scales(const Check& check) {
 }  // namespace
 
 TEST_CASE("a sphere is entered and left where its enclosure says") {
-  for_scales([](double scale, Random& random, Counts& counts) {
+  const Counts counts = for_scales(41, 3000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 center = 10 * scale * random.in_cube();
     check_rays(Sphere{.center = center, .radius = scale}, EnclosedSphere{center, scale}, center,
-               scale, random, counts);
+               scale, random, of_rays);
   });
+  check_most_are_certain(counts);
 }
 
 TEST_CASE("a box is entered and left where its enclosure says") {
-  for_scales([](double scale, Random& random, Counts& counts) {
+  const Counts counts = for_scales(41, 3000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 lower = 10 * scale * random.in_cube();
     const Vec3 upper = lower + scale * Vec3(random.uniform(0.1, 2), random.uniform(0.1, 2), 1);
     check_rays(Box{.corner_a = lower, .corner_b = upper}, EnclosedBox{lower, upper},
-               0.5 * (lower + upper), scale, random, counts);
+               0.5 * (lower + upper), scale, random, of_rays);
   });
+  check_most_are_certain(counts);
 }
 
 TEST_CASE("a torus is entered and left where its enclosure says") {
-  Random random(43);
-  Counts counts;
-  for (int i = 0; i < 5000; ++i) {
-    const double scale = std::exp2(random.uniform(-60, 60));
+  const Counts counts = for_scales(43, 5000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 center = 10 * scale * random.in_cube();
     const double ring = scale * random.uniform(0.5, 1);
     const double tube = ring * (random.one_in(4) ? random.uniform(1, 2) : random.uniform(0.01, 1));
@@ -175,17 +157,14 @@ TEST_CASE("a torus is entered and left where its enclosure says") {
     const EnclosedTorus solid{center, axis / std::sqrt(dot(axis, axis)), ring,
                               tube + 0x1p-30 * (ring + tube)};
     check_rays(Torus{.center = center, .axis = axis, .radius = ring, .thickness = tube}, solid,
-               center, ring + tube, random, counts);
-  }
+               center, ring + tube, random, of_rays);
+  });
   CHECK(counts.rejected > counts.missing * 3 / 4);
   CHECK(counts.accepted > counts.meeting / 3);
 }
 
 TEST_CASE("a plane is crossed where its enclosure says") {
-  Random random(44);
-  Counts counts;
-  for (int i = 0; i < 3000; ++i) {
-    const double scale = std::exp2(random.uniform(-60, 60));
+  const Counts counts = for_scales(44, 3000, [](double scale, Random& random, Counts& of_rays) {
     const Vec3 position = 10 * scale * random.in_cube();
     Vec3 normal = random.direction();
     normal /= std::max({std::abs(normal.x), std::abs(normal.y), std::abs(normal.z)});
@@ -200,8 +179,8 @@ TEST_CASE("a plane is crossed where its enclosure says") {
       REQUIRE_FALSE(crossing.t - crossing.error < part.enter_from);
       REQUIRE_FALSE(crossing.t + crossing.error > part.enter_to);
     }
-    check_decision(crossings, ray, decide(part, line, ray.t_max, true), counts);
-  }
+    check_decision(crossings, ray, decide(part, line, ray.t_max, true), of_rays);
+  });
   // Lines along the plane are among them, of which nothing is said.
   CHECK(counts.rejected > counts.missing * 3 / 4);
   CHECK(counts.accepted > counts.meeting * 9 / 10);

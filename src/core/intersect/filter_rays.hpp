@@ -167,8 +167,8 @@ class FilterRays {
     const RayMask tested = starts.some != 0 ? rays & ~left & ~starts.unknown : rays;
     Decision<RayMask> decision{.rejected = left, .accepted = 0};
     Packet::for_each_group(tested, [&](std::size_t group, RayMask lanes) {
-      put(decision, group, lanes,
-          test_box(meetings(box, starts, group), lines(group), packet_.limits[group]));
+      const Enclosure<Real> part = meetings(box, starts, group).enclosure();
+      put(decision, group, lanes, core::decide(part, lines(group), packet_.limits[group], true));
     });
     return decision;
   }

@@ -157,17 +157,13 @@ FirstCrossing<Real> end_in_box(const EnclosedBox& box, const BoxMeetings<Real>& 
 template <class Real>
 FirstCrossing<Real> first_crossing_of_box(const ProxyBox& box, const BoxMeetings<Real>& meetings,
                                           const FilterLine<Real>& line) {
-  using Mask = decltype(Real{} < Real{});
-  const Real enter = meetings.last_enter();
-  const Real leave = meetings.first_leave();
-  const Real enter_error = meetings.error_of(enter);
-  const Real leave_error = meetings.error_of(leave);
-  const Mask passes = meetings.known && enter + enter_error < leave - leave_error;
-  const Mask misses = meetings.known && (enter - enter_error > leave + leave_error ||
-                                         leave + leave_error < line.begin);
-  const Mask enters = passes && enter - enter_error > line.certain_from;
-  const Mask is_inside = passes && enter + enter_error <= line.begin;
-  const Mask leaves = is_inside && leave - leave_error > line.certain_from;
+  using Mask = MaskOf<Real>;
+  const Enclosure<Real> part = meetings.enclosure();
+  const Mask passes = part.enter_to < part.leave_from;
+  const Mask misses = part.enter_from > part.leave_to || part.leave_to < line.begin;
+  const Mask enters = passes && part.enter_from > line.certain_from;
+  const Mask is_inside = passes && part.enter_to <= line.begin;
+  const Mask leaves = is_inside && part.leave_from > line.certain_from;
   const Mask found = enters || leaves;
   FirstCrossing<Real> first{.found = found, .unknown = !found && !misses, .entering = enters};
   if (!any(found)) return first;

@@ -19,10 +19,4 @@ struct ProxyBox : EnclosedBox {
   std::array<std::uint32_t, face_count> surfaces{};
 };
 
-/// Decides whether crossings with a box count up to a limit.
-template <class Real>
-auto test_box(const BoxMeetings<Real>& meetings, const FilterLine<Real>& line, const Real& limit) {
-  return decide(meetings.enclosure(), line, limit, true);
-}
-
 }  // namespace crt::core

@@ -142,9 +142,7 @@ struct RayPacketOf {
 };
 template <>
 inline RayPacketOf<double>::RayPacketOf(const WorldRay& ray, const Starts& of_ray, RayMask)
-    : limits{ray.t_max}, source(ray), starts(of_ray) {
-  set_line(plain_ray(ray), ray.t_min, ray.start.t_error, ray.t_max, ray.end_error, groups[0]);
-}
+    : groups{line_of(ray)}, limits{ray.t_max}, source(ray), starts(of_ray) {}
 template <>
 RayPacketOf<Lanes>::RayPacketOf(const RayBatch&, const Starts&, RayMask);
 using RayPacket = RayPacketOf<Lanes>;

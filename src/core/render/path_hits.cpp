@@ -38,7 +38,7 @@ PathHits& intersect(TraceContext& context, const PathRays& rays, PathHits& hits)
     if (hit.has_coincident && data.features().transparency) {
       hit = seen_hit(context, rays.batch.ray(i));
     }
-    hits.found |= static_cast<RayMask>(hit.found()) << i;
+    hits.found |= mask_of(hit.found()) << i;
   }
   return hits;
 }

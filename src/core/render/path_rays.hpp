@@ -33,7 +33,7 @@ struct PathRays {
   RayMask in_media() const {
     RayMask mask = 0;
     for (std::size_t i = 0; i < count; ++i) {
-      mask |= static_cast<RayMask>(states[i].media != MediaLists::empty) << i;
+      mask |= mask_of(states[i].media != MediaLists::empty) << i;
     }
     return mask;
   }

@@ -64,8 +64,6 @@ struct BoxMeetings {
   static constexpr double before_start = -0x1p-400;
   static constexpr double steepest = 0x1p500;
   static constexpr double never = 0x1p1000;
-  /// A start that rounding has put off a surface is off it by less than so many of its errors.
-  static constexpr double surfaces_off = 32;
 };
 
 template <class Real>
@@ -89,7 +87,7 @@ BoxMeetings<Real> BoxMeetings<Real>::of(const EnclosedBox& box, const FilterLine
     const Mask along = line.direction[axis] == 0.0;
     const Mask between = along && origin > box.lower[i] && origin < box.upper[i];
     const double size = enclosing_slack * (std::abs(box.lower[i]) + std::abs(box.upper[i]));
-    const Real margin = size + surfaces_off * line.start_error;
+    const Real margin = size + starts_off * line.start_error;
     const Mask beside = along && (origin < box.lower[i] - margin || origin > box.upper[i] + margin);
     result.enter[axis] = select(beside, broadcast<Real>(never), result.enter[axis]);
     result.leave[axis] = select(beside, broadcast<Real>(-never), result.leave[axis]);

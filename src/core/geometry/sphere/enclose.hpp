@@ -62,9 +62,8 @@ struct EnclosedSphere {
   /// rounding has put off a surface.
   template <class Real>
   Real margin_error(const FilterLine<Real>& line, const Real& squared_offset) const {
-    constexpr double surfaces_off = 32;
     return enclosing_slack * (squared_offset + radius * radius) +
-           (surfaces_off * radius) * line.start_error;
+           (starts_off * radius) * line.start_error;
   }
 };
 
