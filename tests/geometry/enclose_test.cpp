@@ -173,13 +173,12 @@ TEST_CASE("a plane is crossed where its enclosure says") {
     const FilterLine<double> line = line_of(ray);
     CrossingList crossings;
     shape->crossings({.origin = ray.origin, .direction = ray.direction}, crossings);
-    Enclosure<double> part;
-    REQUIRE(enclose(EnclosedPlane{position, normal}, line, true, part));
+    const EnclosedCrossing<double> enclosed = enclose(EnclosedPlane{position, normal}, line);
     for (const Crossing& crossing : crossings) {
-      REQUIRE_FALSE(crossing.t - crossing.error < part.enter_from);
-      REQUIRE_FALSE(crossing.t + crossing.error > part.enter_to);
+      REQUIRE_FALSE(crossing.t - crossing.error < enclosed.from);
+      REQUIRE_FALSE(crossing.t + crossing.error > enclosed.to);
     }
-    check_decision(crossings, ray, decide(part, line, ray.t_max, true), of_rays);
+    check_decision(crossings, ray, decide(enclosed, line, ray.t_max), of_rays);
   });
   // Lines along the plane are among them, of which nothing is said.
   CHECK(counts.rejected > counts.missing * 3 / 4);

@@ -118,7 +118,6 @@ Decision<MaskOf<Real>> test_proxy(const BoundingProxy& proxy, const BoundingProx
     if (!enclose(solid, line, all_lines, part)) {
       return Decision<MaskOf<Real>>{.rejected = all_lines, .accepted = {}};
     }
-    last = part.enter_to;
     if (proxy.encloses) return Decision<MaskOf<Real>>{is_outside(part, line, limit), {}};
     return decide(part, line, limit, may_accept);
   };
@@ -132,8 +131,11 @@ Decision<MaskOf<Real>> test_proxy(const BoundingProxy& proxy, const BoundingProx
       const Vec3& axis = proxies.axis(proxy).normal;
       return by_enclosure(EndlessCylinder{proxy.place, axis, proxy.radius}, false);
     }
-    default:
-      return by_enclosure(EnclosedPlane{proxy.place, proxies.axis(proxy).normal}, true);
+    default: {
+      const auto crossing = enclose(EnclosedPlane{proxy.place, proxies.axis(proxy).normal}, line);
+      last = crossing.to;
+      return decide(crossing, line, limit);
+    }
   }
 }
 

@@ -69,6 +69,18 @@ struct Enclosure {
   }
 };
 
+/// Where a line crosses a surface, which it does just once: at some t of an interval, as above.
+template <class Real>
+struct EnclosedCrossing {
+  Real from;
+  Real to;
+
+  /// Returns whether it surely counts.
+  MaskOf<Real> counts(const FilterLine<Real>& line) const {
+    return from > line.certain_from && to < line.certain_to;
+  }
+};
+
 /// What is certain of the crossings of a solid's surface along a line.
 template <class Mask>
 struct Decision {
@@ -101,12 +113,17 @@ template <class Real>
       .rejected = is_outside(part, line, limit) || part.is_inside(line.begin, finite(limit)),
       .accepted = {}};
   if (!may_accept || all(decision.rejected)) return decision;
-  const auto counts = [&](const Real& from, const Real& to) {
-    return from > line.certain_from && to < line.certain_to;
-  };
-  decision.accepted = part.is_met() && (counts(part.enter_from, part.enter_to) ||
-                                        counts(part.leave_from, part.leave_to));
+  const EnclosedCrossing<Real> entry{part.enter_from, part.enter_to};
+  const EnclosedCrossing<Real> exit{part.leave_from, part.leave_to};
+  decision.accepted = part.is_met() && (entry.counts(line) || exit.counts(line));
   return decision;
+}
+template <class Real>
+auto decide(const EnclosedCrossing<Real>& crossing, const FilterLine<Real>& line,
+            const Real& limit) {
+  return Decision<MaskOf<Real>>{
+      .rejected = crossing.from > finite(limit) || crossing.to < line.begin,
+      .accepted = crossing.counts(line)};
 }
 
 /// A relative error of 512 roundings. It is far more than what the sums of a primitive's enclose()

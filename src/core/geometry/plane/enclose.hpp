@@ -14,14 +14,14 @@ struct EnclosedPlane {
   Vec3 normal{0, 0, 0};  ///< its largest component is about 1
 };
 
-/// Encloses where lines cross a plane. They are taken to enter there, whichever side of it is the
-/// solid's. Nothing is known of lines that are so flat that the error of n . d is not small.
+/// Encloses where lines cross a plane. Nothing is known of lines that are so flat that the error of
+/// n . d is not small.
 ///
 /// With n the normal and w the offset to a point of the plane, t is n . w / n . d. Both sums are
 /// off by less than 4 u of the sums of their terms' sizes.
 template <class Real>
-[[gnu::always_inline]] inline bool enclose(const EnclosedPlane& plane, const FilterLine<Real>& line,
-                                           const MaskOf<Real>&, Enclosure<Real>& part) {
+[[gnu::always_inline]] inline EnclosedCrossing<Real> enclose(const EnclosedPlane& plane,
+                                                             const FilterLine<Real>& line) {
   const std::array<Real, 3> offset = offset_to(line, plane.position);
   const auto along_normal = [&n = plane.normal](const std::array<Real, 3>& v) {
     return n.x * v[0] + n.y * v[1] + n.z * v[2];
@@ -36,11 +36,9 @@ template <class Real>
   const Real speed = sum_of_sizes(line.direction);
   const Real error =
       (normal_size * enclosing_slack) * (sum_of_sizes(offset) + abs(t) * speed) / abs(rate);
-  const Real never = broadcast<Real>(std::numeric_limits<double>::infinity());
-  part = {.enter_from = t - error, .enter_to = t + error, .leave_from = never, .leave_to = never};
-  const MaskOf<Real> unknown = !(abs(rate) > flattest * speed);
-  if (any(unknown)) part.set_unknown(unknown);
-  return true;
+  const Real nothing_known = broadcast<Real>(std::numeric_limits<double>::quiet_NaN());
+  const MaskOf<Real> known = abs(rate) > flattest * speed;
+  return {select(known, t - error, nothing_known), select(known, t + error, nothing_known)};
 }
 
 }  // namespace crt::core
