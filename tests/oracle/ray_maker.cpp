@@ -111,7 +111,8 @@ constexpr std::uint64_t ruling_digit = 7;
 constexpr std::uint64_t extreme_digit = 3;
 
 template <class P>
-constexpr bool has_rulings = std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone>;
+constexpr bool has_rulings =
+    std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone> || std::is_same_v<P, Capsule>;
 
 bool is_usable(const TestRay& ray) {
   if (ray.direction == Vec3(0) || !std::isfinite(glm::dot(ray.direction, ray.direction)))

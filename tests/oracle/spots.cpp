@@ -137,6 +137,32 @@ Vec3 edge(Counted& random, const Cone& c) {
   return frustum_edge(random, c.from, c.to, c.radius, c.radius2);
 }
 
+void make(Counted& random, const Vec3& at, double size, Capsule& c) {
+  c.from = at;
+  c.to = at + size * random.uniform(0.05, 1) * random.direction();
+  c.radius = size * random.uniform(0.05, 1);
+}
+/// Returns a spot on the side or on a half sphere.
+Spot spot(Counted& random, const Capsule& c) {
+  const Vec3 axis = c.to - c.from;
+  const Vec3 w = glm::normalize(axis);
+  const int part = random.integer(0, 2);
+  if (part == 0) {
+    const Vec3 out = around(across(axis), angle(random));
+    return {c.from + random.uniform(0, 1) * axis + c.radius * out, out, w};
+  }
+  const Vec3 outwards = part == 1 ? -w : w;
+  Vec3 n = random.direction();
+  if (glm::dot(n, outwards) < 0) n = -n;
+  return {(part == 1 ? c.from : c.to) + c.radius * n, n, w};
+}
+/// Returns a point of a seam, or a tip.
+Vec3 edge(Counted& random, const Capsule& c) {
+  const Vec3 on_seam = frustum_edge(random, c.from, c.to, c.radius, c.radius);
+  if (random.integer(0, 3) != 0) return on_seam;
+  return c.to + c.radius * glm::normalize(c.to - c.from);
+}
+
 void make(Counted& random, const Vec3& at, double size, Torus& t) {
   t.center = at;
   t.axis = random.direction() * random.uniform(0.5, 2);

@@ -28,7 +28,7 @@ void make(Counted& random, const Vec3& at, double size, Primitive& primitive);
 /// Returns a random spot on the surface.
 Spot spot(Counted& random, const Primitive& primitive);
 
-/// Returns a random point of an edge or a rim.
+/// Returns a random point of an edge, a rim or a seam.
 Vec3 edge(Counted& random, const Primitive& primitive);
 
 }  // namespace crt::test
