@@ -13,9 +13,10 @@
 // Roundings. If the line passes the cylinder's cap, its crossing is on the half sphere behind that
 // cap. Next to a seam rounding may say that the sphere is met only after the cap, or not at all.
 // Then the line crosses the cap within rounding of its rim, which is on both surfaces, and the
-// crossing is there. So none is lost, and none counts twice. In all, an entry is never later than
-// any part's: what comes late may be far too late where the line passes along the side, just
-// inside, and what comes early is off the surface by no more than a rounding.
+// crossing is there. So none is lost, and none counts twice.
+//
+// The first entry is also the safe one. Too early, it is off the surface by no more than a
+// rounding. Too late, it might be far too late, where the line passes along the side just inside.
 //
 // u is the angle about the axis from -> to, from +z (as frame_about() has it). v is the length of
 // the way along the surface, from the tip beyond `from` to the tip beyond `to`. Both are in [0, 1].
