@@ -458,6 +458,12 @@ CRT_API crt_status crt_cylinder_create(const double from[3], const double to[3],
 CRT_API crt_status crt_cone_create(const double from[3], const double to[3], double radius,
                                    double radius2, crt_entity** out);
 /**
+ * Makes a capsule: all points within `radius` > 0 of the straight line between two points, which
+ * are at least 1e-100 apart.
+ */
+CRT_API crt_status crt_capsule_create(const double from[3], const double to[3], double radius,
+                                      crt_entity** out);
+/**
  * Makes a torus: all points within `thickness` of the circle of `radius` about `center` across
  * `axis`.
  */

@@ -66,6 +66,17 @@ struct Cone {
   std::optional<SharedMaterial> material{};
 };
 
+/// A Capsule is all points within `radius` of the straight line between `from` and `to`, which are
+/// at least 1e-100 apart: a cylinder that ends in half spheres. u is the angle about the axis as
+/// for the cylinder. v is the way along the surface from the tip beyond `from` to that beyond `to`.
+/// Both are in [0, 1].
+struct Capsule {
+  Vec3 from{0, 0, 0};
+  Vec3 to{0, 1, 0};
+  double radius = 1;
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Torus is all points within `thickness` of the circle of the given `radius` about `center`
 /// across `axis`. It is a ring (thickness < radius), a horn (equal) or a spindle torus (larger; it
 /// has no hole and no hollow inside). (u, v) are the angles about the axis and about the ring, both
@@ -98,6 +109,6 @@ struct Triangle {
 
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive =
-    std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle>;
+    std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle, Capsule>;
 
 }  // namespace crt

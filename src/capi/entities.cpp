@@ -116,6 +116,13 @@ crt_status crt_cone_create(const double from[3], const double to[3], double radi
   });
 }
 
+crt_status crt_capsule_create(const double from[3], const double to[3], double radius,
+                              crt_entity** out) {
+  return create(out, [&] {
+    return crt::Capsule{.from = to_vec3(from, "from"), .to = to_vec3(to, "to"), .radius = radius};
+  });
+}
+
 crt_status crt_torus_create(const double center[3], const double axis[3], double radius,
                             double thickness, crt_entity** out) {
   return create(out, [&] {

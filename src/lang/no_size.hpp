@@ -63,6 +63,10 @@ inline std::optional<NoSize> give_size(Cylinder& cylinder) {
   return radius ? radius : height;
 }
 
+inline std::optional<NoSize> give_size(Capsule& capsule) {
+  return size_given(capsule.radius, "radius");
+}
+
 inline std::optional<NoSize> give_size(Cone& cone) {
   const auto height = size_given(cone.from, cone.to);
   if (cone.radius == 0 && cone.radius2 > 0) {

@@ -58,6 +58,8 @@ std::vector<ObjectType> entities() {
       entity<Cone>("Cone",
                    {required("from", &Cone::from), required("to", &Cone::to),
                     required("radius", &Cone::radius), attribute("radius2", &Cone::radius2, "0")}),
+      entity<Capsule>("Capsule", {required("from", &Capsule::from), required("to", &Capsule::to),
+                                  required("radius", &Capsule::radius)}),
       entity<Torus>("Torus",
                     {required("center", &Torus::center), required("axis", &Torus::axis),
                      required("radius", &Torus::radius), required("thickness", &Torus::thickness)}),

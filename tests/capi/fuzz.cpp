@@ -144,7 +144,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(11);
+  const std::uint32_t kind = input_.below(12);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -167,6 +167,8 @@ void Session::make_primitive() {
         return crt_triangle_create(a.data(), b.data(), c.data(), out);
       case 9:
         return crt_empty_create(out);
+      case 10:
+        return crt_capsule_create(a.data(), b.data(), r, out);
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

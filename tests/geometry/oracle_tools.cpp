@@ -97,6 +97,12 @@ Cone times(Cone s, double k) {
   s.radius2 *= k;
   return s;
 }
+Capsule times(Capsule s, double k) {
+  s.from *= k;
+  s.to *= k;
+  s.radius *= k;
+  return s;
+}
 Torus times(Torus s, double k) {
   s.center *= k;
   s.radius *= k;

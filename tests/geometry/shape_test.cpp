@@ -35,7 +35,7 @@ std::string argument(const Primitive& primitive) {
 
 TEST_CASE("every primitive is valid by default and makes a shape that agrees on being a solid") {
   const Primitive all[] = {Sphere{}, Box{},   Plane{}, HalfPlane{}, Cylinder{},
-                           Cone{},   Torus{}, Disc{},  Triangle{}};
+                           Cone{},   Torus{}, Disc{},  Triangle{},  Capsule{}};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -88,6 +88,10 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Cone{.radius = 0}) == "radius");
   CHECK(argument(Cone{.radius2 = -0.5}) == "radius2");
   CHECK(argument(Cone{.radius2 = 1e-101}) == "radius2");
+  CHECK(argument(Capsule{.from = bad}) == "from");
+  CHECK(argument(Capsule{.to = bad}) == "to");
+  CHECK(argument(Capsule{.from = {1, 1, 1}, .to = {1, 1, 1}}) == "to");
+  CHECK(argument(Capsule{.radius = 0}) == "radius");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");
@@ -106,6 +110,7 @@ TEST_CASE("every field of every primitive is checked") {
 TEST_CASE("values at the limits, slivers and spindles are accepted") {
   CHECK(fault(Sphere{.center = {1e100, -1e100, 0}, .radius = 1e-100}) == "");
   CHECK(fault(Cylinder{.from = {0, 0, 0}, .to = {0, 1e-100, 0}, .radius = 1e100}) == "");
+  CHECK(fault(Capsule{.from = {0, 0, 0}, .to = {0, 1e-100, 0}, .radius = 1e100}) == "");
   CHECK(fault(Cone{.radius = 1, .radius2 = 1}) == "");
   CHECK(fault(Torus{.radius = 1, .thickness = 3}) == "");
   CHECK(fault(Plane{.normal = {0, 1e-300, 0}}) == "");

@@ -83,9 +83,9 @@ away. Half of the rays are plain. A tenth of all rays is of each of these kinds:
 - *on the surface*: starting there;
 - *nearly parallel*: 10^-16 to 0.1 off parallel to a face or an axis.
 
-Cylinders and cones get another tenth *along a ruling*, a straight line of the side. It is turned
-off by 10^-16 to 0.1, shifted by as many sizes, both or neither. One more tenth at them is of all
-these kinds. In both tenths height and radius, or two radii, are up to 10^6 apart.
+Cylinders, cones and capsules get another tenth *along a ruling*, a straight line of the side. It is
+turned off by 10^-16 to 0.1, shifted by as many sizes, both or neither. One more tenth at them is of
+all these kinds. In both tenths height and radius, or two radii, are up to 10^6 apart.
 
 One ray in ten, of whatever kind, has an *extreme direction* and is counted as that. Its length is
 2^-850 to 2^850, or its components are up to 10^280 apart.
@@ -187,7 +187,8 @@ begin or end at a crossing, or a double beside it.
 |---|---|---|---|---|
 )";
 
-/// Replaces those rows of a table (that comes after `heading`) which begin like the new rows.
+/// Replaces those rows of a table (that comes after `heading`) which begin like the new rows. If
+/// there are none, the new rows come last.
 class RowReplacement {
  public:
   RowReplacement(std::string heading, std::string rows)
@@ -197,15 +198,15 @@ class RowReplacement {
 
   void apply(std::string& page) const {
     const std::size_t table = page.find("\n" + heading_);
-    const std::size_t first =
-        table == std::string::npos ? table : page.find("\n" + begin_, table + 1);
-    if (first == std::string::npos) {
-      throw std::runtime_error(
-          fmt::format("the page has no rows \"{}\" after \"{}\"", begin_, heading_));
-    }
-    std::size_t end = first + 1;
+    if (table == std::string::npos)
+      throw std::runtime_error(fmt::format("the page has no table \"{}\"", heading_));
+    const std::size_t header = page.find("\n|", table);
+    const std::size_t end_of_table = std::min(page.find("\n\n", header), page.size() - 1) + 1;
+    std::size_t first = page.find("\n" + begin_, header) + 1;
+    if (first == 0 || first > end_of_table) first = end_of_table;
+    std::size_t end = first;
     while (page.compare(end, begin_.size(), begin_) == 0) end = page.find('\n', end) + 1;
-    page.replace(first + 1, end - first - 1, rows_);
+    page.replace(first, end - first, rows_);
   }
 
  private:

@@ -40,7 +40,8 @@ std::string tree_rows(const CsgRecord& record);
 std::string agreement_rows(const MeasuredAgreement& of);
 
 /// Replaces the rows of primitives, and of trees and the agreement if any were measured, in a page
-/// that exists. Throws std::runtime_error, and changes nothing, if the page lacks one of them.
+/// that exists. Rows that it lacks become the last of their table. Throws std::runtime_error, and
+/// changes nothing, if it lacks a table.
 std::string with_rows_replaced(const std::string& page, const MeasuredAll& some);
 
 }  // namespace crt::test

@@ -124,7 +124,10 @@ inline constexpr std::size_t most_equations = 6;
 template <class Number>
 using Equations = Few<Polynomial<Number>, most_equations>;
 
-// A solid is where all its polynomials are negative, except the torus.
+/// A cylinder has the equations of its side and of its caps.
+inline constexpr std::ptrdiff_t cylinder_equations = 3;
+
+// A solid is where all its polynomials are negative, except the torus and the capsule.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
 // h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
@@ -152,6 +155,15 @@ template <class Number>
 Equations<Number> equations(const Sphere& s, const ExactLine<Number>& line) {
   return {Relative(line, s.center).squared_distance() -
           Polynomial<Number>{square(Number(s.radius))}};
+}
+
+// The three equations of the cylinder are first, then those of the spheres about its ends.
+template <class Number>
+Equations<Number> equations(const Capsule& c, const ExactLine<Number>& line) {
+  Equations<Number> result = equations(frustum_of(c), line);
+  for (const Vec3& center : {c.from, c.to})
+    result.push_back(equations(Sphere{.center = center, .radius = c.radius}, line)[0]);
+  return result;
 }
 
 template <class Number>
@@ -209,6 +221,11 @@ bool is_inside(const Primitive& solid, const Signs& signs) {
   const auto negative = [](int sign) { return sign < 0; };
   if (std::holds_alternative<Torus>(solid))
     return std::any_of(signs.begin(), signs.end(), negative);
+  if (std::holds_alternative<Capsule>(solid)) {
+    const auto spheres = signs.begin() + cylinder_equations;
+    return std::all_of(signs.begin(), spheres, negative) ||
+           std::any_of(spheres, signs.end(), negative);
+  }
   return std::all_of(signs.begin(), signs.end(), negative);
 }
 

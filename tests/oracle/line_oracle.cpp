@@ -49,6 +49,15 @@ double gradient(const Cone& c, std::size_t which, const ExactLine<Number>& line,
   return gradient(frustum_of(c), which, line, x);
 }
 template <class Number>
+double gradient(const Capsule& c, std::size_t which, const ExactLine<Number>&, const Number&) {
+  // The caps of its cylinder are no faces.
+  if (which == 1 || which == 2) return infinity;
+  if (which > 2) return 2 * c.radius;
+  const Vec3 axis = c.to - c.from;
+  const double a = glm::dot(axis, axis);
+  return 2 * a * a * c.radius;
+}
+template <class Number>
 double gradient(const Torus& torus, std::size_t which, const ExactLine<Number>& line,
                 const Number& x) {
   if (which > 0) return infinity;

@@ -307,6 +307,8 @@ std::string description(const TestRay& ray) {
       return fmt::format("cylinder {} {} {:a}", text(p.from), text(p.to), p.radius);
     else if constexpr (std::is_same_v<P, Cone>)
       return fmt::format("cone {} {} {:a} {:a}", text(p.from), text(p.to), p.radius, p.radius2);
+    else if constexpr (std::is_same_v<P, Capsule>)
+      return fmt::format("capsule {} {} {:a}", text(p.from), text(p.to), p.radius);
     else if constexpr (std::is_same_v<P, Torus>)
       return fmt::format("torus {} {} {:a} {:a}", text(p.center), text(p.axis), p.radius,
                          p.thickness);

@@ -28,7 +28,8 @@ Primitive scaled(Primitive primitive, double factor) {
           p.corner_b *= factor;
         } else if constexpr (std::is_same_v<P, Plane> || std::is_same_v<P, HalfPlane>) {
           p.position *= factor;
-        } else if constexpr (std::is_same_v<P, Cylinder> || std::is_same_v<P, Cone>) {
+        } else if constexpr (std::is_same_v<P, Cylinder> || std::is_same_v<P, Capsule> ||
+                             std::is_same_v<P, Cone>) {
           p.from *= factor;
           p.to *= factor;
           p.radius *= factor;

@@ -132,6 +132,20 @@ bool meet(const Cone& c, const Vec3& o, const Vec3& d, core::CrossingList& out) 
   return meet_frustum(c.from, c.to, c.radius, c.radius2, o, d, out);
 }
 
+/// Unites the spans of a cylinder and of the spheres about its ends.
+bool meet(const Capsule& c, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  core::CrossingList all;
+  meet(Cylinder{.from = c.from, .to = c.to, .radius = c.radius}, o, d, all);
+  meet(Sphere{.center = c.from, .radius = c.radius}, o, d, all);
+  meet(Sphere{.center = c.to, .radius = c.radius}, o, d, all);
+  Span span{.enter = infinity, .leave = -infinity};
+  for (const core::Crossing& crossing : all) {
+    span.enter = std::min(span.enter, crossing.t);
+    span.leave = std::max(span.leave, crossing.t);
+  }
+  return emit(span, out);
+}
+
 using Complex = std::complex<double>;
 
 /// Returns the roots of x^4 + b x^3 + c x^2 + d x + e by Ferrari's formula.

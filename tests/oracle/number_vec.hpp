@@ -71,6 +71,9 @@ struct Frustum {
 inline Frustum frustum_of(const Cylinder& c) {
   return {c.from, c.to, c.radius, c.radius};
 }
+inline Frustum frustum_of(const Capsule& c) {
+  return {c.from, c.to, c.radius, c.radius};
+}
 inline Frustum frustum_of(const Cone& c) {
   return {c.from, c.to, c.radius, c.radius2};
 }

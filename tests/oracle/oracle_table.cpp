@@ -1,7 +1,7 @@
 // Measures the accuracy of every primitive, and of trees of them, and whether all queries agree. It
 // writes docs/accuracy.md and its plot. usage: oracle_table RAYS PAGE PLOT [PRIMITIVE...] With
 // names of primitives ("half plane"), "trees" or "agreement" only those are measured, and their
-// rows in the page replaced; the plot and everything else stays as it is.
+// rows in the page replaced or added; the plot and everything else stays as it is.
 #include <fmt/core.h>
 
 #include <algorithm>

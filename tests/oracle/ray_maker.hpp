@@ -2,8 +2,8 @@
 //
 // Sizes are 10^-9 to 10^9, the offset of the scene 10^-9 to 10^9, the distance of the origin 10^-3
 // to 10^12 sizes. Half of the rays are plain; a tenth each is of one of the other kinds. Of the
-// rays at cylinders and cones one tenth more is along rulings and another at solids of extreme
-// proportions (ruling_rays.hpp). One in ten of all has a direction of extreme length.
+// rays at cylinders, cones and capsules one tenth more is along rulings and another at solids of
+// extreme proportions (ruling_rays.hpp). One in ten of all has a direction of extreme length.
 #pragma once
 
 #include <cstdint>
@@ -22,7 +22,7 @@ enum class RayKind : std::uint8_t {
   edge,            ///< aimed at an edge, a corner, a rim
   on_surface,      ///< from a point on the surface, as near as doubles have it
   near_parallel,   ///< 10^-16 to 0.1 off parallel to a face or an axis
-  along_ruling,    ///< of cylinders and cones: 10^-16 to 0.1 off a straight line of the side
+  along_ruling,    ///< of cylinders and their like: 10^-16 to 0.1 off a straight line of the side
   extreme_length,  ///< any of these, its direction scaled or its components made to differ by
                    ///< up to 10^280
 };

@@ -141,6 +141,14 @@ void make_extreme(Counted& random, const Vec3& at, double size, Cone& c) {
   if (c.radius2 > 0 && random.integer(0, 1) == 0) std::swap(c.radius, c.radius2);
 }
 
+void make_extreme(Counted& random, const Vec3& at, double size, Capsule& c) {
+  Cylinder side;
+  make_extreme(random, at, size, side);
+  c.from = side.from;
+  c.to = side.to;
+  c.radius = side.radius;
+}
+
 Ruling::Ruling(Counted& random, const Cone& cone) {
   const Vec3 axis = cone.to - cone.from;
   const double height = glm::length(axis);
@@ -158,6 +166,13 @@ TestRay make_ruling_ray(Counted& random, const Cylinder& cylinder) {
                                    .radius = cylinder.radius,
                                    .radius2 = cylinder.radius});
   ray.primitive = cylinder;
+  return ray;
+}
+
+TestRay make_ruling_ray(Counted& random, const Capsule& capsule) {
+  TestRay ray = make_ruling_ray(
+      random, Cylinder{.from = capsule.from, .to = capsule.to, .radius = capsule.radius});
+  ray.primitive = capsule;
   return ray;
 }
 

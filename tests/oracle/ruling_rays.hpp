@@ -1,16 +1,17 @@
-// These functions make cylinders and cones of extreme proportions, and rays along the straight
-// lines of their sides (rulings).
+// These functions make cylinders, cones and capsules of extreme proportions, and rays along the
+// straight lines of their sides (rulings).
 #pragma once
 
 #include "oracle/ray_maker.hpp"
 
 namespace crt::test {
 
-/// Sets a cylinder's or cone's place and proportions. Its height and radius differ by a factor of
+/// Sets the solid's place and proportions. Its height and radius differ by a factor of
 /// up to 10^6, a cone's two radii by up to 10^6 or by next to nothing. The axis is slanted, along a
 /// coordinate axis or nearly so.
 void make_extreme(Counted& random, const Vec3& at, double size, Cylinder& c);
 void make_extreme(Counted& random, const Vec3& at, double size, Cone& c);
+void make_extreme(Counted& random, const Vec3& at, double size, Capsule& c);
 
 /// A Ruling is a straight line of the side of a cone (or of a cylinder: with two radii that are
 /// equal).
@@ -29,5 +30,6 @@ struct Ruling {
 /// end, and starts there or up to 10^12 sizes away.
 TestRay make_ruling_ray(Counted& random, const Cylinder& cylinder);
 TestRay make_ruling_ray(Counted& random, const Cone& cone);
+TestRay make_ruling_ray(Counted& random, const Capsule& capsule);
 
 }  // namespace crt::test

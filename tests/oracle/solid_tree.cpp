@@ -43,6 +43,8 @@ Primitive grid_leaf(Counted& random) {
                   .radius2 = static_cast<double>(random.integer(0, 2))};
     case 4:
       return Torus{.center = at, .axis = axis, .radius = size, .thickness = other / 2};
+    case 5:
+      return Capsule{.from = at, .to = at + other * axis, .radius = size};
     default:
       return Box{.corner_a = at, .corner_b = at + Vec3(size, other, random.integer(1, 3))};
   }
@@ -139,9 +141,11 @@ Equations<Number> equations_along(const GridRay& ray, const SolidTree& leaf) {
   return equations(leaf.primitive, line);
 }
 
-/// Says whether an equation is of a face. A torus has another one, and an apex has a plane.
+/// Says whether an equation is of a face. A torus has another one, and so have the caps within a
+/// capsule; and an apex has a plane.
 bool is_of_face(const Primitive& primitive, std::size_t equation) {
   if (std::holds_alternative<Torus>(primitive)) return equation == 0;
+  if (std::holds_alternative<Capsule>(primitive)) return equation == 0 || equation > 2;
   const Cone* cone = std::get_if<Cone>(&primitive);
   return cone == nullptr || equation < 2 || cone->radius2 > 0;
 }

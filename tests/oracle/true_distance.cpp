@@ -72,6 +72,16 @@ double outside(const Cylinder& c, const IntervalVec& p) {
 double outside(const Cone& c, const IntervalVec& p) {
   return outside(frustum_of(c), p);
 }
+double outside(const Capsule& c, const IntervalVec& p) {
+  const IntervalVec axis = exactly<Interval>(c.to) - exactly<Interval>(c.from);
+  const IntervalVec w = p - exactly<Interval>(c.from);
+  const Interval h = dot(w, axis) / length(axis);
+  const auto from_axis = [&] { return length(cross(w, axis)) / length(axis); };
+  const Interval distance = h.value() < 0                    ? length(w)
+                            : (h - length(axis)).value() > 0 ? length(p - exactly<Interval>(c.to))
+                                                             : from_axis();
+  return (distance - Interval(c.radius)).value();
+}
 double outside(const Torus& torus, const IntervalVec& p) {
   const IntervalVec axis = exactly<Interval>(torus.axis);
   const IntervalVec w = p - exactly<Interval>(torus.center);
@@ -106,6 +116,9 @@ Ball ball_of(const Cylinder& c) {
 Ball ball_of(const Cone& c) {
   return {middle(c.from, c.to),
           std::hypot(std::max(c.radius, c.radius2), glm::length(c.to - c.from) / 2)};
+}
+Ball ball_of(const Capsule& c) {
+  return {middle(c.from, c.to), c.radius + glm::length(c.to - c.from) / 2};
 }
 Ball ball_of(const Torus& t) {
   return {t.center, t.radius + t.thickness};

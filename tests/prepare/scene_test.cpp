@@ -50,6 +50,7 @@ std::vector<Entity> one_of_each(double scale) {
                .to = v(-0.4, 0.7, 0.3),
                .radius = 0.6 * scale,
                .radius2 = 0.1 * scale},
+          Capsule{.from = v(-0.3, 0.5, 0.1), .to = v(0.4, -0.4, 0.3), .radius = 0.25 * scale},
           Torus{.center = v(0.1, 0.2, 0.1),
                 .axis = {0.2, 1, 0.3},
                 .radius = 0.8 * scale,

@@ -16,6 +16,7 @@ threads, and threads run at once while the library works. What fails raises crt.
 from ._library import version
 from .entities import (
     Box,
+    Capsule,
     Cone,
     Cylinder,
     Disc,
@@ -60,6 +61,7 @@ __all__ = [
     "Box",
     "Call",
     "Camera",
+    "Capsule",
     "Cone",
     "Cylinder",
     "Diagnostic",

@@ -62,6 +62,7 @@ STATUS_FUNCTIONS = {
     "crt_half_plane_create": "pppp",
     "crt_cylinder_create": "ppdp",
     "crt_cone_create": "ppddp",
+    "crt_capsule_create": "ppdp",
     "crt_torus_create": "ppddp",
     "crt_disc_create": "ppdp",
     "crt_triangle_create": "pppp",

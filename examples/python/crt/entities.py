@@ -177,6 +177,13 @@ class Cone(Entity):
         self._create("crt_cone_create", vector(start), vector(end), radius, radius2, **common)
 
 
+class Capsule(Entity):
+    """A Capsule is all points within `radius` of the straight line from the start to the end."""
+
+    def __init__(self, start: Point, end: Point, radius: float, **common: Any) -> None:
+        self._create("crt_capsule_create", vector(start), vector(end), radius, **common)
+
+
 class Torus(Entity):
     """A Torus is all points within `thickness` of the circle of `radius` about `center` across
     `axis`."""

@@ -41,6 +41,20 @@ struct ExactRay {
 
   ExactLine exact() const;
 
+  /// Returns the same ray with another `near`, which must outlive it: one that differs in where it
+  /// starts, or in what is asked.
+  ExactRay seen_as(const ObjectRay& other) const {
+    return {.near = other,
+            .origin_error = origin_error,
+            .direction_error = direction_error,
+            .world_origin = world_origin,
+            .world_direction = world_direction,
+            .to_world = to_world,
+            .chain = chain,
+            .start_error = start_error,
+            .escalations = escalations};
+  }
+
   /// Returns whether a t with at most this error is known well enough. That is to its last bit, or
   /// only to its side where it cannot be distinguished from the start.
   bool is_settled(double t, double error) const {

@@ -4,6 +4,7 @@
 #include "core/geometry/shape.hpp"
 
 #include "core/geometry/box/box.hpp"
+#include "core/geometry/capsule/capsule.hpp"
 #include "core/geometry/cone/cone.hpp"
 #include "core/geometry/cylinder/cylinder.hpp"
 #include "core/geometry/disc/disc.hpp"
