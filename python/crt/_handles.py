@@ -1,7 +1,7 @@
 """These are references to what the library owns. Python drops them when it needs them no more."""
 
 import types
-from typing import Any, ClassVar, TypeVar
+from typing import Any, ClassVar, NoReturn, TypeVar
 
 from ._library import library
 
@@ -28,9 +28,11 @@ class Handle:
 
     Closing drops this object's reference. A call of another thread that is under way, and arrays
     that were lent, have references of their own, so closing never pulls anything from under them.
+    Copies share what is behind the handle where that never changes.
     """
 
     _name: ClassVar[str]  # of the type in crt.h
+    _instead_of_pickle: ClassVar[str]  # what to do, as the end of a sentence
     _reference: Reference | None = None
 
     @classmethod
@@ -64,3 +66,30 @@ class Handle:
         traceback: types.TracebackType | None,
     ) -> None:
         self.close()
+
+    def __copy__(self: Self) -> Self:
+        """Returns another object for the same thing, which is closed by itself."""
+        reference = self._handle
+        twin = self.__class__.__new__(self.__class__)
+        twin.__dict__.update(self.__dict__)
+        twin._reference = reference
+        return twin
+
+    def __deepcopy__(self: Self, _memo: dict[int, Any]) -> Self:
+        return self.__copy__()
+
+    def __reduce_ex__(self, _protocol: Any) -> NoReturn:
+        name = type(self).__name__
+        article = "an" if name[0] in "AEIO" else "a"
+        raise TypeError(
+            f"{article} {name} lives in the library's memory and cannot be pickled:"
+            f" {self._instead_of_pickle}"
+        )
+
+    def __repr__(self) -> str:
+        content = "closed" if self._reference is None else self._summary()
+        return f"<crt.{type(self).__name__}: {content}>"
+
+    def _summary(self) -> str:
+        """Returns what __repr__ says of it."""
+        return "open"

@@ -1,30 +1,20 @@
 """This module renders pictures of prepared scenes and asks ray queries."""
 
-import atexit
 import ctypes
-import os
-import threading
-import time
-import weakref
-from collections.abc import Callable, Iterable
-from typing import Annotated, Any
+from collections.abc import Iterable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from ._callbacks import LOG, PROGRESS, Guard
-from ._handles import Handle, Reference
+from ._callbacks import Guard
+from ._crossings import Crossings, crossings_of_many, crossings_of_one
+from ._handles import Handle
 from ._library import create, library
-from ._structs import Int, Long, Pointer, Struct, Text, Unsigned, growable
 from .images import Image
+from .jobs import Job
+from .options import Log, Path, Progress, Region, make_options
 from .rays import HIT, RAY, Batch
-
-Progress = Callable[[float], Any]
-Log = Callable[[str], Any]
-Region = tuple[int, int, int, int]
-Path = str | os.PathLike[str]
-
-_AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8, "samples": 16, "error": 32}
 
 
 class Prepared(Handle):
@@ -32,6 +22,7 @@ class Prepared(Handle):
     once."""
 
     _name = "crt_prepared"
+    _instead_of_pickle = "prepare it again from what the scene is made from"
 
     def render(
         self,
@@ -54,13 +45,24 @@ class Prepared(Handle):
         some of "depth", "normal", "id", "albedo", "samples" and "error", become Image.channels.
         `checkpoint` is a file that keeps a picture which is rendered by passes, and from which the
         next render continues. `max_ray_steps` limits the things that one ray may be tested against,
-        see crt_render_options. `progress` gets the share that is done, and `log` the messages. Both
-        may be called from other threads, one at a time. What progress raises cancels the render and
-        comes out of here. So does Ctrl-C.
+        see crt_render_options. `progress` gets the share that is done, and True
+        shows it on standard error (by tqdm, if that is installed). `log` gets the messages. Both
+        may be called from other threads, one at a time. If progress returns False, the render is
+        cancelled, which raises crt.Error. What progress raises cancels the render, too, and comes
+        out of here. So does Ctrl-C.
         """
         guard = Guard()
-        options = _options(
-            guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log
+        options = make_options(
+            guard,
+            threads=threads,
+            region=region,
+            seed=seed,
+            passes=passes,
+            aovs=aovs,
+            checkpoint=checkpoint,
+            max_ray_steps=max_ray_steps,
+            progress=progress,
+            log=log,
         )
         with guard.raising():
             return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
@@ -80,8 +82,17 @@ class Prepared(Handle):
     ) -> "Job":
         """Starts to render in the background, otherwise as render()."""
         guard = Guard()
-        options = _options(
-            guard, threads, region, seed, passes, aovs, checkpoint, max_ray_steps, progress, log
+        options = make_options(
+            guard,
+            threads=threads,
+            region=region,
+            seed=seed,
+            passes=passes,
+            aovs=aovs,
+            checkpoint=checkpoint,
+            max_ray_steps=max_ray_steps,
+            progress=progress,
+            log=log,
         )
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
@@ -134,157 +145,14 @@ class Prepared(Handle):
         )
         return out
 
-    def crossings(self, ray: NDArray[Any]) -> NDArray[Any]:
-        """Finds every crossing along one ray, in order: the solid intervals that CSG leaves."""
-        record = np.asarray(ray)
-        question = Batch(record, RAY, "rays")
-        if question.count != 1:
-            raise ValueError("crossings are those of one ray")
-        count = ctypes.c_size_t(16)
-        while True:
-            hits = np.empty(count.value, HIT)
-            library.crt_crossings(
-                self._handle, question.address, hits.ctypes.data, len(hits), ctypes.byref(count)
-            )
-            if count.value <= len(hits):
-                return hits[: count.value]
+    def crossings(self, rays: NDArray[Any]) -> Any:
+        """Finds every crossing along rays, in order: the solid intervals that CSG leaves.
 
-
-class Job(Handle):
-    """A Job is a render that runs on threads of its own. Closing it, or dropping it, cancels it and
-    waits for its threads."""
-
-    _name = "crt_job"
-
-    def __init__(self, handle: int, guard: Guard, options: "_RenderOptions") -> None:
-        self._guard = guard
-        self._reference = _JobReference(handle, guard, options)
-        _jobs.add(self)
-
-    @property
-    def progress(self) -> float:
-        """Returns the share done, from 0 to 1."""
-        fraction = ctypes.c_double()
-        library.crt_job_progress(self._handle, ctypes.byref(fraction))
-        return fraction.value
-
-    @property
-    def is_finished(self) -> bool:
-        """Says whether it has ended: it is done, was cancelled or failed."""
-        return bool(library.crt_job_is_finished(self._handle))
-
-    def snapshot(self) -> Image:
-        """Returns the image so far, in which pixels that are not yet rendered are transparent
-        black."""
-        return Image._adopt(create("crt_job_snapshot", self._handle))
-
-    def cancel(self) -> None:
-        """Asks the job to stop, and returns at once."""
-        library.crt_job_cancel(self._handle)
-
-    def wait(self) -> Image:
-        """Returns the image, once it is there, or raises what went wrong, such as what the progress
-        callback raised. Ctrl-C in here cancels the job.
-
-        Ctrl-C in here cancels the job.
+        For one ray (crt.ray(), or a record of an array) it returns an array of crt.HIT. For an
+        array of rays it returns crt.Crossings: `hits` has those of all rays one after the other,
+        and those of ray i are hits[offsets[i]:offsets[i + 1]].
         """
-        reference = self._handle
-        with self._guard.raising():
-            if threading.current_thread() is threading.main_thread():
-                while not library.crt_job_is_finished(reference):
-                    time.sleep(0.01)  # in which Python sees signals
-            return Image._adopt(create("crt_job_wait", reference))
-
-
-class _JobReference(Reference):
-    """Keeps the callbacks until the job's threads have ended."""
-
-    __slots__ = ("_guard", "_options")
-
-    def __init__(self, handle: int, guard: Guard, options: "_RenderOptions") -> None:
-        super().__init__(handle, library.crt_job_release)
-        self._guard = guard
-        self._options = options
-
-    def __del__(self) -> None:
-        # a callback drops its own job, whose thread then ends by itself, later
-        if self._guard.is_inside():
-            _still_needed.append(self._options)
-        super().__del__()
-
-
-_still_needed: list["_RenderOptions"] = []
-_jobs: weakref.WeakSet[Job] = weakref.WeakSet()
-
-
-@atexit.register
-def _end_jobs() -> None:
-    """Ends all jobs, as no callback may come while Python shuts down."""
-    for job in list(_jobs):
-        if job._reference is not None:
-            job.cancel()
-            job.close()
-
-
-@growable("crt_render_options")
-class _RenderOptions(Struct):
-    threads: Int
-    region_x: Int
-    region_y: Int
-    region_width: Int
-    region_height: Int
-    seed: Long
-    progress: Annotated[Any, PROGRESS]
-    progress_user: Pointer
-    log: Annotated[Any, LOG]
-    log_user: Pointer
-    passes: Int
-    aovs: Unsigned
-    checkpoint: Text
-    max_ray_steps: Long
-
-
-def _aov_bits(names: Iterable[str]) -> int:
-    bits = 0
-    for name in names:
-        if name not in _AOV_BITS:
-            raise ValueError(f"there is no AOV {name!r}; there are {', '.join(_AOV_BITS)}")
-        bits |= _AOV_BITS[name]
-    return bits
-
-
-def _options(
-    guard: Guard,
-    threads: int,
-    region: Region | None,
-    seed: int,
-    passes: int,
-    aovs: Iterable[str],
-    checkpoint: Path | None,
-    max_ray_steps: int,
-    progress: Progress | None,
-    log: Log | None,
-) -> _RenderOptions:
-    def tell_progress(fraction: float) -> None:
-        if progress is not None:
-            progress(fraction)
-
-    def tell(line: bytes) -> None:
-        if log is not None:
-            log(line.decode())
-
-    options = _RenderOptions(
-        threads=threads,
-        seed=seed,
-        passes=passes,
-        aovs=_aov_bits(aovs),
-        checkpoint=checkpoint,
-        max_ray_steps=max_ray_steps,
-    )
-    if region is not None:
-        x, y, width, height = region
-        options.set(region_x=x, region_y=y, region_width=width, region_height=height)
-    # There is always one, which sees Ctrl-C and what the other has raised.
-    options.progress = PROGRESS(lambda fraction, _user: guard.call(tell_progress, fraction))
-    options.log = LOG(lambda _level, line, _user: guard.call(tell, line))
-    return options
+        questions = Batch(np.asarray(rays), RAY, "rays")
+        if questions.shape == ():
+            return crossings_of_one(self._handle, questions)
+        return crossings_of_many(self._handle, questions)
