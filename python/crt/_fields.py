@@ -1,4 +1,4 @@
-# python/generate.py has written this file from crt.h.
+# python/tools/generate.py has written this file from crt.h.
 """This table has the structs of crt.h that may grow: fields and comments."""
 
 FIELDS = {

@@ -1,4 +1,4 @@
-# python/generate.py has written this file from crt.h.
+# python/tools/generate.py has written this file from crt.h.
 """This table has the functions of crt.h: results, and parameters."""
 
 FUNCTIONS = {

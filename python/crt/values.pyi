@@ -1,4 +1,4 @@
-# python/generate.py has written this file from crt.h.
+# python/tools/generate.py has written this file from crt.h.
 """These are the types of what values.py has."""
 
 import enum

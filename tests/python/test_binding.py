@@ -63,7 +63,7 @@ class Functions(unittest.TestCase):
 
     def test_what_is_generated_is_up_to_date(self):
         program = (
-            f"import sys; sys.path.insert(0, {str(SOURCE / 'python')!r}); import generate\n"
+            f"import sys; sys.path.insert(0, {str(SOURCE / 'python/tools')!r}); import generate\n"
             "from pathlib import Path; folder = Path(sys.argv[1]); header = generate.HEADER\n"
             "(folder / '_functions.py').write_text(generate.functions(header.read_text()))\n"
             "(folder / '_fields.py').write_text(generate.fields(header.read_text()))\n"
@@ -73,7 +73,7 @@ class Functions(unittest.TestCase):
             subprocess.run([sys.executable, "-c", program, folder], check=True)
             for file in sorted(Path(folder).iterdir()):
                 ours = (SOURCE / "python/crt" / file.name).read_text()
-                self.assertEqual(ours, file.read_text(), "run python/generate.py")
+                self.assertEqual(ours, file.read_text(), "run python/tools/generate.py")
 
     def test_the_library_is_the_one_that_the_header_is_of(self):
         major, minor, patch = (

@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """This program writes what the package has of crt.h, and the types of its values.
 
-    python/generate.py
+    python/tools/generate.py
 
 makes three files in python/crt: _functions.py and _fields.py, which are the functions and the
 structs of crt.h as tables, and values.pyi, which tells type checkers and editors the fields of
@@ -17,11 +17,11 @@ import textwrap
 from collections.abc import Iterator
 from typing import Any
 
-HERE = pathlib.Path(__file__).resolve().parent
-HEADER = HERE.parent / "include/crt/crt.h"
+PYTHON = pathlib.Path(__file__).resolve().parents[1]
+HEADER = PYTHON.parent / "include/crt/crt.h"
 COLUMNS = 100
 
-NOTICE = "# python/generate.py has written this file from crt.h.\n"
+NOTICE = "# python/tools/generate.py has written this file from crt.h.\n"
 FUNCTIONS_DOC = '"""This table has the functions of crt.h: results, and parameters."""\n'
 FIELDS_DOC = '"""This table has the structs of crt.h that may grow: fields and comments."""\n'
 STUB_DOC = '"""These are the types of what values.py has."""\n'
@@ -121,7 +121,7 @@ def _text(comment: str) -> str:
 
 def stub() -> str:
     """Returns the content of values.pyi."""
-    sys.path.insert(0, str(HERE))
+    sys.path.insert(0, str(PYTHON))
     from crt import values
     from crt._structs import Struct
 
@@ -209,9 +209,9 @@ def _doc(doc: str | None) -> Iterator[str]:
 
 def main() -> None:
     header = HEADER.read_text()
-    (HERE / "crt/_functions.py").write_text(functions(header))
-    (HERE / "crt/_fields.py").write_text(fields(header))
-    (HERE / "crt/values.pyi").write_text(stub())
+    (PYTHON / "crt/_functions.py").write_text(functions(header))
+    (PYTHON / "crt/_fields.py").write_text(fields(header))
+    (PYTHON / "crt/values.pyi").write_text(stub())
 
 
 if __name__ == "__main__":
