@@ -1,8 +1,9 @@
 """These commands of setuptools put libcrt into the wheel. pyproject.toml names them.
 
-Two variables of the environment say how:
+Variables of the environment say how:
 
-- CRT_BUILD_TREE names a build tree with libraries that are built. Otherwise they are built.
+- CRT_BUILD_TREE names a build tree with libraries that are built. Otherwise they are built, by
+  CMake with what CMAKE_ARGS says.
 - CRT_BUNDLE=1 makes a wheel for other machines: it holds what libcrt links. Otherwise the wheel
   uses the libraries of this machine.
 """

@@ -15,6 +15,7 @@ import hashlib
 import os
 import pathlib
 import re
+import shlex
 import shutil
 import subprocess
 
@@ -35,8 +36,9 @@ def built(build_tree: str | None) -> pathlib.Path:
     options = [f"-DCRT_BUILD_{part}=OFF" for part in ("TESTS", "EXAMPLES", "CLI")]
     if shutil.which("ninja"):
         options.append("-GNinja")
-    configure = ["cmake", "-S", SOURCE, "-B", tree, "-DCMAKE_BUILD_TYPE=Release", *options]
-    subprocess.run([*configure, "-DCRT_BUILD_PYTHON=ON"], check=True)
+    options += shlex.split(os.environ.get("CMAKE_ARGS", ""))
+    configure = ["cmake", "-S", SOURCE, "-B", tree, "-DCMAKE_BUILD_TYPE=Release"]
+    subprocess.run([*configure, "-DCRT_BUILD_PYTHON=ON", *options], check=True)
     jobs = str(os.cpu_count() or 1)
     subprocess.run(["cmake", "--build", tree, "-j", jobs], check=True)
     return tree / "lib"
