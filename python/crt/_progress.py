@@ -30,13 +30,18 @@ class _Plain:
     """A _Plain line has a bar, and the seconds that have passed and are left."""
 
     WIDTH = 30
+    SECONDS = 0.1  # from one state to the next
 
     def __init__(self) -> None:
         self._start = time.monotonic()
         self._shown = ""
+        self._next = 0.0
 
     def show(self, fraction: float) -> None:
         passed = time.monotonic() - self._start
+        if passed < self._next and fraction < 1:
+            return
+        self._next = passed + self.SECONDS
         bar = ("#" * round(self.WIDTH * fraction)).ljust(self.WIDTH)
         left = f", {passed / fraction - passed:.0f} s left" if 0 < fraction < 1 else ""
         text = f"rendering: {fraction:4.0%} [{bar}] {passed:.0f} s{left}"

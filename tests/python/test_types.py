@@ -2,6 +2,7 @@
 mypy)."""
 
 import importlib.util
+import os
 import subprocess
 import sys
 import tempfile
@@ -48,6 +49,7 @@ class Types(unittest.TestCase):
             done = subprocess.run(
                 [sys.executable, "-m", "mypy", "--strict", "--no-error-summary"]
                 + ["--cache-dir", cache, *map(str, what)],
+                env={name: value for name, value in os.environ.items() if name != "LD_PRELOAD"},
                 capture_output=True,
                 text=True,
             )
