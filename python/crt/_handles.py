@@ -52,6 +52,11 @@ class Handle:
             raise ValueError(f"this {type(self).__name__} is closed")
         return reference
 
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name[0] != "_":
+            _require_assignable(type(self), name)
+        super().__setattr__(name, value)
+
     def close(self) -> None:
         """Ends the use of this object. Closing again does no harm."""
         self._reference = None
@@ -93,3 +98,14 @@ class Handle:
     def _summary(self) -> str:
         """Returns what __repr__ says of it."""
         return "open"
+
+
+def _require_assignable(kind: type, name: str) -> None:
+    """Refuses a name that a class of this package does not have, as the value would be lost."""
+    is_ours = kind.__module__.partition(".")[0] == __name__.partition(".")[0]
+    if not is_ours or hasattr(kind, name):
+        return
+    properties = [known for known in dir(kind) if isinstance(getattr(kind, known), property)]
+    known = [one for one in properties if getattr(kind, one).fset is not None]
+    there_is = f"; {', '.join(known)} can be assigned" if known else " that can be assigned"
+    raise AttributeError(f"a crt.{kind.__name__} has no {name!r}{there_is}")

@@ -63,7 +63,7 @@ class Scene(Handle):
         self._values: dict[str, Any] = {}
         self._known: list[Reference] | None = []  # the entities in the library, if they are known
         self._kept: dict[int, tuple[Entity, Reference]] = {}  # those that may have been closed
-        self.diagnostics: list[Diagnostic] = []  # the warnings of the script that it is from
+        self._diagnostics: list[Diagnostic] = []
 
     @classmethod
     def from_script(
@@ -153,8 +153,13 @@ class Scene(Handle):
     def _made_by(cls, handle: int, diagnostics: list[Diagnostic]) -> "Scene":
         scene = cls._adopt(handle)
         scene._known = None
-        scene.diagnostics = diagnostics
+        scene._diagnostics = diagnostics
         return scene
+
+    @property
+    def diagnostics(self) -> list[Diagnostic]:
+        """Returns the warnings of the script that the scene is from."""
+        return self._diagnostics
 
     def add(self, *things: Entity | Light) -> None:
         """Adds entities and lights."""
@@ -289,7 +294,7 @@ class Scene(Handle):
             if self._entities is not None and self._known is not None:
                 copy._entities, copy._known = list(self._entities), list(self._known)
                 copy._kept = dict(self._kept)
-            copy.diagnostics = list(self.diagnostics)
+            copy._diagnostics = list(self._diagnostics)
             return copy
 
     def __copy__(self) -> "Scene":

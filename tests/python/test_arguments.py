@@ -92,6 +92,22 @@ class Messages(unittest.TestCase):
         with self.assertRaisesRegex(AttributeError, "Camera has no 'fow'; it has projection, "):
             crt.Camera(fow=1)
 
+    def test_of_an_attribute_that_would_be_lost(self):
+        with self.assertRaisesRegex(AttributeError, "crt.Scene has no 'setings'; background, ca"):
+            crt.Scene().setings = crt.Settings()
+        ball = crt.Sphere(ORIGIN, 1)
+        with self.assertRaisesRegex(AttributeError, "crt.Sphere has no 'material' that can be as"):
+            ball.material = crt.Material()
+        with self.assertRaises(AttributeError):
+            ball.is_solid = False
+
+        class Ours(crt.Scene):
+            pass
+
+        ours = Ours()
+        ours.name = "mine"
+        self.assertEqual(ours.name, "mine")
+
     def test_numbers_of_numpy_are_numbers(self):
         ball = crt.Sphere(np.zeros(3), np.float32(1.5), id=np.uint8(7))
         self.assertEqual(repr(ball), "Sphere(center=(0, 0, 0), radius=1.5, id=7)")
