@@ -6,12 +6,14 @@ import pathlib
 import shutil
 import subprocess
 import sys
+import tarfile
 import tempfile
 import unittest
 import zipfile
 
 from support import SOURCE
 
+FOLDERS = ("cmake", "include", "python", "src")
 BUILD_TREE = pathlib.Path(os.environ["CRT_LIBRARY"]).parents[1]
 
 # What a user does. The first line says where the libraries are that libcrt links.
@@ -63,8 +65,10 @@ class Wheel(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         source = cls.folder / "source"
-        shutil.copytree(SOURCE / "python", source / "python")
-        for file in ("pyproject.toml", "LICENSE"):
+        for folder_name in FOLDERS:
+            ignored = shutil.ignore_patterns("__pycache__", ".*")
+            shutil.copytree(SOURCE / folder_name, source / folder_name, ignore=ignored)
+        for file in ("pyproject.toml", "LICENSE", "MANIFEST.in", "CMakeLists.txt"):
             shutil.copy(SOURCE / file, source)
         make = "-m pip wheel . --no-build-isolation --no-deps --wheel-dir".split()
         run(
@@ -112,6 +116,23 @@ class Wheel(unittest.TestCase):
         finally:
             module.write_bytes(whole)
         self.assertRegex(exr, "^UNSUPPORTED .*PNG files alone; those of openexr need OpenImageIO")
+
+    def test_a_source_archive_has_what_a_build_needs(self):
+        make = "from setuptools import build_meta; build_meta.build_sdist('made')"
+        source = self.folder / "source"
+        run("env", "-C", source, sys.executable, "-c", make)
+        (archive,) = source.glob("made/*.tar.gz")
+        with tarfile.open(archive) as content:
+            names = {name.partition("/")[2] for name in content.getnames()}
+        for folder in FOLDERS:
+            files = {
+                str(file.relative_to(source))
+                for file in (source / folder).rglob("*")
+                if file.is_file() and "__pycache__" not in file.parts
+            }
+            self.assertGreater(len(files), 5, folder)
+            self.assertEqual(files - names, set())
+        self.assertLessEqual({"CMakeLists.txt", "pyproject.toml", "LICENSE"}, names)
 
     def test_its_program_runs(self):
         scene, depth = self.folder / "scene.crt", self.folder / "depth.png"
