@@ -74,11 +74,14 @@ bool read_header(Reader& reader) {
   return true;
 }
 
-/// Reads all rows of an interlaced file, or only the next row of another.
-bool read_rows(Reader& reader, int passes, png_bytepp rows, std::size_t count) {
+/// Reads so many rows, which are all of an interlaced file, or the next ones of another. Rows that
+/// a short file does not have are not even touched.
+bool read_rows(Reader& reader, int passes, unsigned char* to, std::size_t row_size,
+               std::size_t count) {
   if (setjmp(png_jmpbuf(reader.png)) != 0) return false;
-  for (int pass = 0; pass < passes; ++pass)
-    png_read_rows(reader.png, rows, nullptr, static_cast<png_uint_32>(count));
+  for (int pass = 0; pass < passes; ++pass) {
+    for (std::size_t y = 0; y < count; ++y) png_read_row(reader.png, to + y * row_size, nullptr);
+  }
   return true;
 }
 
@@ -89,14 +92,14 @@ bool start_reading(Reader& reader, int& passes) {
   return true;
 }
 
-/// Converts a row of RGBA with 16 bits, the higher byte first and alpha straight, to floats with
-/// premultiplied alpha.
-void convert_row(const unsigned char* from, std::size_t width, float* to) {
+/// Converts RGBA of 16 bits, the higher byte first and alpha straight, to floats with premultiplied
+/// alpha.
+void convert(const unsigned char* from, std::size_t pixels, float* to) {
   constexpr float largest = 65535.0f;
   const auto number = [&](std::size_t i) {
     return static_cast<float>(from[2 * i] << 8 | from[2 * i + 1]) / largest;
   };
-  for (std::size_t i = 0; i < 4 * width; i += 4) {
+  for (std::size_t i = 0; i < 4 * pixels; i += 4) {
     const float alpha = number(i + 3);
     for (std::size_t channel = 0; channel < 3; ++channel)
       to[i + channel] = number(i + channel) * alpha;
@@ -133,25 +136,27 @@ ImageFilesStatus decode_png(const ImageFilesContent& content, const ImageFilesPi
   int passes = 1;
   if (!start_reading(reader, passes)) return failed(error, reader.failure.message.data());
 
+  // The picture is allocated when the first strip is there, so that a short file with a tall claim
+  // costs nothing. An interlaced file is one strip.
+  constexpr std::size_t most_rows = 64;
+  constexpr std::size_t strip_pixels = std::size_t{1} << 20;
   const std::size_t row_size = 8 * width;
-  const std::size_t strip = passes > 1 ? height : 1;  // an interlaced file is read as a whole
-  const auto bytes = std::make_unique_for_overwrite<unsigned char[]>(strip * row_size);
-  std::vector<png_bytep> rows(strip);
-  for (std::size_t y = 0; y < strip; ++y) rows[y] = bytes.get() + y * row_size;
-
+  const std::size_t strip =
+      passes > 1 ? height : std::clamp(strip_pixels / width, std::size_t{1}, most_rows);
+  const auto bytes =
+      std::make_unique_for_overwrite<unsigned char[]>(std::min(strip, height) * row_size);
   float* to = nullptr;
   for (std::size_t y = 0; y < height; y += strip) {
-    if (!read_rows(reader, passes, rows.data(), strip))
+    const std::size_t count = std::min(strip, height - y);
+    if (!read_rows(reader, passes, bytes.get(), row_size, count))
       return failed(error, reader.failure.message.data());
     if (y == 0) {
       to = picture.allocate(picture.context, static_cast<int>(width), static_cast<int>(height),
                             true);
     }
     if (to == nullptr) return image_files_out_of_memory;
-    for (const unsigned char* row : rows) {
-      convert_row(row, width, to);
-      to += 4 * width;
-    }
+    convert(bytes.get(), count * width, to);
+    to += 4 * count * width;
   }
   return image_files_ok;
 }

@@ -147,6 +147,10 @@ class Png(unittest.TestCase):
             "damaged.png": bytes(damaged),
             "tall.png": tall,
             "other.bmp": crt.Image.from_pixels(np.zeros((2, 2, 4), np.float32)).encode("bmp"),
+            "interlaced.png": whole.replace(
+                chunk(b"IHDR", struct.pack(">IIBBBBB", 13, 11, 8, RGB, 0, 0, 0)),
+                chunk(b"IHDR", struct.pack(">IIBBBBB", 4, 2**25, 8, RGB, 0, 0, 1)),
+            ),
             "rows.png": png(np.zeros((1, 1, 3), int), RGB, 8).replace(
                 chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 1, 8, RGB, 0, 0, 0)),
                 chunk(b"IHDR", struct.pack(">IIBBBBB", 1, 9, 8, RGB, 0, 0, 0)),
@@ -156,6 +160,6 @@ class Png(unittest.TestCase):
             (self.folder / name).write_bytes(content)
         found = self.by_png_alone(READER, *(self.folder / name for name in contents))
         statuses = [line.split(" ")[0] for line in found]
-        self.assertEqual(statuses, ["IO", "IO", "IO", "UNSUPPORTED", "IO"], found)
+        self.assertEqual(statuses, ["IO", "IO", "IO", "UNSUPPORTED", "IO", "IO"], found)
         self.assertIn("pixels; the limit is", found[2])
         self.assertIn("PNG files alone; those of bmp need OpenImageIO", found[3])

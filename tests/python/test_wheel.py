@@ -1,6 +1,7 @@
 """A wheel is made of what is built, installed into a fresh virtual environment, and used there. No
 network is needed."""
 
+import importlib.util
 import os
 import pathlib
 import shutil
@@ -61,6 +62,9 @@ class Wheel(unittest.TestCase):
         for program in ("patchelf", "ldd"):
             if not shutil.which(program):
                 raise unittest.SkipTest(f"there is no {program} (Debian: patchelf)")
+        for module in ("ensurepip", "pip", "setuptools", "wheel"):
+            if importlib.util.find_spec(module) is None:
+                raise unittest.SkipTest(f"this Python has no {module} (Debian: python3-{module})")
         folder = tempfile.TemporaryDirectory()
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
