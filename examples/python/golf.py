@@ -47,10 +47,6 @@ scene = crt.Scene(
 )
 
 
-def show_progress(fraction: float) -> None:
-    print(f"\rrendering: {fraction:4.0%}", end="" if fraction < 1 else "\n", file=sys.stderr)
-
-
 if __name__ == "__main__":
-    image = scene.render(progress=show_progress)
+    image = scene.render(progress=True)
     image.save(sys.argv[1] if len(sys.argv) > 1 else "golf.png")

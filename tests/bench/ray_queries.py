@@ -13,7 +13,7 @@ import time
 import numpy as np
 
 SOURCE = pathlib.Path(__file__).resolve().parents[2]
-sys.path.insert(0, str(SOURCE / "examples/python"))
+sys.path.insert(0, str(SOURCE / "python"))
 import crt  # noqa: E402
 
 SIDE, ROUNDS, REPETITIONS = 1000, 7, 3

@@ -36,7 +36,7 @@ without() {
   grep -vE -- "$1" || true
 }
 
-code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h')
+code=('src/*.cpp' 'src/*.hpp' 'src/*.y' 'src/*.re' 'include/*.hpp' 'include/*.h' 'python/*.cpp')
 users=('tests/*.cpp' 'tests/*.hpp' 'tests/*.c' 'tests/*.h'
   'examples/*.cpp' 'examples/*.hpp' 'examples/*.c' 'examples/*.h')
 scripts=('*.sh' '*.py' '*.rs' '*.cmake' '*.cmake.in' '*CMakeLists.txt' dev .ci/run
@@ -145,7 +145,7 @@ banned_words=(told are_told leaf_told has_company company_width 'outlines?' Verd
   leaf_tree box_row node_paths going_on go_back users_rays expect_points squared_speed)
 check_words() {
   lines_with "\b($(IFS='|' && echo "${banned_words[*]}"))\b" \
-    'src/*' 'include/*' 'tests/*' 'docs/*.md' 'README.md' 'CONTRIBUTING.md' |
+    'src/*' 'include/*' 'python/*' 'tests/*' 'docs/*.md' 'README.md' 'CONTRIBUTING.md' |
     without "$recorded|^docs/(design/|gallery\.md:)|^tests/house/check\.sh:|\.abi:" | cut -c 1-160
 }
 
@@ -167,6 +167,7 @@ check_layers | complain "A layer uses one above it (${layers[*]})"
 only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel |
   complain "TBB outside src/core/tasks and src/core/accel"
+only_in 'png\.h' python/native | complain "libpng outside python/native"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"

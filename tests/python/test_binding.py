@@ -2,30 +2,36 @@
 
 import ctypes
 import re
+import subprocess
+import sys
+import tempfile
 import unittest
+from pathlib import Path
 
 from support import SOURCE
 
 import crt
-from crt import _library, _structs, diagnostics, images, rendering, scenes, values
+from crt import _library, _structs, diagnostics, images, options, scenes, scripts, values
+from crt._fields import FIELDS
+from crt._functions import FUNCTIONS
 
 HEADER = re.sub(r"/\*.*?\*/", "", (SOURCE / "include/crt/crt.h").read_text(), flags=re.DOTALL)
 
 
-def letter_of(declaration: str) -> str:
-    """Returns what stands for a C type in _library's tables."""
-    if "*" in declaration or "_fn " in declaration:
-        return "p"
-    words = declaration.replace("const", "").split()
-    letters = {
-        "double": "d",
-        "size_t": "z",
-        "int32_t": "i",
-        "uint32_t": "u",
-        "uint64_t": "l",
-        "void": "-",
+def kind_of(declaration: str):
+    """Returns what stands for a C type in calls; pointers of all kinds are one."""
+    if "*" in declaration or "_fn " in declaration or declaration.endswith("]"):
+        return ctypes.c_void_p
+    kinds = {
+        "double": ctypes.c_double,
+        "size_t": ctypes.c_size_t,
+        "int32_t": ctypes.c_int32,
+        "uint32_t": ctypes.c_uint32,
+        "uint64_t": ctypes.c_uint64,
+        "crt_status": ctypes.c_int,
+        "void": None,
     }
-    return "p" if declaration.endswith("]") else letters[words[0]]
+    return kinds[declaration.replace("const", "").split()[0]]
 
 
 def functions() -> dict[str, tuple[str, list[str]]]:
@@ -41,19 +47,33 @@ def functions() -> dict[str, tuple[str, list[str]]]:
 
 
 class Functions(unittest.TestCase):
-    def test_those_that_are_declared_have_the_parameters_of_the_header(self):
+    def test_all_of_the_header_are_declared_as_there(self):
         known = functions()
         self.assertGreater(len(known), 80)
-        for name, letters in _library.STATUS_FUNCTIONS.items():
-            result, parameters = known[name]
-            self.assertEqual(result, "crt_status", name)
-            self.assertEqual(letters.replace("s", "p"), "".join(map(letter_of, parameters)), name)
-        for name, letters in _library.PLAIN_FUNCTIONS.items():
-            result, parameters = known[name]
-            self.assertNotEqual(result, "crt_status", name)
+        self.assertEqual(list(FUNCTIONS), list(known))
+        texts = {_library._Text, ctypes.c_char_p}
+        for name, (result, parameters) in known.items():
+            function = getattr(_library.library, name)
+            ours = [function.restype, *function.argtypes]
+            expected = [kind_of(result), *map(kind_of, parameters)]
             self.assertEqual(
-                letters.replace("t", "p"), "".join(map(letter_of, [result, *parameters])), name
+                [ctypes.c_void_p if kind in texts else kind for kind in ours], expected, name
             )
+            self.assertEqual(function.errcheck is not None, result == "crt_status", name)
+
+    def test_what_is_generated_is_up_to_date(self):
+        program = (
+            f"import sys; sys.path.insert(0, {str(SOURCE / 'python/tools')!r}); import generate\n"
+            "from pathlib import Path; folder = Path(sys.argv[1]); header = generate.HEADER\n"
+            "(folder / '_functions.py').write_text(generate.functions(header.read_text()))\n"
+            "(folder / '_fields.py').write_text(generate.fields(header.read_text()))\n"
+            "(folder / 'values.pyi').write_text(generate.stub())\n"
+        )
+        with tempfile.TemporaryDirectory() as folder:
+            subprocess.run([sys.executable, "-c", program, folder], check=True)
+            for file in sorted(Path(folder).iterdir()):
+                ours = (SOURCE / "python/crt" / file.name).read_text()
+                self.assertEqual(ours, file.read_text(), "run python/tools/generate.py")
 
     def test_the_library_is_the_one_that_the_header_is_of(self):
         major, minor, patch = (
@@ -89,7 +109,7 @@ class Structs(unittest.TestCase):
                 yield re.search(r"(\w+)(\[\d\])?$", declaration)[1], declaration
 
     def test_their_fields_are_those_of_the_header_in_its_order(self):
-        modules = diagnostics, images, rendering, scenes, values
+        modules = diagnostics, images, options, scenes, scripts, values
         structs = {
             thing
             for module in modules
@@ -116,6 +136,9 @@ class Structs(unittest.TestCase):
             "crt_projection": crt.Projection,
             "crt_aperture_shape": crt.ApertureShape,
             "crt_background_type": crt.BackgroundType,
+            "crt_pixel_filter": crt.PixelFilter,
+            "crt_falloff_model": crt.FalloffModel,
+            "crt_precision": crt.Precision,
         }
         for name, ours in pairs.items():
             body = re.search(rf"typedef enum {name} \{{(.*?)\}} {name};", HEADER, re.DOTALL)[1]
@@ -124,11 +147,25 @@ class Structs(unittest.TestCase):
                 self.assertTrue(theirs.endswith(ours(number).name), f"{theirs} is {ours(number)!r}")
             self.assertEqual(len(names), sum(member >= 0 for member in ours))
 
+    def test_fields_that_crt_h_calls_an_enumeration_are_one(self):
+        found = 0
+        for thing in vars(values).values():
+            if not (isinstance(thing, type) and issubclass(thing, _structs.Struct)):
+                continue
+            for declaration, text in FIELDS.get(getattr(thing, "_name", ""), ()):
+                if named := re.match(r"an? ([A-Z]\w+)", text):
+                    field = declaration.split()[-1]
+                    self.assertIs(thing._enums[field], getattr(crt, named[1]), field)
+                    found += 1
+        self.assertEqual(found, 8)
+        self.assertIs(crt.Camera().projection, crt.Projection.PINHOLE)
+        self.assertEqual(repr(crt.Settings(precision=99).precision), "99")
+
     def test_aovs_have_the_bits_of_the_header(self):
         bits = {
             name.lower(): int(bit) for name, bit in re.findall(r"CRT_AOV_(\w+)\s*=\s*(\d+)", HEADER)
         }
-        self.assertEqual(rendering._AOV_BITS, bits)
+        self.assertEqual(options.AOV_BITS, bits)
 
     def test_rays_and_hits_have_the_frozen_layout(self):
         self.assertEqual((crt.RAY.itemsize, crt.HIT.itemsize), (64, 56))

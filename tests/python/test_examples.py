@@ -20,9 +20,7 @@ class Golf(unittest.TestCase):
 
     def test_there_is_a_picture_of_it(self):
         scene = golf.scene.copy()
-        settings = scene.settings
-        settings.set(width=60, height=60, supersampling=1)
-        scene.settings = settings
+        scene.settings.set(width=60, height=60, supersampling=1)
         pixels = scene.render().pixels
         white, red, sky = pixels[22, 27], pixels[48, 30], pixels[2, 5]
         self.assertGreater(white[:3].min(), 0.3)

@@ -149,10 +149,56 @@ class Memory(unittest.TestCase):
             prepared.intersect(rays)
         self.assertEqual(caught.exception.status, crt.Status.INVALID_ARGUMENT)
 
-    def test_crossings_are_those_of_one_ray(self):
-        with self.assertRaises(ValueError):
-            prepared.crossings(parallel_rays(2))
+
+class Crossings(unittest.TestCase):
+    def test_those_of_one_record_are_an_array(self):
         self.assertEqual(len(prepared.crossings(parallel_rays(3)[1])), 4)
+        self.assertEqual(len(prepared.crossings(np.array([0.0, 0, -5, 0, 0, 1, 0, 9]))), 4)
+
+    def test_those_of_many_rays_are_flat_with_offsets(self):
+        rays = parallel_rays(61)
+        crossings = prepared.crossings(rays)
+        self.assertIsInstance(crossings, crt.Crossings)
+        self.assertEqual((crossings.hits.dtype, crossings.offsets.dtype), (crt.HIT, np.int64))
+        self.assertEqual((len(crossings.offsets), crossings.offsets[0]), (62, 0))
+        self.assertEqual(crossings.offsets[-1], len(crossings.hits))
+        self.assertEqual(set(crossings.counts), {0, 2, 4})
+        for index, ray in enumerate(rays):
+            alone = prepared.crossings(ray)
+            np.testing.assert_array_equal(crossings.of(index), alone)
+            first, end = crossings.offsets[index : index + 2]
+            np.testing.assert_array_equal(crossings.hits[first:end], alone)
+        np.testing.assert_array_equal(crossings.of(-31), crossings.of(30))
+        for wrong in (61, -62):
+            with self.assertRaises(IndexError):
+                crossings.of(wrong)
+
+    def test_there_may_be_many_of_a_ray(self):
+        row = crt.union(crt.Sphere((0, 0, 3 * i), 1) for i in range(100))
+        rays = parallel_rays(5)
+        crossings = crt.Scene([row]).prepare().crossings(rays)
+        self.assertEqual(list(crossings.counts), [0, 200, 200, 200, 0])
+        np.testing.assert_allclose(
+            crossings.of(2)["t"], np.ravel([(3 * i + 4, 3 * i + 6) for i in range(100)])
+        )
+
+    def test_rays_may_lie_apart_in_any_shape(self):
+        rays = parallel_rays(60)
+        expected = prepared.crossings(rays[::2])
+        found = prepared.crossings(rays.reshape(6, 10)[:, ::2])
+        np.testing.assert_array_equal(found.hits, expected.hits)
+        np.testing.assert_array_equal(found.offsets, expected.offsets)
+
+    def test_no_rays_have_none(self):
+        hits, offsets = prepared.crossings(crt.rays(0))
+        self.assertEqual((len(hits), list(offsets)), (0, [0]))
+
+    def test_a_wrong_ray_is_named(self):
+        rays = parallel_rays(20)
+        rays["direction"][13] = 0
+        with self.assertRaisesRegex(crt.Error, r"rays\[13\]") as caught:
+            prepared.crossings(rays)
+        self.assertEqual(caught.exception.status, crt.Status.INVALID_ARGUMENT)
 
 
 class CameraRays(unittest.TestCase):

@@ -87,7 +87,6 @@ class Rendering(unittest.TestCase):
         self.assertEqual(image.encode("png", colors_only=True)[1:4], b"PNG")
         self.assertEqual(image._repr_png_()[1:4], b"PNG")
 
-
     def test_values_of_a_file_that_are_not_finite_are_told(self):
         values = np.array([1, 1, 1, 0, np.nan, np.inf], dtype="<f4")
         image = crt.Image.decode(b"PF\n2 1\n-1.0\n" + values.tobytes(), "a.pfm")
@@ -113,6 +112,27 @@ class Callbacks(unittest.TestCase):
         with self.assertRaisesRegex(Interrupt, "enough"):
             small_scene(200).render(progress=fail)
         self.assertEqual(calls, [0])
+
+    def test_progress_that_returns_false_cancels(self):
+        calls = []
+
+        def stop(fraction):
+            calls.append(fraction)
+            return False
+
+        for answer in (stop, lambda fraction: np.False_):
+            with self.assertRaises(crt.Error) as caught:
+                small_scene(200).render(progress=answer)
+            self.assertEqual(caught.exception.status, crt.Status.CANCELLED)
+        self.assertEqual(calls, [0])
+        job = small_scene(200).prepare().start(progress=stop)
+        with self.assertRaises(crt.Error) as caught:
+            job.wait()
+        self.assertEqual(caught.exception.status, crt.Status.CANCELLED)
+
+    def test_progress_may_return_anything_else(self):
+        for answer in (None, True, 0, 1, "", []):
+            self.assertEqual(small_scene(20).render(progress=lambda _: answer).width, 20)
 
     def test_the_log_gets_lines(self):
         lines = []

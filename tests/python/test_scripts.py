@@ -23,6 +23,27 @@ class Scripts(unittest.TestCase):
             self.assertEqual(len(crt.Scene.from_script(path).entities), 1)
             self.assertEqual(len(crt.Scene.from_script(text).entities), 1)
 
+    def test_a_path_is_not_taken_for_a_script_nor_a_script_for_a_path(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "ball.crt"
+            path.write_text("Scene { Sphere { center -> vec3(0, 0, 0) radius -> 1 } }")
+            plain = pathlib.Path(folder) / "plain"
+            plain.write_text("Scene { }")
+            for given in (str(path), str(plain), "scene.crt", "not/there/Scene.CRT"):
+                with self.assertRaisesRegex(ValueError, "is a path.*crt.Scene.from_file"):
+                    crt.Scene.from_script(given)
+            for named in (path, str(path)):
+                self.assertEqual(len(crt.Scene.from_file(named).entities), 1)
+            scene = crt.Scene.from_file(str(path), settings={"width": 9})
+            self.assertEqual(scene.settings.width, 9)
+        for text in ("Scene { }", "a = 1\nScene { }\n"):
+            with self.assertRaisesRegex(ValueError, "is the text of a script.*from_script"):
+                crt.Scene.from_file(text)
+        self.assertEqual(crt.Scene.from_script("Scene { } -- as in scene.crt").entities, [])
+        with self.assertRaises(crt.ScriptError) as caught:
+            crt.Scene.from_file("not/there.crt")
+        self.assertEqual(caught.exception.status, crt.Status.IO)
+
     def test_variables_and_settings_win_over_those_of_the_script(self):
         lines = []
         scene = crt.Scene.from_script(
@@ -102,7 +123,7 @@ class Scripts(unittest.TestCase):
         with self.assertRaises(crt.ScriptError) as caught:
             crt.Scene.from_script("while (true) { a = 1 }\nScene {}", max_steps=1000)
         self.assertEqual(caught.exception.status, crt.Status.LIMIT)
-        with self.assertRaises(AttributeError):
+        with self.assertRaisesRegex(TypeError, "no argument 'max_stepz'; limits are max_steps"):
             crt.Scene.from_script("Scene {}", max_stepz=1)
 
 

@@ -33,7 +33,7 @@ class Rendered:
 def binding(library: pathlib.Path) -> Any:
     """Returns CRT's Python package on top of this library."""
     os.environ["CRT_LIBRARY"] = str(library)
-    package = str(SOURCE / "examples/python")
+    package = str(SOURCE / "python")
     if package not in sys.path:
         sys.path.insert(0, package)
     import crt

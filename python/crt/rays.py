@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _arguments
 from .values import Camera, Projection
 
 RAY = np.dtype([("origin", "f8", 3), ("direction", "f8", 3), ("t_min", "f8"), ("t_max", "f8")])
@@ -25,8 +26,10 @@ HIT = np.dtype(
     ]
 )
 
-ENTERING = 1  # of a hit's flags: into the solid, or through a surface against its normal
-BACKFACE = 2  # from the side that the normal points away from
+ENTERING = 1
+"""is a flag of hits: the ray goes into the solid, or through a surface against its normal"""
+BACKFACE = 2
+"""is a flag of hits: the ray comes from the side that the normal points away from"""
 
 
 def rays(shape: int | tuple[int, ...]) -> NDArray[Any]:
@@ -39,16 +42,19 @@ def rays(shape: int | tuple[int, ...]) -> NDArray[Any]:
 def ray(
     origin: Sequence[float], direction: Sequence[float], t_min: float = 0, t_max: float = math.inf
 ) -> NDArray[Any]:
-    """Makes one ray."""
-    return np.array((tuple(origin), tuple(direction), t_min, t_max), RAY)
+    """Makes one ray: the points origin + t * direction with t_min < t < t_max."""
+    start = tuple(_arguments.vector(origin, "ray: origin"))
+    along = tuple(_arguments.vector(direction, "ray: direction"))
+    first = _arguments.number(t_min, "ray: t_min")
+    return np.array((start, along, first, _arguments.number(t_max, "ray: t_max")), RAY)
 
 
 def camera_rays(camera: Camera, width: int, height: int) -> NDArray[Any]:
     """Makes the rays through the middles of a pinhole camera's pixels, height x width. Their
-    directions have a length of 1 along the view, so that a hit's t is the depth of the point.
-
-    Their directions have a length of 1 along the view, so that a hit's t is the depth of the point.
-    """
+    directions have a length of 1 along the view, so that a hit's t is the depth of the point."""
+    _arguments.instance(camera, Camera, "camera_rays: camera")
+    width = _arguments.whole(width, "camera_rays: width")
+    height = _arguments.whole(height, "camera_rays: height")
     if camera.projection != Projection.PINHOLE:
         raise ValueError("only a pinhole camera's rays are known here")
     forward = np.subtract(camera.pointing, camera.position)
@@ -76,6 +82,9 @@ class Batch:
     apart."""
 
     def __init__(self, array: NDArray[Any], dtype: np.dtype[Any], name: str) -> None:
+        if not isinstance(array, np.ndarray):
+            kind = "RAY" if dtype is RAY else "HIT"
+            raise _arguments.refusal(name, f"a NumPy array of crt.{kind}", array)
         items = array.shape
         steps = array.strides
         if dtype is RAY and array.dtype == np.float64 and items[-1:] == (8,) and steps[-1] == 8:

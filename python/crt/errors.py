@@ -1,7 +1,10 @@
 """Calls raise crt.Error, or crt.ScriptError with the places in the script."""
 
+import contextlib
 import enum
+from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import Any
 
 
 class Status(enum.IntEnum):
@@ -29,6 +32,18 @@ class Error(Exception):
     def __init__(self, status: Status, message: str) -> None:
         super().__init__(message)
         self.status = status
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.status, str(self))  # as a process pool sends it
+
+
+@contextlib.contextmanager
+def named(what: str) -> Iterator[None]:
+    """Says in errors of the library what they are about."""
+    try:
+        yield
+    except Error as error:
+        raise Error(error.status, f"{what}: {error}") from None
 
 
 @dataclass(frozen=True)
@@ -64,3 +79,6 @@ class ScriptError(Error):
     def __init__(self, status: Status, message: str, diagnostics: list[Diagnostic]) -> None:
         super().__init__(status, message)
         self.diagnostics = diagnostics
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (self.status, str(self), self.diagnostics)

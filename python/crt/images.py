@@ -7,23 +7,24 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _arguments
 from ._handles import Handle, Reference
 from ._library import create, library
-from ._structs import Int, Struct, growable, reference
+from ._structs import Struct, growable, reference
 from .values import RenderStats, Settings
 
 
 @growable("crt_write_options")
 class _WriteOptions(Struct):
-    reproducible: Int
-    colors_only: Int
+    """_WriteOptions say how to write a file."""
 
 
 class Image(Handle):
     """An Image is a picture: linear RGBA floats, alpha premultiplied, rows from the top. It is
-    immutable."""
+    immutable. np.asarray(image) is its pixels, and notebooks show it."""
 
     _name = "crt_image"
+    _instead_of_pickle = "pickle its pixels, or its encode('exr')"
 
     @classmethod
     def from_pixels(cls, pixels: NDArray[Any]) -> "Image":
@@ -38,15 +39,21 @@ class Image(Handle):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Image":
-        return cls._adopt(create("crt_image_read", path))
+        """Reads an image file. Its content decides which format it has."""
+        return cls._adopt(create("crt_image_read", _arguments.text(path, "Image.read: path")))
 
     @classmethod
     def decode(cls, content: bytes, name: str = "image") -> "Image":
         """Reads an image from a file's bytes. The name is for messages."""
-        return cls._adopt(create("crt_image_decode", content, len(content), name.encode()))
+        if not isinstance(content, (bytes, bytearray, memoryview)):
+            raise _arguments.refusal("Image.decode: content", "bytes", content)
+        given = bytes(content)
+        return cls._adopt(create("crt_image_decode", given, len(given), name))
 
     @classmethod
     def _of_array(cls, function: str, pixels: NDArray[Any], dtype: np.dtype[Any]) -> "Image":
+        if not isinstance(pixels, np.ndarray):
+            raise _arguments.refusal("pixels", "a NumPy array", pixels)
         if pixels.dtype != dtype or pixels.ndim != 3 or pixels.shape[2] != 4:
             raise TypeError(
                 f"pixels are height x width x 4 {dtype}, not {pixels.shape} {pixels.dtype}"
@@ -71,10 +78,12 @@ class Image(Handle):
 
     @property
     def width(self) -> int:
+        """Returns the number of pixels across."""
         return int(library.crt_image_width(self._handle))
 
     @property
     def height(self) -> int:
+        """Returns the number of pixels down."""
         return int(library.crt_image_height(self._handle))
 
     @property
@@ -82,6 +91,20 @@ class Image(Handle):
         """Returns height x width x 4 float32, read-only: the library's own memory, which the array
         keeps."""
         return np.asarray(_LentArray.of_pixels(self._handle))
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        """Returns the pixels for NumPy: those of the library, unless a copy is asked for."""
+        pixels = self.pixels
+        wanted = pixels.dtype if dtype is None else np.dtype(dtype)
+        if wanted == pixels.dtype and not copy:
+            return pixels
+        if copy is False:
+            raise ValueError(f"the pixels are {pixels.dtype}: {wanted} needs a copy")
+        return np.array(pixels, wanted)
+
+    def _summary(self) -> str:
+        others = ", ".join(self.channels)
+        return f"{self.width} x {self.height} pixels" + (f", and {others}" if others else "")
 
     @property
     def channels(self) -> dict[str, NDArray[Any]]:
@@ -107,14 +130,16 @@ class Image(Handle):
         """Writes a file whose ending decides the format. `reproducible` leaves out how long the
         render took, `colors_only` the channels beside the colours, which only .exr files hold."""
         options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
-        library.crt_image_write_with(self._handle, path, ctypes.byref(options))
+        where = _arguments.text(path, "save: path")
+        library.crt_image_write_with(self._handle, where, ctypes.byref(options))
 
     def encode(
         self, format: str, *, reproducible: bool = False, colors_only: bool = False
     ) -> bytes:
         """Returns the bytes of a file of this format: "png", "exr", ...; otherwise as save()."""
         options = _WriteOptions(reproducible=reproducible, colors_only=colors_only)
-        handle = create("crt_image_encode", self._handle, format, ctypes.byref(options))
+        ending = _arguments.text(format, "encode: format")
+        handle = create("crt_image_encode", self._handle, ending, ctypes.byref(options))
         buffer = Reference(handle, library.crt_buffer_release)
         return ctypes.string_at(library.crt_buffer_data(buffer), library.crt_buffer_size(buffer))
 
@@ -124,6 +149,7 @@ class Image(Handle):
 
     @property
     def stats(self) -> RenderStats:
+        """Returns what rendering it took."""
         return RenderStats._filled_by("crt_image_stats", self._handle)
 
     @property
@@ -134,7 +160,11 @@ class Image(Handle):
     def with_settings(self, settings: Settings) -> "Image":
         """Returns the same pixels with another gamma, other texts, ..."""
         return Image._adopt(
-            create("crt_image_with_settings", self._handle, reference(settings, "crt_settings"))
+            create(
+                "crt_image_with_settings",
+                self._handle,
+                reference(settings, "crt_settings", "with_settings: settings"),
+            )
         )
 
 

@@ -1,27 +1,24 @@
 """This module has materials, lights, cameras, backgrounds and settings.
 
-The fields, their units, ranges and defaults are those of the structs of the same name in crt.h:
-vectors are three numbers, colours linear RGB, angles radians. Each class takes fields as keyword
-arguments, and they may be changed later; whoever takes a value copies it.
+The fields, their units, ranges and defaults are those of the structs of the same name in crt.h, and
+stand in the documentation of each class: help(crt.Material). Vectors are three numbers, colours
+linear RGB, angles radians. Each class takes fields as keyword arguments, and they may be changed
+later. An entity copies its material. A scene keeps the very objects that it is given, so that what
+changes in them changes the scene.
 """
 
 import enum
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
-from ._structs import (
-    Double,
-    ImagePointer,
-    Int,
-    Long,
-    PatternPointer,
-    Struct,
-    Text,
-    Vector,
-    growable,
-)
+from ._structs import Struct, growable
+
+if TYPE_CHECKING:
+    from .images import Image
 
 
 class PatternType(enum.IntEnum):
+    """Lists the kinds of patterns."""
+
     CHECKER = 0
     STRIPES = 1
     GRADIENT = 2
@@ -31,24 +28,9 @@ class PatternType(enum.IntEnum):
     IMAGE = 6
 
 
-@growable("crt_pattern")
+@growable("crt_pattern", type=PatternType)
 class Pattern(Struct):
     """A Pattern is colours that vary over a surface or through space: Pattern.wood(scale=0.1)."""
-
-    type: Int
-    color_a: Vector
-    alpha_a: Double
-    color_b: Vector
-    alpha_b: Double
-    direction: Vector
-    offset: Vector
-    scale: Double
-    turbulence: Double
-    octaves: Int
-    reserved: Int
-    image: ImagePointer
-    repeat_u: Double
-    repeat_v: Double
 
     @classmethod
     def checker(cls, **fields: Any) -> "Pattern":
@@ -81,7 +63,7 @@ class Pattern(Struct):
         return cls.of_type(PatternType.WOOD, **fields)
 
     @classmethod
-    def of_image(cls, image: Any, **fields: Any) -> "Pattern":
+    def of_image(cls, image: "Image", **fields: Any) -> "Pattern":
         """Lays a crt.Image over the surface."""
         return cls.of_type(PatternType.IMAGE, image=image, **fields)
 
@@ -90,42 +72,20 @@ class Pattern(Struct):
 class Material(Struct):
     """A Material says what a surface is made of. A `pattern` replaces the colour."""
 
-    reserved: Int
-    color: Vector
-    alpha: Double
-    pattern: PatternPointer
-    reflectivity: Double
-    transparency: Double
-    refractive_index: Double
-    diffuse: Double
-    specular: Double
-    shininess: Double
-    absorption: Vector
-    bump: PatternPointer
-    bump_height: Double
-
 
 class LightType(enum.IntEnum):
+    """Lists the kinds of lights. All cast shadows."""
+
     POINT = 0
     PARALLEL = 1
     SPOT = 2
     CYLINDER = 3
 
 
-@growable("crt_light")
+@growable("crt_light", type=LightType)
 class Light(Struct):
     """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
     Light.spot() or Light.cylinder()."""
-
-    type: Int
-    origin: Vector
-    pointing: Vector
-    color: Vector
-    angle: Double
-    penumbra: Double
-    radius: Double
-    falloff: Double
-    ambient: Double
 
     @classmethod
     def point(cls, **fields: Any) -> "Light":
@@ -149,6 +109,8 @@ class Light(Struct):
 
 
 class Projection(enum.IntEnum):
+    """Says how a camera maps directions to the picture."""
+
     PINHOLE = 0
     SPHERICAL = 1
     CYLINDRICAL = 2
@@ -156,6 +118,8 @@ class Projection(enum.IntEnum):
 
 
 class ApertureShape(enum.IntEnum):
+    """Lists the shapes of the lens opening."""
+
     CIRCLE = 0
     UNIFORM = 1
     GAUSSIAN = 2
@@ -167,22 +131,14 @@ class ApertureShape(enum.IntEnum):
     LINE = 8
 
 
-@growable("crt_camera")
+@growable("crt_camera", projection=Projection, aperture_shape=ApertureShape)
 class Camera(Struct):
     """A Camera says where the picture is seen from."""
 
-    projection: Int
-    position: Vector
-    pointing: Vector
-    fov: Double
-    roll: Double
-    aperture: Double
-    focal_distance: Double
-    aperture_shape: Int
-    reserved: Int
-
 
 class BackgroundType(enum.IntEnum):
+    """Lists the kinds of backgrounds."""
+
     SOLID = 0
     GRADIENT = 1
     SPHERICAL = 2
@@ -190,20 +146,10 @@ class BackgroundType(enum.IntEnum):
     EQUAL_AREA = 4
 
 
-@growable("crt_background")
+@growable("crt_background", type=BackgroundType)
 class Background(Struct):
     """A Background is what a ray that hits nothing sees: a colour, Background.gradient(), or
     Background.panorama(image)."""
-
-    type: Int
-    color: Vector
-    alpha: Double
-    horizon: Vector
-    horizon_alpha: Double
-    sky: Vector
-    sky_alpha: Double
-    image: ImagePointer
-    angle: Double
 
     @classmethod
     def gradient(cls, **fields: Any) -> "Background":
@@ -212,7 +158,7 @@ class Background(Struct):
 
     @classmethod
     def panorama(
-        cls, image: Any, cylindrical: bool = False, equal_area: bool = False, **fields: Any
+        cls, image: "Image", cylindrical: bool = False, equal_area: bool = False, **fields: Any
     ) -> "Background":
         """Shows a crt.Image all around: spherical (equirectangular), unless it is one of the
         others."""
@@ -227,76 +173,32 @@ class Background(Struct):
 
 
 class PixelFilter(enum.IntEnum):
+    """Says what a pixel is the mean of."""
+
     BOX = 0
     BLACKMAN_HARRIS = 1
 
 
-@growable("crt_settings")
+class FalloffModel(enum.IntEnum):
+    """Says what the distance D in a light's falloff / D^2 is."""
+
+    PATH = 0
+    LIGHT = 1
+
+
+class Precision(enum.IntEnum):
+    """Says how close calls of the geometry are decided."""
+
+    STANDARD = 0
+    EXACT = 1
+
+
+@growable("crt_settings", falloff_model=FalloffModel, precision=Precision, filter=PixelFilter)
 class Settings(Struct):
     """Settings say how a scene is rendered."""
-
-    width: Int
-    height: Int
-    supersampling: Int
-    dof_samples: Int
-    recursion_depth: Int
-    gamma: Double
-    min_weight: Double
-    falloff_model: Int
-    show_clip: Int
-    seed: Long
-    title: Text
-    author: Text
-    date: Text
-    notes: Text
-    precision: Int
-    reserved: Int
-    target_error: Double
-    time_budget: Double
-    filter_width: Double
-    min_samples: Int
-    max_samples: Int
-    filter: Int
-    reserved_2: Int
-    compat: Int
-    reserved_3: Int
 
 
 @growable("crt_render_stats", has_init=False)
 class RenderStats(Struct):
     """RenderStats say what rendering a picture took."""
 
-    threads: Int
-    pixels: Long
-    camera_rays: Long
-    shadow_rays: Long
-    reflection_rays: Long
-    refraction_rays: Long
-    rays_below_min_weight: Long
-    rays_beyond_depth: Long
-    samples_over_ray_bound: Long
-    intersection_tests: Long
-    interval_events: Long
-    media_lookups: Long
-    media_changes: Long
-    pattern_lookups: Long
-    lens_samples: Long
-    prepare_seconds: Double
-    trace_seconds: Double
-    escalations: Long
-    primitive_bytes: Long
-    csg_bytes: Long
-    tree_bytes: Long
-    material_bytes: Long
-    samples_min: Long
-    samples_mean: Double
-    samples_max: Long
-    passes: Int
-    reserved: Int
-    half_width_rms: Double
-    half_width_95: Double
-    half_width_max: Double
-    pixels_unresolved: Long
-    unseen_share: Double
-    cutoff_mean: Double
-    cutoff_max: Double

@@ -60,7 +60,7 @@ def main() -> int:
         if (value := getattr(arguments, name)) is not None
     }
     try:
-        depths = depth_map(crt.Scene.from_script(arguments.scene, settings=settings, print=print))
+        depths = depth_map(crt.Scene.from_file(arguments.scene, settings=settings, print=print))
         if arguments.output.lower().endswith((".exr", ".hdr")):
             image = crt.Image.from_pixels(_floats(depths))
         else:

@@ -10,44 +10,49 @@
 
 Space is left-handed: x to the right, y up, z into the picture. Everything is released by itself;
 `with` and `close()` do so earlier. Prepared scenes, images and entities may be shared between
-threads, and threads run at once while the library works. What fails raises crt.Error.
+threads, and threads run at once while the library works. What fails raises crt.Error. An argument
+of a wrong type is a TypeError that names it. help(crt.Material) and the like list the fields of
+values.
 """
 
+from ._crossings import Crossings
 from ._library import version
-from .entities import (
+from ._version import __version__
+from .entities import Entity, difference, intersection, union
+from .errors import Call, Diagnostic, Error, ScriptError, Status
+from .expressions import Expression
+from .images import Image
+from .jobs import Job
+from .primitives import (
     Box,
     Capsule,
     Cone,
     Cylinder,
     Disc,
     Empty,
-    Entity,
     HalfPlane,
     Mesh,
     Plane,
     Sphere,
     Torus,
     Triangle,
-    difference,
-    intersection,
-    union,
 )
-from .errors import Call, Diagnostic, Error, ScriptError, Status
-from .expressions import Expression
-from .images import Image
 from .rays import BACKFACE, ENTERING, HIT, RAY, camera_rays, ray, rays
-from .rendering import Job, Prepared
+from .rendering import Prepared
 from .scenes import Scene
 from .values import (
     ApertureShape,
     Background,
     BackgroundType,
     Camera,
+    FalloffModel,
     Light,
     LightType,
     Material,
     Pattern,
     PatternType,
+    PixelFilter,
+    Precision,
     Projection,
     RenderStats,
     Settings,
@@ -63,6 +68,7 @@ __all__ = [
     "Camera",
     "Capsule",
     "Cone",
+    "Crossings",
     "Cylinder",
     "Diagnostic",
     "Disc",
@@ -71,6 +77,7 @@ __all__ = [
     "Entity",
     "Error",
     "Expression",
+    "FalloffModel",
     "HIT",
     "HalfPlane",
     "Image",
@@ -81,7 +88,9 @@ __all__ = [
     "Mesh",
     "Pattern",
     "PatternType",
+    "PixelFilter",
     "Plane",
+    "Precision",
     "Prepared",
     "Projection",
     "RAY",
@@ -93,6 +102,7 @@ __all__ = [
     "Status",
     "Torus",
     "Triangle",
+    "__version__",
     "camera_rays",
     "difference",
     "intersection",

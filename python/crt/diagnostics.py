@@ -2,30 +2,18 @@
 
 from ._handles import Reference
 from ._library import library
-from ._structs import Int, Long, Struct, Text, growable
+from ._structs import Struct, growable
 from .errors import Call, Diagnostic, Status
 
 
 @growable("crt_diagnostic", has_init=False)
 class _Diagnostic(Struct):
-    severity: Int
-    status: Int
-    line: Int
-    column: Int
-    length: Int
-    message: Text
-    file: Text
-    source_line: Text
-    call_count: Long
+    """A _Diagnostic is one message, with texts of Python's own."""
 
 
 @growable("crt_diagnostic_call", has_init=False)
 class _DiagnosticCall(Struct):
-    line: Int
-    column: Int
-    reserved: Int
-    name: Text
-    file: Text
+    """A _DiagnosticCall is a macro call that led to a message."""
 
 
 def diagnostics_of(handle: int) -> tuple[str, list[Diagnostic]]:

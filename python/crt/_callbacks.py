@@ -16,6 +16,15 @@ PRINT = ctypes.CFUNCTYPE(
 OPEN_FILE = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_char_p, ctypes.c_void_p, ctypes.c_void_p)
 POLL = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_void_p)
 
+# What stands for the types of crt.h.
+CALLBACKS: dict[str, Any] = {
+    "crt_progress_fn": PROGRESS,
+    "crt_log_fn": LOG,
+    "crt_print_fn": PRINT,
+    "crt_open_file_fn": OPEN_FILE,
+    "crt_poll_fn": POLL,
+}
+
 STOP = -1  # what a callback returns to cancel
 
 
@@ -24,6 +33,7 @@ class Guard:
 
     def __init__(self) -> None:
         self.exception: BaseException | None = None
+        self.at_end: Callable[[], None] = _nothing  # of the call
         self._thread_inside: int | None = None
 
     def call(self, function: Callable[..., int | None], *arguments: Any) -> int:
@@ -60,8 +70,13 @@ class Guard:
         finally:
             if has_handler:
                 signal.signal(signal.SIGINT, signal.default_int_handler)
+            self.at_end()
             if self.exception is not None:
                 raise self.exception from None
 
     def _note_interrupt(self, _signal: int, _frame: types.FrameType | None) -> None:
         self.exception = KeyboardInterrupt()
+
+
+def _nothing() -> None:
+    """Does nothing, at the end of a call that needs nothing."""

@@ -1,0 +1,327 @@
+# python/tools/generate.py has written this file from crt.h.
+"""This table has the structs of crt.h that may grow: fields and comments."""
+
+FIELDS = {
+    "crt_pattern": (
+        ("int32_t type", "a PatternType"),
+        ("double color_a[3]", "linear RGB, each in [0, 1e30]"),
+        ("double alpha_a", "in [0, 1]; what is missing to 1 adds to the material's transparency"),
+        ("double color_b[3]", ""),
+        ("double alpha_b", ""),
+        ("double direction[3]", "any length but 0"),
+        ("double offset[3]", "moves the pattern; scene units"),
+        ("double scale", "of one period, in scene units; > 0"),
+        ("double turbulence", ">= 0"),
+        ("int32_t octaves", "in [1, 16]"),
+        ("int32_t reserved", "0"),
+        ("const crt_image* image", "of PatternType.IMAGE alone"),
+        ("double repeat_u", "how often the image repeats across the surface; > 0"),
+        ("double repeat_v", ""),
+    ),
+    "crt_material": (
+        ("int32_t reserved", "0"),
+        ("double color[3]", "linear RGB, each in [0, 1e30]; above 1 it brightens; default 0.5"),
+        ("double alpha", "in [0, 1]; what is missing to 1 adds to the transparency; default 1"),
+        ("const crt_pattern* pattern", "takes the place of the colour; default None"),
+        ("double reflectivity", "share of light mirrored, in [0, 1]; default 0"),
+        ("double transparency", "share of light let through, in [0, 1]; default 0"),
+        ("double refractive_index", "of the inside, in [0.01, 100]; default 1"),
+        ("double diffuse", ">= 0, or -1 (default) for max(0, 1 - reflectivity - transparency)"),
+        ("double specular", "strength of the highlight, >= 0; default 0"),
+        ("double shininess", "exponent of the highlight's cosine, >= 0; default 3"),
+        (
+            "double absorption[3]",
+            "inside, per scene unit and channel (Beer-Lambert), >= 0; default 0",
+        ),
+        ("const crt_pattern* bump", "its luminance raises the surface; default None"),
+        ("double bump_height", "scene units; default 0.1"),
+    ),
+    "crt_light": (
+        ("int32_t type", "a LightType; default LightType.POINT"),
+        ("double origin[3]", "default 0"),
+        (
+            "double pointing[3]",
+            "default 0; a point light ignores it, others need a point other than `origin`",
+        ),
+        ("double color[3]", "linear RGB, >= 0, may pass 1; default 1"),
+        ("double angle", "spot: full angle of the cone, in (0, 2 pi]; default pi / 3"),
+        (
+            "double penumbra",
+            "spot: width of its soft edge inwards, radians of the half angle; default pi / 36",
+        ),
+        ("double radius", "cylinder: > 0; default 1"),
+        (
+            "double falloff",
+            "0 (default) or less: distance does not matter; else the light fades as falloff / "
+            "D^2",
+        ),
+        ("double ambient", "share of the colour that every point gets, >= 0; default 0"),
+    ),
+    "crt_camera": (
+        ("int32_t projection", "a Projection; default Projection.PINHOLE"),
+        ("double position[3]", "default (0, 0, -1)"),
+        ("double pointing[3]", "the point looked at; default 0"),
+        ("double fov", "vertical field of view, radians, in (0, pi); default pi / 3"),
+        ("double roll", "radians; positive tips the picture's top to the right; default 0"),
+        (
+            "double aperture",
+            "radius of the lens in thousandths of a scene unit; 0 (default): all is sharp",
+        ),
+        ("double focal_distance", "along the view direction to what is in focus, > 0; default 1"),
+        ("int32_t aperture_shape", "a ApertureShape; default ApertureShape.CIRCLE"),
+        ("int32_t reserved", "0"),
+    ),
+    "crt_background": (
+        ("int32_t type", "a BackgroundType; default BackgroundType.SOLID"),
+        ("double color[3]", "linear RGB, >= 0; default 1"),
+        ("double alpha", "of the pixels where nothing is hit, in [0, 1]; default 1"),
+        ("double horizon[3]", ""),
+        ("double horizon_alpha", ""),
+        ("double sky[3]", ""),
+        ("double sky_alpha", ""),
+        ("const crt_image* image", "its middle column is straight ahead (+z) at angle 0"),
+        ("double angle", "turns the image about y, radians"),
+    ),
+    "crt_settings": (
+        ("int32_t width", "pixels, in [1, 65536]; default 640; width * height is at most 2^27"),
+        ("int32_t height", "default 480"),
+        ("int32_t supersampling", "n x n rays a pixel, in [1, 64]; default 1"),
+        (
+            "int32_t dof_samples",
+            "points of the lens for each of them, in [1, 65536]; default 1: no lens",
+        ),
+        ("int32_t recursion_depth", "bounces after the camera's ray, in [0, 256]; default 3"),
+        ("double gamma", "8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1"),
+        (
+            "double min_weight",
+            "rays with a smaller share of the pixel in every channel are dropped; default "
+            "1/1024",
+        ),
+        ("int32_t falloff_model", "a FalloffModel; default FalloffModel.PATH"),
+        (
+            "int32_t show_clip",
+            "not 0: pixels with a channel above 1 are red in 8-bit files; default 0",
+        ),
+        ("uint64_t seed", "of the random numbers; default 0"),
+        ("const char* title", "this and the next go into the files; None (default) for none"),
+        ("const char* author", ""),
+        ("const char* date", ""),
+        ("const char* notes", ""),
+        ("int32_t precision", "a Precision; default Precision.STANDARD"),
+        ("int32_t reserved", "must be 0"),
+        (
+            "double target_error",
+            "Above 0, a pixel gets samples until it is this near the truth in 95 of 100 cases. "
+            "1/255 is a step of 8 bits. In [0, 1]; default 0.",
+        ),
+        (
+            "double time_budget",
+            "Above 0, these are the seconds that tracing may take. It stops at the end of a "
+            "pass. The first pass is always completed, so that there is a picture. In [0, 1e6];"
+            " default 0.",
+        ),
+        (
+            "double filter_width",
+            "pixels across, of filters other than the box; in [1, 16]; default 3",
+        ),
+        (
+            "int32_t min_samples",
+            "of a pixel, with a target error or a time budget: a power of 2 in [4, 65536]; "
+            "default 16",
+        ),
+        ("int32_t max_samples", "of a pixel, also a power of 2 in [4, 65536]; default 1024"),
+        ("int32_t filter", "a PixelFilter; default PixelFilter.BOX"),
+        ("int32_t reserved_2", "must be 0"),
+        (
+            "int32_t compat",
+            "0 is the default. With 2015 the picture is formed as the program of that year "
+            "formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. "
+            "See docs/compat.md.",
+        ),
+        ("int32_t reserved_3", "must be 0"),
+    ),
+    "crt_prepare_options": (
+        ("uint32_t reserved", "0"),
+        (
+            "crt_poll_fn poll",
+            "None, or a callback that may cancel. Preparing then ends with Status.CANCELLED, "
+            "within 0.1 s in scenes of up to a million primitives. Any of the threads that work"
+            " may call it.",
+        ),
+        ("void* poll_user", ""),
+        (
+            "uint64_t max_primitives",
+            "This is the most primitives that the scene may have. With more, preparing ends "
+            "with Status.LIMIT before it takes any memory. 0 means as many as the memory of the"
+            " machine (or container) may be enough for. It counts 1350 bytes for each, or 2700 "
+            "in the exact tier, as the largest primitives take; lone spheres take 600. There "
+            "can never be more than 33554432.",
+        ),
+    ),
+    "crt_script_options": (
+        (
+            "int32_t allow_outside_files",
+            "not 0: files outside its directory and the resource directories too",
+        ),
+        (
+            "const char* const* resource_directories",
+            "where files are looked for after the script's directory",
+        ),
+        ("uint64_t resource_directory_count", ""),
+        ("double t", "the frame of an animation: the script's constant `t`"),
+        ("const char* const* variable_names", "top-level variables set from outside ..."),
+        (
+            "const char* const* variable_values",
+            "... to these expressions of the language, such as \"18\"",
+        ),
+        ("uint64_t variable_count", ""),
+        (
+            "const char* const* setting_names",
+            "attributes of Settings that win over the script's ...",
+        ),
+        ("const char* const* setting_values", "... with these expressions"),
+        ("uint64_t setting_count", ""),
+        ("uint64_t max_steps", "expressions evaluated; 0: 20 million"),
+        ("uint64_t max_entities", "0: 10 million"),
+        ("uint64_t max_call_depth", "macros within macros, at most 1000; 0: 256"),
+        ("uint64_t max_list_length", "0: 10 million"),
+        ("uint64_t max_string_bytes", "0: 16 MiB"),
+        ("uint64_t max_memory_bytes", "of all lists and strings together, about; 0: 2 GiB"),
+        ("uint64_t max_source_bytes", "of the script and its imports; 0: 64 MiB"),
+        ("uint64_t max_errors", "reported before giving up; 0: 20"),
+        ("crt_open_file_fn open_file", "None: files come from the file system"),
+        ("void* open_file_user", ""),
+        ("crt_print_fn print", "None: what is printed goes nowhere"),
+        ("void* print_user", ""),
+        ("crt_poll_fn poll", "None: only the limits end a script"),
+        ("void* poll_user", ""),
+        (
+            "int32_t compat",
+            "0: as the script's Settings say; 2015: it is a script of that year "
+            "(docs/compat.md)",
+        ),
+        ("int32_t reserved", "0"),
+    ),
+    "crt_diagnostic": (
+        ("int32_t severity", "a Severity"),
+        ("int32_t status", "a Status: what kind of error"),
+        ("int32_t line", ""),
+        ("int32_t column", ""),
+        ("int32_t length", "of the marked piece, in code points"),
+        ("const char* message", ""),
+        ("const char* file", ""),
+        ("const char* source_line", "the text of that line, without its end"),
+        ("uint64_t call_count", "macro calls that led there"),
+    ),
+    "crt_diagnostic_call": (
+        ("int32_t line", "where the macro was called"),
+        ("int32_t column", ""),
+        ("int32_t reserved", ""),
+        ("const char* name", "of the macro"),
+        ("const char* file", ""),
+    ),
+    "crt_render_options": (
+        ("int32_t threads", "at most; 0: what the calling TBB arena has; 1: none is started"),
+        (
+            "int32_t region_x",
+            "renders a part of the picture only, from the top left; the image has its size",
+        ),
+        ("int32_t region_y", ""),
+        ("int32_t region_width", "region_width and region_height 0: all of it"),
+        ("int32_t region_height", ""),
+        ("uint64_t seed", "takes the place of the settings' seed; 0: the settings'"),
+        ("crt_progress_fn progress", ""),
+        ("void* progress_user", ""),
+        ("crt_log_fn log", ""),
+        ("void* log_user", ""),
+        (
+            "int32_t passes",
+            "above 0: renders so many (crt_render_stats.passes), whatever the time budget",
+        ),
+        (
+            "uint32_t aovs",
+            "bits CRT_AOV_*: what the image gets beside its colours, which stay the same",
+        ),
+        (
+            "const char* checkpoint",
+            "None, or the path of the file that keeps an unfinished picture which is rendered "
+            "by passes (target error, time budget, number of passes). The next render with the "
+            "same checkpoint continues from it, be it in another process, to the same picture "
+            "as without the break. The file is written within the first ten seconds, then every"
+            " few seconds, and at the end, also when the render is cancelled or fails. It is "
+            "written whole or not at all, and never removed. If writing fails, `log` gets a "
+            "message and the render continues. A time budget counts from the break on. A "
+            "checkpoint of another picture is Status.INVALID_ARGUMENT. The settings and the "
+            "light of up to 1024 samples show which picture it is of. The call reads this text "
+            "before it returns.",
+        ),
+        (
+            "uint64_t max_ray_steps",
+            "This is the most things that a single ray may be tested against: objects, and "
+            "primitives of CSG objects, whose boxes it passes. It is checked after every 1024 "
+            "of them. A ray that takes more ends the render with Status.LIMIT. 0 means 4194304,"
+            " about a second's work; a ray through an ordinary scene takes some hundred.",
+        ),
+    ),
+    "crt_render_stats": (
+        ("int32_t threads", "that were allowed to work on it"),
+        ("uint64_t pixels", ""),
+        ("uint64_t camera_rays", ""),
+        ("uint64_t shadow_rays", ""),
+        ("uint64_t reflection_rays", ""),
+        ("uint64_t refraction_rays", ""),
+        ("uint64_t rays_below_min_weight", "not traced: below the settings' min_weight"),
+        ("uint64_t rays_beyond_depth", "not traced: the recursion depth was reached"),
+        (
+            "uint64_t samples_over_ray_bound",
+            "camera samples that reached 65536 rays and dropped the rest",
+        ),
+        ("uint64_t intersection_tests", "rays against primitives or CSG objects"),
+        ("uint64_t interval_events", "crossings sorted and flipped inside CSG objects"),
+        ("uint64_t media_lookups", ""),
+        ("uint64_t media_changes", ""),
+        ("uint64_t pattern_lookups", ""),
+        ("uint64_t lens_samples", ""),
+        ("double prepare_seconds", "wall-clock time, as is the next"),
+        ("double trace_seconds", ""),
+        ("uint64_t escalations", "decisions of Precision.EXACT that took exact arithmetic"),
+        (
+            "uint64_t primitive_bytes",
+            "primitives in their places, and which of their faces coincide",
+        ),
+        (
+            "uint64_t csg_bytes",
+            "how they are combined, and a bounding volume hierarchy for each CSG object",
+        ),
+        ("uint64_t tree_bytes", "the bounding volume hierarchy over all objects"),
+        ("uint64_t material_bytes", "materials, and pictures that were converted to linear light"),
+        ("uint64_t samples_min", "of a pixel"),
+        ("double samples_mean", ""),
+        ("uint64_t samples_max", ""),
+        ("int32_t passes", "that were rendered; 0 without target error and time budget"),
+        ("int32_t reserved", "0"),
+        ("double half_width_rms", "the root of the mean square"),
+        ("double half_width_95", "what 95 of 100 pixels are within"),
+        ("double half_width_max", ""),
+        ("uint64_t pixels_unresolved", "their half-width is above the target error"),
+        (
+            "double unseen_share",
+            "share of a pixel: what covers more has been seen in 95 of 100 cases",
+        ),
+        (
+            "double cutoff_mean",
+            "light that a pixel may have lost by cutting off paths, if all light were white",
+        ),
+        ("double cutoff_max", ""),
+    ),
+    "crt_write_options": (
+        (
+            "int32_t reproducible",
+            "not 0: leaves out what changes from run to run (the render time)",
+        ),
+        (
+            "int32_t colors_only",
+            "not 0: leaves out all channels beside the colours, which only exr holds",
+        ),
+    ),
+}

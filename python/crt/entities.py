@@ -1,0 +1,165 @@
+"""Entities are solids and surfaces, combined and moved. They never change: each operation makes a
+new one.
+
+    part = crt.Box((-1, 0, -1), (1, 2, 1)) - crt.Sphere((0, 2, 0), 0.8, material=red)
+
+a + b or a | b is the union, a - b the difference, a ^ b or a & b the intersection.
+"""
+
+import ctypes
+import math
+from collections.abc import Iterable, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike, NDArray
+
+from . import _arguments, _bounds
+from ._handles import Handle, Reference
+from ._library import create, library
+from ._structs import reference
+from .values import Material
+
+Point = Sequence[float] | NDArray[Any]
+
+
+class Entity(Handle):
+    """An Entity is something in a scene: a primitive (crt.Sphere, crt.Box, ...), or several that
+    are combined. Notebooks show a picture of it."""
+
+    _name = "crt_entity"
+    _instead_of_pickle = "pickle what it is made from, or the text of a script"
+    _box: _bounds.Box | None = None  # around it; None if that is unknown
+
+    def with_material(self, material: Material) -> "Entity":
+        """Returns the entity with a material on every part that has none of its own."""
+        given = reference(material, "crt_material", "with_material: material")
+        return self._same_place(create("crt_entity_with_material", self._handle, given))
+
+    def with_id(self, id: int) -> "Entity":
+        """Returns the entity under a number that hits report."""
+        number = _arguments.whole(id, "with_id: id", ctypes.c_uint32)
+        return self._same_place(create("crt_entity_with_id", self._handle, number))
+
+    def transformed(self, matrix: ArrayLike) -> "Entity":
+        """Returns the entity moved by an affine map: a 3 x 4 matrix, or a 4 x 4 one whose last row
+        is 0, 0, 0, 1."""
+        try:
+            rows = np.asarray(matrix, np.float64)
+        except (TypeError, ValueError):
+            raise _arguments.refusal("transformed: matrix", "3 x 4 numbers", matrix) from None
+        if rows.shape == (4, 4) and np.array_equal(rows[3], (0, 0, 0, 1)):
+            rows = rows[:3]
+        if rows.shape != (3, 4):
+            raise ValueError(
+                "transformed: matrix must be 3 x 4, or 4 x 4 with 0, 0, 0, 1 in its last row"
+            )
+        numbers = (ctypes.c_double * 12)(*rows.ravel().tolist())
+        moved = Entity._adopt(create("crt_entity_with_transform", self._handle, numbers))
+        moved._box = _bounds.transformed(self._box, rows.tolist())
+        return moved
+
+    def moved(self, offset: Point) -> "Entity":
+        """Returns the entity moved by a vector."""
+        column = _arguments.vector(offset, "moved: offset")
+        return self.transformed(np.column_stack((np.eye(3), column)))
+
+    def scaled(self, factors: float | Point) -> "Entity":
+        """Scales by one factor, or one for each axis, about the origin."""
+        if np.ndim(factors) == 0:
+            scale = np.eye(3) * _arguments.number(factors, "scaled: factors", "one number or three")
+        else:
+            scale = np.diag(_arguments.vector(factors, "scaled: factors"))
+        return self.transformed(np.column_stack((scale, np.zeros(3))))
+
+    def rotated(self, degrees: Point) -> "Entity":
+        """Rotates by degrees about x, then y, then z, as in scripts: 90 about z takes x to y.
+        Multiples of 90 are exact."""
+        angles = _arguments.vector(degrees, "rotated: degrees")
+        about_x, about_y, about_z = (_rotation(axis, angle) for axis, angle in enumerate(angles))
+        return self.transformed(np.column_stack((about_z @ about_y @ about_x, np.zeros(3))))
+
+    def __add__(self, other: "Entity") -> "Entity":
+        return union((self, other)) if isinstance(other, Entity) else NotImplemented
+
+    def __sub__(self, other: "Entity") -> "Entity":
+        return difference(self, (other,)) if isinstance(other, Entity) else NotImplemented
+
+    def __xor__(self, other: "Entity") -> "Entity":
+        return intersection((self, other)) if isinstance(other, Entity) else NotImplemented
+
+    __or__ = __add__
+    __and__ = __xor__
+
+    @property
+    def is_solid(self) -> bool:
+        """Says whether it has an inside. It has none if a part of it is a mere surface."""
+        return bool(library.crt_entity_is_solid(self._handle))
+
+    @property
+    def primitive_count(self) -> int:
+        """Returns how many primitives it is made of. One that occurs twice counts twice."""
+        return int(library.crt_entity_primitive_count(self._handle))
+
+    def _same_place(self, handle: int) -> "Entity":
+        entity = Entity._adopt(handle)
+        entity._box = self._box
+        return entity
+
+    def _summary(self) -> str:
+        count = self.primitive_count
+        parts = f"{count} primitive" + ("" if count == 1 else "s")
+        return f"{'solid' if self.is_solid else 'surface'} of {parts}"
+
+    def _repr_png_(self) -> bytes | None:
+        """Shows the entity in notebooks: framed by a camera, under a light."""
+        from .preview import picture_of_entity
+
+        image = picture_of_entity(self)
+        return None if image is None else image._repr_png_()
+
+
+def union(parts: Iterable[Entity]) -> Entity:
+    """Returns what is in any of the parts."""
+    given = _arguments.instances(parts, Entity, "union: parts")
+    entity = Entity._adopt(create("crt_union_create", *_handles(given)))
+    entity._box = _bounds.united(part._box for part in given)
+    return entity
+
+
+def intersection(parts: Iterable[Entity]) -> Entity:
+    """Returns what is in all of the parts."""
+    given = _arguments.instances(parts, Entity, "intersection: parts")
+    entity = Entity._adopt(create("crt_intersection_create", *_handles(given)))
+    entity._box = _bounds.common(part._box for part in given)
+    return entity
+
+
+def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
+    """Returns what is in the whole and in none of the cutters. A cut has its cutter's material."""
+    _arguments.instance(whole, Entity, "difference: whole")
+    given = _arguments.instances(cutters, Entity, "difference: cutters")
+    return whole._same_place(create("crt_difference_create", whole._handle, *_handles(given)))
+
+
+def _handles(parts: list[Entity]) -> tuple[Any, int]:
+    """Returns the array of pointers that the library needs, and its length."""
+    references: list[Reference] = [part._handle for part in parts]
+    array: Any = (ctypes.c_void_p * len(references))(
+        *(reference._as_parameter_ for reference in references)
+    )
+    array.references = references  # live as long as the array
+    return array, len(references)
+
+
+def _rotation(axis: int, degrees: float) -> NDArray[Any]:
+    quarters = degrees / 90
+    if quarters == round(quarters):
+        cosine, sine = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]
+    else:
+        cosine, sine = math.cos(math.radians(degrees)), math.sin(math.radians(degrees))
+    first, second = (axis + 1) % 3, (axis + 2) % 3
+    matrix = np.eye(3)
+    matrix[first, first] = matrix[second, second] = cosine
+    matrix[second, first], matrix[first, second] = sine, -sine
+    return matrix

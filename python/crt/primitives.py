@@ -1,0 +1,309 @@
+"""Primitives are what other entities are made of. Each takes `material=` and `id=` besides, as
+Entity.with_material and Entity.with_id do."""
+
+import ctypes
+from typing import Any
+
+import numpy as np
+from numpy.typing import ArrayLike
+
+from . import _arguments, _bounds
+from ._library import create
+from ._structs import reference
+from .entities import Entity, Point
+from .errors import named
+from .values import Material
+
+__all__ = [
+    "Box",
+    "Capsule",
+    "Cone",
+    "Cylinder",
+    "Disc",
+    "Empty",
+    "HalfPlane",
+    "Mesh",
+    "Plane",
+    "Sphere",
+    "Torus",
+    "Triangle",
+]
+
+
+class _Primitive(Entity):
+    """A _Primitive remembers how it was made, for its representation."""
+
+    _given: dict[str, Any]
+
+    def _create(
+        self,
+        function: str,
+        box: _bounds.Box,
+        material: Material | None,
+        id: int | None,
+        shown: dict[str, Any],
+        *arguments: Any,
+    ) -> None:
+        name = type(self).__name__
+        with named(name):
+            self._take(create(function, *arguments))
+        self._box = box
+        if material is not None:
+            given = reference(material, "crt_material", f"{name}: material")
+            self._take(create("crt_entity_with_material", self._handle, given))
+        if id is not None:
+            number = _arguments.whole(id, f"{name}: id", ctypes.c_uint32)
+            self._take(create("crt_entity_with_id", self._handle, number))
+            shown["id"] = number
+        self._given = shown
+
+    def _vectors(self, **points: Point) -> list[Any]:
+        """Returns points as C has them."""
+        name = type(self).__name__
+        return [_arguments.vector(point, f"{name}: {key}") for key, point in points.items()]
+
+    def _positive(self, value: float, name: str) -> float:
+        return _arguments.positive(value, f"{type(self).__name__}: {name}")
+
+    def __repr__(self) -> str:
+        if self._reference is None:
+            return super().__repr__()
+        given = ", ".join(f"{name}={_written(value)}" for name, value in self._given.items())
+        return f"{type(self).__name__}({given})"
+
+
+def _written(value: Any) -> str:
+    if isinstance(value, tuple):
+        return f"({', '.join(map(_written, value))})"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+class Empty(_Primitive):
+    """Empty is the solid without a point. No ray meets it, and in combinations it behaves as the
+    empty set."""
+
+    def __init__(self, *, material: Material | None = None, id: int | None = None) -> None:
+        self._create("crt_empty_create", _bounds.NOWHERE, material, id, {})
+
+
+class Sphere(_Primitive):
+    """A Sphere is a ball of `radius` about `center`."""
+
+    def __init__(
+        self,
+        center: Point,
+        radius: float,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        (middle,) = self._vectors(center=center)
+        size = self._positive(radius, "radius")
+        shown = {"center": tuple(middle), "radius": size}
+        box = _bounds.of_ball(middle, size)
+        self._create("crt_sphere_create", box, material, id, shown, middle, size)
+
+
+class Box(_Primitive):
+    """A Box is parallel to the axes, between any two opposite corners."""
+
+    def __init__(
+        self,
+        corner_a: Point,
+        corner_b: Point,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        a, b = self._vectors(corner_a=corner_a, corner_b=corner_b)
+        shown = {"corner_a": tuple(a), "corner_b": tuple(b)}
+        box = _bounds.of_points(a, b)
+        self._create("crt_box_create", box, material, id, shown, a, b)
+
+
+class Plane(_Primitive):
+    """A Plane is the half-space behind a plane. The normal points out of it."""
+
+    def __init__(
+        self,
+        normal: Point,
+        position: Point = (0, 0, 0),
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        out, place = self._vectors(normal=normal, position=position)
+        shown = {"normal": tuple(out), "position": tuple(place)}
+        self._create("crt_plane_create", _bounds.EVERYWHERE, material, id, shown, out, place)
+
+
+class HalfPlane(_Primitive):
+    """A HalfPlane is a surface: the half of a plane on the `direction` side of the line through
+    `position` across it."""
+
+    def __init__(
+        self,
+        normal: Point,
+        position: Point,
+        direction: Point,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        given = {"normal": normal, "position": position, "direction": direction}
+        vectors = self._vectors(**given)
+        shown = dict(zip(given, map(tuple, vectors)))
+        box = _bounds.EVERYWHERE
+        self._create("crt_half_plane_create", box, material, id, shown, *vectors)
+
+
+class Cylinder(_Primitive):
+    """A Cylinder of `radius` reaches from the centre of one cap to that of the other."""
+
+    def __init__(
+        self,
+        start: Point,
+        end: Point,
+        radius: float,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        size = self._positive(radius, "radius")
+        shown = {"start": tuple(a), "end": tuple(b), "radius": size}
+        box = _bounds.of_round(a, b, size, size)
+        self._create("crt_cylinder_create", box, material, id, shown, a, b, size)
+
+
+class Cone(_Primitive):
+    """A Cone has its apex at the end, or with `radius2` there it is a part of one."""
+
+    def __init__(
+        self,
+        start: Point,
+        end: Point,
+        radius: float,
+        radius2: float = 0,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        size = self._positive(radius, "radius")
+        size2 = _arguments.number(radius2, "Cone: radius2", "0 or a positive number")
+        shown = {"start": tuple(a), "end": tuple(b), "radius": size, "radius2": size2}
+        box = _bounds.of_round(a, b, size, size2)
+        self._create("crt_cone_create", box, material, id, shown, a, b, size, size2)
+
+
+class Capsule(_Primitive):
+    """A Capsule is all points within `radius` of the straight line from the start to the end."""
+
+    def __init__(
+        self,
+        start: Point,
+        end: Point,
+        radius: float,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        size = self._positive(radius, "radius")
+        shown = {"start": tuple(a), "end": tuple(b), "radius": size}
+        reach = [size] * 3
+        box = _bounds.of_points(*_bounds.around(a, reach), *_bounds.around(b, reach))
+        self._create("crt_capsule_create", box, material, id, shown, a, b, size)
+
+
+class Torus(_Primitive):
+    """A Torus is all points within `thickness` of the circle of `radius` about `center` across
+    `axis`."""
+
+    def __init__(
+        self,
+        center: Point,
+        axis: Point,
+        radius: float,
+        thickness: float,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        middle, across = self._vectors(center=center, axis=axis)
+        size = self._positive(radius, "radius")
+        tube = self._positive(thickness, "thickness")
+        shown = {"center": tuple(middle), "axis": tuple(across), "radius": size, "thickness": tube}
+        box = _bounds.of_disc(middle, across, size, tube)
+        self._create("crt_torus_create", box, material, id, shown, middle, across, size, tube)
+
+
+class Disc(_Primitive):
+    """A Disc is a surface: flat and round, across `normal`."""
+
+    def __init__(
+        self,
+        center: Point,
+        normal: Point,
+        radius: float,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        middle, across = self._vectors(center=center, normal=normal)
+        size = self._positive(radius, "radius")
+        shown = {"center": tuple(middle), "normal": tuple(across), "radius": size}
+        box = _bounds.of_disc(middle, across, size)
+        self._create("crt_disc_create", box, material, id, shown, middle, across, size)
+
+
+class Triangle(_Primitive):
+    """A Triangle is a surface. Its normal is along (b - a) x (c - a)."""
+
+    def __init__(
+        self,
+        a: Point,
+        b: Point,
+        c: Point,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        corners = self._vectors(a=a, b=b, c=c)
+        shown = dict(zip("abc", map(tuple, corners)))
+        box = _bounds.of_points(*corners)
+        self._create("crt_triangle_create", box, material, id, shown, *corners)
+
+
+class Mesh(_Primitive):
+    """A Mesh is a surface of triangles: n x 3 positions, and m x 3 indices into them."""
+
+    def __init__(
+        self,
+        positions: ArrayLike,
+        indices: ArrayLike,
+        *,
+        material: Material | None = None,
+        id: int | None = None,
+    ) -> None:
+        try:
+            points = np.ascontiguousarray(positions, np.float64)
+        except (TypeError, ValueError):
+            raise _arguments.refusal("Mesh: positions", "n x 3 numbers", positions) from None
+        corners = np.asarray(indices)
+        if points.ndim != 2 or points.shape[1] != 3:
+            raise ValueError(f"Mesh: positions must be n x 3 numbers, not {points.shape}")
+        if corners.ndim != 2 or corners.shape[1] != 3:
+            raise ValueError(f"Mesh: indices must be m x 3 whole numbers, not {corners.shape}")
+        if corners.dtype.kind not in "iu" or (corners < 0).any() or (corners >= len(points)).any():
+            raise ValueError(
+                "Mesh: indices must be whole numbers below the number of positions,"
+                f" which is {len(points)}"
+            )
+        corners = np.ascontiguousarray(corners, np.uint32)
+        arrays = points.ctypes.data, len(points), corners.ctypes.data, len(corners)
+        shown = {"positions": f"<{len(points)} x 3>", "indices": f"<{len(corners)} x 3>"}
+        low_high = (points.min(axis=0), points.max(axis=0)) if len(points) else _bounds.NOWHERE
+        box = _bounds.of_points(*(list(map(float, corner)) for corner in low_high))
+        self._create("crt_mesh_create", box, material, id, shown, *arrays)

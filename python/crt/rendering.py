@@ -1,0 +1,158 @@
+"""This module renders pictures of prepared scenes and asks ray queries."""
+
+import ctypes
+from collections.abc import Iterable
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from ._callbacks import Guard
+from ._crossings import Crossings, crossings_of_many, crossings_of_one
+from ._handles import Handle
+from ._library import create, library
+from .images import Image
+from .jobs import Job
+from .options import Log, Path, Progress, Region, make_options
+from .rays import HIT, RAY, Batch
+
+
+class Prepared(Handle):
+    """A Prepared is a scene ready for rays. It is immutable: any number of threads may use it at
+    once."""
+
+    _name = "crt_prepared"
+    _instead_of_pickle = "prepare it again from what the scene is made from"
+
+    def render(
+        self,
+        *,
+        threads: int = 0,
+        region: Region | None = None,
+        seed: int = 0,
+        passes: int = 0,
+        aovs: Iterable[str] = (),
+        checkpoint: Path | None = None,
+        max_ray_steps: int = 0,
+        progress: Progress | None = None,
+        log: Log | None = None,
+    ) -> Image:
+        """Renders a picture.
+
+        `threads` is the most threads, 0 for all cores. `region` is x, y, width, height of a part,
+        from the top left. `seed` replaces the settings', unless it is 0. `passes` is the number of
+        passes to render (stats.passes), unless it is 0, whatever the settings' time budget. `aovs`,
+        some of "depth", "normal", "id", "albedo", "samples" and "error", become Image.channels.
+        `checkpoint` is a file that keeps a picture which is rendered by passes, and from which the
+        next render continues. `max_ray_steps` limits the things that one ray may be tested against,
+        see crt_render_options. `progress` gets the share that is done, and True
+        shows it on standard error (by tqdm, if that is installed). `log` gets the messages. Both
+        may be called from other threads, one at a time. If progress returns False, the render is
+        cancelled, which raises crt.Error. What progress raises cancels the render, too, and comes
+        out of here. So does Ctrl-C.
+        """
+        guard = Guard()
+        options = make_options(
+            guard,
+            threads=threads,
+            region=region,
+            seed=seed,
+            passes=passes,
+            aovs=aovs,
+            checkpoint=checkpoint,
+            max_ray_steps=max_ray_steps,
+            progress=progress,
+            log=log,
+        )
+        with guard.raising():
+            return Image._adopt(create("crt_render", self._handle, ctypes.byref(options)))
+
+    def start(
+        self,
+        *,
+        threads: int = 0,
+        region: Region | None = None,
+        seed: int = 0,
+        passes: int = 0,
+        aovs: Iterable[str] = (),
+        checkpoint: Path | None = None,
+        max_ray_steps: int = 0,
+        progress: Progress | None = None,
+        log: Log | None = None,
+    ) -> "Job":
+        """Starts to render in the background, otherwise as render()."""
+        guard = Guard()
+        options = make_options(
+            guard,
+            threads=threads,
+            region=region,
+            seed=seed,
+            passes=passes,
+            aovs=aovs,
+            checkpoint=checkpoint,
+            max_ray_steps=max_ray_steps,
+            progress=progress,
+            log=log,
+        )
+        return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
+
+    def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
+        """Finds the nearest hit of each ray. A miss has an infinite t.
+
+        `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if
+        given, has crt.HIT and as many items. Both are used in place.
+        """
+        questions = Batch(rays, RAY, "rays")
+        if out is None:
+            out = np.empty(questions.shape, HIT)
+        answers = Batch(out, HIT, "hits")
+        if answers.shape != questions.shape or not out.flags.writeable:
+            raise ValueError(
+                f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
+            )
+        library.crt_intersect(
+            self._handle,
+            questions.address,
+            questions.stride,
+            questions.count,
+            answers.address,
+            answers.stride,
+        )
+        return out
+
+    def distances(self, rays: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
+        """Finds how far each ray's nearest hit is (infinity for a miss), and of which entity,
+        faster than intersect()."""
+        questions = Batch(rays, RAY, "rays")
+        out = np.empty(questions.shape, np.float64)
+        ids = np.empty(questions.shape, np.uint32)
+        library.crt_distances(
+            self._handle,
+            questions.address,
+            questions.stride,
+            questions.count,
+            out.ctypes.data,
+            ids.ctypes.data,
+        )
+        return out, ids
+
+    def occluded(self, rays: NDArray[Any]) -> NDArray[Any]:
+        """Asks whether any surface blocks each ray."""
+        questions = Batch(rays, RAY, "rays")
+        out = np.empty(questions.shape, np.bool_)
+        library.crt_occluded(
+            self._handle, questions.address, questions.stride, questions.count, out.ctypes.data
+        )
+        return out
+
+    def crossings(self, rays: NDArray[Any]) -> Any:
+        """Finds every crossing along rays, in order: the solid intervals that CSG leaves.
+
+        For one ray (crt.ray(), or a record of an array) it returns an array of crt.HIT. For an
+        array of rays it returns crt.Crossings: `hits` has those of all rays one after the other,
+        and those of ray i are hits[offsets[i]:offsets[i + 1]].
+        """
+        questions = Batch(np.asarray(rays), RAY, "rays")
+        if questions.shape == ():
+            return crossings_of_one(self._handle, questions)
+        return crossings_of_many(self._handle, questions)

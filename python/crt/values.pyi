@@ -1,0 +1,754 @@
+# python/tools/generate.py has written this file from crt.h.
+"""These are the types of what values.py has."""
+
+import enum
+from collections.abc import Sequence
+from typing import Any, TypeVar
+
+from numpy.typing import NDArray
+
+from .images import Image
+
+Self = TypeVar("Self")
+Vector = Sequence[float] | NDArray[Any]
+
+# Each is a ctypes.Structure, of which a checker believes that it has any attribute.
+class _Struct:
+    @classmethod
+    def of_type(cls: type[Self], kind: int, /, **fields: Any) -> Self: ...
+    @classmethod
+    def _filled_by(cls: type[Self], function: str, *arguments: Any) -> Self: ...
+
+class PatternType(enum.IntEnum):
+    """Lists the kinds of patterns."""
+    CHECKER = 0
+    STRIPES = 1
+    GRADIENT = 2
+    NOISE = 3
+    MARBLE = 4
+    WOOD = 5
+    IMAGE = 6
+
+class Pattern(_Struct):
+    """A Pattern is colours that vary over a surface or through space: Pattern.wood(scale=0.1).
+
+    Its fields are:
+    - type (PatternType | int): a PatternType
+    - color_a (Vector): linear RGB, each in [0, 1e30]
+    - alpha_a (float): in [0, 1]; what is missing to 1 adds to the material's transparency
+    - color_b (Vector)
+    - alpha_b (float)
+    - direction (Vector): any length but 0
+    - offset (Vector): moves the pattern; scene units
+    - scale (float): of one period, in scene units; > 0
+    - turbulence (float): >= 0
+    - octaves (int): in [1, 16]
+    - image (Image | None): of PatternType.IMAGE alone
+    - repeat_u (float): how often the image repeats across the surface; > 0
+    - repeat_v (float)
+    """
+    type: PatternType | int
+    color_a: Vector
+    alpha_a: float
+    color_b: Vector
+    alpha_b: float
+    direction: Vector
+    offset: Vector
+    scale: float
+    turbulence: float
+    octaves: int
+    image: Image | None
+    repeat_u: float
+    repeat_v: float
+    def __init__(
+        self,
+        *,
+        type: PatternType | int = ...,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        type: PatternType | int = ...,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> None: ...
+    @classmethod
+    def checker(
+        cls,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Makes cubes whose edges are `scale` long."""
+    @classmethod
+    def stripes(
+        cls,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Makes bands across `direction`, one of each colour in `scale`."""
+    @classmethod
+    def gradient(
+        cls,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Changes from `color_a` to `color_b` and back along `direction` within `scale`."""
+    @classmethod
+    def noise(
+        cls,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Makes clouds."""
+    @classmethod
+    def marble(
+        cls,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Makes veins across `direction`."""
+    @classmethod
+    def wood(
+        cls,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        image: Image | None = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Makes rings about the line through `offset` along `direction`."""
+    @classmethod
+    def of_image(
+        cls,
+        image: Image,
+        *,
+        color_a: Vector = ...,
+        alpha_a: float = ...,
+        color_b: Vector = ...,
+        alpha_b: float = ...,
+        direction: Vector = ...,
+        offset: Vector = ...,
+        scale: float = ...,
+        turbulence: float = ...,
+        octaves: int = ...,
+        repeat_u: float = ...,
+        repeat_v: float = ...,
+    ) -> Pattern:
+        """Lays a crt.Image over the surface."""
+
+class Material(_Struct):
+    """A Material says what a surface is made of. A `pattern` replaces the colour.
+
+    Its fields are:
+    - color (Vector): linear RGB, each in [0, 1e30]; above 1 it brightens; default 0.5
+    - alpha (float): in [0, 1]; what is missing to 1 adds to the transparency; default 1
+    - pattern (Pattern | None): takes the place of the colour; default None
+    - reflectivity (float): share of light mirrored, in [0, 1]; default 0
+    - transparency (float): share of light let through, in [0, 1]; default 0
+    - refractive_index (float): of the inside, in [0.01, 100]; default 1
+    - diffuse (float): >= 0, or -1 (default) for max(0, 1 - reflectivity - transparency)
+    - specular (float): strength of the highlight, >= 0; default 0
+    - shininess (float): exponent of the highlight's cosine, >= 0; default 3
+    - absorption (Vector): inside, per scene unit and channel (Beer-Lambert), >= 0; default 0
+    - bump (Pattern | None): its luminance raises the surface; default None
+    - bump_height (float): scene units; default 0.1
+    """
+    color: Vector
+    alpha: float
+    pattern: Pattern | None
+    reflectivity: float
+    transparency: float
+    refractive_index: float
+    diffuse: float
+    specular: float
+    shininess: float
+    absorption: Vector
+    bump: Pattern | None
+    bump_height: float
+    def __init__(
+        self,
+        *,
+        color: Vector = ...,
+        alpha: float = ...,
+        pattern: Pattern | None = ...,
+        reflectivity: float = ...,
+        transparency: float = ...,
+        refractive_index: float = ...,
+        diffuse: float = ...,
+        specular: float = ...,
+        shininess: float = ...,
+        absorption: Vector = ...,
+        bump: Pattern | None = ...,
+        bump_height: float = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        color: Vector = ...,
+        alpha: float = ...,
+        pattern: Pattern | None = ...,
+        reflectivity: float = ...,
+        transparency: float = ...,
+        refractive_index: float = ...,
+        diffuse: float = ...,
+        specular: float = ...,
+        shininess: float = ...,
+        absorption: Vector = ...,
+        bump: Pattern | None = ...,
+        bump_height: float = ...,
+    ) -> None: ...
+
+class LightType(enum.IntEnum):
+    """Lists the kinds of lights. All cast shadows."""
+    POINT = 0
+    PARALLEL = 1
+    SPOT = 2
+    CYLINDER = 3
+
+class Light(_Struct):
+    """A Light is made by Light.point(origin=...), Light.parallel(origin=..., pointing=...),
+    Light.spot() or Light.cylinder().
+
+    Its fields are:
+    - type (LightType | int): a LightType; default LightType.POINT
+    - origin (Vector): default 0
+    - pointing (Vector): default 0; a point light ignores it, others need a point other than
+      `origin`
+    - color (Vector): linear RGB, >= 0, may pass 1; default 1
+    - angle (float): spot: full angle of the cone, in (0, 2 pi]; default pi / 3
+    - penumbra (float): spot: width of its soft edge inwards, radians of the half angle; default pi
+      / 36
+    - radius (float): cylinder: > 0; default 1
+    - falloff (float): 0 (default) or less: distance does not matter; else the light fades as
+      falloff / D^2
+    - ambient (float): share of the colour that every point gets, >= 0; default 0
+    """
+    type: LightType | int
+    origin: Vector
+    pointing: Vector
+    color: Vector
+    angle: float
+    penumbra: float
+    radius: float
+    falloff: float
+    ambient: float
+    def __init__(
+        self,
+        *,
+        type: LightType | int = ...,
+        origin: Vector = ...,
+        pointing: Vector = ...,
+        color: Vector = ...,
+        angle: float = ...,
+        penumbra: float = ...,
+        radius: float = ...,
+        falloff: float = ...,
+        ambient: float = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        type: LightType | int = ...,
+        origin: Vector = ...,
+        pointing: Vector = ...,
+        color: Vector = ...,
+        angle: float = ...,
+        penumbra: float = ...,
+        radius: float = ...,
+        falloff: float = ...,
+        ambient: float = ...,
+    ) -> None: ...
+    @classmethod
+    def point(
+        cls,
+        *,
+        origin: Vector = ...,
+        pointing: Vector = ...,
+        color: Vector = ...,
+        angle: float = ...,
+        penumbra: float = ...,
+        radius: float = ...,
+        falloff: float = ...,
+        ambient: float = ...,
+    ) -> Light:
+        """Shines from `origin` in all directions."""
+    @classmethod
+    def parallel(
+        cls,
+        *,
+        origin: Vector = ...,
+        pointing: Vector = ...,
+        color: Vector = ...,
+        angle: float = ...,
+        penumbra: float = ...,
+        radius: float = ...,
+        falloff: float = ...,
+        ambient: float = ...,
+    ) -> Light:
+        """Shines along `origin` to `pointing` everywhere, like a sun."""
+    @classmethod
+    def spot(
+        cls,
+        *,
+        origin: Vector = ...,
+        pointing: Vector = ...,
+        color: Vector = ...,
+        angle: float = ...,
+        penumbra: float = ...,
+        radius: float = ...,
+        falloff: float = ...,
+        ambient: float = ...,
+    ) -> Light:
+        """Shines from `origin` into a cone about the direction to `pointing`."""
+    @classmethod
+    def cylinder(
+        cls,
+        *,
+        origin: Vector = ...,
+        pointing: Vector = ...,
+        color: Vector = ...,
+        angle: float = ...,
+        penumbra: float = ...,
+        radius: float = ...,
+        falloff: float = ...,
+        ambient: float = ...,
+    ) -> Light:
+        """Sends parallel rays that fill a cylinder from `origin` towards `pointing`."""
+
+class Projection(enum.IntEnum):
+    """Says how a camera maps directions to the picture."""
+    PINHOLE = 0
+    SPHERICAL = 1
+    CYLINDRICAL = 2
+    ORTHOGRAPHIC = 3
+
+class ApertureShape(enum.IntEnum):
+    """Lists the shapes of the lens opening."""
+    CIRCLE = 0
+    UNIFORM = 1
+    GAUSSIAN = 2
+    TRIANGLE = 3
+    SQUARE = 4
+    PENTAGON = 5
+    HEXAGON = 6
+    OCTAGON = 7
+    LINE = 8
+
+class Camera(_Struct):
+    """A Camera says where the picture is seen from.
+
+    Its fields are:
+    - projection (Projection | int): a Projection; default Projection.PINHOLE
+    - position (Vector): default (0, 0, -1)
+    - pointing (Vector): the point looked at; default 0
+    - fov (float): vertical field of view, radians, in (0, pi); default pi / 3
+    - roll (float): radians; positive tips the picture's top to the right; default 0
+    - aperture (float): radius of the lens in thousandths of a scene unit; 0 (default): all is sharp
+    - focal_distance (float): along the view direction to what is in focus, > 0; default 1
+    - aperture_shape (ApertureShape | int): a ApertureShape; default ApertureShape.CIRCLE
+    """
+    projection: Projection | int
+    position: Vector
+    pointing: Vector
+    fov: float
+    roll: float
+    aperture: float
+    focal_distance: float
+    aperture_shape: ApertureShape | int
+    def __init__(
+        self,
+        *,
+        projection: Projection | int = ...,
+        position: Vector = ...,
+        pointing: Vector = ...,
+        fov: float = ...,
+        roll: float = ...,
+        aperture: float = ...,
+        focal_distance: float = ...,
+        aperture_shape: ApertureShape | int = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        projection: Projection | int = ...,
+        position: Vector = ...,
+        pointing: Vector = ...,
+        fov: float = ...,
+        roll: float = ...,
+        aperture: float = ...,
+        focal_distance: float = ...,
+        aperture_shape: ApertureShape | int = ...,
+    ) -> None: ...
+
+class BackgroundType(enum.IntEnum):
+    """Lists the kinds of backgrounds."""
+    SOLID = 0
+    GRADIENT = 1
+    SPHERICAL = 2
+    CYLINDRICAL = 3
+    EQUAL_AREA = 4
+
+class Background(_Struct):
+    """A Background is what a ray that hits nothing sees: a colour, Background.gradient(), or
+    Background.panorama(image).
+
+    Its fields are:
+    - type (BackgroundType | int): a BackgroundType; default BackgroundType.SOLID
+    - color (Vector): linear RGB, >= 0; default 1
+    - alpha (float): of the pixels where nothing is hit, in [0, 1]; default 1
+    - horizon (Vector)
+    - horizon_alpha (float)
+    - sky (Vector)
+    - sky_alpha (float)
+    - image (Image | None): its middle column is straight ahead (+z) at angle 0
+    - angle (float): turns the image about y, radians
+    """
+    type: BackgroundType | int
+    color: Vector
+    alpha: float
+    horizon: Vector
+    horizon_alpha: float
+    sky: Vector
+    sky_alpha: float
+    image: Image | None
+    angle: float
+    def __init__(
+        self,
+        *,
+        type: BackgroundType | int = ...,
+        color: Vector = ...,
+        alpha: float = ...,
+        horizon: Vector = ...,
+        horizon_alpha: float = ...,
+        sky: Vector = ...,
+        sky_alpha: float = ...,
+        image: Image | None = ...,
+        angle: float = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        type: BackgroundType | int = ...,
+        color: Vector = ...,
+        alpha: float = ...,
+        horizon: Vector = ...,
+        horizon_alpha: float = ...,
+        sky: Vector = ...,
+        sky_alpha: float = ...,
+        image: Image | None = ...,
+        angle: float = ...,
+    ) -> None: ...
+    @classmethod
+    def gradient(
+        cls,
+        *,
+        color: Vector = ...,
+        alpha: float = ...,
+        horizon: Vector = ...,
+        horizon_alpha: float = ...,
+        sky: Vector = ...,
+        sky_alpha: float = ...,
+        image: Image | None = ...,
+        angle: float = ...,
+    ) -> Background:
+        """Changes from `horizon` to `sky`."""
+    @classmethod
+    def panorama(
+        cls,
+        image: Image,
+        cylindrical: bool = ...,
+        equal_area: bool = ...,
+        *,
+        color: Vector = ...,
+        alpha: float = ...,
+        horizon: Vector = ...,
+        horizon_alpha: float = ...,
+        sky: Vector = ...,
+        sky_alpha: float = ...,
+        angle: float = ...,
+    ) -> Background:
+        """Shows a crt.Image all around: spherical (equirectangular), unless it is one of the
+        others.
+        """
+
+class PixelFilter(enum.IntEnum):
+    """Says what a pixel is the mean of."""
+    BOX = 0
+    BLACKMAN_HARRIS = 1
+
+class FalloffModel(enum.IntEnum):
+    """Says what the distance D in a light's falloff / D^2 is."""
+    PATH = 0
+    LIGHT = 1
+
+class Precision(enum.IntEnum):
+    """Says how close calls of the geometry are decided."""
+    STANDARD = 0
+    EXACT = 1
+
+class Settings(_Struct):
+    """Settings say how a scene is rendered.
+
+    Its fields are:
+    - width (int): pixels, in [1, 65536]; default 640; width * height is at most 2^27
+    - height (int): default 480
+    - supersampling (int): n x n rays a pixel, in [1, 64]; default 1
+    - dof_samples (int): points of the lens for each of them, in [1, 65536]; default 1: no lens
+    - recursion_depth (int): bounces after the camera's ray, in [0, 256]; default 3
+    - gamma (float): 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1
+    - min_weight (float): rays with a smaller share of the pixel in every channel are dropped;
+      default 1/1024
+    - falloff_model (FalloffModel | int): a FalloffModel; default FalloffModel.PATH
+    - show_clip (int): not 0: pixels with a channel above 1 are red in 8-bit files; default 0
+    - seed (int): of the random numbers; default 0
+    - title (str | None): this and the next go into the files; None (default) for none
+    - author (str | None)
+    - date (str | None)
+    - notes (str | None)
+    - precision (Precision | int): a Precision; default Precision.STANDARD
+    - target_error (float): Above 0, a pixel gets samples until it is this near the truth in 95 of
+      100 cases. 1/255 is a step of 8 bits. In [0, 1]; default 0.
+    - time_budget (float): Above 0, these are the seconds that tracing may take. It stops at the end
+      of a pass. The first pass is always completed, so that there is a picture. In [0, 1e6];
+      default 0.
+    - filter_width (float): pixels across, of filters other than the box; in [1, 16]; default 3
+    - min_samples (int): of a pixel, with a target error or a time budget: a power of 2 in [4,
+      65536]; default 16
+    - max_samples (int): of a pixel, also a power of 2 in [4, 65536]; default 1024
+    - filter (PixelFilter | int): a PixelFilter; default PixelFilter.BOX
+    - compat (int): 0 is the default. With 2015 the picture is formed as the program of that year
+      formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. See
+      docs/compat.md.
+    """
+    width: int
+    height: int
+    supersampling: int
+    dof_samples: int
+    recursion_depth: int
+    gamma: float
+    min_weight: float
+    falloff_model: FalloffModel | int
+    show_clip: int
+    seed: int
+    title: str | None
+    author: str | None
+    date: str | None
+    notes: str | None
+    precision: Precision | int
+    target_error: float
+    time_budget: float
+    filter_width: float
+    min_samples: int
+    max_samples: int
+    filter: PixelFilter | int
+    compat: int
+    def __init__(
+        self,
+        *,
+        width: int = ...,
+        height: int = ...,
+        supersampling: int = ...,
+        dof_samples: int = ...,
+        recursion_depth: int = ...,
+        gamma: float = ...,
+        min_weight: float = ...,
+        falloff_model: FalloffModel | int = ...,
+        show_clip: int = ...,
+        seed: int = ...,
+        title: str | None = ...,
+        author: str | None = ...,
+        date: str | None = ...,
+        notes: str | None = ...,
+        precision: Precision | int = ...,
+        target_error: float = ...,
+        time_budget: float = ...,
+        filter_width: float = ...,
+        min_samples: int = ...,
+        max_samples: int = ...,
+        filter: PixelFilter | int = ...,
+        compat: int = ...,
+    ) -> None: ...
+    def set(
+        self,
+        *,
+        width: int = ...,
+        height: int = ...,
+        supersampling: int = ...,
+        dof_samples: int = ...,
+        recursion_depth: int = ...,
+        gamma: float = ...,
+        min_weight: float = ...,
+        falloff_model: FalloffModel | int = ...,
+        show_clip: int = ...,
+        seed: int = ...,
+        title: str | None = ...,
+        author: str | None = ...,
+        date: str | None = ...,
+        notes: str | None = ...,
+        precision: Precision | int = ...,
+        target_error: float = ...,
+        time_budget: float = ...,
+        filter_width: float = ...,
+        min_samples: int = ...,
+        max_samples: int = ...,
+        filter: PixelFilter | int = ...,
+        compat: int = ...,
+    ) -> None: ...
+
+class RenderStats(_Struct):
+    """RenderStats say what rendering a picture took.
+
+    Its fields are:
+    - threads (int): that were allowed to work on it
+    - pixels (int)
+    - camera_rays (int)
+    - shadow_rays (int)
+    - reflection_rays (int)
+    - refraction_rays (int)
+    - rays_below_min_weight (int): not traced: below the settings' min_weight
+    - rays_beyond_depth (int): not traced: the recursion depth was reached
+    - samples_over_ray_bound (int): camera samples that reached 65536 rays and dropped the rest
+    - intersection_tests (int): rays against primitives or CSG objects
+    - interval_events (int): crossings sorted and flipped inside CSG objects
+    - media_lookups (int)
+    - media_changes (int)
+    - pattern_lookups (int)
+    - lens_samples (int)
+    - prepare_seconds (float): wall-clock time, as is the next
+    - trace_seconds (float)
+    - escalations (int): decisions of Precision.EXACT that took exact arithmetic
+    - primitive_bytes (int): primitives in their places, and which of their faces coincide
+    - csg_bytes (int): how they are combined, and a bounding volume hierarchy for each CSG object
+    - tree_bytes (int): the bounding volume hierarchy over all objects
+    - material_bytes (int): materials, and pictures that were converted to linear light
+    - samples_min (int): of a pixel
+    - samples_mean (float)
+    - samples_max (int)
+    - passes (int): that were rendered; 0 without target error and time budget
+    - half_width_rms (float): the root of the mean square
+    - half_width_95 (float): what 95 of 100 pixels are within
+    - half_width_max (float)
+    - pixels_unresolved (int): their half-width is above the target error
+    - unseen_share (float): share of a pixel: what covers more has been seen in 95 of 100 cases
+    - cutoff_mean (float): light that a pixel may have lost by cutting off paths, if all light were
+      white
+    - cutoff_max (float)
+    """
+    threads: int
+    pixels: int
+    camera_rays: int
+    shadow_rays: int
+    reflection_rays: int
+    refraction_rays: int
+    rays_below_min_weight: int
+    rays_beyond_depth: int
+    samples_over_ray_bound: int
+    intersection_tests: int
+    interval_events: int
+    media_lookups: int
+    media_changes: int
+    pattern_lookups: int
+    lens_samples: int
+    prepare_seconds: float
+    trace_seconds: float
+    escalations: int
+    primitive_bytes: int
+    csg_bytes: int
+    tree_bytes: int
+    material_bytes: int
+    samples_min: int
+    samples_mean: float
+    samples_max: int
+    passes: int
+    half_width_rms: float
+    half_width_95: float
+    half_width_max: float
+    pixels_unresolved: int
+    unseen_share: float
+    cutoff_mean: float
+    cutoff_max: float
