@@ -260,6 +260,8 @@ class Settings(Struct):
     reserved_2: Int
     compat: Int
     reserved_3: Int
+    ambient_model: Int
+    no_head_light: Int
 
 
 @growable("crt_render_stats", has_init=False)
