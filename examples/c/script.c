@@ -17,6 +17,7 @@ static const char flower[] =
     "print(\"A flower of\", petals, \"petals\")\n"
     "Settings {\n"
     "  width -> 320 height -> 320 gamma -> 2.2 supersampling -> 2\n"
+    "  ambientmodel -> \"surface\"\n"
     "  camera -> Camera { position -> vec3(0, 3.4, -3.4) pointing -> vec3(0, 0, 0) fov -> 42 }\n"
     "  lights -> [PointLight { origin -> vec3(-3, 6, -3) color -> rgb(1, 1, 1) ambient -> 0.1 }]\n"
     "  background -> Background { color -> rgb(0.05, 0.2, 0.08) }\n"

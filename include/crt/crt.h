@@ -346,6 +346,12 @@ typedef enum crt_falloff_model {
   CRT_FALLOFF_LIGHT /**< D is the distance from the lit point to the light */
 } crt_falloff_model;
 
+/** Says how much of a light's ambient share a surface sends back. */
+typedef enum crt_ambient_model {
+  CRT_AMBIENT_LIGHT = 0, /**< all that it does not mirror, whatever its colour */
+  CRT_AMBIENT_SURFACE    /**< that times its colour and its opacity: what is black stays black */
+} crt_ambient_model;
+
 /** Says how close calls of the geometry are decided. Both values answer the same question. */
 typedef enum crt_precision {
   CRT_PRECISION_STANDARD = 0, /**< right at a silhouette, rounding decides the last bit */
@@ -389,7 +395,10 @@ typedef struct crt_settings {
   /** 0 is the default. With 2015 the picture is formed as the program of that year formed it: lens,
    * panoramas, places of the grid's samples, levels of 8-bit files. See docs/compat.md. */
   int32_t compat;
-  int32_t reserved_3; /**< must be 0 */
+  int32_t reserved_3;    /**< must be 0 */
+  int32_t ambient_model; /**< a crt_ambient_model; default CRT_AMBIENT_LIGHT */
+  /** A scene without lights is lit from the camera, unless this is not 0. Default 0. */
+  int32_t no_head_light;
 } crt_settings;
 
 /** Fills in a checker. The values that other types need get sensible defaults too. */

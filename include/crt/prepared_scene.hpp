@@ -5,6 +5,8 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <string>
+#include <vector>
 
 namespace crt {
 
@@ -22,6 +24,11 @@ class PreparedScene {
   /// Returns the memory it takes. Scenes that were prepared from one another share some of it, and
   /// each counts all.
   MemoryUse memory() const;
+
+  /// Returns what the user should know of the scene, a line each: it has no light, its camera is on
+  /// a surface, an image has values that are not finite. A render gives the same to
+  /// RenderOptions::log.
+  const std::vector<std::string>& warnings() const;
 
   /// Returns what rays see. This is internal.
   const core::PreparedData& data() const { return *data_; }

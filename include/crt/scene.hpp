@@ -14,6 +14,7 @@ namespace crt {
 /// it.
 struct Scene {
   std::vector<Entity> entities{};
+  /// Without any there is a head light, see Settings::head_light.
   std::vector<Light> lights{};
   Camera camera{};
   Background background = SolidBackground{};

@@ -11,6 +11,12 @@ enum class FalloffModel {
   light,  ///< from the lit point to the light
 };
 
+/// Says how much of a light's ambient share a surface sends back.
+enum class AmbientModel {
+  light,    ///< all that it does not mirror, whatever its colour (the thesis's rule)
+  surface,  ///< that times its colour and its opacity: what is black stays black
+};
+
 /// Says how close calls of the geometry are decided: see docs/numerics.md. Both values answer the
 /// same question.
 enum class Precision {
@@ -66,6 +72,10 @@ struct Settings {
   /// A ray whose share of the pixel is below this in every channel is not traced. It is in [0, 1].
   double min_weight = 1.0 / 1024;
   FalloffModel falloff_model = FalloffModel::path;
+  AmbientModel ambient_model = AmbientModel::light;
+  /// A scene without lights is lit from the camera, so that it shows something. With false it is
+  /// black but for mirrors, glass and the background, as it is with compat_2015.
+  bool head_light = true;
   /// Marks pixels with a channel above 1 in red.
   bool show_clip = false;
   /// This is the seed of the random numbers. Another seed gives other noise.

@@ -41,6 +41,7 @@ from .rays import BACKFACE, ENTERING, HIT, RAY, camera_rays, ray, rays
 from .rendering import Prepared
 from .scenes import Scene
 from .values import (
+    AmbientModel,
     ApertureShape,
     Background,
     BackgroundType,
@@ -59,6 +60,7 @@ from .values import (
 )
 
 __all__ = [
+    "AmbientModel",
     "ApertureShape",
     "BACKFACE",
     "Background",

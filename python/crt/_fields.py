@@ -139,6 +139,11 @@ FIELDS = {
             "See docs/compat.md.",
         ),
         ("int32_t reserved_3", "must be 0"),
+        ("int32_t ambient_model", "a AmbientModel; default AmbientModel.LIGHT"),
+        (
+            "int32_t no_head_light",
+            "A scene without lights is lit from the camera, unless this is not 0. Default 0.",
+        ),
     ),
     "crt_prepare_options": (
         ("uint32_t reserved", "0"),

@@ -73,6 +73,13 @@ FUNCTIONS = {
         "double radius2",
         "crt_entity** out",
     ),
+    "crt_capsule_create": (
+        "crt_status",
+        "const double from[3]",
+        "const double to[3]",
+        "double radius",
+        "crt_entity** out",
+    ),
     "crt_torus_create": (
         "crt_status",
         "const double center[3]",

@@ -186,6 +186,13 @@ class FalloffModel(enum.IntEnum):
     LIGHT = 1
 
 
+class AmbientModel(enum.IntEnum):
+    """Says how much of a light's ambient share a surface sends back."""
+
+    LIGHT = 0
+    SURFACE = 1
+
+
 class Precision(enum.IntEnum):
     """Says how close calls of the geometry are decided."""
 
@@ -193,7 +200,13 @@ class Precision(enum.IntEnum):
     EXACT = 1
 
 
-@growable("crt_settings", falloff_model=FalloffModel, precision=Precision, filter=PixelFilter)
+@growable(
+    "crt_settings",
+    falloff_model=FalloffModel,
+    ambient_model=AmbientModel,
+    precision=Precision,
+    filter=PixelFilter,
+)
 class Settings(Struct):
     """Settings say how a scene is rendered."""
 

@@ -36,6 +36,8 @@ crt_settings to_c(const Settings& settings) {
   out.max_samples = settings.max_samples;
   out.filter = static_cast<std::int32_t>(settings.filter);
   out.compat = settings.compat;
+  out.ambient_model = static_cast<std::int32_t>(settings.ambient_model);
+  out.no_head_light = settings.head_light ? 0 : 1;
   return out;
 }
 
@@ -48,6 +50,8 @@ crt_settings defaults<crt_settings>() {
 
 static_assert(static_cast<int>(FalloffModel::path) == CRT_FALLOFF_PATH);
 static_assert(static_cast<int>(FalloffModel::light) == CRT_FALLOFF_LIGHT);
+static_assert(static_cast<int>(AmbientModel::light) == CRT_AMBIENT_LIGHT);
+static_assert(static_cast<int>(AmbientModel::surface) == CRT_AMBIENT_SURFACE);
 static_assert(static_cast<int>(Precision::standard) == CRT_PRECISION_STANDARD);
 static_assert(static_cast<int>(Precision::exact) == CRT_PRECISION_EXACT);
 static_assert(static_cast<int>(PixelFilter::box) == CRT_FILTER_BOX);
@@ -81,6 +85,9 @@ Settings to_settings(const crt_settings* settings) {
   result.filter =
       to_enum(given.filter, PixelFilter::blackman_harris, "settings.filter", "crt_pixel_filter");
   result.compat = given.compat;
+  result.ambient_model = to_enum(given.ambient_model, AmbientModel::surface,
+                                 "settings.ambient_model", "crt_ambient_model");
+  result.head_light = given.no_head_light == 0;
   return result;
 }
 

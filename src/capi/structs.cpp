@@ -72,7 +72,7 @@ std::span<const std::size_t> field_ends<crt_settings>() {
       CRT_END(S, reserved),     CRT_END(S, target_error),    CRT_END(S, time_budget),
       CRT_END(S, filter_width), CRT_END(S, min_samples),     CRT_END(S, max_samples),
       CRT_END(S, filter),       CRT_END(S, reserved_2),      CRT_END(S, compat),
-      CRT_END(S, reserved_3)};
+      CRT_END(S, reserved_3),   CRT_END(S, ambient_model),   CRT_END(S, no_head_light)};
   return ends;
 }
 

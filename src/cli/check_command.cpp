@@ -16,7 +16,11 @@ ExitCode run_check(const CheckRequest& request) {
     reporter.add(result.diagnostics);
     if (!result.scene) continue;
     try {
-      prepare(*result.scene);
+      const PreparedScene prepared = prepare(*result.scene);
+      for (const std::string& warning : prepared.warnings()) {
+        reporter.add({Diagnostic{
+            .severity = Severity::warning, .message = warning, .place = {.file = path.string()}}});
+      }
       if (tells_verdict) reporter.print(fmt::format("{}: no errors\n", path.string()));
     } catch (const Error& error) {
       reporter.add(error.code(), fmt::format("{}: {}", path.string(), error.what()),

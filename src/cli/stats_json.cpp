@@ -110,6 +110,10 @@ std::string name_of(FalloffModel model) {
   return model == FalloffModel::path ? "path" : "light";
 }
 
+std::string name_of(AmbientModel model) {
+  return model == AmbientModel::light ? "light" : "surface";
+}
+
 std::string name_of(Precision precision) {
   return precision == Precision::exact ? "exact" : "standard";
 }
@@ -138,6 +142,8 @@ std::string settings_json(const Settings& settings, Projection projection, int l
       .add("recursiondepth", settings.recursion_depth)
       .add("minweight", settings.min_weight)
       .add("falloffmodel", name_of(settings.falloff_model))
+      .add("ambientmodel", name_of(settings.ambient_model))
+      .add("headlight", settings.head_light)
       .add("showclip", settings.show_clip)
       .add("seed", settings.seed)
       .add("precision", name_of(settings.precision))

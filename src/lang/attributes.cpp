@@ -172,6 +172,12 @@ void convert(const Given& given, Context&, FalloffModel& field) {
   choose(given, std::array{Choice{"path", path}, Choice{"light", light}}, field);
 }
 
+void convert(const Given& given, Context&, AmbientModel& field) {
+  using enum AmbientModel;
+  using Choice = std::pair<std::string_view, AmbientModel>;
+  choose(given, std::array{Choice{"light", light}, Choice{"surface", surface}}, field);
+}
+
 void convert(const Given& given, Context&, Precision& field) {
   using enum Precision;
   using Choice = std::pair<std::string_view, Precision>;

@@ -35,6 +35,7 @@ void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
 void convert(const Given& given, Context& context, FalloffModel& field);
+void convert(const Given& given, Context& context, AmbientModel& field);
 void convert(const Given& given, Context& context, Precision& field);
 void convert(const Given& given, Context& context, PixelFilter& field);
 void convert(const Given& given, Context& context, Camera& field);
@@ -94,6 +95,9 @@ constexpr std::string_view type_text(const ApertureShape*) {
   return "String";
 }
 constexpr std::string_view type_text(const FalloffModel*) {
+  return "String";
+}
+constexpr std::string_view type_text(const AmbientModel*) {
   return "String";
 }
 constexpr std::string_view type_text(const Precision*) {

@@ -44,6 +44,8 @@ ObjectType make_settings_type() {
                          setting("recursiondepth", &Settings::recursion_depth, "3"),
                          setting("minweight", &Settings::min_weight, "1.0 / 1024"),
                          setting("falloffmodel", &Settings::falloff_model, "\"path\""),
+                         setting("ambientmodel", &Settings::ambient_model, "\"light\""),
+                         setting("headlight", &Settings::head_light, "true"),
                          setting("showclip", &Settings::show_clip, "false"),
                          setting("seed", &Settings::seed, "0"),
                          setting("precision", &Settings::precision, "\"standard\""),

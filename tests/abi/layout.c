@@ -83,7 +83,7 @@ AT(crt_background, sky_alpha, 96);
 AT(crt_background, image, 104);
 AT(crt_background, angle, 112);
 
-SIZE(crt_settings, 144);
+SIZE(crt_settings, 152);
 AT(crt_settings, struct_size, 0);
 AT(crt_settings, width, 4);
 AT(crt_settings, height, 8);
@@ -110,6 +110,8 @@ AT(crt_settings, filter, 128);
 AT(crt_settings, reserved_2, 132);
 AT(crt_settings, compat, 136);
 AT(crt_settings, reserved_3, 140);
+AT(crt_settings, ambient_model, 144);
+AT(crt_settings, no_head_light, 148);
 
 SIZE(crt_script_options, 200);
 AT(crt_script_options, struct_size, 0);

@@ -31,7 +31,7 @@ PreparedScene prepared_in_cpp(const std::vector<Ball>& balls, int side) {
   }
   const double(&p)[3] = camera_position;
   scene.camera = {.position = {p[0], p[1], p[2]}, .pointing = {0, 0, 0}, .fov = camera_fov};
-  scene.settings = {.width = side, .height = side};
+  scene.settings = {.width = side, .height = side, .head_light = false};
   return prepare(scene);
 }
 

@@ -59,6 +59,7 @@ crt_prepared* grid(bool holes) {
   crt_settings settings;
   require(crt_settings_init(&settings, sizeof settings));
   settings.width = settings.height = side;
+  settings.no_head_light = 1;
   require(crt_scene_set_settings(scene, &settings));
   crt_prepared* prepared = nullptr;
   require(crt_scene_prepare(scene, &prepared));

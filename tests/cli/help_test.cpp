@@ -30,10 +30,11 @@ TEST_CASE("the help of render lists every setting by its script name") {
   const std::string help = run_crt(folder, {"render", "--help"}).out;
   for (const char* name :
        {"--width",          "--height",     "--gamma",        "--supersampling", "--dofsamples",
-        "--recursiondepth", "--minweight",  "--falloffmodel", "--showclip",      "--seed",
-        "--targeterror",    "--timebudget", "--minsamples",   "--maxsamples",    "--filter",
-        "--filterwidth",    "--passes",     "--checkpoint",   "--precision",     "--projection",
-        "--title",          "--author",     "--date",         "--notes"}) {
+        "--recursiondepth", "--minweight",  "--falloffmodel", "--ambientmodel",  "--headlight",
+        "--showclip",       "--seed",       "--targeterror",  "--timebudget",    "--minsamples",
+        "--maxsamples",     "--filter",     "--filterwidth",  "--passes",        "--checkpoint",
+        "--precision",      "--projection", "--title",        "--author",        "--date",
+        "--notes"}) {
     CHECK_MESSAGE(help.find(name) != std::string::npos, name);
   }
 }

@@ -50,6 +50,8 @@ Image described_picture() {
   settings.recursion_depth = 7;
   settings.min_weight = 0.125;
   settings.falloff_model = FalloffModel::light;
+  settings.ambient_model = AmbientModel::surface;
+  settings.head_light = false;
   settings.seed = 18446744073709551615u;
   settings.precision = Precision::exact;
   settings.compat = compat_2015;
@@ -107,6 +109,8 @@ TEST_CASE("a PNG tells title, author, date, notes, software, settings and what t
                                                        {"crt:recursiondepth", "7"},
                                                        {"crt:minweight", "0.125"},
                                                        {"crt:falloffmodel", "light"},
+                                                       {"crt:ambientmodel", "surface"},
+                                                       {"crt:headlight", "false"},
                                                        {"crt:showclip", "false"},
                                                        {"crt:seed", "18446744073709551615"},
                                                        {"crt:precision", "exact"},

@@ -331,3 +331,21 @@ TEST_CASE("a wrong description is refused with the name of the field") {
   CHECK_THROWS_AS(SharedMaterial(Material{.color = Color{-0.5, 0, 0}}), Error);
   CHECK_THROWS_AS(SharedMaterial(Material{.color = Pattern(ImageMap{})}), Error);
 }
+
+TEST_CASE("prepare warns of a scene without lights, and of a camera that is on a surface") {
+  Scene scene;
+  CHECK(prepare(scene).warnings().empty());
+  // The default camera is on the default sphere.
+  scene.entities = {Sphere{}};
+  CHECK(prepare(scene).warnings() ==
+        std::vector<std::string>{
+            "the scene has no lights: a head light shines from the camera",
+            "the camera is on the surface of an object: rounding decides what it sees"});
+  scene.camera.position = {0, 0, -5};
+  scene.settings.head_light = false;
+  CHECK(prepare(scene).warnings() ==
+        std::vector<std::string>{
+            "the scene has no lights: only mirrors, glass and the background show"});
+  scene.lights = {PointLight{}};
+  CHECK(prepare(scene).warnings().empty());
+}

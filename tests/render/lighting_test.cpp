@@ -59,6 +59,41 @@ TEST_CASE("a lit sphere has the ambient, diffuse and specular light of the formu
   }
 }
 
+TEST_CASE("by the surface's model ambient light takes the surface's colour and opacity") {
+  Scene scene = dark_scene();
+  scene.settings.recursion_depth = 0;
+  scene.settings.ambient_model = AmbientModel::surface;
+  scene.lights = {glow(0.5)};
+  const auto seen_of = [&](const Material& material) {
+    scene.entities = {Plane{.normal = {0, 0, -1}, .material = material}};
+    return seen(scene, {0, 0, -3}, {0, 0, 0});
+  };
+  check_color(seen_of({.color = grey(0), .diffuse = 0}), 0, 0, 0);
+  check_color(seen_of({.color = Color{1, 0.5, 0.25}, .diffuse = 0}), 0.5, 0.25, 0.125);
+  check_color(seen_of({.color = grey(1), .reflectivity = 0.25, .transparency = 0.5, .diffuse = 0}),
+              0.125, 0.125, 0.125);
+}
+
+TEST_CASE("a scene without lights is lit from where it is seen, unless nobody wants that") {
+  Scene scene = dark_scene();
+  scene.settings.head_light = true;
+  scene.entities = {Plane{.normal = {0, 0, -1}, .material = Material{.color = grey(0.5)}}};
+  check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 0.5, 0.5, 0.5);
+  // At 60 degrees from the normal there is half of the light.
+  check_color(seen(scene, {std::sqrt(3.0), 0, -1}, {0, 0, 0}), 0.25, 0.25, 0.25);
+  scene.camera.projection = Projection::orthographic;
+  check_color(seen(scene, {std::sqrt(3.0), 0, -1}, {0, 0, 0}), 0.25, 0.25, 0.25);
+
+  scene.settings.head_light = false;
+  check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 0, 0, 0);
+  scene.settings.head_light = true;
+  scene.settings.compat = compat_2015;
+  check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 0, 0, 0);
+  scene.settings.compat = 0;
+  scene.lights = {glow(0)};
+  check_color(seen(scene, {0, 0, -3}, {0, 0, 0}), 0, 0, 0);
+}
+
 TEST_CASE("the diffuse strength defaults to what is neither mirrored nor let through") {
   Scene scene = dark_scene();
   scene.settings.recursion_depth = 0;

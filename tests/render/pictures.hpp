@@ -7,11 +7,13 @@
 
 namespace crt::test {
 
-/// Makes the scene that every other here starts from: black all around and no limit on weights.
+/// Makes the scene that every other here starts from: black all around, no light from the camera
+/// and no limit on weights.
 inline Scene dark_scene() {
   Scene scene;
   scene.background = SolidBackground{{0, 0, 0}};
   scene.settings.min_weight = 0;
+  scene.settings.head_light = false;
   return scene;
 }
 

@@ -100,6 +100,16 @@ TEST_CASE("light from behind gives nothing") {
 }
 
 TEST_CASE("ambient light is what a surface does not mirror") {
-  CHECK(ambient_light({1, 0.5, 0}, 0.25) == Rgb(0.75, 0.375, 0));
-  CHECK(ambient_light({1, 1, 1}, 0.0) == Rgb(1));
+  using enum crt::AmbientModel;
+  const Rgb red{1, 0, 0};
+  CHECK(ambient_light({1, 0.5, 0}, light, red, 0.25, 0.5) == Rgb(0.75, 0.375, 0));
+  CHECK(ambient_light({1, 1, 1}, light, red, 0.0, 1.0) == Rgb(1));
+}
+
+TEST_CASE("by the surface's model ambient light takes its colour, and what is clear has none") {
+  using enum crt::AmbientModel;
+  const Rgb red{1, 0.5, 0};
+  CHECK(ambient_light({1, 0.5, 1}, surface, red, 0.25, 0.25) == Rgb(0.5, 0.125, 0));
+  CHECK(ambient_light({1, 1, 1}, surface, Rgb(0), 0.0, 0.0) == Rgb(0));
+  CHECK(ambient_light({1, 1, 1}, surface, red, 0.75, 0.5) == Rgb(0));
 }

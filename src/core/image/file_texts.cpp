@@ -48,6 +48,8 @@ void add_settings(FileTexts& texts, const Settings& settings) {
   add(texts, "crt:recursiondepth", fmt::format("{}", settings.recursion_depth));
   add(texts, "crt:minweight", fmt::format("{}", settings.min_weight));
   add(texts, "crt:falloffmodel", settings.falloff_model == FalloffModel::path ? "path" : "light");
+  if (settings.ambient_model == AmbientModel::surface) add(texts, "crt:ambientmodel", "surface");
+  if (!settings.head_light) add(texts, "crt:headlight", "false");
   add(texts, "crt:showclip", settings.show_clip ? "true" : "false");
   add(texts, "crt:seed", fmt::format("{}", settings.seed));
   if (settings.precision == Precision::exact) add(texts, "crt:precision", "exact");

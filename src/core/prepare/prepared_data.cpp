@@ -4,6 +4,7 @@
 #include <chrono>
 #include <climits>
 #include <cmath>
+#include <limits>
 #include <tuple>
 
 #include "core/compile/memory.hpp"
@@ -24,6 +25,15 @@ void check_scene(const Scene& scene) {
   validate(scene.camera);
   validate(scene.background);
   validate(scene.settings);
+}
+
+/// Returns the lights of a scene, or a head light where there are none and it is wanted.
+std::vector<Light> lights_of(const Scene& scene) {
+  if (!scene.lights.empty() || !scene.settings.head_light || scene.settings.compat != 0)
+    return scene.lights;
+  if (scene.camera.projection == Projection::orthographic)
+    return {ParallelLight{.from = scene.camera.position, .pointing = scene.camera.pointing}};
+  return {PointLight{.origin = scene.camera.position}};
 }
 
 Opacity opacity_of(const CompiledScene& scene, std::span<const PreparedMaterial> materials) {
@@ -76,7 +86,7 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   const auto begin = std::chrono::steady_clock::now();
   check_scene(scene);
   scene_ = {.entities = {},
-            .lights = scene.lights,
+            .lights = lights_of(scene),
             .camera = scene.camera,
             .background = scene.background,
             .settings = scene.settings};
@@ -102,11 +112,37 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   textures_.settle();
   features_ = find_features(scene_, materials_, geometry_->has_csg);
 
+  warnings_ = textures_.warnings();
+  if (scene.lights.empty()) warn_of_no_light();
+  warn_of_camera();
+
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
   prepare_seconds_ = elapsed.count();
 }
 
 PreparedData::~PreparedData() = default;
+
+void PreparedData::warn_of_no_light() {
+  if (geometry_->entities.empty()) return;
+  warnings_.emplace_back(
+      scene_.lights.empty() ? "the scene has no lights: only mirrors, glass and the background show"
+                            : "the scene has no lights: a head light shines from the camera");
+}
+
+/// Warns if the camera is on a surface. A scene where that takes long to find out is not warned of.
+void PreparedData::warn_of_camera() {
+  if (scene_.camera.projection == Projection::orthographic) return;
+  constexpr std::uint64_t few_steps = 4096;
+  const StepRules rules{.most = few_steps, .poll = {}};
+  RayWorkspace work;
+  work.csg.steps.rules = &rules;
+  try {
+    if (!is_on_surface(scene_.camera.position, work)) return;
+    warnings_.emplace_back(
+        "the camera is on the surface of an object: rounding decides what it sees");
+  } catch (const Error&) {
+  }
+}
 
 MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
@@ -175,6 +211,22 @@ void PreparedData::surrounding(const WorldRay& ray, std::vector<RayHit>& out,
   std::sort(out.begin(), out.end(), [](const RayHit& a, const RayHit& b) {
     return std::make_tuple(-a.t, a.object) < std::make_tuple(-b.t, b.object);
   });
+}
+
+bool PreparedData::is_on_surface(const Vec3& point, RayWorkspace& work) const {
+  constexpr double relative_width = 0x1p-26;
+  const double width = relative_width * largest_component(point);
+  std::vector<RayHit> hits;
+  for (int axis = 0; axis < 3; ++axis) {
+    WorldRay line = {.origin = point, .direction = Vec3(0)};
+    line.direction[axis] = 1;
+    line.t_min = -std::numeric_limits<double>::max();
+    crossings(line, hits, work);
+    for (const RayHit& hit : hits) {
+      if (std::abs(hit.t) <= hit.error + width) return true;
+    }
+  }
+  return false;
 }
 
 Stay PreparedData::stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const {
@@ -255,6 +307,10 @@ namespace crt {
 
 MemoryUse PreparedScene::memory() const {
   return data_->memory();
+}
+
+const std::vector<std::string>& PreparedScene::warnings() const {
+  return data_->warnings();
 }
 
 PreparedScene prepare(const Scene& scene, const PrepareOptions& options) {

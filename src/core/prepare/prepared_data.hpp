@@ -98,6 +98,10 @@ class PreparedData {
   /// infinity.
   void surrounding(const WorldRay& ray, std::vector<RayHit>& out, RayWorkspace& work) const;
 
+  /// Returns whether there is a surface at a point, or so near that rounding may decide. It looks
+  /// along three axes across each other, as a line along a surface does not meet it.
+  bool is_on_surface(const Vec3& point, RayWorkspace& work) const;
+
   /// Returns whether the ray starts inside a solid object (just after its start, as above), and
   /// where it leaves it.
   Stay stay(const WorldRay& ray, std::uint32_t object, RayWorkspace& work) const;
@@ -190,7 +194,7 @@ class PreparedData {
   double prepare_seconds() const { return prepare_seconds_; }
   MemoryUse memory() const;
   /// Returns what the user should know of the scene, a line each.
-  std::vector<std::string> warnings() const { return textures_.warnings(); }
+  const std::vector<std::string>& warnings() const { return warnings_; }
   /// Returns whether both share the geometry that rays meet.
   bool shares_geometry_with(const PreparedData& other) const {
     return geometry_ == other.geometry_;
@@ -198,6 +202,9 @@ class PreparedData {
 
  private:
   struct Geometry;
+
+  void warn_of_no_light();
+  void warn_of_camera();
 
   Scene scene_;
   std::shared_ptr<const Geometry> geometry_;
@@ -211,6 +218,7 @@ class PreparedData {
   std::span<const Leaf> leaves_;
   std::span<const FaceSurface> face_surfaces_;
   std::span<const std::uint32_t> entity_ids_;  ///< of leaves, close together
+  std::vector<std::string> warnings_;
   double prepare_seconds_ = 0;
 };
 

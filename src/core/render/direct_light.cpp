@@ -105,7 +105,9 @@ PathLight direct_light(TraceContext& context, const PathRays& rays, const Surfac
   PathLight light;
   if (surfaces.rays == 0) return light;
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask) {
-    light.colors[i] = ambient_light(context.frame.ambient(), surfaces.groups[i].reflectivity);
+    const SurfaceGroup& group = surfaces.groups[i];
+    light.colors[i] = ambient_light(context.frame.ambient(), context.frame.settings().ambient_model,
+                                    group.phong.color, group.reflectivity, group.transparency);
   });
   add_lights(context, rays, surfaces, shadow_rays, light);
   RayPacket::for_each_group(surfaces.rays, [&](std::size_t i, RayMask lanes) {

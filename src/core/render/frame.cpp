@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <iterator>
-#include <limits>
 
 #include "core/math/vector.hpp"
 #include "core/render/media_order.hpp"
@@ -35,23 +34,6 @@ void sort_by_entry(const PreparedData& data, const WorldRay& ray, std::vector<Ra
   };
   sort_by_insertion(solids, comes_first);
   for (std::size_t i = 0; i < solids.size(); ++i) exits[i] = solids[i].exit;
-}
-
-/// Returns whether there is a surface at a point, or so near that rounding may decide. It looks
-/// along three axes across each other, as a line along a surface does not meet it.
-bool is_on_surface(const PreparedData& data, const Vec3& point, Workspace& work) {
-  constexpr double relative_width = 0x1p-26;
-  const double width = relative_width * largest_component(point);
-  for (int axis = 0; axis < 3; ++axis) {
-    WorldRay line = {.origin = point, .direction = Vec3(0)};
-    line.direction[axis] = 1;
-    line.t_min = -std::numeric_limits<double>::max();
-    data.crossings(line, work.crossings, work.rays);
-    for (const RayHit& hit : work.crossings) {
-      if (std::abs(hit.t) <= hit.error + width) return true;
-    }
-  }
-  return false;
 }
 
 }  // namespace
@@ -94,7 +76,7 @@ Frame::Frame(const PreparedData& data, const Settings& settings, Workspace& work
   RayBatch eye;
   set_camera_rays({&line, 1}, eye);
   const WorldRay middle = eye.ray(0);
-  one_viewpoint_ = !is_on_surface(data, middle.origin, work);
+  one_viewpoint_ = !data.is_on_surface(middle.origin, work.rays);
   if (one_viewpoint_) find_surrounding_media(data, middle, camera_media_, work);
 }
 

@@ -18,10 +18,12 @@ struct PhongSurfaces {
   VectorLanes view;    ///< unit length, from the viewer to the point
 };
 
-/// Returns what the point gets of all lights' ambient shares, lit or not.
+/// Returns what a surface sends back of all lights' ambient shares, lit or not.
 template <class Real>
-Vec3Of<Real> ambient_light(const Rgb& ambient, const Real& reflectivity) {
-  return (1.0 - reflectivity) * broadcast<Real>(ambient);
+Vec3Of<Real> ambient_light(const Rgb& ambient, AmbientModel model, const Vec3Of<Real>& color,
+                           const Real& reflectivity, const Real& transparency) {
+  if (model == AmbientModel::light) return (1.0 - reflectivity) * broadcast<Real>(ambient);
+  return max(Real{}, 1.0 - reflectivity - transparency) * broadcast<Real>(ambient) * color;
 }
 
 /// Writes the diffuse and the specular light of one unobstructed light into `seen`. It is black if
