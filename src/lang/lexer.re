@@ -164,6 +164,7 @@ Grammar::symbol_type Lexer::ending() {
   if (std::exchange(tolerance_.ends_at_cursor, false)) return sign(Token::CURSOR);
   if (!tolerance_.closes_brackets || open_brackets_.empty()) return sign(Token::END);
   const char bracket = text(open_brackets_.back())[0];
+  reporter_.error(open_brackets_.back(), "this bracket is never closed");
   open_brackets_.pop_back();
   const Span behind{offset(limit_), offset(limit_) + 1};
   return Grammar::symbol_type(bracket == '{'   ? Token::RIGHT_BRACE

@@ -132,8 +132,10 @@ class Completer {
     const bool in_object = unsure && !list_.items.empty();
     if (cut.expects("a whole number") || (unsure && !in_object)) add_expressions(cut);
     for (const std::string& name : cut.expected) {
-      if (std::all_of(name.begin(), name.end(), is_word_byte))
-        list_.items.push_back(items_.keyword(name));
+      if (!std::all_of(name.begin(), name.end(), is_word_byte)) continue;
+      list_.items.push_back(items_.keyword(name));
+      // Behind a '<' these are modifiers, which are what is mostly wanted there.
+      if (after_less(cut)) list_.items.back().rank = 0;
     }
     return std::move(list_);
   }

@@ -121,7 +121,7 @@ std::vector<Place> Workspace::rename(Document& document, std::uint32_t byte,
   std::set<std::pair<std::string, std::uint32_t>> known;
   for (const Place& place : places)
     known.emplace(place.file, place.span.begin - place.source->base);
-  const Place first = places.front();
+  const Place first = *definition_at(program(document), byte);
   const std::uint32_t first_byte = first.span.begin - first.source->base;
   for (auto& [uri, other] : documents_) {
     if (&other == &document) continue;
