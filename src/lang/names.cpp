@@ -21,8 +21,14 @@ class NameMapper {
   NameMap map(const Script& script) {
     visit(script.statements);
     for (; !waiting_.empty(); waiting_.pop_front()) visit_macro(waiting_.front());
-    std::sort(map_.uses.begin(), map_.uses.end(),
-              [](const NameUse& a, const NameUse& b) { return a.span.begin < b.span.begin; });
+    std::stable_sort(map_.uses.begin(), map_.uses.end(), [](const NameUse& a, const NameUse& b) {
+      return a.span.begin < b.span.begin;
+    });
+    // What one place both reads and sets stands there once.
+    const auto is_same = [](const NameUse& a, const NameUse& b) {
+      return a.span == b.span && a.declared == b.declared;
+    };
+    map_.uses.erase(std::unique(map_.uses.begin(), map_.uses.end(), is_same), map_.uses.end());
     return std::move(map_);
   }
 

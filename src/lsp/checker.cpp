@@ -57,6 +57,30 @@ class TinyPictures {
   std::shared_ptr<std::vector<std::byte>> picture_ = std::make_shared<std::vector<std::byte>>();
 };
 
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+/// Checks a script that others import as such: by a script that does nothing else.
+std::vector<Diagnostic> check_import(const lang::Source& source, ScriptOptions& options) {
+  const fs::path path = source.name;
+  if (!path.is_absolute())  // a text without a file can only be run
+    return run_script(source.text + "\nScene { }\n", source.name, options).diagnostics;
+  options.open_file = [&path, &source, open = options.open_file](const fs::path& asked) {
+    if (asked != path) return open(asked);
+    const auto* begin = reinterpret_cast<const std::byte*>(source.text.data());
+    return std::optional<std::vector<std::byte>>({begin, begin + source.text.size()});
+  };
+  const std::string importer = "import " + quoted(path.filename().string()) + "\nScene { }\n";
+  const fs::path name = path.parent_path() / (path.filename().string() + " as it is imported");
+  return run_script(importer, name.string(), options).diagnostics;
+}
+
 }  // namespace
 
 void lower_limits(ScriptLimits& limits) {
@@ -82,10 +106,9 @@ std::vector<Diagnostic> check_script(const Program& program, ScriptOptions optio
   lower_limits(options.limits);
   options.open_file = TinyPictures(options.open_file);
   options.print = [](std::string_view) {};
-  const bool is_whole = stands_alone(program.script());
-  // What is put behind the text has no place that a message could be about.
-  const std::string text = is_whole ? main.text : main.text + "\nScene { }\n";
-  std::vector<Diagnostic> diagnostics = run_script(text, main.name, options).diagnostics;
+  std::vector<Diagnostic> diagnostics = stands_alone(program.script())
+                                            ? run_script(main.text, main.name, options).diagnostics
+                                            : check_import(main, options);
   std::erase_if(diagnostics, is_of_low_limit);
   return diagnostics;
 }

@@ -17,6 +17,11 @@ namespace {
 
 using Kind = lang::Grammar::symbol_kind;
 
+/// Says whether an editor can open a source: the text that it has, or a file.
+bool can_be_opened(const Program& program, const lang::Source& source) {
+  return &source == &program.main() || std::filesystem::path(source.name).is_absolute();
+}
+
 Place place_of(const Program& program, lang::Span span) {
   const lang::Source& source = program.sources().source_of(span);
   return {source.name, &source, span};
@@ -67,13 +72,15 @@ bool same_meanings(const lang::NameMap& a, const lang::NameMap& b) {
 }  // namespace
 
 std::optional<Place> definition_at(const Program& program, std::uint32_t byte) {
-  if (const lang::NameUse* use = declared_use_at(program, byte))
-    return place_of(program, program.names().declared[use->declared].span);
+  if (const lang::NameUse* use = declared_use_at(program, byte)) {
+    const Place place = place_of(program, program.names().declared[use->declared].span);
+    return can_be_opened(program, *place.source) ? std::optional(place) : std::nullopt;
+  }
   for (const lang::Statement& statement : program.script().statements.statements) {
     const auto* import = std::get_if<lang::Import>(&statement.node);
     if (!import || byte < import->path_span.begin || byte > import->path_span.end) continue;
     const std::filesystem::path file = program.imported_file(*import);
-    if (!file.empty()) return Place{file.string(), nullptr, {}};
+    if (file.is_absolute()) return Place{file.string(), nullptr, {}};
   }
   return std::nullopt;
 }
@@ -83,7 +90,9 @@ std::vector<Place> places_of(const Program& program, std::uint32_t byte) {
   const lang::NameUse* use = declared_use_at(program, byte);
   if (!use) return places;
   for (const lang::NameUse& other : program.names().uses) {
-    if (other.declared == use->declared) places.push_back(place_of(program, other.span));
+    if (other.declared != use->declared) continue;
+    const Place place = place_of(program, other.span);
+    if (can_be_opened(program, *place.source)) places.push_back(place);
   }
   return places;
 }
@@ -97,6 +106,8 @@ std::vector<Place> rename_at(const Program& program, std::uint32_t byte,
                              const std::string& new_name, const ScriptOptions& options) {
   std::vector<Place> places = places_of(program, byte);
   if (places.empty()) throw std::invalid_argument("there is no name here that a script sets");
+  if (!definition_at(program, byte))
+    throw std::invalid_argument("this name is set where it cannot be changed");
   // In what was not parsed there may be more of it.
   if (!program.is_whole())
     throw std::invalid_argument("a name can be changed when the script has no syntax errors");
