@@ -9,6 +9,7 @@
 #include "lsp/hover.hpp"
 #include "lsp/json_values.hpp"
 #include "lsp/navigation.hpp"
+#include "lsp/semantic_tokens.hpp"
 #include "lsp/uri.hpp"
 
 namespace crt::lsp {
@@ -26,6 +27,7 @@ Requests::Requests()
           {"textDocument/prepareRename", &Requests::prepare_rename},
           {"textDocument/rename", &Requests::rename},
           {"textDocument/documentSymbol", &Requests::symbols},
+          {"textDocument/semanticTokens/full", &Requests::tokens},
           {"textDocument/formatting", &Requests::formatting},
       } {}
 
@@ -47,6 +49,9 @@ json Requests::initialize(const json& params) {
   }
   const bool is_utf8 = workspace_.encoding() == Encoding::utf8;
   return {{"positionEncoding", is_utf8 ? "utf-8" : "utf-16"},
+          {"semanticTokensProvider",
+           {{"legend", {{"tokenTypes", token_types}, {"tokenModifiers", json::array()}}},
+            {"full", true}}},
           {"textDocumentSync", {{"openClose", true}, {"change", 2}, {"save", true}}},
           {"completionProvider", {{"triggerCharacters", {"<"}}}},
           {"hoverProvider", true},
@@ -190,6 +195,11 @@ json Requests::symbols(const json& params) {
   for (const DocumentSymbol& symbol : document_symbols(workspace_.program(document)))
     result.push_back(symbol_json(symbol, *document.source, workspace_.encoding()));
   return result;
+}
+
+json Requests::tokens(const json& params) {
+  return {
+      {"data", semantic_tokens(workspace_.program(document_of(params)), workspace_.encoding())}};
 }
 
 json Requests::formatting(const json& params) {

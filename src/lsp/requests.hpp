@@ -62,6 +62,7 @@ class Requests {
   Json prepare_rename(const Json& params);
   Json rename(const Json& params);
   Json symbols(const Json& params);
+  Json tokens(const Json& params);
   Json formatting(const Json& params);
   void open(const Json& params);
   void change(const Json& params);

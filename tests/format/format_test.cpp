@@ -40,21 +40,21 @@ std::vector<fs::path> scripts_in(const fs::path& folder) {
   return paths;
 }
 
-/// An Outline is a tree without its layout: the texts of all tokens and comments, and of each
+/// A Shape is a tree without its layout: the texts of all tokens and comments, and of each
 /// expression what it is and which tokens it has.
-struct Outline {
+struct Shape {
   std::vector<std::string> tokens;
   std::vector<std::string> comments;
   std::vector<std::tuple<std::size_t, std::ptrdiff_t, std::ptrdiff_t>> expressions;
 
-  friend bool operator==(const Outline&, const Outline&) = default;
+  friend bool operator==(const Shape&, const Shape&) = default;
 };
 
 std::string trimmed(std::string_view text) {
   return std::string(text.substr(0, text.find_last_not_of(" \t\r\n") + 1));
 }
 
-Outline outline_of(const std::string& text) {
+Shape shape_of(const std::string& text) {
   crt::lang::SourceMap sources;
   crt::lang::SymbolTable symbols;
   crt::lang::Reporter reporter(sources, 1);
@@ -66,9 +66,9 @@ Outline outline_of(const std::string& text) {
   const auto text_of = [&](crt::lang::Span span) {
     return trimmed(std::string_view(text).substr(span.begin, span.end - span.begin));
   };
-  Outline outline;
-  for (const crt::lang::Token& token : tokens) outline.tokens.push_back(text_of(token.span));
-  for (const crt::lang::Span& comment : comments) outline.comments.push_back(text_of(comment));
+  Shape shape;
+  for (const crt::lang::Token& token : tokens) shape.tokens.push_back(text_of(token.span));
+  for (const crt::lang::Span& comment : comments) shape.comments.push_back(text_of(comment));
   const auto first_at = [&, &list = tokens](std::uint32_t offset) {
     return std::lower_bound(list.begin(), list.end(), offset,
                             [](const crt::lang::Token& token, std::uint32_t o) {
@@ -77,9 +77,9 @@ Outline outline_of(const std::string& text) {
            list.begin();
   };
   for (const crt::lang::Expression& expression : script.expressions)
-    outline.expressions.emplace_back(expression.node.index(), first_at(expression.span.begin),
-                                     first_at(expression.span.end));
-  return outline;
+    shape.expressions.emplace_back(expression.node.index(), first_at(expression.span.begin),
+                                   first_at(expression.span.end));
+  return shape;
 }
 
 /// Takes the indentation away where that moves no comment, and doubles the blank lines.
@@ -108,7 +108,7 @@ TEST_CASE("formatting leaves the tree and the comments of every example as they 
     CAPTURE(path.string());
     const std::string text = read(path);
     const std::string once = formatted(text);
-    CHECK(outline_of(once) == outline_of(text));
+    CHECK(shape_of(once) == shape_of(text));
     CHECK(formatted(once) == once);
   }
 }

@@ -16,7 +16,7 @@ class Diagnostics(ServerTest):
     def test_errors_and_warnings_have_ranges(self):
         found = self.found("x = )\n")
         self.assertEqual([(d["severity"], d["range"]) for d in found], [(1, span(0, 4, 5))])
-        found = self.found("Scene {\n    Sphere { center -> vec3(0, 0, 0) raduis -> 1 }\n    3\n}\n")
+        found = self.found("Scene {\n    Sphere { center -> vec3(0, 0, 0) raduis -> 1 }\n}\n")
         self.assertEqual([d["range"] for d in found], [span(1, 37, 43)])
         self.assertIn("did you mean 'radius'", found[0]["message"])
         found = self.found("Scene {\n    3\n}\n")
@@ -104,7 +104,8 @@ class Completion(ServerTest):
                          {"cornerA", "cornerB", "material"})
 
     def test_names_in_scope(self):
-        offered = self.offered("a = 1\nm = Macro (p) {\n  b = 2\n  |\n}\nlater = 3\nif (true) { c = 1 }\n")
+        offered = self.offered("a = 1\nm = Macro (p) {\n  b = 2\n  |\n}\n"
+                               "later = 3\nif (true) { c = 1 }\n")
         self.assertLessEqual({"a", "b", "p", "m", "later", "Sphere", "sin", "pi", "if"},
                              offered.keys())
         self.assertFalse({"c", "Settings", "else"} & offered.keys())
@@ -231,7 +232,8 @@ class Names(ServerTest):
     def test_prepare_rename(self):
         self.assertEqual(self.client.result("textDocument/prepareRename", self.open("ab|c = 1\n")),
                          span(0, 0, 3))
-        self.assertIsNone(self.client.result("textDocument/prepareRename", self.open("x = si|n(1)")))
+        self.assertIsNone(self.client.result("textDocument/prepareRename",
+                                             self.open("x = si|n(1)")))
 
     def test_references_and_highlights(self):
         place = self.open("x = 1\nx| = x + 1\n")
