@@ -14,7 +14,7 @@
 namespace crt::lsp {
 
 /// A longer script is not checked.
-constexpr std::size_t longest_checked = std::size_t{4} << 20;
+constexpr std::size_t longest_checked = std::size_t{1} << 20;
 
 /// Lowers the limits of a script to what takes well under a second.
 void lower_limits(ScriptLimits& limits);
