@@ -4,7 +4,7 @@
 #include <string>
 
 #include "lang/builtins.hpp"
-#include "lang/names.hpp"
+#include "lang/name_map.hpp"
 #include "lang/objects.hpp"
 #include "lsp/completion.hpp"
 

@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "lang/files.hpp"
-#include "lang/names.hpp"
+#include "lang/name_map.hpp"
 #include "lang/partial_parse.hpp"
 #include "lang/reporter.hpp"
 #include "lang/source_map.hpp"

@@ -28,6 +28,10 @@ std::vector<std::string> cells_of(std::string_view row) {
   return cells;
 }
 
+std::string_view without_blanks_before(std::string_view line) {
+  return line.substr(std::min(line.find_first_not_of(' '), line.size()));
+}
+
 /// Replaces links by their texts, as they lead nowhere in an editor.
 std::string without_links(std::string_view text) {
   std::string result;
@@ -117,17 +121,16 @@ class Reference::Reader {
     } else if (line.starts_with('#')) {
       end_paragraph();
       begin_section(line);
-    } else if (line.starts_with('|')) {
+    } else if (const std::string_view row = without_blanks_before(line); row.starts_with('|')) {
       end_paragraph();
-      read_row(line);
+      read_row(row);
     } else if (line.empty()) {
       end_paragraph();
       table_.clear();
     } else {
       if (line.starts_with("- ")) end_paragraph();
-      const std::size_t text = std::min(line.find_first_not_of(' '), line.size());
       if (!paragraph_.empty()) paragraph_ += ' ';
-      paragraph_ += line.substr(text);
+      paragraph_ += without_blanks_before(line);
     }
   }
 
@@ -157,6 +160,9 @@ class Reference::Reader {
     } else if (table_ == "statement" && !code.empty()) {
       reference_.words_[first_word(code[0])] =
           fmt::format("`{}`: {}", code[0], without_links(cells[2]));
+    } else if (table_ == "modifier" && !code.empty()) {
+      reference_.words_[first_word(code[0])] =
+          fmt::format("`<{}>` with {}: {}", code[0], without_links(cells[1]), cells[2]);
     }
   }
 

@@ -39,6 +39,13 @@ TEST_CASE("each attribute of settings and camera has its text, and so have the l
   CHECK_FALSE(reference.attribute("Checker", "scale").empty());
 }
 
+TEST_CASE("modifiers may stand in a table of their own, within a list") {
+  const Reference reference(
+      "## Expressions\n\n- **Modifiers** make:\n\n  | modifier | operand | the new entity |\n"
+      "  | --- | --- | --- |\n  | `id` | an Integer | numbered |\n");
+  CHECK(reference.word("id") == "`<id>` with an Integer: numbered");
+}
+
 TEST_CASE("rows, notes, paragraphs and what sections share are brought together") {
   const Reference reference(
       "## Objects\n\n### Things\n\nAll have a `size`. Some have [links](#a).\n\n#### Thing\n\n"

@@ -1,4 +1,4 @@
-#include "lang/names.hpp"
+#include "lang/name_map.hpp"
 
 #include <algorithm>
 #include <deque>

@@ -1,6 +1,6 @@
 // These tests check what the names of a script mean before it runs, and that texts which are not
 // whole are understood as far as they go.
-#include "lang/names.hpp"
+#include "lang/name_map.hpp"
 
 #include <doctest/doctest.h>
 
