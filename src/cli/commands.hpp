@@ -13,4 +13,10 @@ ExitCode run_trade(const TradeRequest& request);
 /// Runs scripts for their diagnostics alone.
 ExitCode run_check(const CheckRequest& request);
 
+/// Lays scripts out as the formatter does, or says which are not.
+ExitCode run_format(const FormatRequest& request);
+
+/// Serves an editor on standard input and output, until it ends that.
+ExitCode run_lsp(const LspRequest& request);
+
 }  // namespace crt::cli

@@ -30,6 +30,7 @@ constexpr std::string_view main_footer = R"(Examples:
                                              a picture for each t from 0 to 99
   crt trade scene.crt --budget 10            shows which settings give most for ten seconds
   crt check scene.crt                        reports what is wrong with a script, renders nothing
+  crt format scene.crt                       lays the script out
 
 'crt render --help' lists all options. Every setting of a script is an option, too.
 
@@ -296,7 +297,8 @@ ExitCode complain(const std::exception& error, const CLI::App& app, int argc,
   if (command == "crt" && argc > 1 && std::filesystem::path(argv[1]).extension() == ".crt") {
     message = fmt::format("what to do with '{0}'? To render it: crt render {0}", argv[1]);
   } else if (command == "crt" && argc > 1 && argv[1][0] != '-') {
-    message = fmt::format("no command '{}': there are render, trade and check", argv[1]);
+    message =
+        fmt::format("no command '{}': there are render, trade, check, format and lsp", argv[1]);
   } else if (argc <= 1) {
     message = "say what to do, such as: crt render scene.crt";
   }
@@ -341,6 +343,21 @@ Request parse_command_line(int argc, const char* const* argv) {
       ->type_name("SCENE.crt");
   add_script_options(*check, check_request);
 
+  FormatRequest format_request;
+  CLI::App* format =
+      app.add_subcommand("format", "Lays scripts out: indentation, blanks, blank lines, comments.");
+  format->add_option("scene", format_request.scenes, "the scripts; - for standard input and output")
+      ->required()
+      ->type_name("SCENE.crt");
+  format->add_flag("--check", format_request.check,
+                   "writes nothing; names the scripts that would change, and then ends with 1");
+  format->add_flag("-q,--quiet", format_request.quiet, "prints errors and nothing else");
+
+  CLI::App* lsp = app.add_subcommand(
+      "lsp", "Serves editors by the Language Server Protocol, see docs/editors.md.");
+  lsp->add_flag_callback(
+      "--stdio", [] {}, "on standard input and output, which it does anyway");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -351,6 +368,8 @@ Request parse_command_line(int argc, const char* const* argv) {
     return complain(error, app, argc, argv);
   }
   if (check->parsed()) return check_request;
+  if (format->parsed()) return format_request;
+  if (lsp->parsed()) return LspRequest{};
   if (trade->parsed()) {
     if (trade_request.output.empty()) {
       trade_request.output = trade_request.scene;

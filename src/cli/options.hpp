@@ -70,9 +70,18 @@ struct TradeRequest : CommonRequest {
   std::optional<double> error;
 };
 
+struct FormatRequest : CommonRequest {
+  std::vector<std::filesystem::path> scenes;  ///< "-" stands for the standard streams
+  bool check = false;
+};
+
+/// An LspRequest asks for the language server. All else is asked by its client.
+struct LspRequest {};
+
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, ExitCode>;
+using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, FormatRequest, LspRequest,
+                             ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

@@ -44,6 +44,8 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 /* The first token says what the text is, and is not in the text. */
 %token START_SCRIPT START_EXPRESSION
 %token END 0 "the end of the script"
+/* No rule takes this token, so the parser says at it what it would take, see tolerance.hpp. */
+%token CURSOR "the cursor"
 
 %token <std::int64_t> INTEGER "a whole number"
 %token <double> FLOAT "a number"
@@ -121,7 +123,7 @@ statement:
   | if                                       { $$ = $1; }
   | for                                      { $$ = $1; }
 
-block: "{" nest statements "}"               { $$ = $3; }
+block: "{" nest statements "}"               { $$ = $3; $$.span = @$; }
 
 settings: "Settings" "{" nest attributes "}" { $$ = tree.statement(@$, SettingsBlock{@1, $4}); }
 
@@ -284,12 +286,14 @@ parameters:
 namespace crt::lang {
 
 void Grammar::report_syntax_error(const context& context) const {
-  if (!tree.is_past_error(context.location())) return;
+  const bool at_cursor = context.token() == symbol_kind::S_CURSOR;
+  if (!at_cursor && !tree.is_past_error(context.location())) return;
   // A place in the grammar expects fewer kinds of token than there are.
   symbol_kind_type expected[YYNTOKENS];
   const int count = context.expected_tokens(expected, YYNTOKENS);
   std::vector<std::string> names;
   for (int i = 0; i < count; ++i) names.emplace_back(symbol_name(expected[i]));
+  if (at_cursor) return tree.expect_at_cursor(std::move(names));
   tree.syntax_error(context.location(), symbol_name(context.token()), names);
 }
 

@@ -11,6 +11,7 @@
 #include "lang/reporter.hpp"
 #include "lang/source_map.hpp"
 #include "lang/symbol.hpp"
+#include "lang/tolerance.hpp"
 
 namespace crt::lang {
 
@@ -23,6 +24,9 @@ class Lexer {
   Lexer(const Source& source, TextKind kind, int compat, SymbolTable& symbols, Reporter& reporter);
 
   Grammar::symbol_type next();
+
+  /// Takes the text for one that is still being written, see tolerance.hpp.
+  void tolerate(const Tolerance& tolerance) { tolerance_ = tolerance; }
 
   /// Returns the text of a piece of this source.
   std::string_view text(Span span) const;
@@ -44,6 +48,7 @@ class Lexer {
   std::string_view token_text() const;
 
   Grammar::symbol_type scan();
+  Grammar::symbol_type ending();
   Grammar::symbol_type sign(Grammar::token::token_kind_type kind);
   Grammar::symbol_type opening(Grammar::token::token_kind_type kind);
   Grammar::symbol_type closing(Grammar::token::token_kind_type kind, char opening_bracket);
@@ -80,6 +85,7 @@ class Lexer {
   bool started_ = false;
   bool first_on_line_ = true;
   std::vector<Span> open_brackets_;
+  Tolerance tolerance_;
   int for_tokens_ = 0;  ///< so many tokens of `for (name` came last
 };
 

@@ -109,7 +109,7 @@ Grammar::symbol_type Lexer::scan() {
       exponent = [eE] [+-]? digits;
       other_letter = [\u00C0-\u1FFF\u3040-\uD7FF\uF900-\uFAFF];
 
-      $        { return sign(Token::END); }
+      $        { return ending(); }
       *        { not_utf8(); continue; }
       "--"     { skip_comment(); continue; }
       [ \t\v\f]+               { continue; }
@@ -157,6 +157,20 @@ Grammar::symbol_type Lexer::scan() {
       [^]      { unexpected_character(); continue; }
     */
   }
+}
+
+/// Gives out what the tolerance adds behind the text, then the end.
+Grammar::symbol_type Lexer::ending() {
+  if (std::exchange(tolerance_.ends_at_cursor, false)) return sign(Token::CURSOR);
+  if (!tolerance_.closes_brackets || open_brackets_.empty()) return sign(Token::END);
+  const char bracket = text(open_brackets_.back())[0];
+  reporter_.error(open_brackets_.back(), "this bracket is never closed");
+  open_brackets_.pop_back();
+  const Span behind{offset(limit_), offset(limit_) + 1};
+  return Grammar::symbol_type(bracket == '{'   ? Token::RIGHT_BRACE
+                              : bracket == '(' ? Token::RIGHT_PARENTHESIS
+                                               : Token::RIGHT_BRACKET,
+                              behind);
 }
 
 Grammar::symbol_type Lexer::sign(Token::token_kind_type kind) {
@@ -220,6 +234,7 @@ Grammar::symbol_type Lexer::single_quoted() {
 void Lexer::skip_comment() {
   // A comment may hold anything, and need not be UTF-8.
   while (cursor_ < limit_ && *cursor_ != '\n' && *cursor_ != '\r') ++cursor_;
+  if (tolerance_.comments) tolerance_.comments->push_back(token_span());
 }
 
 const Lexer::Byte* Lexer::next_token_start() const {
@@ -243,6 +258,7 @@ std::string_view Lexer::next_word() const {
 }
 
 bool Lexer::modifier_follows() const {
+  if (tolerance_.ends_at_cursor && next_token_start() == limit_) return true;
   const std::string_view next = next_word();
   return next == "scale" || next == "translate" || next == "rotate";
 }

@@ -27,6 +27,8 @@ constexpr int max_nesting = 200;
 struct Block {
   std::vector<Statement> statements;
   int height = 0;
+  /// Reaches from brace to brace. The block of a whole script has none.
+  Span span{};
 };
 
 /// A NamePlace is a name where it is written.

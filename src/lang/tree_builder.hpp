@@ -56,6 +56,10 @@ class TreeBuilder {
   bool is_past_error(Span place) const;
   void syntax_error(Span place, const std::string& found, const std::vector<std::string>& expected);
 
+  /// Keeps what the grammar would take where the text ends at the cursor.
+  void expect_at_cursor(std::vector<std::string> expected) { expected_ = std::move(expected); }
+  std::vector<std::string> take_expected() { return std::move(expected_); }
+
  private:
   Statement finish_statement(Statement statement);
   void check_height(Span span, int height);
@@ -67,6 +71,7 @@ class TreeBuilder {
   std::size_t& memory_left_;
   int depth_ = 0;
   std::optional<std::uint32_t> last_error_line_end_;
+  std::vector<std::string> expected_;
   Script script_;
 };
 

@@ -53,7 +53,16 @@ check_layers() {
     [[ -n $later ]] || continue
     lines_with "^#include [<\"]core/($later)/" "src/core/${layers[position]}/*"
   done
-  lines_with '^#include [<"](lang|cli|capi)/' 'src/core/*'
+  lines_with '^#include [<"](lang|cli|capi|format|lsp)/' 'src/core/*'
+  # The front end is seen by what lays scripts out and by what serves editors, and these by the
+  # command, each by one header.
+  lines_with '^#include [<"](format|lsp|cli|capi)/' 'src/lang/*'
+  lines_with '^#include [<"](format|lsp|cli)/' 'src/capi/*'
+  lines_with '^#include [<"](lsp|cli|capi)/' 'src/format/*'
+  lines_with '^#include [<"](cli|capi)/' 'src/lsp/*'
+  lines_with '^#include [<"](lang|format|lsp)/' 'src/cli/*' |
+    without '"(format/format|lsp/server)\.hpp"'
+  lines_with '^#include [<"]format/' 'src/lsp/*' | without '"format/format\.hpp"'
 }
 
 # only_in REGEX FOLDER... prints includes of a library that stand outside its folders.
@@ -66,7 +75,8 @@ only_in() {
 
 # What the public headers offer is all that lang, the command and the examples may see.
 check_public_only() {
-  lines_with '^#include [<"]core/' 'src/lang/*' 'src/cli/*' 'src/capi/*' 'examples/*'
+  lines_with '^#include [<"]core/' 'src/lang/*' 'src/format/*' 'src/lsp/*' 'src/cli/*' \
+    'src/capi/*' 'examples/*'
   lines_with '^#include [<"](core|lang|cli|capi)/' 'include/*'
   lines_with '^#include <glm/' 'include/*' | without '<glm/vec3.hpp>'
   lines_with '^#include <(fmt|tbb|embree|OpenImageIO|CLI)' 'include/*'
@@ -171,6 +181,9 @@ only_in 'png\.h' python/native | complain "libpng outside python/native"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"
+lines_with '^#include <nlohmann/json\.hpp>' "${code[@]}" |
+  without '^src/lsp/(server|requests|json_values)\.cpp:' |
+  complain "JSON outside the three sources of src/lsp that have to wait for it"
 tracked '*.y' '*.re' | without '^src/lang/' | complain "Bison or re2c outside src/lang"
 check_public_only | complain "Only crt/*.hpp may be seen from here"
 check_umbrella | complain "A public header is missing from crt.hpp"
@@ -178,10 +191,10 @@ tracked 'include/*.hpp' 'src/*.hpp' | { xargs -r -d '\n' grep -L '^#pragma once'
   complain "No #pragma once"
 lines_with '#include <format>|std::views::|std::ranges::views' "${code[@]}" |
   complain "Not with the compilers that we support"
-lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' |
+lines_with '\bgetenv\b' 'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
   complain "The library reads the environment"
 lines_with 'std::(cout|cerr|clog)|[^n]printf\(|\b(abort|exit|quick_exit)\(' \
-  'src/core/*' 'src/lang/*' 'src/capi/*' |
+  'src/core/*' 'src/lang/*' 'src/capi/*' 'src/format/*' 'src/lsp/*' |
   complain "The library prints or ends the process: log to a callback, throw crt::Error"
 lines_with '\b(TODO|FIXME|XXX|HACK)\b' \
   "${code[@]}" "${users[@]}" 'examples/*' '*.cmake' '*CMakeLists.txt' |

@@ -1,0 +1,35 @@
+// Semantic tokens colour a script: each token with what it is, as the front end knows it.
+#pragma once
+
+#include <array>
+#include <cstdint>
+#include <string_view>
+#include <vector>
+
+#include "lsp/positions.hpp"
+#include "lsp/program.hpp"
+
+namespace crt::lsp {
+
+/// These are the protocol's names of the types, in the order of TokenType.
+constexpr std::array<std::string_view, 9> token_types = {"comment",  "string",    "number",
+                                                         "keyword",  "class",     "property",
+                                                         "variable", "parameter", "function"};
+
+enum class TokenType : std::uint32_t {
+  comment,
+  string,
+  number,
+  keyword,
+  object,
+  attribute,
+  variable,
+  parameter,
+  function,
+};
+
+/// Returns the tokens of the main script as the protocol has them: five numbers each, of which the
+/// first two are the distance from the token before.
+std::vector<std::uint32_t> semantic_tokens(const Program& program, Encoding encoding);
+
+}  // namespace crt::lsp
