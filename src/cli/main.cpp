@@ -17,6 +17,9 @@ struct Run {
   ExitCode operator()(const RenderRequest& request) const { return run_render(request); }
   ExitCode operator()(const CheckRequest& request) const { return run_check(request); }
   ExitCode operator()(const TradeRequest& request) const { return run_trade(request); }
+  ExitCode operator()(const WatchRequest& request) const { return run_watch(request); }
+  ExitCode operator()(const CompletionsRequest& request) const { return run_completions(request); }
+  ExitCode operator()(const ManRequest& request) const { return run_man(request); }
   ExitCode operator()(ExitCode code) const { return code; }
 };
 

@@ -39,7 +39,8 @@ done
 case $kind in
   cmake)
     with_cmake c "$moved" "${without_dependencies[@]}"
-    tr -s '[:space:]' ' ' <configure.log | grep -qF 'find_package(crt COMPONENTS core lang static)' ||
+    tr -s '[:space:]' ' ' <configure.log |
+      grep -qF 'find_package(crt COMPONENTS core lang static)' ||
       fail "nothing says how to ask for the other targets: $(cat configure.log)"
     ;;
   cmake_cpp) with_cmake cpp "$moved" ;;

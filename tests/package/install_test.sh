@@ -71,10 +71,12 @@ HOME=$WORK/home bash -euc "${line/build\/release/\"\$BUILD\"}" >"$WORK/install.l
 diff -r "$moved" "$WORK/home/.local" || fail "README.md installs something else"
 
 # docs/installing.md has a table of what lies where.
-documented=$(sed -n 's/^| `\([^`]*\)` | [a-z]* |.*/\1/p' "$SOURCE/docs/installing.md")
+row='^| [[:punct:]]\([^ ]*\)[[:punct:]] | [a-z]* |.*'
+documented=$(sed -n "s/$row/\\1/p" "$SOURCE/docs/installing.md")
 [[ $(wc -l <<<"$documented") -ge 10 ]] || fail "docs/installing.md has no table of files"
 while IFS= read -r file; do
-  [[ -e $moved/${file/#LIB\//$LIBDIR/} ]] || fail "docs/installing.md names $file, which is not there"
+  [[ -e $moved/${file/#LIB\//$LIBDIR/} ]] ||
+    fail "docs/installing.md names $file, which is not there"
 done <<<"$documented"
 
 # The command finds its module relative to itself.

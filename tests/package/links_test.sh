@@ -15,4 +15,5 @@ mkdir -p "$broken"
 echo '[gone](gone.md) [here](page.md#no-such-heading)' >"$broken/page.md"
 ! python3 "$SOURCE/tests/package/links.py" "$broken" 2>"$broken/complaints" ||
   fail "dead links were not seen"
-[[ $(wc -l <"$broken/complaints") -eq 2 ]] || fail "not both dead links: $(cat "$broken/complaints")"
+[[ $(wc -l <"$broken/complaints") -eq 2 ]] ||
+  fail "not both dead links: $(cat "$broken/complaints")"
