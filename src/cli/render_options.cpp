@@ -31,8 +31,8 @@ Examples:
   crt render scene.crt --stats -                            what it took, as JSON)";
 
 constexpr std::string_view watch_footer =
-    R"(Renders the script, and again whenever it changes or anything that it imports or reads. A draft
-with an eighth of the pixels across and down comes first, then the picture itself. The file is
+    R"(Renders the script, and again whenever it changes or anything that it imports or reads. First
+comes a draft with an eighth of the pixels across and down, then the picture itself. The file is
 replaced at once, so that a viewer never sees a part of it. Errors of the script are reported, and
 the picture stays until they are mended. Ctrl-C ends it, with code 0.
 
