@@ -115,7 +115,7 @@ std::string zsh_option(const OptionDescription& option) {
   for (const std::string& name : option.names) {
     if (!words.empty()) words += " \\\n        ";
     const char* const joint = option.type.empty() ? "" : name.starts_with("--") ? "=" : "+";
-    words += quoted(once + name + joint + help + value);
+    words += quoted(fmt::format("{}{}{}{}{}", once, name, joint, help, value));
   }
   return words;
 }

@@ -2,13 +2,13 @@
 
 #include <fcntl.h>
 #include <fmt/format.h>
-#include <signal.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
 #include <cerrno>
 #include <crt/error.hpp>
+#include <csignal>
 #include <cstdlib>
 #include <sstream>
 #include <system_error>
@@ -61,6 +61,7 @@ int start(const fs::path& program, std::vector<std::string> words, int& process,
   posix_spawnattr_setpgroup(&attributes, 0);
   posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
   std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
   for (std::string& word : words) pointers.push_back(word.data());
   pointers.push_back(nullptr);
   const int error =
@@ -82,7 +83,7 @@ fs::path find_ffmpeg() {
   const char* const path = std::getenv("PATH");
   std::istringstream folders(path == nullptr ? "" : path);
   for (std::string folder; std::getline(folders, folder, ':');) {
-    const fs::path program = fs::path(folder) / "ffmpeg";
+    fs::path program = fs::path(folder) / "ffmpeg";
     if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
   }
   return {};

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <vector>
 
@@ -9,7 +10,7 @@ namespace crt::cli {
 
 /// A PalettePicture has 256 colours, of 3 bytes each, and the number of one for each pixel.
 struct PalettePicture {
-  std::array<std::uint8_t, 3 * 256> colors{};
+  std::array<std::uint8_t, std::size_t{3} * 256> colors{};
   std::vector<std::uint8_t> indices;
 };
 

@@ -30,7 +30,7 @@ struct BytePicture {
 
 /// Returns the picture with at most so many pixels across. Each is the mean of those it stands for.
 BytePicture fitted(const Image& image, int most_across) {
-  const BytePicture all{image.width(), image.height(), film_frame(image)};
+  BytePicture all{image.width(), image.height(), film_frame(image)};
   if (all.width <= most_across) return all;
   BytePicture small;
   small.width = most_across;
@@ -98,7 +98,7 @@ void append_run(std::string& text, char sixel, int length) {
 /// Appends six rows: for each colour that they have, the pixels that have it.
 void append_band(std::string& text, const BytePicture& picture, int top) {
   const int bottom = std::min(top + sixel_rows, picture.height);
-  std::array<std::string, levels * levels * levels> sixels;
+  std::array<std::string, std::size_t{levels} * levels * levels> sixels;
   for (int y = top; y < bottom; ++y) {
     for (int x = 0; x < picture.width; ++x) {
       std::string& row = sixels[static_cast<std::size_t>(sixel_color(picture, x, y))];

@@ -54,15 +54,16 @@ TEST_CASE("a name without a known ending is unsupported, and the message lists t
 TEST_CASE("a name is checked before there is a picture, for channels too") {
   check_picture_name("a.png");
   check_picture_name("folder.jpg/a.exr", true);
-  for (const auto& [name, with_channels] :
+  for (const auto& refused :
        {std::pair{"a.xyz", false}, std::pair{"png", false}, std::pair{"a.png", true}}) {
+    const std::string name = refused.first;
     CAPTURE(name);
     try {
-      check_picture_name(name, with_channels);
+      check_picture_name(name, refused.second);
       FAIL("nothing was thrown");
     } catch (const Error& error) {
       CHECK(error.code() == ErrorCode::unsupported);
-      CHECK(contains(error.what(), std::string("'") + name + "'"));
+      CHECK(contains(error.what(), "'" + name + "'"));
       CHECK(contains(error.what(), "exr"));
     }
   }

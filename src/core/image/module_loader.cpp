@@ -30,7 +30,10 @@ std::vector<fs::path> run_path_of(const link_map& map) {
   const char* names = nullptr;
   std::optional<std::size_t> place;
   for (const ElfW(Dyn)* entry = map.l_ld; entry->d_tag != DT_NULL; ++entry) {
-    if (entry->d_tag == DT_STRTAB) names = reinterpret_cast<const char*>(entry->d_un.d_ptr);
+    if (entry->d_tag == DT_STRTAB) {
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader has addresses as numbers
+      names = reinterpret_cast<const char*>(entry->d_un.d_ptr);
+    }
     if (entry->d_tag == DT_RUNPATH || entry->d_tag == DT_RPATH) place = entry->d_un.d_val;
   }
   std::vector<fs::path> directories;
