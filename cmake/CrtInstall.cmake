@@ -1,7 +1,8 @@
 # These files are installed, by component:
 #   runtime      libcrt.so.1 and the module for image files
 #   development  headers, the link libcrt.so, static libraries, the CMake package crt and crt.pc
-#   command      the command crt None of them names an absolute path that it needs, so an installed
+#   command      the command crt, its manual page, and completions for shells
+# None of them names an absolute path that it needs, so an installed
 #   tree may be moved.
 include(CMakePackageConfigHelpers)
 
@@ -37,9 +38,10 @@ endif()
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/include/crt DESTINATION ${CMAKE_INSTALL_INCLUDEDIR}
   COMPONENT development FILES_MATCHING PATTERN *.h PATTERN *.hpp)
 
+set(image_files_dir ${CMAKE_INSTALL_LIBDIR}/crt)
 configure_package_config_file(${CMAKE_CURRENT_LIST_DIR}/crtConfig.cmake.in
   ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
-  INSTALL_DESTINATION ${package_dir} NO_SET_AND_CHECK_MACRO)
+  INSTALL_DESTINATION ${package_dir} PATH_VARS image_files_dir NO_SET_AND_CHECK_MACRO)
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/package/crtConfigVersion.cmake
   COMPATIBILITY SameMajorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/package/crtConfig.cmake
@@ -64,8 +66,8 @@ foreach(library embree TBB::tbb fmt::fmt)
 endforeach()
 list(JOIN pc_directories " " pc_directories)
 string(CONCAT pc_private
-  "-lcrt_lang -lcrt_core ${pc_directories} -lembree${embree_VERSION_MAJOR} -ltbb -lfmt"
-  " -lstdc++ -lm -ldl -pthread")
+  "-lcrt_lang -lcrt_core ${pc_directories} -lembree${embree_VERSION_MAJOR} -ltbb -lfmt -lz"
+  " -lstdc++ -lm -ldl -pthread -Wl,-rpath,\${libdir}/crt")
 string(REPLACE "  " " " pc_private "${pc_private}")
 configure_file(${CMAKE_CURRENT_LIST_DIR}/crt.pc.in ${PROJECT_BINARY_DIR}/package/crt.pc @ONLY)
 install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc
@@ -73,9 +75,25 @@ install(FILES ${PROJECT_BINARY_DIR}/package/crt.pc
 
 if(CRT_BUILD_CLI)
   install(TARGETS crt RUNTIME DESTINATION ${CMAKE_INSTALL_BINDIR} COMPONENT command)
+  set(share ${PROJECT_BINARY_DIR}/share)
+  install(FILES ${share}/man/crt.1 DESTINATION ${CMAKE_INSTALL_MANDIR}/man1 COMPONENT command)
+  foreach(place "completions_bash/crt:bash-completion/completions"
+    "completions_zsh/_crt:zsh/site-functions"
+    "completions_fish/crt.fish:fish/vendor_completions.d")
+    string(REPLACE ":" ";" place "${place}")
+    list(GET place 0 file)
+    list(GET place 1 folder)
+    install(FILES ${share}/${file} DESTINATION ${CMAKE_INSTALL_DATADIR}/${folder}
+      COMPONENT command)
+  endforeach()
 endif()
 
+# The documentation keeps the folders of the source, so that its links lead to the examples and
+# pictures. tests/package/links_test.sh follows them.
 install(FILES ${PROJECT_SOURCE_DIR}/LICENSE ${PROJECT_SOURCE_DIR}/README.md
+  ${PROJECT_SOURCE_DIR}/CONTRIBUTING.md
   DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT development)
 install(DIRECTORY ${PROJECT_SOURCE_DIR}/docs DESTINATION ${CMAKE_INSTALL_DOCDIR}
-  COMPONENT development FILES_MATCHING PATTERN *.md PATTERN *.png)
+  COMPONENT development FILES_MATCHING PATTERN *.md PATTERN *.png PATTERN *.svg)
+install(DIRECTORY ${PROJECT_SOURCE_DIR}/examples DESTINATION ${CMAKE_INSTALL_DOCDIR}
+  COMPONENT development PATTERN __pycache__ EXCLUDE)

@@ -1,5 +1,5 @@
 // Functions that write files as the library does, for programs that write something beside a
-// picture.
+// picture, and functions that find out beforehand whether that will work.
 #pragma once
 
 #include <cstddef>
@@ -36,5 +36,10 @@ void write_file(const std::filesystem::path& path, std::string_view content);
 /// Finds out, before there is anything to write, whether write_file() can begin. Throws Error (io)
 /// where there is no folder, or neither it nor the file may be written. It changes nothing.
 void check_writable(const std::filesystem::path& path);
+
+/// Finds out, before there is a picture, whether Image::write() knows the format that the ending of
+/// this name says. If the picture will have Image::channels(), the format must hold them. It looks
+/// at the name alone, and loads nothing. Throws Error (unsupported).
+void check_picture_name(const std::filesystem::path& path, bool with_channels = false);
 
 }  // namespace crt

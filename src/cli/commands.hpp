@@ -4,8 +4,11 @@
 
 namespace crt::cli {
 
-/// Renders a script's picture, or those of an animation.
+/// Renders the pictures of scripts, or those of an animation.
 ExitCode run_render(const RenderRequest& request);
+
+/// Renders a script's picture again whenever something changes, until it is interrupted.
+ExitCode run_watch(const WatchRequest& request);
 
 /// Measures the accuracy and the time of a script's picture with different settings.
 ExitCode run_trade(const TradeRequest& request);
@@ -18,5 +21,10 @@ ExitCode run_format(const FormatRequest& request);
 
 /// Serves an editor on standard input and output, until it ends that.
 ExitCode run_lsp(const LspRequest& request);
+/// Prints the completions for a shell.
+ExitCode run_completions(const CompletionsRequest& request);
+
+/// Prints the manual page.
+ExitCode run_man(const ManRequest& request);
 
 }  // namespace crt::cli

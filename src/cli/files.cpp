@@ -2,11 +2,9 @@
 
 #include <fmt/format.h>
 
-#include <crt/error.hpp>
+#include <algorithm>
 #include <crt/file.hpp>
-#include <crt/image.hpp>
 #include <string>
-#include <vector>
 
 namespace crt::cli {
 
@@ -41,14 +39,6 @@ NumberPlace find_hashes(const std::string& name) {
   return {first, end - first, static_cast<int>(end - first)};
 }
 
-/// Makes a message about the file `name` one about the file `better_name`.
-std::string with_name(std::string message, const std::string& name,
-                      const std::string& better_name) {
-  const std::size_t position = message.find(name);
-  return position == std::string::npos ? message
-                                       : message.replace(position, name.size(), better_name);
-}
-
 }  // namespace
 
 fs::path frame_path(const fs::path& output, int frame) {
@@ -64,17 +54,8 @@ fs::path frame_path(const fs::path& output, int frame) {
 }
 
 void check_picture(const fs::path& picture, bool with_channels) {
+  check_picture_name(picture, with_channels);
   check_writable(picture);
-  Image image(1, 1);
-  if (with_channels) image.set_channels({{"Z", std::vector<float>{0}}});
-  const std::string name = picture.filename().string();
-  const std::size_t dot = name.rfind('.');
-  const std::string ending = dot == std::string::npos ? "" : name.substr(dot + 1);
-  try {
-    image.encode(ending);
-  } catch (const Error& error) {
-    throw Error(error.code(), with_name(error.what(), "picture." + ending, picture.string()));
-  }
 }
 
 }  // namespace crt::cli

@@ -19,6 +19,9 @@ struct Run {
   ExitCode operator()(const TradeRequest& request) const { return run_trade(request); }
   ExitCode operator()(const FormatRequest& request) const { return run_format(request); }
   ExitCode operator()(const LspRequest& request) const { return run_lsp(request); }
+  ExitCode operator()(const WatchRequest& request) const { return run_watch(request); }
+  ExitCode operator()(const CompletionsRequest& request) const { return run_completions(request); }
+  ExitCode operator()(const ManRequest& request) const { return run_man(request); }
   ExitCode operator()(ExitCode code) const { return code; }
 };
 

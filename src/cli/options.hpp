@@ -1,5 +1,6 @@
 // A request holds what a command line of `crt` asks for. options.cpp parses it, and is the only
-// source that includes CLI11. option_values.cpp gives the values their meaning.
+// source that includes CLI11. The options of each command are rows (option_table.hpp), which
+// option_values.cpp gives their meaning.
 #pragma once
 
 #include <crt/render.hpp>
@@ -9,6 +10,8 @@
 #include <string>
 #include <variant>
 #include <vector>
+
+#include "cli/command_description.hpp"
 
 namespace crt::cli {
 
@@ -30,22 +33,36 @@ struct FrameRange {
   int last = 0;
 };
 
-/// A CommonRequest holds what all commands take.
+/// As the name of a file, this is standard input or output.
+inline constexpr const char* standard_stream = "-";
+
+/// A CommonRequest holds what all commands take that run scripts.
 struct CommonRequest {
   ScriptOptions script;
   DiagnosticsFormat diagnostics = DiagnosticsFormat::text;
   bool quiet = false;
 };
 
-struct RenderRequest : CommonRequest {
-  std::filesystem::path scene;
-  std::filesystem::path output;
-  std::optional<FrameRange> frames;
+/// A PictureRequest holds what all commands take that make pictures.
+struct PictureRequest : CommonRequest {
+  std::filesystem::path output;  ///< empty: beside the script
   RenderOptions render;
   std::uint64_t max_primitives = 0;  ///< see PrepareOptions
+  bool reproducible = false;
+};
+
+struct RenderRequest : PictureRequest {
+  std::vector<std::filesystem::path> scenes;
+  std::optional<FrameRange> frames;
+  double frames_per_second = 24;      ///< of a film
+  std::filesystem::path keep_frames;  ///< the pictures of a film go into this folder, too
   /// Statistics go to this file, to standard output if it is "-", or nowhere if it is empty.
   std::string stats;
-  bool reproducible = false;
+  bool show = false;  ///< in the terminal
+};
+
+struct WatchRequest : PictureRequest {
+  std::filesystem::path scene;
 };
 
 struct CheckRequest : CommonRequest {
@@ -70,6 +87,10 @@ struct TradeRequest : CommonRequest {
   std::optional<double> error;
 };
 
+struct NewRequest : CommonRequest {
+  std::filesystem::path scene;
+};
+
 struct FormatRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;  ///< "-" stands for the standard streams
   bool check = false;
@@ -78,10 +99,22 @@ struct FormatRequest : CommonRequest {
 /// An LspRequest asks for the language server. All else is asked by its client.
 struct LspRequest {};
 
+/// Asks for the completions of all commands in a shell.
+struct CompletionsRequest {
+  std::string shell;  ///< bash, zsh or fish
+  CommandDescriptions commands;
+};
+
+/// Asks for the manual page.
+struct ManRequest {
+  CommandDescriptions commands;
+};
+
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, FormatRequest, LspRequest,
-                             ExitCode>;
+using Request =
+    std::variant<RenderRequest, WatchRequest, CheckRequest, TradeRequest, NewRequest, FormatRequest,
+                 LspRequest, CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

@@ -1,36 +1,24 @@
 #include <fmt/format.h>
+#include <unistd.h>
 
-#include <chrono>
 #include <crt/file.hpp>
 #include <crt/image.hpp>
-#include <crt/prepared_scene.hpp>
 #include <utility>
 
 #include "cli/commands.hpp"
 #include "cli/files.hpp"
+#include "cli/film.hpp"
 #include "cli/interrupt.hpp"
-#include "cli/progress.hpp"
-#include "cli/reporter.hpp"
+#include "cli/picture_renderer.hpp"
+#include "cli/render_plan.hpp"
 #include "cli/stats_json.hpp"
+#include "cli/terminal_picture.hpp"
 
 namespace crt::cli {
 
 namespace {
 
 namespace fs = std::filesystem;
-
-class Stopwatch {
- public:
-  double seconds() const { return std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  Clock::time_point start_ = Clock::now();
-};
-
-std::uint64_t all_rays(const RenderStats& stats) {
-  return stats.camera_rays + stats.shadow_rays + stats.reflection_rays + stats.refraction_rays;
-}
 
 /// Renders the pictures of one request, one after the other.
 class RenderJob {
@@ -39,118 +27,164 @@ class RenderJob {
       : request_(request), reporter_(request), style_(progress_style(request)) {}
 
   ExitCode run() {
-    try {
-      if (accept_output()) render_all();
-    } catch (const Error& error) {
-      reporter_.add(error);
+    if (request_.output == standard_stream && isatty(STDOUT_FILENO) != 0) {
+      reporter_.add(ErrorCode::invalid_argument,
+                    "standard output is a terminal, which shows no picture file: send it "
+                    "elsewhere, or use --show",
+                    ExitCode::usage);
+      return reporter_.finish();
     }
+    const auto pictures = plan_pictures(request_, reporter_);
+    if (!pictures) return reporter_.finish();
+    const InterruptScope interrupt;
+    interrupt_ = &interrupt;
+    bool all_done = true;
+    for (const PlannedPicture& picture : *pictures) {
+      all_done = render_planned(picture) && all_done;
+      if (interrupt.interrupted()) break;
+    }
+    if (all_done || (pictures->size() > 1 && !reports_.empty())) write_stats(pictures->size() > 1);
     return reporter_.finish();
   }
 
  private:
-  /// Says whether the picture can be written. If not, it reports that before any work is done.
-  bool accept_output() {
-    std::error_code unlike;
-    if (fs::equivalent(request_.scene, request_.output, unlike)) {
-      reporter_.add(
-          ErrorCode::invalid_argument,
-          fmt::format("the picture would overwrite its script '{}': name another file with -o",
-                      request_.scene.string()),
-          ExitCode::usage);
-      return false;
-    }
+  /// Makes a picture, or several frames. Returns false if that failed, which is then reported.
+  bool render_planned(const PlannedPicture& picture) {
     try {
-      check_picture(request_.output, request_.render.aovs != Aovs{});
-      if (!request_.stats.empty() && request_.stats != "-") check_writable(request_.stats);
-      if (!request_.render.checkpoint.empty()) check_writable(request_.render.checkpoint);
+      if (picture.is_film) return render_film(picture);
+      if (!request_.frames) return write_picture(picture, request_.script.t, std::nullopt);
+      for (int frame = request_.frames->first; frame <= request_.frames->last; ++frame) {
+        if (!write_picture(picture, frame, frame)) return false;
+      }
+      return true;
     } catch (const Error& error) {
-      const bool unknown_format = error.code() == ErrorCode::unsupported;
-      reporter_.add(error.code(), error.what(), unknown_format ? ExitCode::usage : ExitCode::files);
-      return false;
+      // What a file needs may be missing, which is known only when it is loaded.
+      if (error.code() == ErrorCode::unsupported) {
+        reporter_.add(error.code(), error.what(), ExitCode::files);
+      } else {
+        reporter_.add(error);
+      }
     }
+    return false;
+  }
+
+  /// Renders one picture, from script to file.
+  bool write_picture(const PlannedPicture& planned, double t, std::optional<int> frame) {
+    const fs::path output = frame ? frame_path(planned.output, *frame) : planned.output;
+    const bool to_stream = output == standard_stream;
+    const std::string name = to_stream ? "standard output" : output.string();
+    std::optional<Image> image = render_at(planned, t, name, output);
+    if (!image) return false;
+    const Stopwatch watch;
+    const WriteOptions options{.reproducible = request_.reproducible};
+    if (to_stream) {
+      const std::vector<std::byte> file = image->encode(usual_ending(request_) + 1, options);
+      reporter_.print({reinterpret_cast<const char*>(file.data()), file.size()},
+                      Reporter::IfClosed::fails);
+    } else {
+      image->write(output, options);
+    }
+    image->stats().write_seconds = watch.seconds();
+    finish(planned, *image, name, frame);
     return true;
   }
 
-  void render_all() {
-    if (!request_.frames) {
-      if (render_picture(request_.script.t, std::nullopt)) write_stats(to_json(reports_.front()));
-      return;
-    }
+  bool render_film(const PlannedPicture& planned) {
+    std::unique_ptr<Film> film;
+    FilmShape shape{.frames_per_second = request_.frames_per_second};
     for (int frame = request_.frames->first; frame <= request_.frames->last; ++frame) {
-      if (!render_picture(frame, frame)) return;
+      const std::string name = fmt::format("{} ({})", planned.output.string(), frame);
+      std::optional<Image> image = render_at(planned, frame, name, "frame.png");
+      if (!image) return false;
+      const Stopwatch watch;
+      if (!film) {
+        shape.width = image->width();
+        shape.height = image->height();
+        film = begin_film(planned.output, shape);
+      }
+      check_frame(*image, shape, frame);
+      film->add(film_frame(*image));
+      if (!request_.keep_frames.empty()) {
+        const fs::path kept = request_.keep_frames / planned.output.stem();
+        image->write(frame_path(kept.string() + ".png", frame),
+                     {.reproducible = request_.reproducible});
+      }
+      image->stats().write_seconds = watch.seconds();
+      finish(planned, *image, name, frame);
     }
-    write_stats(to_json(reports_));
-  }
-
-  /// Renders one picture, from script to file. Returns false if that failed, which is then
-  /// reported.
-  bool render_picture(double t, std::optional<int> frame) {
-    const Stopwatch parse_watch;
-    const std::optional<Scene> scene = run_scene(t);
-    const double parse_seconds = parse_watch.seconds();
-    if (!scene) return false;
-    const std::optional<Region>& region = request_.render.region;
-    if (region && !reporter_.accept_region(*region, scene->settings)) return false;
-
-    const fs::path output = frame ? frame_path(request_.output, *frame) : request_.output;
-    const InterruptScope interrupt;
-    Image image = trace(*scene, output.string(), interrupt);
-    for (const std::string& warning : std::exchange(warnings_, {})) reporter_.note(warning);
-    image.stats().parse_seconds = parse_seconds;
-    const Stopwatch write_watch;
-    image.write(output, {.reproducible = request_.reproducible});
-    image.stats().write_seconds = write_watch.seconds();
-
-    const RenderStats& stats = image.stats();
-    reporter_.note(fmt::format(
-        "{}: {} x {} pixels, {} rays, {:.2f} s", output.string(), image.width(), image.height(),
-        all_rays(stats),
-        stats.parse_seconds + stats.prepare_seconds + stats.trace_seconds + stats.write_seconds));
-    reports_.push_back({.script = request_.scene.string(),
-                        .output = output.string(),
-                        .frame = frame,
-                        .region = request_.render.region,
-                        .settings = image.settings(),
-                        .projection = scene->camera.projection,
-                        .stats = stats});
-    if (interrupt.interrupted()) throw Error(ErrorCode::cancelled, "interrupted");
+    film->finish();
+    reporter_.note(fmt::format("{}: {} frames, {:g} a second", planned.output.string(),
+                               request_.frames->last - request_.frames->first + 1,
+                               request_.frames_per_second));
     return true;
   }
 
-  std::optional<Scene> run_scene(double t) {
-    ScriptOptions options = request_.script;
-    options.t = t;
-    // Standard output belongs to the statistics if they are asked for there.
-    options.print = [this](std::string_view line) {
-      const std::string text = fmt::format("{}\n", line);
-      request_.stats == "-" ? reporter_.say(text) : reporter_.print(text);
-    };
-    ScriptResult result = run_script_file(request_.scene, options);
-    reporter_.add(result.diagnostics);
-    return std::move(result.scene);
+  static void check_frame(const Image& image, const FilmShape& shape, int frame) {
+    constexpr int longest_side = 65535;  // of a GIF
+    if (image.width() > longest_side || image.height() > longest_side)
+      throw Error(ErrorCode::invalid_argument, "a film has at most 65535 pixels across and down");
+    if (image.width() == shape.width && image.height() == shape.height) return;
+    throw Error(ErrorCode::invalid_argument,
+                fmt::format("the frames of a film have one size: that of frame {} has {} x {} "
+                            "pixels, and the first {} x {}",
+                            frame, image.width(), image.height(), shape.width, shape.height));
   }
 
-  Image trace(const Scene& scene, const std::string& name, const InterruptScope& interrupt) {
-    PrepareOptions how{.max_primitives = request_.max_primitives};
-    how.go_on = [&] { return !interrupt.interrupted(); };
-    RenderOptions options = request_.render;
-    options.log = [&](LogLevel level, std::string_view line) {
-      if (level == LogLevel::warning) warnings_.push_back(fmt::format("crt: warning: {}", line));
-    };
+  /// Returns the script's picture at a time, or nothing after a report. Throws Error (cancelled) if
+  /// it was interrupted.
+  std::optional<Image> render_at(const PlannedPicture& planned, double t, const std::string& name,
+                                 const fs::path& output) {
     try {
-      const PreparedScene prepared = prepare(scene, how);
-      Progress progress(name, style_);
-      options.progress = [&](double share) {
-        progress.update(share);
-        return !interrupt.interrupted();
-      };
-      Image image = render(prepared, options);
-      if (!interrupt.interrupted()) return image;
+      std::optional<Image> image = render_uninterrupted(planned, t, name, output);
+      if (!interrupt_->interrupted()) return image;
     } catch (const Error& error) {
       if (error.code() != ErrorCode::cancelled) throw;
     }
     throw Error(ErrorCode::cancelled,
-                fmt::format("interrupted: '{}' is not written{}", name, where_to_go_on()));
+                fmt::format("interrupted: '{}' is not written{}",
+                            planned.is_film ? planned.output.string() : name, where_to_go_on()));
+  }
+
+  std::optional<Image> render_uninterrupted(const PlannedPicture& planned, double t,
+                                            const std::string& name, const fs::path& output) {
+    const auto go_on = [this] { return !interrupt_->interrupted(); };
+    const Stopwatch watch;
+    ScriptOptions options = request_.script;
+    options.t = t;
+    options.go_on = go_on;
+    // Standard output belongs to what was asked for there.
+    const bool is_free = request_.stats != standard_stream && planned.output != standard_stream;
+    const std::optional<Scene> scene = run_scene(planned.script, options, is_free, reporter_);
+    const double parse_seconds = watch.seconds();
+    if (!scene) return std::nullopt;
+    const std::optional<Region>& region = request_.render.region;
+    if (region && !reporter_.accept_region(*region, scene->settings)) return std::nullopt;
+    projection_ = scene->camera.projection;
+    const PictureTask task{.request = request_,
+                           .picture = output == standard_stream ? usual_name() : output,
+                           .name = name,
+                           .style = style_,
+                           .go_on = go_on};
+    Image image = render_scene(*scene, task, reporter_);
+    image.stats().parse_seconds = parse_seconds;
+    return image;
+  }
+
+  fs::path usual_name() const { return std::string("picture") + usual_ending(request_); }
+
+  /// Reports a picture that is done.
+  void finish(const PlannedPicture& planned, const Image& image, const std::string& name,
+              std::optional<int> frame) {
+    if (request_.show) reporter_.print(terminal_picture(image));
+    reporter_.note(summary(name, image));
+    reports_.push_back({.script = planned.script.name(),
+                        .output = planned.is_film ? planned.output.string() : name,
+                        .frame = frame,
+                        .region = request_.render.region,
+                        .settings = image.settings(),
+                        .projection = projection_,
+                        .stats = image.stats()});
+    if (interrupt_->interrupted()) throw Error(ErrorCode::cancelled, "interrupted");
   }
 
   std::string where_to_go_on() const {
@@ -161,19 +195,26 @@ class RenderJob {
                        checkpoint.string());
   }
 
-  void write_stats(const std::string& json) {
-    if (request_.stats == "-") {
+  /// Writes one object for one picture, and a list for frames or several scripts.
+  void write_stats(bool several_scripts) try {
+    if (request_.stats.empty()) return;
+    const std::string json =
+        request_.frames || several_scripts ? to_json(reports_) : to_json(reports_.front());
+    if (request_.stats == standard_stream) {
       reporter_.print(json, Reporter::IfClosed::fails);
-    } else if (!request_.stats.empty()) {
+    } else {
       write_file(request_.stats, json);
     }
+  } catch (const Error& error) {
+    reporter_.add(error);
   }
 
   const RenderRequest& request_;
   Reporter reporter_;
   ProgressStyle style_;
+  const InterruptScope* interrupt_ = nullptr;
+  Projection projection_{};
   std::vector<PictureReport> reports_;
-  std::vector<std::string> warnings_;
 };
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "cli/interrupt.hpp"
 #include "cli/progress.hpp"
 #include "cli/reporter.hpp"
+#include "cli/script_source.hpp"
 #include "cli/trade_ladder.hpp"
 #include "cli/trade_measure.hpp"
 #include "cli/trade_report.hpp"
@@ -55,6 +56,13 @@ class Trade {
       : request_(request), reporter_(request), style_(progress_style(request)) {}
 
   ExitCode run() {
+    if (request_.scene == standard_stream && request_.output.empty()) {
+      reporter_.add(ErrorCode::invalid_argument,
+                    "a script from standard input has no name to call the table by: name it with "
+                    "-o",
+                    ExitCode::usage);
+      return reporter_.finish();
+    }
     try {
       check_writable(with_ending(".csv"));
       if (prepare_scene()) measure_and_tell();
@@ -69,6 +77,11 @@ class Trade {
 
   fs::path with_ending(const char* ending) const {
     fs::path path = request_.output;
+    if (path.empty()) {
+      path = request_.scene;
+      path.replace_extension();
+      path += "-trade";
+    }
     path += ending;
     return path;
   }
@@ -77,7 +90,7 @@ class Trade {
   bool prepare_scene() {
     ScriptOptions options = request_.script;
     options.print = [this](std::string_view line) { reporter_.say(fmt::format("{}\n", line)); };
-    ScriptResult result = run_script_file(request_.scene, options);
+    ScriptResult result = ScriptSource(request_.scene, options.limits).run(options);
     reporter_.add(result.diagnostics);
     if (!result.scene) return false;
     scene_ = std::move(*result.scene);

@@ -24,18 +24,18 @@ void require(bool fine, const char* what) {
   if (!fine) throw std::runtime_error(what);
 }
 
-/// Streams says where the three standard streams of a process go.
-struct Streams {
+/// Says where the three standard streams of a process go.
+struct ProcessStreams {
   posix_spawn_file_actions_t actions{};
 
-  explicit Streams(const fs::path& folder) {
+  explicit ProcessStreams(const fs::path& folder) {
     posix_spawn_file_actions_init(&actions);
     posix_spawn_file_actions_addchdir_np(&actions, folder.c_str());
     posix_spawn_file_actions_addopen(&actions, STDIN_FILENO, "/dev/null", O_RDONLY, 0);
   }
-  ~Streams() { posix_spawn_file_actions_destroy(&actions); }
-  Streams(const Streams&) = delete;
-  Streams& operator=(const Streams&) = delete;
+  ~ProcessStreams() { posix_spawn_file_actions_destroy(&actions); }
+  ProcessStreams(const ProcessStreams&) = delete;
+  ProcessStreams& operator=(const ProcessStreams&) = delete;
 
   void write_to(int stream, const char* file) {
     constexpr mode_t readable = 0600;
@@ -44,7 +44,7 @@ struct Streams {
   }
 };
 
-pid_t spawn_crt(const Streams& streams, const std::vector<std::string>& arguments,
+pid_t spawn_crt(const ProcessStreams& streams, const std::vector<std::string>& arguments,
                 const std::vector<std::string>& more_environment = {}) {
   std::vector<char*> words{const_cast<char*>("crt")};
   for (const std::string& argument : arguments)
@@ -108,12 +108,27 @@ Outcome run_crt(const TemporaryFolder& folder, const std::vector<std::string>& a
   return run_crt_into(folder, arguments, "", "");
 }
 
+Outcome run_crt_in(const Surroundings& surroundings, const TemporaryFolder& folder,
+                   const std::vector<std::string>& arguments) {
+  const TemporaryFolder files;
+  files.write("in", surroundings.input);
+  const std::string in = files.path() / "in";
+  const std::string out = files.path() / "out";
+  const std::string err = files.path() / "err";
+  ProcessStreams streams(folder.path());
+  posix_spawn_file_actions_addopen(&streams.actions, STDIN_FILENO, in.c_str(), O_RDONLY, 0);
+  streams.write_to(STDOUT_FILENO, out.c_str());
+  streams.write_to(STDERR_FILENO, err.c_str());
+  const int exit_code = exit_code_of(spawn_crt(streams, arguments, surroundings.environment));
+  return {exit_code, content_of(out), content_of(err)};
+}
+
 Outcome run_crt_into(const TemporaryFolder& folder, const std::vector<std::string>& arguments,
                      const std::string& out, const std::string& err) {
   const TemporaryFolder outputs;
   const std::string out_file = outputs.path() / "out";
   const std::string err_file = outputs.path() / "err";
-  Streams streams(folder.path());
+  ProcessStreams streams(folder.path());
   streams.write_to(STDOUT_FILENO, (out.empty() ? out_file : out).c_str());
   streams.write_to(STDERR_FILENO, (err.empty() ? err_file : err).c_str());
   const int exit_code = exit_code_of(spawn_crt(streams, arguments));
@@ -124,7 +139,7 @@ Outcome run_crt_without_output(const TemporaryFolder& folder,
                                const std::vector<std::string>& arguments) {
   const TemporaryFolder outputs;
   const std::string err = outputs.path() / "err";
-  Streams streams(folder.path());
+  ProcessStreams streams(folder.path());
   posix_spawn_file_actions_addclose(&streams.actions, STDOUT_FILENO);
   streams.write_to(STDERR_FILENO, err.c_str());
   const int exit_code = exit_code_of(spawn_crt(streams, arguments));
@@ -132,7 +147,7 @@ Outcome run_crt_without_output(const TemporaryFolder& folder,
 }
 
 int run_crt_unheard(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
-  Streams streams(folder.path());
+  ProcessStreams streams(folder.path());
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO}) {
     posix_spawn_file_actions_addclose(&streams.actions, stream);
   }
@@ -146,47 +161,64 @@ bool has_terminals() {
 }
 
 CrtOnTerminal::CrtOnTerminal(const TemporaryFolder& folder,
-                             const std::vector<std::string>& arguments) {
-  terminal_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
-  require(terminal_ >= 0 && grantpt(terminal_) == 0 && unlockpt(terminal_) == 0,
+                             const std::vector<std::string>& arguments, Streams on_terminal,
+                             const std::vector<std::string>& environment) {
+  from_crt_ = posix_openpt(O_RDWR | O_NOCTTY | O_CLOEXEC);
+  require(from_crt_ >= 0 && grantpt(from_crt_) == 0 && unlockpt(from_crt_) == 0,
           "cannot open a terminal");
-  const std::string other_end = ptsname(terminal_);
-  Streams streams(folder.path());
-  streams.write_to(STDOUT_FILENO, "/dev/null");
+  const std::string other_end = ptsname(from_crt_);
+  ProcessStreams streams(folder.path());
+  if (on_terminal == Streams::all) {
+    posix_spawn_file_actions_addopen(&streams.actions, STDOUT_FILENO, other_end.c_str(),
+                                     O_RDWR | O_NOCTTY, 0);
+  } else {
+    streams.write_to(STDOUT_FILENO, "/dev/null");
+  }
   posix_spawn_file_actions_addopen(&streams.actions, STDERR_FILENO, other_end.c_str(),
                                    O_RDWR | O_NOCTTY, 0);
-  process_ = spawn_crt(streams, arguments, {"TERM=xterm"});
+  process_ = spawn_crt(streams, arguments, environment);
 }
 
-CrtOnTerminal::~CrtOnTerminal() {
+CrtOnPipe::CrtOnPipe(const TemporaryFolder& folder, const std::vector<std::string>& arguments) {
+  int ends[2] = {};
+  require(pipe2(ends, O_CLOEXEC) == 0, "cannot make a pipe");
+  from_crt_ = ends[0];
+  ProcessStreams streams(folder.path());
+  streams.write_to(STDOUT_FILENO, "/dev/null");
+  posix_spawn_file_actions_adddup2(&streams.actions, ends[1], STDERR_FILENO);
+  process_ = spawn_crt(streams, arguments);
+  close(ends[1]);
+}
+
+RunningCrt::~RunningCrt() {
   if (process_ != 0) {
     send(SIGKILL);
     waitpid(process_, nullptr, 0);
   }
-  close(terminal_);
+  close(from_crt_);
 }
 
-bool CrtOnTerminal::read_more() {
+bool RunningCrt::read_more() {
   char buffer[4096];
   // Reading fails once the process has ended and closed its end.
-  const ssize_t count = read(terminal_, buffer, sizeof buffer);
+  const ssize_t count = read(from_crt_, buffer, sizeof buffer);
   if (count <= 0) return false;
   shown_.append(buffer, static_cast<std::size_t>(count));
   return true;
 }
 
-bool CrtOnTerminal::shows(const std::string& text) {
+bool RunningCrt::shows(const std::string& text) {
   while (shown_.find(text) == std::string::npos) {
     if (!read_more()) return false;
   }
   return true;
 }
 
-void CrtOnTerminal::send(int signal) const {
+void RunningCrt::send(int signal) const {
   kill(process_, signal);
 }
 
-int CrtOnTerminal::wait() {
+int RunningCrt::wait() {
   while (read_more()) {
   }
   const int exit_code = exit_code_of(process_);

@@ -178,6 +178,7 @@ only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel |
   complain "TBB outside src/core/tasks and src/core/accel"
 only_in 'png\.h' python/native | complain "libpng outside python/native"
+only_in 'zlib' src/core/image | complain "zlib outside src/core/image"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"

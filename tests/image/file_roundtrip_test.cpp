@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <string>
@@ -94,6 +95,24 @@ TEST_CASE("PNG and TIFF keep every level at every alpha") {
     CHECK(read.to_rgba8() == image.to_rgba8());
     CHECK(difference(read, image) < 1e-6);
   }
+}
+
+TEST_CASE("PNG keeps noise, which takes several chunks, and rows that only differ from the left") {
+  Image noise(300, 200);
+  std::uint32_t state = 1;
+  for (float& value : noise.pixels()) {
+    state = state * 1664525u + 1013904223u;  // Numerical Recipes, section 7.1
+    value = static_cast<float>(state >> 24) / 255.0f;
+  }
+  for (std::size_t alpha = 3; alpha < noise.pixels().size(); alpha += 4) noise.pixels()[alpha] = 1;
+  Image stripes(300, 200);
+  for (int y = 0; y < 200; ++y)
+    for (int x = 0; x < 300; ++x) stripes.set(x, y, {x / 300.0, 0.5, x % 2 == 0 ? 1.0 : 0.0});
+  for (const Image& image : {noise, stripes}) {
+    CHECK(round_trip(image, "a.png").to_rgba8() == image.to_rgba8());
+  }
+  CHECK(noise.encode("png").size() > std::size_t{2} << 16);
+  CHECK(stripes.encode("png").size() < 300 * 200 / 10);
 }
 
 TEST_CASE("formats without an alpha get the colour in front of black") {

@@ -11,6 +11,7 @@
 
 #include "core/base/whole_file.hpp"
 #include "crt/error.hpp"
+#include "crt/file.hpp"
 #include "crt/image.hpp"
 #include "picture_files.hpp"
 
@@ -48,6 +49,24 @@ TEST_CASE("a name without a known ending is unsupported, and the message lists t
     CHECK(contains(error.message, "png, tif"));
   }
   CHECK(directory.entries() == 0);
+}
+
+TEST_CASE("a name is checked before there is a picture, for channels too") {
+  check_picture_name("a.png");
+  check_picture_name("folder.jpg/a.exr", true);
+  for (const auto& refused :
+       {std::pair{"a.xyz", false}, std::pair{"png", false}, std::pair{"a.png", true}}) {
+    const std::string name = refused.first;
+    CAPTURE(name);
+    try {
+      check_picture_name(name, refused.second);
+      FAIL("nothing was thrown");
+    } catch (const Error& error) {
+      CHECK(error.code() == ErrorCode::unsupported);
+      CHECK(contains(error.what(), "'" + name + "'"));
+      CHECK(contains(error.what(), "exr"));
+    }
+  }
 }
 
 TEST_CASE("a picture without pixels cannot be written") {

@@ -16,12 +16,14 @@ expect_png() {
   [[ $(od -An -tx1 -N8 "$1" | tr -d ' ') == 89504e470d0a1a0a ]] || fail "$1 is no PNG file"
 }
 
-# run_program COMMAND... has a consumer write program.png in its folder, with an environment of its
-# own.
+# run_program COMMAND... has a consumer write program.png and program.tif in its folder, with an
+# environment of its own. The second needs the module for image files.
 run_program() {
-  rm -f program.png
+  rm -f program.png program.tif
   env -u LD_LIBRARY_PATH "$@" "$PWD/program.png"
   expect_png program.png
+  env -u LD_LIBRARY_PATH "$@" "$PWD/program.tif"
+  [[ $(od -An -tx1 -N4 program.tif | tr -d ' ') == 49492a00 ]] || fail "program.tif is no TIFF file"
 }
 
 [[ -z ${UNFIT:-} ]] || skip "$UNFIT"

@@ -32,13 +32,19 @@ with_pkg_config() {
 
 # This stands for a machine that has libcrt-dev and none of what the C++ libraries need.
 without_dependencies=()
-for package in glm fmt TBB embree OpenImageIO Threads; do
+for package in glm fmt TBB embree ZLIB OpenImageIO Threads; do
   without_dependencies+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 
 case $kind in
-  cmake) with_cmake c "$moved" "${without_dependencies[@]}" ;;
+  cmake)
+    with_cmake c "$moved" "${without_dependencies[@]}"
+    tr -s '[:space:]' ' ' <configure.log |
+      grep -qF 'find_package(crt COMPONENTS core lang static)' ||
+      fail "nothing says how to ask for the other targets: $(cat configure.log)"
+    ;;
   cmake_cpp) with_cmake cpp "$moved" ;;
+  cmake_whole) with_cmake whole "$moved" ;;
   cmake_static) with_cmake c "$moved" -DSTATIC=ON ;;
   cmake_static_only) with_cmake c "$static_only" ;;
   pkg_config)
@@ -47,7 +53,6 @@ case $kind in
     ;;
   pkg_config_static)
     with_pkg_config "$static_only" --static
-    ln -s "$static_only/$LIBDIR/crt" crt
     run_program ./program
     ;;
   subdirectory)
@@ -63,7 +68,7 @@ case $kind in
   *) fail "no kind $kind" ;;
 esac
 
-if [[ $kind == *static* || $kind == *cpp ]]; then
+if [[ $kind == *static* || $kind == *cpp || $kind == *whole ]]; then
   ! readelf -d program | grep -F libcrt || fail "the program was to have libcrt in it"
 else
   readelf -d program | grep -qF 'NEEDED' || fail "the program has no libraries"

@@ -47,7 +47,8 @@ major=${library#libcrt}
 expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libfmt' 'libopenimageio' 'libc6' \
   'libstdc\+\+6'
 expect_field libcrt-dev Depends "^$library \(= [0-9.]+\)$"
-expect_field libcrt-dev Recommends libglm-dev libfmt-dev libtbb-dev libembree-dev
+expect_field libcrt-dev Recommends libglm-dev libfmt-dev libtbb-dev libembree-dev \
+  zlib1g-dev
 expect_field crt Depends "$library \(= [0-9.]+\)" 'libembree' 'libtbb12' 'libc6'
 expect_field "$library" Description '^ray tracer .*library'
 expect_field libcrt-dev Description '^ray tracer .*development'
@@ -63,7 +64,9 @@ expect_files "$library" "$lib/libcrt\\.so\\.$major(\\.[0-9.]+)?" "$lib/crt/crt_i
   "$doc/$library/copyright"
 expect_files libcrt-dev '\./usr/include/crt/[a-z_]+\.(h|hpp)' "$lib/libcrt(_core|_lang|)\\.(so|a)" \
   "$lib/cmake/crt/.*\\.cmake" "$lib/pkgconfig/crt\\.pc" "$doc/crt/.*" "$doc/libcrt-dev/copyright"
-expect_files crt '\./usr/bin/crt' "$doc/crt/copyright"
+expect_files crt '\./usr/bin/crt' '\./usr/share/man/man1/crt\.1' \
+  '\./usr/share/bash-completion/completions/crt' '\./usr/share/zsh/site-functions/_crt' \
+  '\./usr/share/fish/vendor_completions\.d/crt\.fish' "$doc/crt/copyright"
 
 for deb in *.deb; do dpkg-deb -x "$deb" root; done
 for binary in "root/usr/bin/crt" "root/usr/$LIBDIR/libcrt.so" \

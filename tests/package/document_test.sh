@@ -29,7 +29,6 @@ for piece in "$work"/*.cmake; do
   projects=$((projects + 1))
   prepare "project_$projects"
   cat "$piece" >CMakeLists.txt
-  ! grep -q 'COMPONENTS' "$piece" || cat "$work/$module" >>CMakeLists.txt
   cmake -S . -B . -DCMAKE_PREFIX_PATH="$moved" \
     -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" \
     -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli >configure.log 2>&1 ||
@@ -39,13 +38,21 @@ for piece in "$work"/*.cmake; do
 done
 ((projects == 3)) || fail "$projects CMake projects in the document, not 3"
 
+# A C++ program brings the module along.
+prepare with_module
+cat "$(grep -l 'COMPONENTS core' "$work"/*.cmake)" "$work/$module" >CMakeLists.txt
+cmake -S . -B . -DCMAKE_PREFIX_PATH="$moved" -DCMAKE_CXX_COMPILER="$CXX" \
+  -DCMAKE_BUILD_TYPE=Release --no-warn-unused-cli >configure.log 2>&1 || fail "$(cat configure.log)"
+cmake --build . >build.log 2>&1 || fail "$(cat build.log)"
+[[ -e crt/crt_image_files.so ]] || fail "the module does not come along"
+run_program ./my_program
+
 lines=0
 while IFS= read -r line; do
   lines=$((lines + 1))
   prepare "line_$lines"
   tree=$moved
   [[ $line != *--static* ]] || tree=$static_only
-  ln -s "$tree/$LIBDIR/crt" crt
   PKG_CONFIG_PATH=$tree/$LIBDIR/pkgconfig bash -euc "$line" || fail "$line"
   run_program LD_LIBRARY_PATH="$tree/$LIBDIR" ./my_program
 done < <(cat "$work"/*.sh | grep '^cc ')

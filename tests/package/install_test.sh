@@ -45,7 +45,8 @@ expect runtime "$LIBDIR/libcrt.so.1" "$LIBDIR/crt/crt_image_files.so"
 expect development include/crt/crt.h include/crt/crt.hpp "$LIBDIR/libcrt.so" \
   "$LIBDIR"/libcrt{,_core,_lang}.a share/doc/crt/LICENSE "$LIBDIR/pkgconfig/crt.pc" \
   "$LIBDIR/cmake/crt/crtConfig.cmake"
-expect command bin/crt
+expect command bin/crt share/man/man1/crt.1 share/bash-completion/completions/crt \
+  share/zsh/site-functions/_crt share/fish/vendor_completions.d/crt.fish
 diff <(files_in "$SOURCE/include") <(files_in "$moved/include") ||
   fail "not the headers of the source"
 
@@ -62,11 +63,27 @@ done
 [[ $BUILD_TYPE == *Deb* ]] || ! grep -rlF -e "$BUILD/" -e "$SOURCE/" "$moved" ||
   fail "they name folders of this build"
 
+# README.md installs for a user alone.
+line=$(grep -m 1 -oE '^cmake --install build/release [^#]*' "$SOURCE/README.md") ||
+  fail "README.md installs nothing"
+HOME=$WORK/home bash -euc "${line/build\/release/\"\$BUILD\"}" >"$WORK/install.log" ||
+  fail "$(cat "$WORK/install.log")"
+diff -r "$moved" "$WORK/home/.local" || fail "README.md installs something else"
+
+# docs/installing.md has a table of what lies where.
+row='^| [[:punct:]]\([^ ]*\)[[:punct:]] | [a-z]* |.*'
+documented=$(sed -n "s/$row/\\1/p" "$SOURCE/docs/installing.md")
+[[ $(wc -l <<<"$documented") -ge 10 ]] || fail "docs/installing.md has no table of files"
+while IFS= read -r file; do
+  [[ -e $moved/${file/#LIB\//$LIBDIR/} ]] ||
+    fail "docs/installing.md names $file, which is not there"
+done <<<"$documented"
+
 # The command finds its module relative to itself.
 cd "$WORK"
 echo 'Scene { Sphere { center -> vec3(0, 0, 2) radius -> 1 } }' >sphere.crt
-env -i "$moved/bin/crt" render sphere.crt -o sphere.png --width 64 --height 48 --quiet
-expect_png sphere.png
+env -i "$moved/bin/crt" render sphere.crt -o sphere.jpg --width 64 --height 48 --quiet
+[[ $(od -An -tx1 -N3 sphere.jpg | tr -d ' ') == ffd8ff ]] || fail "sphere.jpg is no JPEG file"
 
 # This is what a build with BUILD_SHARED_LIBS=OFF installs.
 cp -a "$moved" "$static_only"

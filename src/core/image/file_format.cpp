@@ -8,7 +8,12 @@ namespace crt::core {
 namespace {
 
 constexpr std::array<WritableFormat, 9> writable_formats = {{
-    {.ending = "png", .name = "png", .floats = false, .alpha = true, .free_texts = true},
+    {.ending = "png",
+     .name = "png",
+     .floats = false,
+     .alpha = true,
+     .free_texts = true,
+     .built_in = true},
     {.ending = "tif", .name = "tiff", .floats = false, .alpha = true, .free_texts = false},
     {.ending = "tiff", .name = "tiff", .floats = false, .alpha = true, .free_texts = false},
     {.ending = "jpg", .name = "jpeg", .floats = false, .alpha = false, .free_texts = false},

@@ -16,6 +16,7 @@ struct WritableFormat {
   bool alpha;               ///< can hold one
   bool free_texts;          ///< takes texts under any name
   bool channels = false;    ///< holds channels beside the colours
+  bool built_in = false;    ///< is written without OpenImageIO
 };
 
 /// Returns the format for a file name, by its ending in any case, or null if there is none.

@@ -14,8 +14,10 @@
 #include "core/image/image_limits.hpp"
 #include "core/image/module_loader.hpp"
 #include "core/image/pixel_conversion.hpp"
+#include "core/image/png_writer.hpp"
 #include "core/shading/not_finite.hpp"
 #include "crt/error.hpp"
+#include "crt/file.hpp"
 #include "crt/image.hpp"
 
 namespace crt {
@@ -130,6 +132,13 @@ std::vector<std::byte> encode(const Image& image, const WritableFormat& format,
     with_alpha = format.alpha && has_partial_alpha(bytes, std::uint8_t{255});
     if (!with_alpha) bytes = without_alpha(bytes);
   }
+  if (format.built_in) {
+    return png_file({.width = image.width(),
+                     .height = image.height(),
+                     .channels = with_alpha ? 4 : 3,
+                     .bytes = bytes},
+                    texts);
+  }
   std::vector<ImageFileText> file_texts;
   for (const auto& [text_name, value] : texts)
     file_texts.push_back({text_name.c_str(), value.c_str()});
@@ -172,18 +181,25 @@ void check_channels(const Image& image, const WritableFormat& format, const std:
            endings_with_channels()));
 }
 
-/// Returns the bytes of a file of a format. `name` is for messages.
-std::vector<std::byte> file_bytes(const Image& image, const WritableFormat* format,
-                                  const WriteOptions& options, const std::string& name) {
-  if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
+/// Returns the format for a file name. Throws Error (unsupported) if there is none.
+const WritableFormat& format_for(const std::string& file_name, const std::string& name) {
+  const WritableFormat* const format = writable_format(file_name);
   if (format == nullptr) {
     fail(ErrorCode::unsupported, "write", name,
          "the name must end in one of " + writable_endings());
   }
-  if (!options.colors_only) check_channels(image, *format, name);
+  return *format;
+}
+
+/// Returns the bytes of a file whose name says its format. `name` is for messages.
+std::vector<std::byte> file_bytes(const Image& image, const std::string& file_name,
+                                  const WriteOptions& options, const std::string& name) {
+  if (image.empty()) fail(ErrorCode::invalid_argument, "write", name, "the picture has no pixels");
+  const WritableFormat& format = format_for(file_name, name);
+  if (!options.colors_only) check_channels(image, format, name);
   const FileTexts texts = file_texts(image, options.reproducible);
   return encode(
-      image, *format, format->free_texts ? texts : gathered_texts(texts),
+      image, format, format.free_texts ? texts : gathered_texts(texts),
       options.colors_only ? std::vector<ImageFileChannel>() : file_channels(image.channels()),
       name);
 }
@@ -209,17 +225,25 @@ Image Image::read(const std::filesystem::path& path) {
 void Image::write(const std::filesystem::path& path, const WriteOptions& options) const {
   const std::string name = path.string();
   try {
-    write_whole_file(path,
-                     file_bytes(*this, writable_format(path.filename().string()), options, name));
+    write_whole_file(path, file_bytes(*this, path.filename().string(), options, name));
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "write", name, "out of memory");
   }
 }
 
+void check_picture_name(const std::filesystem::path& path, bool with_channels) {
+  const std::string name = path.string();
+  if (format_for(path.filename().string(), name).channels || !with_channels) return;
+  fail(ErrorCode::unsupported, "write", name,
+       fmt::format("a file of this format holds colours alone and no channels beside them; the "
+                   "name must end in {}",
+                   endings_with_channels()));
+}
+
 std::vector<std::byte> Image::encode(std::string_view format, const WriteOptions& options) const {
   const std::string name = fmt::format("picture.{}", format);
   try {
-    return file_bytes(*this, writable_format(name), options, name);
+    return file_bytes(*this, name, options, name);
   } catch (const std::bad_alloc&) {
     fail(ErrorCode::out_of_memory, "write", name, "out of memory");
   }

@@ -4,6 +4,9 @@
 #include <fmt/format.h>
 #include <link.h>
 
+#include <cstddef>
+#include <optional>
+#include <sstream>
 #include <string>
 #include <system_error>
 
@@ -15,8 +18,36 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Returns the file of the program or shared library that this code was linked into.
-fs::path containing_binary() {
+/// A Binary is a program or shared library.
+struct Binary {
+  fs::path file;
+  std::vector<fs::path> run_path;  ///< where it wants its libraries to be looked for
+};
+
+/// Returns what the linker's option -rpath said when the binary was made. The CMake package and
+/// crt.pc use it to name the module's directory to programs with the static library in them.
+std::vector<fs::path> run_path_of(const link_map& map) {
+  const char* names = nullptr;
+  std::optional<std::size_t> place;
+  for (const ElfW(Dyn)* entry = map.l_ld; entry->d_tag != DT_NULL; ++entry) {
+    if (entry->d_tag == DT_STRTAB) {
+      // NOLINTNEXTLINE(performance-no-int-to-ptr): the loader has addresses as numbers
+      names = reinterpret_cast<const char*>(entry->d_un.d_ptr);
+    }
+    if (entry->d_tag == DT_RUNPATH || entry->d_tag == DT_RPATH) place = entry->d_un.d_val;
+  }
+  std::vector<fs::path> directories;
+  if (names == nullptr || !place) return directories;
+  std::istringstream run_path(names + *place);
+  for (std::string directory; std::getline(run_path, directory, ':');) {
+    // What is relative to the binary is looked at anyway.
+    if (directory.starts_with('/')) directories.emplace_back(directory);
+  }
+  return directories;
+}
+
+/// Returns the program or shared library that this code was linked into.
+Binary containing_binary() {
   // Any object of this file will do as the address.
   static const char place = 0;
   Dl_info info{};
@@ -27,7 +58,9 @@ fs::path containing_binary() {
   std::error_code error;
   // The loader knows the program itself by no name (or by however it was called).
   const bool is_program = map->l_name == nullptr || map->l_name[0] == 0;
-  return is_program ? fs::read_symlink("/proc/self/exe", error) : fs::canonical(map->l_name, error);
+  return {
+      is_program ? fs::read_symlink("/proc/self/exe", error) : fs::canonical(map->l_name, error),
+      run_path_of(*map)};
 }
 
 /// Returns the module in this file, or null with the reason added to `reasons`.
@@ -60,13 +93,14 @@ const ImageFiles* try_load(const fs::path& file, std::string& reasons) {
 
 std::vector<fs::path> image_files_directories() {
   std::vector<fs::path> directories;
-  const fs::path binary = containing_binary();
-  if (!binary.empty()) {
-    const fs::path home = binary.parent_path();
+  const Binary binary = containing_binary();
+  if (!binary.file.empty()) {
+    const fs::path home = binary.file.parent_path();
     directories.push_back(home.parent_path() / "lib" / "crt");
     directories.push_back(home / "crt");
     directories.push_back(home.parent_path() / "lib" / CRT_MULTIARCH / "crt");
   }
+  directories.insert(directories.end(), binary.run_path.begin(), binary.run_path.end());
 #ifdef CRT_IMAGE_FILES_BUILD_DIR
   directories.emplace_back(CRT_IMAGE_FILES_BUILD_DIR);
 #endif

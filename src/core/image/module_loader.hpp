@@ -10,8 +10,8 @@
 namespace crt::core {
 
 /// Returns where the module may be, the likeliest first. It may be near the program or library that
-/// this code is in, in the build tree if CRT is part of another project, or where it gets
-/// installed.
+/// this code is in, in a directory of its run path, in the build tree if CRT is part of another
+/// project, or where it gets installed.
 std::vector<std::filesystem::path> image_files_directories();
 
 /// Loads the module from the first directory that has it. Throws Error (unsupported) with where it

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "core/image/module_loader.hpp"
+#include "crt/file.hpp"
 #include "crt/image.hpp"
 #include "image/picture_files.hpp"
 
@@ -24,9 +25,11 @@ long threads() {
 
 }  // namespace
 
-TEST_CASE("OpenImageIO is loaded by the first image file and not before, and starts no threads") {
+TEST_CASE("OpenImageIO is loaded by the first file that needs it, and starts no threads") {
   crt::Image image = smooth_picture(300, 300, true);
   CHECK(image.to_rgba8().size() == 4 * 300 * 300);
+  CHECK(image.encode("png").size() > 300);
+  crt::check_picture_name("a.exr", true);
   CHECK_FALSE(is_loaded("libOpenImageIO"));
   CHECK_FALSE(is_loaded("libOpenEXR"));
 

@@ -1,0 +1,144 @@
+#include "cli/ffmpeg_film.hpp"
+
+#include <fcntl.h>
+#include <fmt/format.h>
+#include <spawn.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <crt/error.hpp>
+#include <csignal>
+#include <cstdlib>
+#include <sstream>
+#include <system_error>
+#include <utility>
+
+extern char** environ;  // NOLINT: POSIX has no header for it
+
+namespace crt::cli {
+
+namespace {
+
+namespace fs = std::filesystem;
+
+std::vector<std::string> arguments_for(const std::string& ending, const FilmShape& shape,
+                                       const fs::path& output) {
+  std::vector<std::string> words = {"ffmpeg", "-loglevel", "error", "-y"};
+  const auto add = [&](std::initializer_list<std::string> more) {
+    words.insert(words.end(), more);
+  };
+  add({"-f", "rawvideo", "-pixel_format", "rgb24"});
+  add({"-video_size", fmt::format("{}x{}", shape.width, shape.height)});
+  add({"-framerate", fmt::format("{}", shape.frames_per_second), "-i", "-"});
+  if (ending == ".mp4") {
+    // What all players take has colours for 2 x 2 pixels, and so sides that are even.
+    add({"-vf", "pad=ceil(iw/2)*2:ceil(ih/2)*2", "-pix_fmt", "yuv420p"});
+    add({"-c:v", "libx264", "-crf", "16", "-movflags", "+faststart"});
+  } else {
+    add({"-c:v", "libwebp", "-quality", "90", "-loop", "0"});
+  }
+  // An absolute path is taken for no option and no protocol.
+  add({fs::absolute(output).string()});
+  return words;
+}
+
+/// Starts a program that reads from a pipe. Returns the error number, or 0.
+int start(const fs::path& program, std::vector<std::string> words, int& process, int& pipe_end) {
+  int ends[2] = {};
+  if (pipe2(ends, O_CLOEXEC) != 0) return errno;
+  posix_spawn_file_actions_t streams;
+  posix_spawn_file_actions_init(&streams);
+  posix_spawn_file_actions_adddup2(&streams, ends[0], STDIN_FILENO);
+  posix_spawn_file_actions_adddup2(&streams, STDERR_FILENO, STDOUT_FILENO);
+  // An interrupt is for this program, which ends the other. Pipes are handled as usual there.
+  posix_spawnattr_t attributes;
+  posix_spawnattr_init(&attributes);
+  sigset_t usual;
+  sigemptyset(&usual);
+  sigaddset(&usual, SIGPIPE);
+  posix_spawnattr_setsigdefault(&attributes, &usual);
+  posix_spawnattr_setpgroup(&attributes, 0);
+  posix_spawnattr_setflags(&attributes, POSIX_SPAWN_SETSIGDEF | POSIX_SPAWN_SETPGROUP);
+  std::vector<char*> pointers;
+  pointers.reserve(words.size() + 1);
+  for (std::string& word : words) pointers.push_back(word.data());
+  pointers.push_back(nullptr);
+  const int error =
+      posix_spawn(&process, program.c_str(), &streams, &attributes, pointers.data(), environ);
+  posix_spawnattr_destroy(&attributes);
+  posix_spawn_file_actions_destroy(&streams);
+  close(ends[0]);
+  if (error != 0) {
+    close(ends[1]);
+    return error;
+  }
+  pipe_end = ends[1];
+  return 0;
+}
+
+}  // namespace
+
+fs::path find_ffmpeg() {
+  const char* const path = std::getenv("PATH");
+  std::istringstream folders(path == nullptr ? "" : path);
+  for (std::string folder; std::getline(folders, folder, ':');) {
+    fs::path program = fs::path(folder) / "ffmpeg";
+    if (!folder.empty() && access(program.c_str(), X_OK) == 0) return program;
+  }
+  return {};
+}
+
+FfmpegFilm::FfmpegFilm(fs::path file, const std::string& ending, const FilmShape& shape)
+    : file_(std::move(file)) {
+  unfinished_ = file_.parent_path() / fmt::format(".crt-{}{}", getpid(), ending);
+  const int error =
+      start(find_ffmpeg(), arguments_for(ending, shape, unfinished_), process_, frames_);
+  if (error == 0) return;
+  process_ = 0;
+  fail("ffmpeg does not start: " + std::generic_category().message(error));
+}
+
+FfmpegFilm::~FfmpegFilm() {
+  close_frames();
+  if (process_ == 0) return;
+  kill(process_, SIGKILL);
+  waitpid(process_, nullptr, 0);
+  std::error_code ignored;
+  fs::remove(unfinished_, ignored);
+}
+
+void FfmpegFilm::add(const std::vector<std::uint8_t>& rgb) {
+  std::size_t written = 0;
+  while (written < rgb.size()) {
+    const ssize_t count = write(frames_, rgb.data() + written, rgb.size() - written);
+    if (count > 0) written += static_cast<std::size_t>(count);
+    if (count < 0 && errno != EINTR) fail("ffmpeg takes no more frames");
+  }
+}
+
+void FfmpegFilm::finish() {
+  close_frames();
+  int status = 0;
+  while (waitpid(process_, &status, 0) < 0 && errno == EINTR) {
+  }
+  process_ = 0;
+  std::error_code failed;
+  if (!WIFEXITED(status) || WEXITSTATUS(status) != 0) {
+    fs::remove(unfinished_, failed);
+    fail("ffmpeg ended without success");
+  }
+  fs::rename(unfinished_, file_, failed);
+  if (failed) fail(failed.message());
+}
+
+void FfmpegFilm::close_frames() {
+  if (frames_ >= 0) close(frames_);
+  frames_ = -1;
+}
+
+void FfmpegFilm::fail(const std::string& reason) const {
+  throw Error(ErrorCode::io, fmt::format("cannot write '{}': {}", file_.string(), reason));
+}
+
+}  // namespace crt::cli

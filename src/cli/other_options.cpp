@@ -1,0 +1,187 @@
+// The options of `crt trade`, `crt check`, `crt new`, `crt format`, `crt lsp` and the commands about
+// the command itself.
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "cli/option_table.hpp"
+#include "cli/option_values.hpp"
+
+namespace crt::cli {
+
+namespace {
+
+constexpr std::string_view trade_footer =
+    R"(Renders the scene with a ladder of settings (supersampling 1 to 16, target errors, recursion
+depths, exact precision), compares each with a reference that is far more accurate, and writes a
+table (.csv) and a plot (.svg) of seconds against the error: its root mean square, and what 99.9 %
+of the pixels stay below, in steps of an 8-bit picture. By default it measures bands of the picture
+with about 30000 pixels together; all seconds are those that the whole picture would take.
+
+Examples:
+  crt trade scene.crt                      scene-trade.csv and scene-trade.svg
+  crt trade scene.crt --budget 10          and the most accurate setting for 10 seconds a picture
+  crt trade scene.crt --error 0.5 --png    and the fastest within half a step; the plot also as .png
+  crt trade film.crt --time 12 --region 100,80,200,100 -o part)";
+
+}  // namespace
+
+CommandTable trade_table(TradeRequest& request) {
+  CommandTable table{
+      .name = "trade",
+      .about = "Measures which settings give a script's picture what accuracy for what time.",
+      .footer = std::string(trade_footer),
+      .rows = {}};
+  std::vector<OptionRow>& rows = table.rows;
+  rows.push_back({.names = "scene",
+                  .type = "SCENE.crt",
+                  .help = "the script; - is standard input",
+                  .take = [&request](const std::string& name) { request.scene = name; },
+                  .required = true});
+  rows.push_back({.names = "-o,--output",
+                  .type = "NAME",
+                  .help = "what is written, without the endings (default: the script's name and "
+                          "-trade)",
+                  .take = [&request](const std::string& name) { request.output = name; }});
+  add_script_rows(rows, request);
+  rows.push_back({.names = "--budget",
+                  .type = "SECONDS",
+                  .help = "asks for the most accurate setting within so many seconds a picture",
+                  .take = [&request](const std::string& text) {
+                    request.budget = parse_positive("--budget", text);
+                  }});
+  rows.push_back({.names = "--error",
+                  .type = "STEPS",
+                  .help = "asks for the fastest setting within so many 8-bit steps",
+                  .take = [&request](const std::string& text) {
+                    request.error = parse_positive("--error", text);
+                  }});
+  rows.push_back({.names = "--png",
+                  .type = "",
+                  .help = "writes the plot as a picture, too",
+                  .take = into_flag("--png", request.png)});
+  add_region_row(rows, request.region, "measures only this part of the picture");
+  rows.push_back({.names = "--pixels",
+                  .type = "N",
+                  .help = fmt::format("measures about so many pixels ({:.0f})", request.pixels),
+                  .take = into_positive("--pixels", request.pixels)});
+  rows.push_back({.names = "--most-seconds",
+                  .type = "SECONDS",
+                  .help = fmt::format("leaves out settings that would take longer for these "
+                                      "pixels, and ends each of the two reference renders then "
+                                      "({:.0f})",
+                                      request.most_seconds),
+                  .take = into_positive("--most-seconds", request.most_seconds)});
+  rows.push_back({.names = "--reference-samples",
+                  .type = "N",
+                  .help = fmt::format("samples of a pixel of the references at most ({})",
+                                      request.reference_samples),
+                  .take = [&request](const std::string& text) {
+                    request.reference_samples = parse_sample_count("--reference-samples", text);
+                  }});
+  add_threads_row(rows, request.threads);
+  add_setting_rows(rows, request.script);
+  return table;
+}
+
+CommandTable check_table(CheckRequest& request) {
+  CommandTable table{.name = "check",
+                     .about =
+                         "Runs scripts and reports their errors and warnings; renders "
+                         "nothing.",
+                     .footer = "",
+                     .rows = {}};
+  table.rows.push_back(
+      {.names = "scene",
+       .type = "SCENE.crt",
+       .help = "the scripts; - is standard input",
+       .take = [&request](const std::string& name) { request.scenes.emplace_back(name); },
+       .repeatable = true,
+       .required = true});
+  add_script_rows(table.rows, request);
+  return table;
+}
+
+CommandTable new_table(NewRequest& request) {
+  CommandTable table{
+      .name = "new", .about = "Writes a script to begin with.", .footer = "", .rows = {}};
+  table.rows.push_back({.names = "scene",
+                        .type = "SCENE.crt",
+                        .help = "the script, which does not exist yet",
+                        .take = [&request](const std::string& name) { request.scene = name; },
+                        .required = true});
+  add_quiet_row(table.rows, request);
+  return table;
+}
+
+CommandTable format_table(FormatRequest& request) {
+  CommandTable table{
+      .name = "format",
+      .about = "Lays scripts out: indentation, blanks, blank lines, comments.",
+      .footer = "",
+      .rows = {}};
+  table.rows.push_back(
+      {.names = "scene",
+       .type = "SCENE.crt",
+       .help = "the scripts; - is standard input, and goes to standard output",
+       .take = [&request](const std::string& name) { request.scenes.emplace_back(name); },
+       .repeatable = true,
+       .required = true});
+  table.rows.push_back(
+      {.names = "--check",
+       .type = "",
+       .help = "writes nothing; names the scripts that would change, and then ends with 1",
+       .take = into_flag("--check", request.check)});
+  add_quiet_row(table.rows, request);
+  return table;
+}
+
+CommandTable lsp_table() {
+  return {.name = "lsp",
+          .about = "Serves editors by the Language Server Protocol, see docs/editors.md.",
+          .footer = "",
+          .rows = {{.names = "--stdio",
+                    .type = "",
+                    .help = "on standard input and output, which it does anyway",
+                    .take = [](const std::string&) {}}}};
+}
+
+CommandTable completions_table(CompletionsRequest& request) {
+  CommandTable table{.name = "completions",
+                     .about = "Prints a script by which a shell completes commands and options.",
+                     .footer = R"(What is installed has them in place. Otherwise:
+  crt completions bash >~/.local/share/bash-completion/completions/crt
+  crt completions zsh >~/.zfunc/_crt        with ~/.zfunc in your fpath
+  crt completions fish >~/.config/fish/completions/crt.fish)",
+                     .rows = {}};
+  table.rows.push_back({.names = "shell",
+                        .type = "bash|zsh|fish",
+                        .help = "the shell",
+                        .take =
+                            [&request](const std::string& shell) {
+                              if (shell != "bash" && shell != "zsh" && shell != "fish")
+                                throw WrongValue("crt completions", "bash, zsh or fish", shell);
+                              request.shell = shell;
+                            },
+                        .required = true});
+  return table;
+}
+
+CommandTable man_table() {
+  return {.name = "man",
+          .about = "Prints the manual page.",
+          .footer = "To read it where it is not installed:\n  crt man | man -l -",
+          .rows = {}};
+}
+
+CommandTable help_table(std::string& command, const std::vector<std::string>& commands) {
+  return {.name = "help",
+          .about = "Prints the help of a command, or that of crt.",
+          .footer = "",
+          .rows = {{.names = "command",
+                    .type = fmt::format("{}", fmt::join(commands, "|")),
+                    .help = "the command",
+                    .take = [&command](const std::string& name) { command = name; }}}};
+}
+
+}  // namespace crt::cli

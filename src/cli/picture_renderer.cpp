@@ -1,0 +1,71 @@
+#include "cli/picture_renderer.hpp"
+
+#include <fmt/format.h>
+
+#include <crt/prepared_scene.hpp>
+#include <utility>
+#include <vector>
+
+#include "cli/format_loader.hpp"
+
+namespace crt::cli {
+
+std::optional<Scene> run_scene(const ScriptSource& script, const ScriptOptions& options,
+                               bool output_is_free, Reporter& reporter) {
+  ScriptOptions with_print = options;
+  with_print.print = [&](std::string_view line) {
+    const std::string text = fmt::format("{}\n", line);
+    output_is_free ? reporter.print(text) : reporter.say(text);
+  };
+  ScriptResult result = script.run(with_print);
+  for (const Diagnostic& diagnostic : result.diagnostics) {
+    if (diagnostic.code == ErrorCode::cancelled) throw Error(diagnostic.code, diagnostic.message);
+  }
+  reporter.add(result.diagnostics);
+  return std::move(result.scene);
+}
+
+namespace {
+
+Image trace(const Scene& scene, const PictureTask& task, const FormatLoader& loader,
+            std::vector<std::string>& warnings) {
+  const auto go_on = [&] { return task.go_on() && !loader.has_failed(); };
+  const PreparedScene prepared =
+      prepare(scene, {.go_on = go_on, .max_primitives = task.request.max_primitives});
+  RenderOptions options = task.request.render;
+  options.log = [&](LogLevel level, std::string_view line) {
+    if (level == LogLevel::warning) warnings.push_back(fmt::format("crt: warning: {}", line));
+  };
+  Progress progress(task.name, task.style);
+  options.progress = [&](double share) {
+    progress.update(share);
+    return go_on();
+  };
+  return render(prepared, options);
+}
+
+}  // namespace
+
+Image render_scene(const Scene& scene, const PictureTask& task, Reporter& reporter) {
+  FormatLoader loader(task.picture);
+  std::vector<std::string> warnings;
+  try {
+    Image image = trace(scene, task, loader, warnings);
+    loader.finish();
+    for (const std::string& warning : warnings) reporter.note(warning);
+    return image;
+  } catch (const Error& error) {
+    if (error.code() == ErrorCode::cancelled) loader.finish();  // which may be the reason
+    throw;
+  }
+}
+
+std::string summary(const std::string& name, const Image& image) {
+  const RenderStats& stats = image.stats();
+  return fmt::format(
+      "{}: {} x {} pixels, {} rays, {:.2f} s", name, image.width(), image.height(),
+      stats.camera_rays + stats.shadow_rays + stats.reflection_rays + stats.refraction_rays,
+      stats.parse_seconds + stats.prepare_seconds + stats.trace_seconds + stats.write_seconds);
+}
+
+}  // namespace crt::cli
