@@ -89,6 +89,10 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request) {
                     request.diagnostics =
                         value == "json" ? DiagnosticsFormat::json : DiagnosticsFormat::text;
                   }});
+  add_quiet_row(rows, request);
+}
+
+void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request) {
   rows.push_back({.names = "-q,--quiet",
                   .type = "",
                   .help = "prints errors and nothing else",

@@ -49,6 +49,7 @@ CommandTable help_table(std::string& command, const std::vector<std::string>& co
 
 /// Adds what all commands take that run scripts.
 void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request);
+void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request);
 /// Adds the settings of a script.
 void add_setting_rows(std::vector<OptionRow>& rows, ScriptOptions& script);
 void add_threads_row(std::vector<OptionRow>& rows, int& threads);
