@@ -43,7 +43,14 @@ scene = crt.Scene(
     ],
     camera=crt.Camera(position=(0, 0.5, -7), pointing=(0, -0.35, 0), fov=math.radians(30)),
     background=crt.Background.gradient(horizon=(0.7, 0.8, 0.95), sky=(0.05, 0.2, 0.6)),
-    settings=crt.Settings(width=400, height=400, supersampling=2, gamma=2.2, title="Tee"),
+    settings=crt.Settings(
+        width=400,
+        height=400,
+        supersampling=2,
+        gamma=2.2,
+        ambient_model=crt.AmbientModel.SURFACE,
+        title="Tee",
+    ),
 )
 
 

@@ -23,6 +23,7 @@ Settings {
     width -> 640
     height -> 480
     gamma -> 2.2       -- what screens want
+    ambientmodel -> "surface" -- ambient light takes the colour of what it falls on
     supersampling -> 3 -- 3 x 3 rays for each pixel make smooth edges
     recursiondepth -> 5 -- so often light is mirrored
 

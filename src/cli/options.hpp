@@ -112,9 +112,8 @@ struct ManRequest {
 
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request =
-    std::variant<RenderRequest, WatchRequest, CheckRequest, TradeRequest, NewRequest, FormatRequest,
-                 LspRequest, CompletionsRequest, ManRequest, ExitCode>;
+using Request = std::variant<RenderRequest, WatchRequest, CheckRequest, TradeRequest, NewRequest,
+                             FormatRequest, LspRequest, CompletionsRequest, ManRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

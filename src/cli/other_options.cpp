@@ -1,5 +1,5 @@
-// The options of `crt trade`, `crt check`, `crt new`, `crt format`, `crt lsp` and the commands about
-// the command itself.
+// The options of `crt trade`, `crt check`, `crt new`, `crt format`, `crt lsp` and the commands
+// about the command itself.
 #include <fmt/format.h>
 
 #include <string_view>
@@ -115,11 +115,10 @@ CommandTable new_table(NewRequest& request) {
 }
 
 CommandTable format_table(FormatRequest& request) {
-  CommandTable table{
-      .name = "format",
-      .about = "Lays scripts out: indentation, blanks, blank lines, comments.",
-      .footer = "",
-      .rows = {}};
+  CommandTable table{.name = "format",
+                     .about = "Lays scripts out: indentation, blanks, blank lines, comments.",
+                     .footer = "",
+                     .rows = {}};
   table.rows.push_back(
       {.names = "scene",
        .type = "SCENE.crt",
