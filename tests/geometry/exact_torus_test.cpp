@@ -52,6 +52,16 @@ TEST_CASE("exact torus: lines that touch it miss, and an ulp decides") {
   }
 }
 
+TEST_CASE("exact torus: a span of next to no length is found") {
+  // From the highest circle the line goes along the top, and into the tube by next to nothing.
+  for (const double dip : {1e-30, 1e-119, 1e-122, 1e-200, 1e-280}) {
+    CAPTURE(dip);
+    CHECK(count(ring, {2, 0, 1}, {1, 0.3, -dip}) == 2);
+    CHECK(count(ring, {2, 0, 1}, {1, 0.3, dip}) == 2);
+  }
+  CHECK(count(ring, {2, 0, 1}, {1, 0.3, 0}) == 0);
+}
+
 TEST_CASE("exact torus: the same in a turned space") {
   const Transform turn{
       {3, -4, 0}, {4, 3, 0}, {0, 0, 5}, {0, 0, 0}};  // a turn by the triangle of three, four and

@@ -61,8 +61,9 @@ class SturmChain {
 };
 
 /// Returns points in ascending order such that one real root lies between each two of them, or no
-/// points if there is no root. The polynomial must not be 0. Roots that are closer than 2^-400 of
-/// the largest are not separated.
+/// points if there is no root. The polynomial must not be 0. Roots that are closer than 2^-1200 of
+/// the largest are not separated. Above degree 4 it takes long: the numbers of the Sturm chain grow
+/// exponentially with the degree.
 std::vector<Dyadic> root_separators(const DyadicPolynomial& polynomial);
 
 /// Returns the root between low and high, where `is_beyond` changes from false to true. The
