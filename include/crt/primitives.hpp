@@ -107,7 +107,7 @@ struct Triangle {
   std::optional<SharedMaterial> material{};
 };
 
-/// A Primitive is any of the primitives. A new one is added at the end, see CONTRIBUTING.md.
+/// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive =
     std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle, Capsule>;
 
