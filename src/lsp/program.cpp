@@ -7,6 +7,7 @@
 #include <variant>
 
 #include "lang/compat.hpp"
+#include "lang/library.hpp"
 
 namespace crt::lsp {
 
@@ -58,6 +59,11 @@ const lang::Script* Program::import_script(const lang::Import& import) {
   if (scripts_.size() >= most_imports) return nullptr;
   try {
     const lang::Span span = import.path_span;
+    if (lang::is_library_path(import.path)) {
+      if (!paths_.insert(import.path).second) return nullptr;
+      parse(sources_.add(import.path, std::string(lang::find_library(import.path, span))));
+      return &scripts_.back();
+    }
     lang::Files::Found found = files_.find(import.path, sources_.source_of(span).directory, span);
     const std::filesystem::path shown = found.shown;
     const bool is_new = paths_.insert(without_links(found.path)).second;

@@ -117,6 +117,7 @@ class Completion(ServerTest):
         (self.folder / "part.crt").write_text("tower = Macro (height, tint) { }\n")
         offered = self.offered('import "part.crt"\nScene { | }\n')
         self.assertEqual(offered["tower"]["detail"], "tower(height, tint)")
+        self.assertIn("gold", self.offered('import "crt/metals"\nScene { | }\n'))
 
     def test_keywords_where_they_fit(self):
         self.assertLessEqual({"Settings", "Scene", "import", "for"}, self.offered("|").keys())

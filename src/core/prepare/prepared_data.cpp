@@ -13,6 +13,7 @@
 #include "core/intersect/accelerator.hpp"
 #include "core/math/float_environment.hpp"
 #include "core/shading/texture.hpp"
+#include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/validate.hpp"
 
