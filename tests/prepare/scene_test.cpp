@@ -9,6 +9,7 @@
 
 #include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
+#include "crt/prepared_scene.hpp"
 #include "support/solids.hpp"
 
 using namespace crt;
