@@ -80,8 +80,8 @@ struct LspRequest {};
 
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, FormatRequest, LspRequest,
-                             ExitCode>;
+using Request =
+    std::variant<RenderRequest, CheckRequest, TradeRequest, FormatRequest, LspRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 
