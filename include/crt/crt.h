@@ -499,6 +499,35 @@ CRT_API crt_status crt_intersection_create(crt_entity* const* parts, size_t coun
 CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cutters, size_t count,
                                          crt_entity** out);
 
+/**
+ * Writes the map that moves nothing. As with all crt_affine_* functions, the map is the three rows
+ * of a 3x4 matrix for crt_entity_with_transform(), which checks it. A function that returns nothing
+ * does nothing if a pointer is NULL.
+ *
+ * @code{.c}
+ * double turn[12], lift[12], both[12];
+ * const double y[3] = {0, 1, 0}, up[3] = {0, 2, 0};
+ * crt_affine_rotation(y, 0.5, turn);
+ * crt_affine_translation(up, lift);
+ * crt_affine_product(turn, lift, both);
+ * crt_entity_with_transform(sphere, both, &part);
+ * @endcode
+ */
+CRT_API void crt_affine_identity(double out[12]);
+/** Writes the map that moves by an offset. */
+CRT_API void crt_affine_translation(const double by[3], double out[12]);
+/** Writes the map that scales about the origin, by a factor for each axis. */
+CRT_API void crt_affine_scaling(const double by[3], double out[12]);
+/**
+ * Writes the rotation about an axis through the origin, of any length but 0, by an angle in
+ * radians. It is left-handed, as crt::rotate in C++ and `rotate` in scripts: a positive angle turns
+ * x to y about z, y to z about x, and z to x about y, which is counter-clockwise for one who looks
+ * along the axis. Quarter turns are exact where the axis is x, y or z.
+ */
+CRT_API crt_status crt_affine_rotation(const double axis[3], double angle, double out[12]);
+/** Writes the map that does what `first` does, and `then` the other. `out` may be one of them. */
+CRT_API void crt_affine_product(const double first[12], const double then[12], double out[12]);
+
 /** Makes the entity moved by an affine map with an inverse, after whatever moved it before. */
 CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12],
                                              crt_entity** out);

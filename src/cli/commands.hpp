@@ -10,6 +10,9 @@ ExitCode run_render(const RenderRequest& request);
 /// Measures the accuracy and the time of a script's picture with different settings.
 ExitCode run_trade(const TradeRequest& request);
 
+/// Writes a script to begin with.
+ExitCode run_new(const NewRequest& request);
+
 /// Runs scripts for their diagnostics alone.
 ExitCode run_check(const CheckRequest& request);
 

@@ -16,6 +16,7 @@ using namespace crt::cli;
 struct Run {
   ExitCode operator()(const RenderRequest& request) const { return run_render(request); }
   ExitCode operator()(const CheckRequest& request) const { return run_check(request); }
+  ExitCode operator()(const NewRequest& request) const { return run_new(request); }
   ExitCode operator()(const TradeRequest& request) const { return run_trade(request); }
   ExitCode operator()(const FormatRequest& request) const { return run_format(request); }
   ExitCode operator()(const LspRequest& request) const { return run_lsp(request); }

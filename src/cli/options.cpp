@@ -22,6 +22,7 @@ namespace crt::cli {
 namespace {
 
 constexpr std::string_view main_footer = R"(Examples:
+  crt new scene.crt                          writes a script to begin with
   crt render scene.crt                       renders scene.png beside the script
   crt render scene.crt -o big.png --width 1920 --height 1080 --supersampling 4
   crt render scene.crt --set n=18 --set 'tint=rgb(1, 0, 0)'
@@ -297,8 +298,8 @@ ExitCode complain(const std::exception& error, const CLI::App& app, int argc,
   if (command == "crt" && argc > 1 && std::filesystem::path(argv[1]).extension() == ".crt") {
     message = fmt::format("what to do with '{0}'? To render it: crt render {0}", argv[1]);
   } else if (command == "crt" && argc > 1 && argv[1][0] != '-') {
-    message =
-        fmt::format("no command '{}': there are render, trade, check, format and lsp", argv[1]);
+    message = fmt::format(
+        "no command '{}': there are new, render, trade, check, format and lsp", argv[1]);
   } else if (argc <= 1) {
     message = "say what to do, such as: crt render scene.crt";
   }
@@ -358,6 +359,13 @@ Request parse_command_line(int argc, const char* const* argv) {
   lsp->add_flag_callback(
       "--stdio", [] {}, "on standard input and output, which it does anyway");
 
+  NewRequest new_request;
+  CLI::App* create = app.add_subcommand("new", "Writes a script to begin with.");
+  create->add_option("scene", new_request.scene, "the script, which does not exist yet")
+      ->required()
+      ->type_name("SCENE.crt");
+  create->add_flag("-q,--quiet", new_request.quiet, "prints errors and nothing else");
+
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
@@ -370,6 +378,7 @@ Request parse_command_line(int argc, const char* const* argv) {
   if (check->parsed()) return check_request;
   if (format->parsed()) return format_request;
   if (lsp->parsed()) return LspRequest{};
+  if (create->parsed()) return new_request;
   if (trade->parsed()) {
     if (trade_request.output.empty()) {
       trade_request.output = trade_request.scene;

@@ -52,6 +52,10 @@ struct CheckRequest : CommonRequest {
   std::vector<std::filesystem::path> scenes;
 };
 
+struct NewRequest : CommonRequest {
+  std::filesystem::path scene;
+};
+
 struct TradeRequest : CommonRequest {
   std::filesystem::path scene;
   /// The command writes this name with .csv and .svg, and with .png if asked for.
@@ -80,8 +84,8 @@ struct LspRequest {};
 
 /// A Request is what is asked for, or the code to end with (after help, a version or a complaint
 /// has been printed).
-using Request = std::variant<RenderRequest, CheckRequest, TradeRequest, FormatRequest, LspRequest,
-                             ExitCode>;
+using Request = std::variant<RenderRequest, CheckRequest, NewRequest, TradeRequest, FormatRequest,
+                             LspRequest, ExitCode>;
 
 Request parse_command_line(int argc, const char* const* argv);
 

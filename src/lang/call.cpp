@@ -55,7 +55,7 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
     return call_builtin(expression, call, **builtin);
   const auto* macro = std::get_if<Macro>(&callee);
   if (!macro) not_callable(call, callee);
-  return group(expression, call, **macro);
+  return value_of_call(expression, call, **macro);
 }
 
 [[gnu::noinline]] Value Interpreter::call_builtin(const Expression& expression, const Call& call,
@@ -99,30 +99,35 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
       span, fmt::format("macros call one another more than {} deep", context_.limits.call_depth));
 }
 
-[[gnu::noinline]] void Interpreter::call_macro(const Expression& expression, const Call& call,
-                                               const MacroValue& macro) {
+/// Runs a macro. Returns what it returns, or nothing if it does not.
+[[gnu::noinline]] Value Interpreter::call_macro(const Expression& expression, const Call& call,
+                                                const MacroValue& macro) {
   const Temporarily inside(scope_, bind_arguments(expression, call, macro));
   const Context::Running running(context_, {.name = callee_name(call), .span = expression.span});
   if (call_depth_ >= context_.limits.call_depth) pass_call_depth(expression.span);
   const DepthGuard depth(call_depth_);
+  const Temporarily result(result_, Result{.entities_before = emission_.entities->size()});
   try {
     execute(macro.literal->body);
+    return std::move(result_.value);
   } catch (Failure& failure) {
     failure.add_call(callee_name(call), expression.span);
     throw;
   }
 }
 
-/// Evaluates a macro's call as a value: the group of what it emits.
-[[gnu::noinline]] Value Interpreter::group(const Expression& expression, const Call& call,
-                                           const MacroValue& macro) {
+/// Evaluates a macro's call as a value: what it returns, or the group of what it emits.
+[[gnu::noinline]] Value Interpreter::value_of_call(const Expression& expression, const Call& call,
+                                                   const MacroValue& macro) {
   std::vector<Entity> parts;
   {
     const Temporarily emission(emission_, Emission{.entities = &parts});
-    call_macro(expression, call, macro);
+    Value value = call_macro(expression, call, macro);
+    if (!std::holds_alternative<Nothing>(value)) return value;
   }
   if (parts.empty()) {
-    fail(expression.span, "'{}' emitted nothing, so its call has no value", callee_name(call));
+    fail(expression.span, "'{}' emitted and returned nothing, so its call has no value",
+         callee_name(call));
   }
   context_.count_made(expression.span);
   Entity whole = csg_union(parts);

@@ -135,6 +135,7 @@ class AssignedNames {
     visit(loop.list);
     collect_assigned(loop.body, names_);
   }
+  void operator()(const Return& result) { visit(result.value); }
   void operator()(const SettingsBlock& settings) { visit(settings.attributes); }
   void operator()(const SceneBlock& scene) { collect_assigned(scene.body, names_); }
   void operator()(const Import&) {}

@@ -4,7 +4,6 @@
 
 #include <variant>
 
-#include "crt/transform.hpp"
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
@@ -119,63 +118,10 @@ Value Interpreter::evaluate_node(const Literal& literal, const Expression&) {
 [[gnu::noinline]] Value Interpreter::evaluate_node(const Modified& modified, const Expression&) {
   const Value base = evaluate(*modified.base);
   const auto* entity = std::get_if<Entity>(&base);
-  if (!entity) {
-    fail(modified.base->span, "only an Entity can be scaled, translated or rotated, not {}", base);
-  }
+  if (!entity) fail(modified.base->span, "only an Entity takes modifiers, not {}", base);
   Entity result = *entity;
   for (const Modifier& modifier : modified.modifiers) result = modify(result, modifier);
   return result;
-}
-
-namespace {
-
-const char* modifier_name(ModifierKind kind) {
-  switch (kind) {
-    case ModifierKind::scale:
-      return "scale";
-    case ModifierKind::translate:
-      return "translate";
-    case ModifierKind::rotate:
-      return "rotate";
-  }
-  return "";
-}
-
-Transform transform_of(const Modifier& modifier, const Value& operand) {
-  if (const auto* vector = std::get_if<Vec3>(&operand)) {
-    switch (modifier.kind) {
-      case ModifierKind::scale:
-        return scale(*vector);
-      case ModifierKind::translate:
-        return translate(*vector);
-      case ModifierKind::rotate:
-        return rotate(*vector);
-    }
-  }
-  double storage = 0;
-  const double* number =
-      modifier.kind == ModifierKind::scale ? as_float(operand, storage) : nullptr;
-  if (number) return scale(*number);
-  const char* wanted = modifier.kind == ModifierKind::scale ? "a number or a Vec3" : "a Vec3";
-  fail(modifier.operand->span, "'{}' takes {}, not {}", modifier_name(modifier.kind), wanted,
-       operand);
-}
-
-}  // namespace
-
-[[gnu::noinline]] Entity Interpreter::modify(const Entity& entity, const Modifier& modifier) {
-  const Value operand = evaluate(*modifier.operand);
-  context_.count_made(modifier.operand->span);
-  try {
-    return entity.transformed(transform_of(modifier, operand));
-  } catch (const Error& error) {
-    std::string message = error.what();
-    // The core names the parameter of its function, which in a script is the modifier itself.
-    if (message.starts_with(error.argument()))
-      message.replace(0, error.argument().size(),
-                      fmt::format("'{}'", modifier_name(modifier.kind)));
-    throw Failure{.span = modifier.operand->span, .message = message, .code = error.code()};
-  }
 }
 
 }  // namespace crt::lang

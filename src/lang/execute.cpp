@@ -41,7 +41,10 @@ void Interpreter::mark_unknown(const Statement& statement) {
 }
 
 void Interpreter::execute(const Block& block) {
-  for (const Statement& statement : block.statements) execute(statement);
+  for (const Statement& statement : block.statements) {
+    execute(statement);
+    if (result_.is_returning) return;
+  }
 }
 
 void Interpreter::execute(const Statement& statement) {
@@ -77,6 +80,7 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
     context_.count_round();
     scope = fresh_scope(std::move(scope));
     execute_in(loop.body, scope);
+    if (result_.is_returning) return;
   }
 }
 
@@ -92,6 +96,7 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
     scope = fresh_scope(std::move(scope));
     scope->set(loop.variable.symbol, item);
     execute_in(loop.body, scope);
+    if (result_.is_returning) return;
   }
 }
 
@@ -100,6 +105,25 @@ bool Interpreter::condition(const Expression& expression, const char* what) {
     if (!branch.condition || condition(*branch.condition, "'if'"))
       return execute_in(branch.body, fresh_scope(nullptr));
   }
+}
+
+[[gnu::noinline]] void Interpreter::execute_node(const Return& result) {
+  if (!result.value) {
+    const auto& name = std::get<Name>(result.name->node);
+    if (context_.compat == compat_2015 || scope_->find(name.symbol))
+      return emit(evaluate(*result.name), result.keyword);
+  }
+  // The check lets no `return` stand outside of a macro.
+  if (result.value) {
+    if (emission_.entities->size() > result_.entities_before)
+      fail(result.keyword,
+           "this macro has emitted entities, so it cannot return a value, too; a List can hold "
+           "both");
+    Value value = evaluate(*result.value);
+    if (std::holds_alternative<Nothing>(value)) fail(result.value->span, "this call has no value");
+    result_.value = std::move(value);
+  }
+  result_.is_returning = true;
 }
 
 [[gnu::noinline]] void Interpreter::execute_node(const SettingsBlock& settings) {
@@ -133,7 +157,13 @@ void Interpreter::execute_node(const Import& import) {
 [[gnu::noinline]] void Interpreter::execute_call(const Expression& expression, const Call& call) {
   context_.step(expression.span);
   const Value callee = evaluate(*call.callee);
-  if (const auto* macro = std::get_if<Macro>(&callee)) return call_macro(expression, call, **macro);
+  if (const auto* macro = std::get_if<Macro>(&callee)) {
+    const Value value = call_macro(expression, call, **macro);
+    const bool may_be_emitted =
+        std::holds_alternative<Entity>(value) || std::holds_alternative<List>(value);
+    if (may_be_emitted) emit(value, expression.span);
+    return;
+  }
   const auto* builtin = std::get_if<const Builtin*>(&callee);
   if (!builtin) not_callable(call, callee);
   call_builtin(expression, call, **builtin);
@@ -159,7 +189,33 @@ void Interpreter::execute_node(const Import& import) {
       used = emit_items(**list, span);
     }
   }
-  if (!used) context_.reporter.warning(span, "value is not used");
+  if (!used) context_.reporter.warning(span, "value is not used" + why_not_used(value, span));
+}
+
+/// Says where a value that is not used belongs, or what was meant.
+[[gnu::noinline]] std::string Interpreter::why_not_used(const Value& value, Span span) const {
+  const Value* first = &value;
+  if (const List* list = std::get_if<List>(&value); list && !(*list)->items.empty())
+    first = &(*list)->items.front();
+  if (std::holds_alternative<std::shared_ptr<const Light>>(*first))
+    return ": a Light belongs into the List 'lights' of Settings";
+  if (std::holds_alternative<std::shared_ptr<const Camera>>(*first))
+    return ": a Camera belongs into Settings, as 'camera -> Camera { ... }'";
+  if (std::holds_alternative<std::shared_ptr<const Background>>(*first))
+    return ": a Background belongs into Settings, as 'background -> Background { ... }'";
+  if (std::holds_alternative<SharedMaterial>(*first))
+    return ": a Material belongs to an entity, as 'material -> m' or <material m>";
+  if (std::holds_alternative<std::shared_ptr<const Pattern>>(*first))
+    return ": a Pattern belongs into a Material, as its 'color' or 'bump'";
+  const bool stands_outside = !emission_.entities && std::holds_alternative<Entity>(*first);
+  if (stands_outside && !is_import_) return ": an Entity belongs into the Scene";
+  const Source& source = context_.sources.source_of(span);
+  const std::string_view behind = std::string_view(source.text).substr(span.end - source.base);
+  const bool is_number =
+      std::holds_alternative<std::int64_t>(value) || std::holds_alternative<double>(value);
+  if (is_number && behind.starts_with("--"))
+    return ", as '--' begins a comment; to subtract 1, write '-= 1'";
+  return {};
 }
 
 void Interpreter::emit_entity(const Entity& entity, Span span) {

@@ -55,17 +55,20 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 
 %token SETTINGS "Settings" SCENE "Scene" MACRO "Macro"
 %token SCALE "scale" TRANSLATE "translate" ROTATE "rotate"
+/* These are tokens of their own in few places, and names in all others. */
+%token MATERIAL "material" ID "id" MATRIX "matrix" ELIF "elif" RETURN "return"
 %token TRUE "true" FALSE "false" WHILE "while" IF "if" ELSE "else" FOR "for" IN "in" IMPORT "import"
 
 %token LEFT_BRACE "{" RIGHT_BRACE "}" RIGHT_PARENTHESIS ")" RIGHT_BRACKET "]"
 /* First on its line each of these two begins an expression and never continues one. */
 %token LEFT_PARENTHESIS "(" FIRST_PARENTHESIS "( first on its line"
 %token LEFT_BRACKET "[" FIRST_BRACKET "[ first on its line"
-/* This is a '<' before scale, translate or rotate. */
+/* This is a '<' before a modifier. */
 %token MODIFIER_START "< before a modifier"
 
 %token PLUS "+" MINUS "-" STAR "*" SLASH "/" PERCENT "%" CARET "^" NOT "!"
 %token LESS "<" GREATER ">" LESS_EQUAL "<=" GREATER_EQUAL ">=" EQUAL "==" NOT_EQUAL "!="
+%token POWER "**" ADD_ASSIGN "+=" SUBTRACT_ASSIGN "-=" MULTIPLY_ASSIGN "*=" DIVIDE_ASSIGN "/="
 %token AND "&&" OR "||" QUESTION "?" COLON ":" ASSIGN "=" COMMA "," ARROW "->"
 
 /* There is no sign that ends a statement, so an expression is as long as it can be. Before a token
@@ -74,10 +77,10 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %precedence "+" "-" "(" "["
 
 %nterm <Block> statements script_statements block
-%nterm <Statement> statement script_statement while if for settings scene import
+%nterm <Statement> statement script_statement while if for return settings scene import
 %nterm <If> if_branches
 %nterm <Expression*> expression conditional disjunction conjunction comparison
-%nterm <Expression*> additive multiplicative unary postfix primary object macro list literal
+%nterm <Expression*> additive multiplicative unary power postfix primary object macro list literal
 %nterm <Expression*> condition
 %nterm <std::vector<const Expression*>> expressions expressions_or_none items
 %nterm <std::vector<AttributeSyntax>> attributes
@@ -86,6 +89,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %nterm <std::vector<Modifier>> modifiers
 %nterm <Modifier> modifier
 %nterm <BinaryOperator> comparison_operator additive_operator multiplicative_operator
+%nterm <BinaryOperator> assignment_operator
 /* This stands after each opening of something that can hold itself, and lives as long as that is
    open. */
 %nterm <Nesting> nest
@@ -118,10 +122,11 @@ statements:
   | statements error                         { $$ = $1; }
 
 statement:
-    expression                               { $$ = tree.statement(@$, ExpressionStatement{$1}); }
+    expression                               { $$ = tree.expression_statement(@$, $1); }
   | while                                    { $$ = $1; }
   | if                                       { $$ = $1; }
   | for                                      { $$ = $1; }
+  | return                                   { $$ = $1; }
 
 block: "{" nest statements "}"               { $$ = $3; $$.span = @$; }
 
@@ -148,12 +153,21 @@ if:
 if_branches:
     "if" condition block                     { $$ = tree.branch(If(), $2, $3); }
   | if_branches "else" "if" condition block  { $$ = tree.branch($1, $4, $5); }
+  | if_branches "elif" condition block       { $$ = tree.branch($1, $3, $4); }
+
+return: "return" expression                  { $$ = tree.statement(@$, Return{@1, $2, {}}); }
 
 /* ---- expressions, from the loosest level to the tightest ---- */
 
 expression:
     conditional                              { $$ = $1; }
   | conditional "=" nest expression          { $$ = tree.assignment(@$, $1, $4); }
+  | conditional assignment_operator nest expression
+                                             { $$ = tree.assignment(@$, $1, $2, @2, $4); }
+
+assignment_operator:
+    "+=" { $$ = BinaryOperator::add; }       | "-=" { $$ = BinaryOperator::subtract; }
+  | "*=" { $$ = BinaryOperator::multiply; }  | "/=" { $$ = BinaryOperator::divide; }
 
 conditional:
     disjunction                              { $$ = $1; }
@@ -199,13 +213,18 @@ multiplicative_operator:
   | "%"  { $$ = BinaryOperator::remainder; }
 
 unary:
-    postfix %prec END_OF_EXPRESSION          { $$ = $1; }
+    power                                    { $$ = $1; }
   | "+" nest unary
                                    { $$ = tree.expression(@$, Unary{UnaryOperator::plus, $3}); }
   | "-" nest unary
                                    { $$ = tree.expression(@$, Unary{UnaryOperator::minus, $3}); }
   | "!" nest unary
                                    { $$ = tree.expression(@$, Unary{UnaryOperator::negation, $3}); }
+
+/* The exponent may have a sign, and the base none: -a ** b is -(a ** b). */
+power:
+    postfix %prec END_OF_EXPRESSION          { $$ = $1; }
+  | postfix "**" nest unary   { $$ = tree.chain($1, BinaryOperator::power, @2, $4); }
 
 postfix:
     primary                                  { $$ = $1; }
@@ -223,6 +242,11 @@ modifier:
     "scale" additive                         { $$ = {ModifierKind::scale, $2}; }
   | "translate" additive                     { $$ = {ModifierKind::translate, $2}; }
   | "rotate" additive                        { $$ = {ModifierKind::rotate, $2}; }
+  | "material" additive                      { $$ = {ModifierKind::material, $2}; }
+  | "id" additive                            { $$ = {ModifierKind::id, $2}; }
+  | "matrix" additive                        { $$ = {ModifierKind::matrix, $2}; }
+  | IDENTIFIER additive                      { tree.unknown_modifier(@1);
+                                               $$ = {ModifierKind::scale, $2}; }
 
 expressions_or_none:
     %empty                                   { }

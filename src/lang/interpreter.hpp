@@ -55,6 +55,13 @@ class Interpreter {
     bool into_scene = false;
   };
 
+  /// A Result is what the macro that runs now returns.
+  struct Result {
+    bool is_returning = false;  ///< the statements up to the macro's call are being left
+    Value value = Nothing{};
+    std::size_t entities_before = 0;  ///< those that were emitted before the call
+  };
+
   /// Changes one of this object's variables until the end of a C++ scope.
   template <class Type>
   class Temporarily {
@@ -78,6 +85,7 @@ class Interpreter {
   void execute_node(const While& loop);
   void execute_node(const If& choice);
   void execute_node(const For& loop);
+  void execute_node(const Return& result);
   void execute_node(const SettingsBlock& settings);
   void execute_node(const SceneBlock& scene);
   void execute_node(const Import& import);
@@ -87,6 +95,7 @@ class Interpreter {
   void mark_unknown(const Statement& statement);
   std::shared_ptr<Scope> fresh_scope(std::shared_ptr<Scope> used);
   void emit(const Value& value, Span span);
+  std::string why_not_used(const Value& value, Span span) const;
   void emit_entity(const Entity& entity, Span span);
   bool emit_items(const ListValue& list, Span span);
   bool condition(const Expression& expression, const char* what);
@@ -107,17 +116,17 @@ class Interpreter {
   Value evaluate_node(const Assignment& assignment, const Expression& expression);
   std::vector<Given> evaluate_attributes(const ObjectType& type,
                                          const std::vector<AttributeSyntax>& attributes);
-  Entity modify(const Entity& entity, const Modifier& modifier);
+  Entity modify(const Entity& entity, const Modifier& modifier);  // modify.cpp
   [[noreturn]] void unknown_name(Symbol name, Span span) const;
   void check_stack(Span span) const;
 
   // Calls: call.cpp.
   Value call_builtin(const Expression& expression, const Call& call, const Builtin& builtin);
-  void call_macro(const Expression& expression, const Call& call, const MacroValue& macro);
+  Value call_macro(const Expression& expression, const Call& call, const MacroValue& macro);
   std::shared_ptr<Scope> bind_arguments(const Expression& expression, const Call& call,
                                         const MacroValue& macro);
   [[noreturn]] void pass_call_depth(Span span) const;
-  Value group(const Expression& expression, const Call& call, const MacroValue& macro);
+  Value value_of_call(const Expression& expression, const Call& call, const MacroValue& macro);
   [[noreturn]] void not_callable(const Call& call, const Value& callee) const;
   std::string_view callee_name(const Call& call) const;
   void capture_scopes(Span span);
@@ -132,6 +141,7 @@ class Interpreter {
   /// without recursion.
   std::vector<std::pair<std::shared_ptr<Scope>, Charge>> captured_;
   Emission emission_;
+  Result result_;
   std::vector<Value> arguments_;  ///< arguments of the built-ins that are being called
   std::size_t call_depth_ = 0;
   std::set<Symbol> overridden_;

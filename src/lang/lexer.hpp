@@ -3,6 +3,7 @@
 
 #include <cstdint>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -37,6 +38,12 @@ class Lexer {
   /// Returns where the line ends that the span begins on.
   std::uint32_t line_end(Span span) const;
 
+  /// Returns the token before the last one that was handed out.
+  Span before_last() const { return before_last_.span; }
+
+  /// Returns the first word of the line that the span begins on.
+  std::string_view first_word_of_line(Span span) const;
+
   /// Returns the brackets that are open now, outermost first.
   const std::vector<Span>& open_brackets() const { return open_brackets_; }
 
@@ -50,6 +57,8 @@ class Lexer {
   Grammar::symbol_type scan();
   Grammar::symbol_type ending();
   Grammar::symbol_type sign(Grammar::token::token_kind_type kind);
+  Grammar::symbol_type less();
+  Grammar::symbol_type greater();
   Grammar::symbol_type opening(Grammar::token::token_kind_type kind);
   Grammar::symbol_type closing(Grammar::token::token_kind_type kind, char opening_bracket);
   Grammar::symbol_type word();
@@ -66,13 +75,33 @@ class Lexer {
   void unexpected_character();
   void not_utf8();
 
+  // What other languages write: lexer_foreign.cpp.
+  void foreign_comment();
+  void foreign_block_comment();
+  bool color_follows() const;
+  Grammar::symbol_type foreign_color();
+  std::optional<Grammar::symbol_type> foreign_word(std::string_view name, bool is_capital);
+  std::optional<Grammar::symbol_type> small_letters_for(std::string_view name);
+  bool refuse_increment();
+
   void skip_comment();
   /// Returns where the next token begins, past blanks, line ends and comments.
   const Byte* next_token_start() const;
+  const Byte* next_on_line(const Byte* position) const;
+  bool value_follows(const Byte* end, bool may_be_signed) const;
   bool modifier_follows() const;
+  bool begins_modifier() const;
+  void forget_closed_modifiers();
+  bool may_begin_statement() const;
   bool arrow_follows() const;
   std::string_view next_word() const;
+  std::optional<Grammar::token::token_kind_type> keyword_by_place(std::string_view name) const;
   bool is_keyword_of_2015(Grammar::token::token_kind_type kind) const;
+
+  struct Last {
+    int kind = Grammar::symbol_kind::S_YYEMPTY;
+    Span span;
+  };
 
   const Source& source_;
   SymbolTable& symbols_;
@@ -86,7 +115,14 @@ class Lexer {
   bool first_on_line_ = true;
   std::vector<Span> open_brackets_;
   Tolerance tolerance_;
+  std::vector<std::size_t> open_modifiers_;  ///< counts the brackets around each open list
+  std::set<Symbol> capital_variables_;       ///< those that were reported where they are set
+  Last last_;
+  Last before_last_;
   int for_tokens_ = 0;  ///< so many tokens of `for (name` came last
 };
+
+/// Says whether a word looks like a modifier of another language, such as rotateY.
+bool is_foreign_modifier(std::string_view word);
 
 }  // namespace crt::lang

@@ -81,6 +81,7 @@ Grammar::symbol_type Lexer::next() {
   using Kind = Grammar::symbol_kind;
   Grammar::symbol_type token = scan();
   const auto kind = token.kind();
+  before_last_ = std::exchange(last_, {kind, token.location});
   const bool opens = kind == Kind::S_LEFT_PARENTHESIS || kind == Kind::S_FIRST_PARENTHESIS;
   const bool continues =
       (for_tokens_ == 1 && opens) || (for_tokens_ == 2 && kind == Kind::S_IDENTIFIER);
@@ -112,10 +113,15 @@ Grammar::symbol_type Lexer::scan() {
       $        { return ending(); }
       *        { not_utf8(); continue; }
       "--"     { skip_comment(); continue; }
+      "//"     { foreign_comment(); continue; }
+      "/*"     { foreign_block_comment(); continue; }
+      "#"      { if (color_follows()) return foreign_color();
+                 foreign_comment();
+                 continue; }
       [ \t\v\f]+               { continue; }
       "\r\n" | "\n" | "\r"     { first_on_line_ = true; continue; }
 
-      [a-zA-Z] [A-Za-z0-9_]*   { return word(); }
+      [a-zA-Z_] [A-Za-z0-9_]*  { return word(); }
       // This is meant as a name, but has letters that names do not have.
       ([A-Za-z0-9_] | other_letter)* ([_] | other_letter) ([A-Za-z0-9_] | other_letter)*
                                { return wrong_word(); }
@@ -132,8 +138,8 @@ Grammar::symbol_type Lexer::scan() {
       "}"      { return closing(Token::RIGHT_BRACE, '{'); }
       ")"      { return closing(Token::RIGHT_PARENTHESIS, '('); }
       "]"      { return closing(Token::RIGHT_BRACKET, '['); }
-      "<"      { return sign(modifier_follows() ? Token::MODIFIER_START : Token::LESS); }
-      ">"      { return sign(Token::GREATER); }
+      "<"      { return less(); }
+      ">"      { return greater(); }
       "<="     { return sign(Token::LESS_EQUAL); }
       ">="     { return sign(Token::GREATER_EQUAL); }
       "=="     { return sign(Token::EQUAL); }
@@ -141,6 +147,14 @@ Grammar::symbol_type Lexer::scan() {
       "&&"     { return sign(Token::AND); }
       "||"     { return sign(Token::OR); }
       "->"     { return sign(Token::ARROW); }
+      "**"     { return sign(Token::POWER); }
+      "+="     { return sign(Token::ADD_ASSIGN); }
+      "-="     { return sign(Token::SUBTRACT_ASSIGN); }
+      "*="     { return sign(Token::MULTIPLY_ASSIGN); }
+      "/="     { return sign(Token::DIVIDE_ASSIGN); }
+      "++"     { if (refuse_increment()) continue;
+                 cursor_ = token_ + 1;
+                 return sign(Token::PLUS); }
       "+"      { return sign(Token::PLUS); }
       "-"      { return sign(Token::MINUS); }
       "*"      { return sign(Token::STAR); }
@@ -192,6 +206,7 @@ Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_br
     open_brackets_.resize(i - 1);
     break;
   }
+  forget_closed_modifiers();
   return sign(kind);
 }
 
@@ -207,9 +222,14 @@ Grammar::symbol_type Lexer::word() {
   const bool is_keyword = keyword != keywords.end() && !is_attribute &&
                           (compat_ != compat_2015 || is_keyword_of_2015(keyword->kind));
   if (is_keyword) return sign(keyword->kind);
+  if (const std::optional<Token::token_kind_type> kind = keyword_by_place(name)) return sign(*kind);
   first_on_line_ = false;
-  const bool lower_case = name[0] >= 'a' && name[0] <= 'z';
-  if (lower_case || is_attribute)
+  const bool is_capital = name[0] >= 'A' && name[0] <= 'Z';
+  if (!arrow_follows()) {
+    if (std::optional<Grammar::symbol_type> meant = foreign_word(name, is_capital))
+      return std::move(*meant);
+  }
+  if (!is_capital || is_attribute)
     return Grammar::make_IDENTIFIER(symbols_.intern(name), token_span());
   return Grammar::make_OBJECT_NAME(symbols_.intern(name), token_span());
 }
@@ -237,61 +257,6 @@ void Lexer::skip_comment() {
   if (tolerance_.comments) tolerance_.comments->push_back(token_span());
 }
 
-const Lexer::Byte* Lexer::next_token_start() const {
-  const Byte* position = cursor_;
-  for (;;) {
-    const std::string_view blanks = " \t\v\f\r\n";
-    while (position < limit_ &&
-           blanks.find(static_cast<char>(*position)) != std::string_view::npos)
-      ++position;
-    // The NUL behind the end lets one look a byte ahead.
-    if (position == limit_ || position[0] != '-' || position[1] != '-') return position;
-    while (position < limit_ && *position != '\n' && *position != '\r') ++position;
-  }
-}
-
-std::string_view Lexer::next_word() const {
-  const Byte* begin = next_token_start();
-  const Byte* end = begin;
-  while (is_word_byte(*end)) ++end;
-  return text({offset(begin), offset(end)});
-}
-
-bool Lexer::modifier_follows() const {
-  if (tolerance_.ends_at_cursor && next_token_start() == limit_) return true;
-  const std::string_view next = next_word();
-  return next == "scale" || next == "translate" || next == "rotate";
-}
-
-bool Lexer::arrow_follows() const {
-  const Byte* position = next_token_start();
-  return position[0] == '-' && position[1] == '>';
-}
-
-/// Says whether a word is a keyword in a script of 2015, when there were no control statements and
-/// no imports.
-bool Lexer::is_keyword_of_2015(Token::token_kind_type kind) const {
-  const Byte* const next = next_token_start();
-  switch (kind) {
-    case Token::WHILE:
-    case Token::IF:
-    case Token::FOR:
-      // First on its line a '(' continues nothing.
-      return *next == '(' &&
-             std::none_of(cursor_, next, [](Byte c) { return c == '\n' || c == '\r'; });
-    case Token::ELSE:
-      return *next == '{' || next_word() == "if";
-    case Token::IN: {
-      constexpr int tokens_before = 3;
-      return for_tokens_ == tokens_before;
-    }
-    case Token::IMPORT:
-      return *next == '"';
-    default:
-      return true;
-  }
-}
-
 void Lexer::not_utf8() {
   reporter_.error(token_span(), "this byte is not UTF-8, the encoding of scripts");
 }
@@ -302,7 +267,6 @@ void Lexer::unexpected_character() {
   std::string message = "unexpected character " + describe_code_point(character.value_or(0));
   if (character == U';') message += "; nothing ends a statement here";
   if (character == U'\'') message += "; strings stand in double quotes";
-  if (character == U'#') message += "; comments begin with '--'";
   if (character == U'&') message += "; 'and' is '&&'";
   if (character == U'|') message += "; 'or' is '||'";
   reporter_.error(token_span(), message);

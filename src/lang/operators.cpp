@@ -14,6 +14,8 @@ namespace {
 
 const char* sign(BinaryOperator op) {
   switch (op) {
+    case BinaryOperator::power:
+      return "**";
     case BinaryOperator::multiply:
       return "*";
     case BinaryOperator::divide:
@@ -43,16 +45,34 @@ const char* sign(BinaryOperator op) {
 }
 
 [[noreturn]] void wrong_types(BinaryOperator op, Span span, const Value& left, const Value& right) {
-  fail(span, "'{}' does not take {} and {}", sign(op), left, right);
+  double storage = 0;
+  const bool are_numbers = as_float(left, storage) && as_float(right, storage);
+  const char* hint = op == BinaryOperator::intersect && are_numbers ? "; a power is a ** b" : "";
+  fail(span, "'{}' does not take {} and {}{}", sign(op), left, right, hint);
 }
 
 [[noreturn]] void overflow(Span span) {
   fail(span, "the result does not fit into a 64-bit Integer; with a Float (2.0 for 2) it would");
 }
 
+/// Computes base ** exponent by squaring. A negative exponent gives a Float.
+Value integer_power(Span span, std::int64_t base, std::int64_t exponent) {
+  if (exponent < 0) return std::pow(static_cast<double>(base), static_cast<double>(exponent));
+  std::int64_t result = 1;
+  for (;;) {
+    if ((exponent & 1) != 0 && __builtin_mul_overflow(result, base, &result)) overflow(span);
+    exponent >>= 1;
+    if (exponent == 0) return result;
+    // Powers of 0, 1 and -1 stay in range, and all others overflow within 64 rounds.
+    if (__builtin_mul_overflow(base, base, &base)) overflow(span);
+  }
+}
+
 Value integers(BinaryOperator op, Span span, std::int64_t a, std::int64_t b) {
   std::int64_t result = 0;
   switch (op) {
+    case BinaryOperator::power:
+      return integer_power(span, a, b);
     case BinaryOperator::add:
       if (__builtin_add_overflow(a, b, &result)) overflow(span);
       return result;
@@ -101,6 +121,8 @@ bool is_comparison(BinaryOperator op) {
 
 Value floats(BinaryOperator op, Span span, double a, double b) {
   switch (op) {
+    case BinaryOperator::power:
+      return std::pow(a, b);
     case BinaryOperator::add:
       return a + b;
     case BinaryOperator::subtract:

@@ -14,6 +14,8 @@
 #include "lang/compat.hpp"
 #include "lang/context.hpp"
 #include "lang/interpreter.hpp"
+#include "lang/library.hpp"
+#include "lang/name_uses.hpp"
 #include "lang/parser.hpp"
 #include "lang/settings.hpp"
 #include "lang/suggestion.hpp"
@@ -54,6 +56,9 @@ class Session {
   const Script* load(const Source& source, TextKind kind);
   void run_main(const Source& source, const Script& script, ScriptResult& result);
   void run_import(const Import& import);
+  void run_library(const Import& import);
+  void run_imported(const Source& source);
+  std::size_t bytes_left() const;
   void take_variables();
   void take_settings();
   bool evaluate_override(std::string_view option,
@@ -73,7 +78,10 @@ class Session {
   std::vector<std::pair<fs::path, std::string>>
       running_;  ///< the script and the imports within one another
   std::set<fs::path> imported_;
-  std::set<Symbol> assigned_;  ///< names set at the top level of any script
+  std::set<const char*> imported_from_library_;  ///< the texts that were
+  std::set<Symbol> assigned_;                    ///< names set at the top level of any script
+  NameUses name_uses_;                           ///< of the text that was loaded last
+  std::set<Symbol> read_by_imports_;             ///< names that imported scripts read
   std::vector<std::pair<Symbol, Span>> variables_;
   std::vector<Given> overrides_;
 };
@@ -103,6 +111,7 @@ const Script* Session::load(const Source& source, TextKind kind) {
       parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
   if (reporter_.has_errors()) return nullptr;
   check(script, context_.compat, symbols_, reporter_);
+  name_uses_ = find_name_uses(script, reporter_);
   return reporter_.has_errors() ? nullptr : &script;
 }
 
@@ -123,6 +132,7 @@ void Session::run(std::string_view text, const std::string& name, ScriptResult& 
 }
 
 void Session::run_main(const Source& source, const Script& script, ScriptResult& result) {
+  const NameUses name_uses = std::move(name_uses_);
   take_variables();
   take_settings();
   collect_assigned(script.statements, assigned_);
@@ -143,6 +153,9 @@ void Session::run_main(const Source& source, const Script& script, ScriptResult&
     reporter_.error(failure);
   }
   if (reporter_.has_errors()) return;
+  // Scripts of 2015 are what they are.
+  if (context_.compat != compat_2015)
+    warn_of_unused_names(name_uses, read_by_imports_, symbols_, reporter_);
   scene.entities = std::move(interpreter_.entities());
   result.scene = std::move(scene);
 }
@@ -150,6 +163,7 @@ void Session::run_main(const Source& source, const Script& script, ScriptResult&
 // ---- imports ------------------------------------------------------------------------------------
 
 void Session::run_import(const Import& import) {
+  if (is_library_path(import.path)) return run_library(import);
   const Span span = import.path_span;
   const Files::Found found =
       context_.files.find(import.path, sources_.source_of(span).directory, span);
@@ -165,28 +179,44 @@ void Session::run_import(const Import& import) {
         .message = fmt::format("scripts import one another: {}{}", chain, printable(name))};
   }
   if (!imported_.insert(found.path).second) return;
-  const std::size_t left =
-      context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size());
-  const Source& source =
-      sources_.add(name, context_.files.read_text(found, left, span), found.shown.parent_path());
-  const Script* script = load(source, TextKind::script);
-  // Without these definitions the rest would only give false errors.
-  if (!script) throw GiveUp{};
-  collect_assigned(script->statements, assigned_);
+  const Source& source = sources_.add(name, context_.files.read_text(found, bytes_left(), span),
+                                      found.shown.parent_path());
   running_.emplace_back(found.path, name);
-  interpreter_.run(*script, true);
+  run_imported(source);
   running_.pop_back();
 }
 
-// ---- what is set from outside
-// ---------------------------------------------------------------------
+/// Imports a script that comes with CRT. These import nothing.
+void Session::run_library(const Import& import) {
+  const std::string_view text = find_library(import.path, import.path_span);
+  if (!imported_from_library_.insert(text.data()).second) return;
+  if (text.size() > bytes_left())
+    throw Failure{.span = import.path_span,
+                  .message = fmt::format("'{}' is too long", printable(import.path)),
+                  .code = ErrorCode::limit};
+  run_imported(sources_.add(import.path, std::string(text)));
+}
+
+void Session::run_imported(const Source& source) {
+  const Script* script = load(source, TextKind::script);
+  // Without these definitions the rest would only give false errors.
+  if (!script) throw GiveUp{};
+  for (const auto& [name, places] : name_uses_.reads) read_by_imports_.insert(name);
+  collect_assigned(script->statements, assigned_);
+  interpreter_.run(*script, true);
+}
+
+std::size_t Session::bytes_left() const {
+  return context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size());
+}
+
+// ---- what is set from outside -------------------------------------------------------------------
 
 /// Evaluates the expression of an option such as <set n>. Returns false after an error.
 bool Session::evaluate_override(std::string_view option,
                                 const std::pair<std::string, std::string>& setting, Given& given) {
   const auto& [name, text] = setting;
-  if (text.size() >
-      context_.limits.source_bytes - std::min(context_.limits.source_bytes, sources_.size())) {
+  if (text.size() > bytes_left()) {
     reporter_.error({}, fmt::format("<{} {}> is too long", option, printable(name)),
                     ErrorCode::limit);
     return false;

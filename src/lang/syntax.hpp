@@ -88,9 +88,9 @@ struct Call {
   std::vector<const Expression*> arguments;
 };
 
-enum class ModifierKind { scale, translate, rotate };
+enum class ModifierKind { scale, translate, rotate, material, id, matrix };
 
-/// A Modifier is scale, translate or rotate with its operand (rules 30 to 32).
+/// A Modifier is scale, translate, rotate (rules 30 to 32) or another of these with its operand.
 struct Modifier {
   ModifierKind kind = ModifierKind::scale;
   const Expression* operand = nullptr;
@@ -111,6 +111,7 @@ struct Unary {
 };
 
 enum class BinaryOperator {
+  power,
   multiply,
   divide,
   remainder,
@@ -196,6 +197,14 @@ struct For {
   Block body;
 };
 
+/// A Return ends a macro's call, with a value or without.
+struct Return {
+  Span keyword;
+  const Expression* value = nullptr;
+  /// Without a value it may also be a variable of that name.
+  const Expression* name = nullptr;
+};
+
 struct SettingsBlock {
   Span keyword;
   std::vector<AttributeSyntax> attributes;
@@ -213,7 +222,7 @@ struct Import {
 
 struct Statement {
   Span span;
-  std::variant<ExpressionStatement, While, If, For, SettingsBlock, SceneBlock, Import> node;
+  std::variant<ExpressionStatement, While, If, For, Return, SettingsBlock, SceneBlock, Import> node;
   int height = 0;
 };
 

@@ -31,27 +31,11 @@ constexpr std::array expression_starts = {"a whole number",
                                           "!",
                                           "+",
                                           "-"};
-constexpr std::array operators = {"+",
-                                  "-",
-                                  "*",
-                                  "/",
-                                  "%",
-                                  "^",
-                                  "<",
-                                  ">",
-                                  "<=",
-                                  ">=",
-                                  "==",
-                                  "!=",
-                                  "&&",
-                                  "||",
-                                  "?",
-                                  "=",
-                                  "(",
-                                  "[",
-                                  "< before a modifier"};
-constexpr std::array statement_starts = {"while",    "if",    "for", "import",
-                                         "Settings", "Scene", "else"};
+constexpr std::array operators = {
+    "**", "+=", "-=", "*=", "/=", "+",  "-",  "*", "/", "%", "^", "<",
+    ">",  "<=", ">=", "==", "!=", "&&", "||", "?", "=", "(", "[", "< before a modifier"};
+constexpr std::array statement_starts = {"while",    "if",    "for",  "import", "return",
+                                         "Settings", "Scene", "else", "elif"};
 
 template <class List>
 void erase(Names& names, const List& list) {
@@ -75,6 +59,8 @@ std::vector<std::string> in_words(const std::vector<std::string>& expected) {
     erase(names, expression_starts);
     erase(names, operators);
   }
+  // A name at the beginning of a modifier is an error of its own.
+  if (names.contains("rotate") && !whole_expression && !statement) names.erase("a name");
   if (attribute) {
     words.emplace_back("an attribute");
     names.erase("a name");
@@ -123,6 +109,8 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
                             : "; expected '->' after the attribute's name";
   } else if (found == "->") {
     message += "; attributes stand in an object's braces, and a variable is set with '='";
+  } else if (const std::string known = hint(place, found, expected); !known.empty()) {
+    message += known;
   } else if (!words.empty()) {
     message += "; expected " + enumerate(words);
   }

@@ -84,6 +84,9 @@ int height_of_node(const Statement& statement) {
             return height;
           },
           [](const For& loop) { return std::max(height_of(loop.list), height_of(loop.body)); },
+          [](const Return& result) {
+            return std::max(height_of(result.value), height_of(result.name));
+          },
           [](const SettingsBlock& settings) { return height_of(settings.attributes); },
           [](const SceneBlock& scene) { return height_of(scene.body); },
           [](const Import&) { return 0; },
@@ -164,6 +167,22 @@ Expression* TreeBuilder::assignment(Span span, const Expression* target, const E
     reporter_.error(target->span, "only a variable can be assigned; to compare, write '=='");
   const NamePlace place{name ? name->symbol : Symbol{}, target->span};
   return expression(span, Assignment{place, value});
+}
+
+Expression* TreeBuilder::assignment(Span span, const Expression* target, BinaryOperator op,
+                                    Span op_span, const Expression* value) {
+  const auto* name = std::get_if<Name>(&target->node);
+  if (!name) return assignment(span, target, value);  // which reports the error
+  Expression* const old = expression(target->span, *name);
+  return assignment(span, target, chain(old, op, op_span, value));
+}
+
+/// Makes a statement of an expression. `return` alone may end a macro.
+Statement TreeBuilder::expression_statement(Span span, const Expression* expression) {
+  const auto* name = std::get_if<Name>(&expression->node);
+  if (name && lexer_.text(span) == "return")
+    return statement(span, Return{span, nullptr, expression});
+  return statement(span, ExpressionStatement{expression});
 }
 
 Expression* TreeBuilder::macro(Span span, std::vector<NamePlace> parameters, Block body) {

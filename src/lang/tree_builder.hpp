@@ -41,12 +41,17 @@ class TreeBuilder {
   Expression* chain(Expression* left, BinaryOperator op, Span op_span, const Expression* right);
   Expression* logical(LogicalOperator op, Expression* left, const Expression* right);
   Expression* assignment(Span span, const Expression* target, const Expression* value);
+  /// Builds `target op= value`, which is `target = target op value`.
+  Expression* assignment(Span span, const Expression* target, BinaryOperator op, Span op_span,
+                         const Expression* value);
   Expression* macro(Span span, std::vector<NamePlace> parameters, Block body);
 
   template <class Node>
   Statement statement(Span span, Node node) {
     return finish_statement(Statement{span, std::move(node)});
   }
+  void unknown_modifier(Span name);
+  Statement expression_statement(Span span, const Expression* expression);
   static If branch(If branches, const Expression* condition, Block body);
   Block append(Block block, Statement statement);
 
@@ -64,6 +69,8 @@ class TreeBuilder {
   Statement finish_statement(Statement statement);
   void check_height(Span span, int height);
   void charge(std::size_t bytes, Span span);
+  std::string hint(Span place, const std::string& found,
+                   const std::vector<std::string>& expected) const;
   std::string describe_found(Span place, const std::string& found) const;
 
   const Lexer& lexer_;

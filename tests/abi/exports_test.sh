@@ -5,9 +5,18 @@
 source "$(dirname "${BASH_SOURCE[0]}")/common.sh"
 need nm binutils
 
-# All symbols are functions crt_*@@CRT_1.0, and the version itself.
+# All symbols are functions crt_*@@CRT_1.x, and the versions themselves. A function stays in the
+# version that it came with: those of 1.0 are what the program of 1.0 calls.
 nm -D --defined-only "$LIBRARY" | awk '{ print $2, $3 }' >symbols.txt
-! grep -vxE 'T crt_[a-z0-9_]+@@CRT_1\.0|A CRT_1\.0' symbols.txt || fail "libcrt.so shows these too"
+! grep -vxE 'T crt_[a-z0-9_]+@@CRT_1\.[01]|A CRT_1\.[01]' symbols.txt ||
+  fail "libcrt.so shows these too"
+grep -qxF 'T crt_affine_product@@CRT_1.1' symbols.txt || fail "crt_affine_product is not of 1.1"
+grep -oE '\bcrt_[a-z0-9_]+\(' "$SOURCE/tests/abi/1.0/program.c" | tr -d '(' | sort -u >of_1_0.txt
+[[ -s of_1_0.txt ]] || fail "the program of 1.0 calls nothing"
+while IFS= read -r name; do
+  ! grep -qE "^T $name@@" symbols.txt || grep -qxF "T $name@@CRT_1.0" symbols.txt ||
+    fail "$name is no longer of 1.0"
+done <of_1_0.txt
 
 # This is the header without comments and directives, each declaration on a line.
 sed '/^#/d' "$header" | "$CC" -E -P -x c - | tr '\n' ' ' | tr ';' '\n' >header.txt

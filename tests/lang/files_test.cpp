@@ -312,8 +312,8 @@ TEST_CASE(
   file.append(reinterpret_cast<const char*>(values), sizeof values);
   folder.write("work/sky.pfm", file);
   const auto run = run_in(folder,
-                          "a = ImageMap { image -> \"sky.pfm\" }\n"
-                          "b = Background { image -> \"sky.pfm\" }");
+                          "_a = ImageMap { image -> \"sky.pfm\" }\n"
+                          "_b = Background { image -> \"sky.pfm\" }");
   REQUIRE(run.ok());
   REQUIRE(run.result.diagnostics.size() == 1);
   const crt::Diagnostic& warning = run.result.diagnostics[0];

@@ -111,6 +111,69 @@ TEST_CASE("a '<' before scale, translate or rotate begins modifiers") {
   CHECK(kinds("<")[0] == Kind::S_LESS);
 }
 
+TEST_CASE("a '<' before material, id or matrix begins modifiers if a value follows there") {
+  const auto first = [](const std::string& text) { return kinds(text)[0]; };
+  for (const std::string word : {"material", "id", "matrix"}) {
+    CAPTURE(word);
+    for (const char* value : {" m", " 3", " .5", " [1]", " (m)", " \"s\"", " Material", " true"})
+      CHECK(first("<" + word + value) == Kind::S_MODIFIER_START);
+    for (const char* rest : {"", ")", "(m)", "[1]", " + 1", " - 1", " -1", "\nm", " && a", " == b",
+                             " ? 1", " -- m", " }", " ]", ", 1", "2 m", " .a", " = 3", " > 3"})
+      CHECK(first("<" + word + rest) == Kind::S_LESS);
+    // Such a word is a name wherever it begins no modifier.
+    CHECK(kinds(word + " = 1")[0] == Kind::S_IDENTIFIER);
+    CHECK(kinds(word + " -> m")[0] == Kind::S_IDENTIFIER);
+    CHECK(kinds("(a, " + word + " 3)")[3] == Kind::S_IDENTIFIER);
+    CHECK(kinds("<scale f(2, " + word + ")>")[6] == Kind::S_IDENTIFIER);
+    CHECK(kinds("<scale 2> , " + word)[5] == Kind::S_IDENTIFIER);
+    CHECK(kinds("<scale 2, " + word + " [1]>")[4] != Kind::S_IDENTIFIER);
+    // Scripts of 2015 do not know these modifiers.
+    CHECK(kinds("<" + word + " m", crt::compat_2015)[0] == Kind::S_LESS);
+  }
+}
+
+TEST_CASE("return is a keyword where a statement can begin and a value follows on the line") {
+  const auto second = [](const std::string& text, int compat = 0) {
+    return kinds(text, compat).at(1);
+  };
+  for (const char* value : {" x", " 3", " \"s\"", " (a)", " [1]", " -x", " +1", " !a", " .5"})
+    CHECK(second("{ return" + std::string(value)) == Kind::S_RETURN);
+  for (const char* rest :
+       {" = 3", "(a)", "[1]", " - x", " + 1", " != a", "\n3", " }", " -> 3", ", a", ".x"})
+    CHECK(second("{ return" + std::string(rest)) == Kind::S_IDENTIFIER);
+  CHECK(second("= return x") == Kind::S_IDENTIFIER);
+  CHECK(second("x return 3") == Kind::S_RETURN);
+  CHECK(second("{ return 3", crt::compat_2015) == Kind::S_IDENTIFIER);
+}
+
+TEST_CASE("elif is a keyword between a brace and a parenthesis") {
+  CHECK(kinds("} elif (a)")[1] == Kind::S_ELIF);
+  CHECK(kinds("}\nelif(a)")[1] == Kind::S_ELIF);
+  CHECK(kinds("} elif = a")[1] == Kind::S_IDENTIFIER);
+  CHECK(kinds("x elif (a)")[1] == Kind::S_IDENTIFIER);
+  CHECK(kinds("} elif (a)", crt::compat_2015)[1] == Kind::S_IDENTIFIER);
+}
+
+TEST_CASE("two plus signs are two signs unless they can only be an increment") {
+  CHECK(kinds("a ++b") ==
+        Kinds{Kind::S_IDENTIFIER, Kind::S_PLUS, Kind::S_PLUS, Kind::S_IDENTIFIER});
+  CHECK(kinds("a++b").size() == 4);
+  CHECK(kinds("a ++\nb").size() == 4);
+  CHECK(lex("a+++b").errors.empty());
+  for (const char* end : {"", "\nb", ")", " }", " -- c"})
+    CHECK(lex("i++" + std::string(end)).errors ==
+          std::vector<std::string>{"there is no '++'; write 'i += 1'"});
+}
+
+TEST_CASE("a comment of another language is one error, and what follows it is read") {
+  CHECK(kinds("1 // 2 ( \n3") == Kinds{Kind::S_INTEGER, Kind::S_INTEGER});
+  CHECK(kinds("1 /* 2 \n ( */ (3").size() == 3);
+  CHECK(kinds("1 /* 2 \n ( */ (3")[1] == Kind::S_FIRST_PARENTHESIS);
+  CHECK(lex("1 /* 2 \n 3").errors.size() == 1);
+  CHECK(kinds("1 /* 2 \n 3").size() == 2);
+  CHECK(lex("1 # don't\n").errors.size() == 1);
+}
+
 TEST_CASE("before an arrow every keyword is the name of an attribute") {
   for (const char* word : {"Settings", "Scene", "Macro", "scale", "translate", "rotate", "true",
                            "false", "while", "if", "else", "for", "in", "import"}) {

@@ -18,7 +18,7 @@ TEST_CASE("each built-in, constant and keyword has its text in the reference") {
     CHECK_FALSE(reference.word(builtin.name).empty());
   }
   for (const char* word : {"pi", "t", "Settings", "Scene", "Macro", "import", "while", "for", "in",
-                           "if", "else", "scale", "translate", "rotate"}) {
+                           "if", "else", "elif", "return", "scale", "translate", "rotate", "material", "id", "matrix"}) {
     CAPTURE(word);
     CHECK_FALSE(reference.word(word).empty());
   }

@@ -1,0 +1,190 @@
+// This part of the lexer looks ahead, to say which words are keywords where.
+#include <algorithm>
+#include <array>
+#include <string_view>
+
+#include "lang/lexer.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+using Token = Grammar::token;
+using Kind = Grammar::symbol_kind;
+
+/// No more modifiers can lie within one another.
+constexpr std::size_t most_open_modifiers = 1000;
+
+struct Word {
+  std::string_view text;
+  Token::token_kind_type kind;
+};
+
+/// These words have a meaning at the beginning of a modifier alone.
+constexpr std::array modifier_words = {
+    Word{"material", Token::MATERIAL},
+    Word{"id", Token::ID},
+    Word{"matrix", Token::MATRIX},
+};
+
+bool is_word_byte(unsigned char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
+}
+
+}  // namespace
+
+/// Returns the kind of a word that is a keyword in some places only, and a name in all others.
+std::optional<Token::token_kind_type> Lexer::keyword_by_place(std::string_view name) const {
+  if (compat_ == compat_2015) return std::nullopt;
+  if (begins_modifier()) {
+    const auto* modifier = std::find_if(modifier_words.begin(), modifier_words.end(),
+                                        [name](const Word& k) { return k.text == name; });
+    if (modifier != modifier_words.end()) return modifier->kind;
+  }
+  if (name == "elif" && last_.kind == Kind::S_RIGHT_BRACE && *next_on_line(cursor_) == '(')
+    return Token::ELIF;
+  if (name == "return" && may_begin_statement() && value_follows(cursor_, true))
+    return Token::RETURN;
+  return std::nullopt;
+}
+
+const Lexer::Byte* Lexer::next_token_start() const {
+  const Byte* position = cursor_;
+  for (;;) {
+    const std::string_view blanks = " \t\v\f\r\n";
+    while (position < limit_ && blanks.find(static_cast<char>(*position)) != std::string_view::npos)
+      ++position;
+    // The NUL behind the end lets one look a byte ahead.
+    if (position == limit_ || position[0] != '-' || position[1] != '-') return position;
+    while (position < limit_ && *position != '\n' && *position != '\r') ++position;
+  }
+}
+
+std::string_view Lexer::next_word() const {
+  const Byte* begin = next_token_start();
+  const Byte* end = begin;
+  while (is_word_byte(*end)) ++end;
+  return text({offset(begin), offset(end)});
+}
+
+/// Returns the first byte from `position` on that is no blank. It may be a line end.
+const Lexer::Byte* Lexer::next_on_line(const Byte* position) const {
+  const std::string_view blanks = " \t\v\f";
+  while (position < limit_ && blanks.find(static_cast<char>(*position)) != std::string_view::npos)
+    ++position;
+  return position;
+}
+
+/// Says whether what follows a word that ends at `end` can only begin a value: not what continues
+/// an expression that the word is a name in. A bracket or sign does if a blank is before it, and
+/// none behind the sign. Signs count only if they `may_be_signed`.
+bool Lexer::value_follows(const Byte* end, bool may_be_signed) const {
+  const Byte* const next = next_on_line(end);
+  // The NUL behind the end lets one look a byte ahead.
+  switch (*next) {
+    case '"':
+      return true;
+    case '.':
+      return next[1] >= '0' && next[1] <= '9';
+    case '(':
+    case '[':
+      return next > end;
+    case '!':
+      return may_be_signed && next[1] != '=';
+    case '+':
+    case '-':
+      return may_be_signed && next > end && next[1] != next[0] && next[1] != '=' &&
+             next[1] != '>' && next_on_line(next + 1) == next + 1;
+    default:
+      return is_word_byte(*next);
+  }
+}
+
+bool Lexer::modifier_follows() const {
+  if (tolerance_.ends_at_cursor && next_token_start() == limit_) return true;
+  const std::string_view next = next_word();
+  if (next == "scale" || next == "translate" || next == "rotate") return true;
+  if (compat_ == compat_2015) return false;
+  const bool is_modifier = std::any_of(modifier_words.begin(), modifier_words.end(),
+                                       [next](const Word& k) { return k.text == next; });
+  if (!is_modifier && !is_foreign_modifier(next)) return false;
+  return value_follows(next_token_start() + next.size(), false);
+}
+
+/// Says whether a modifier begins here: behind the '<' or a comma of modifiers.
+bool Lexer::begins_modifier() const {
+  if (last_.kind == Kind::S_MODIFIER_START) return true;
+  return last_.kind == Kind::S_COMMA && !open_modifiers_.empty() &&
+         open_modifiers_.back() == open_brackets_.size();
+}
+
+/// Says whether the token before can end a statement or open a block.
+bool Lexer::may_begin_statement() const {
+  switch (last_.kind) {
+    case Kind::S_LEFT_BRACE:
+    case Kind::S_RIGHT_BRACE:
+    case Kind::S_RIGHT_PARENTHESIS:
+    case Kind::S_RIGHT_BRACKET:
+    case Kind::S_IDENTIFIER:
+    case Kind::S_INTEGER:
+    case Kind::S_FLOAT:
+    case Kind::S_STRING:
+    case Kind::S_TRUE:
+    case Kind::S_FALSE:
+    case Kind::S_GREATER:
+    case Kind::S_START_SCRIPT:
+      return true;
+    default:
+      return false;
+  }
+}
+
+Grammar::symbol_type Lexer::less() {
+  if (!modifier_follows()) return sign(Token::LESS);
+  if (open_modifiers_.size() < most_open_modifiers)
+    open_modifiers_.push_back(open_brackets_.size());
+  return sign(Token::MODIFIER_START);
+}
+
+/// Forgets modifiers that lie in brackets which are closed.
+void Lexer::forget_closed_modifiers() {
+  while (!open_modifiers_.empty() && open_modifiers_.back() > open_brackets_.size())
+    open_modifiers_.pop_back();
+}
+
+Grammar::symbol_type Lexer::greater() {
+  if (!open_modifiers_.empty() && open_modifiers_.back() == open_brackets_.size())
+    open_modifiers_.pop_back();
+  return sign(Token::GREATER);
+}
+
+bool Lexer::arrow_follows() const {
+  const Byte* position = next_token_start();
+  return position[0] == '-' && position[1] == '>';
+}
+
+/// Says whether a word is a keyword in a script of 2015, when there were no control statements and
+/// no imports.
+bool Lexer::is_keyword_of_2015(Token::token_kind_type kind) const {
+  const Byte* const next = next_token_start();
+  switch (kind) {
+    case Token::WHILE:
+    case Token::IF:
+    case Token::FOR:
+      // First on its line a '(' continues nothing.
+      return *next == '(' &&
+             std::none_of(cursor_, next, [](Byte c) { return c == '\n' || c == '\r'; });
+    case Token::ELSE:
+      return *next == '{' || next_word() == "if";
+    case Token::IN: {
+      constexpr int tokens_before = 3;
+      return for_tokens_ == tokens_before;
+    }
+    case Token::IMPORT:
+      return *next == '"';
+    default:
+      return true;
+  }
+}
+
+}  // namespace crt::lang

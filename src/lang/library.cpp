@@ -1,0 +1,49 @@
+#include "lang/library.hpp"
+
+#include <fmt/format.h>
+
+#include <vector>
+
+#include "lang/reporter.hpp"
+#include "lang/suggestion.hpp"
+#include "lang/utf8.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+constexpr std::string_view prefix = "crt/";
+constexpr std::string_view ending = ".crt";
+
+}  // namespace
+
+bool is_library_path(std::string_view path) {
+  return path.starts_with(prefix);
+}
+
+std::string_view find_library(const std::string& path, Span span) {
+  std::string_view name = std::string_view(path).substr(prefix.size());
+  if (name.ends_with(ending)) name.remove_suffix(ending.size());
+  std::vector<std::string_view> paths;
+  std::vector<std::string> listed;
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> result;
+    for (const LibraryScript& script : library())
+      result.push_back(std::string(prefix) + std::string(script.name));
+    return result;
+  }();
+  for (const LibraryScript& script : library()) {
+    if (script.name == name) return script.text;
+  }
+  for (const std::string& known : all) {
+    paths.emplace_back(known);
+    listed.push_back(fmt::format("'{}'", known));
+  }
+  std::string hint = did_you_mean(path, paths);
+  if (hint.empty()) hint = "; there are " + enumerate(listed, "and");
+  throw Failure{.span = span,
+                .message = fmt::format("CRT comes with no '{}'{}", abbreviated(path), hint),
+                .code = ErrorCode::io};
+}
+
+}  // namespace crt::lang

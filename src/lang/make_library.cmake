@@ -1,0 +1,16 @@
+# Writes the scripts of a folder into a C++ source: cmake -DFOLDER=... -DOUTPUT=... -P this.
+# A text stands in one literal, so it has at most 64 KiB.
+file(GLOB scripts ${FOLDER}/*.crt)
+list(SORT scripts)
+set(source "// This is generated of share/crt.\n#include \"lang/library.hpp\"\n\n")
+string(APPEND source "namespace crt::lang {\n\nnamespace {\n\n")
+string(APPEND source "constexpr LibraryScript scripts[] = {\n")
+foreach(script IN LISTS scripts)
+  get_filename_component(name ${script} NAME_WE)
+  file(READ ${script} text)
+  string(APPEND source "    {\"${name}\", R\"crt(${text})crt\"},\n")
+endforeach()
+string(APPEND source "};\n\n}  // namespace\n\n")
+string(APPEND source "std::span<const LibraryScript> library() {\n  return scripts;\n}\n\n")
+string(APPEND source "}  // namespace crt::lang\n")
+file(WRITE ${OUTPUT} "${source}")

@@ -1,0 +1,89 @@
+// This file guesses what a user of another language meant by what is no CRT, and says how CRT
+// writes it.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <string_view>
+#include <utility>
+
+#include "lang/tree_builder.hpp"
+
+namespace crt::lang {
+
+namespace {
+
+using Hint = std::pair<std::string_view, std::string_view>;
+
+constexpr std::string_view how_to_write_macros =
+    "; a macro is written f = Macro (x) { return x + 1 }";
+
+// These words stand before what is unexpected.
+constexpr std::array hints_before = {
+    Hint{"not", "; 'not' is written '!'"},
+    Hint{"union", "; the union of two entities is a + b"},
+    Hint{"merge", "; the union of two entities is a + b"},
+    Hint{"difference", "; the difference of two entities is a - b"},
+    Hint{"intersection", "; the intersection of two entities is a ^ b"},
+};
+
+// These words are unexpected themselves.
+constexpr std::array hints_at = {
+    Hint{"and", "; 'and' is written '&&'"},
+    Hint{"or", "; 'or' is written '||'"},
+};
+
+constexpr std::array<std::string_view, 6> macro_words = {"def", "function", "func",
+                                                         "fn",  "sub",      "proc"};
+
+std::string_view hint_of(std::string_view word, const Hint* begin, const Hint* end) {
+  const auto* found = std::find_if(begin, end, [word](const Hint& h) { return h.first == word; });
+  return found == end ? std::string_view() : found->second;
+}
+
+bool contains(const std::vector<std::string>& names, std::string_view name) {
+  return std::find(names.begin(), names.end(), name) != names.end();
+}
+
+std::string_view modifier_hint(std::string_view word) {
+  const auto begins = [word](std::string_view small, std::string_view capital) {
+    return word.starts_with(small) || word.starts_with(capital);
+  };
+  if (begins("rotate", "Rotate"))
+    return "; 'rotate' takes the angles about x, y and z: <rotate vec3(0, 45, 0)>";
+  if (begins("scale", "Scale")) return "; 'scale' takes all three factors: <scale vec3(1, 2, 1)>";
+  if (begins("translate", "Translate") || word == "move" || word == "shift")
+    return "; 'translate' takes all three offsets: <translate vec3(1, 0, 0)>";
+  return "; there are 'scale', 'translate', 'rotate', 'material', 'id' and 'matrix'";
+}
+
+}  // namespace
+
+void TreeBuilder::unknown_modifier(Span name) {
+  const std::string_view word = lexer_.text(name);
+  reporter_.error(name, fmt::format("there is no modifier '{}'{}", word, modifier_hint(word)));
+}
+
+std::string TreeBuilder::hint(Span place, const std::string& found,
+                              const std::vector<std::string>& expected) const {
+  const std::string_view text = lexer_.text(place);
+  const std::string_view before = lexer_.text(lexer_.before_last());
+  const bool wants_value = contains(expected, "a whole number");
+  std::string_view result;
+  if (wants_value && found == "<") {
+    result = "; a Vec3 is written vec3(x, y, z), and a Color rgb(r, g, b)";
+  } else if (found == "scale" || found == "translate" || found == "rotate") {
+    result = "; modifiers stand behind an entity: ball <translate vec3(1, 0, 0)>";
+  } else if (contains(expected, "in") && found == "=") {
+    result = "; a loop that counts is written for (i in range(10)) { ... }";
+  } else if (text == "{" || text == ":") {
+    const std::string_view first = lexer_.first_word_of_line(place);
+    if (std::find(macro_words.begin(), macro_words.end(), first) != macro_words.end())
+      result = how_to_write_macros;
+  }
+  if (result.empty()) result = hint_of(text, hints_at.begin(), hints_at.end());
+  if (result.empty()) result = hint_of(before, hints_before.begin(), hints_before.end());
+  return std::string(result);
+}
+
+}  // namespace crt::lang

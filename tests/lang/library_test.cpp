@@ -1,0 +1,96 @@
+// These tests check the scripts that come with CRT.
+#include "lang/library.hpp"
+
+#include <doctest/doctest.h>
+#include <fmt/format.h>
+
+#include <filesystem>
+#include <fstream>
+#include <map>
+#include <regex>
+#include <set>
+#include <string>
+
+#include "run.hpp"
+
+namespace {
+
+/// Returns the names that a script of the library sets.
+std::vector<std::string> names_in(std::string_view text) {
+  std::vector<std::string> names;
+  const std::string all(text);
+  const std::regex assignment("(?:^|\\n)(\\w+) =");
+  for (std::sregex_iterator found(all.begin(), all.end(), assignment), end; found != end; ++found)
+    names.push_back((*found)[1]);
+  return names;
+}
+
+/// Returns the reference with a blank for each line end.
+std::string reference() {
+  std::ifstream file(std::filesystem::path(CRT_SOURCE_DIR) / "docs" / "language.md");
+  std::string text;
+  for (std::string word; file >> word;) text += word + ' ';
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("every script of the library runs, and all together set each name once") {
+  std::map<std::string, std::string> origin;
+  CHECK(crt::lang::library().size() >= 4);
+  for (const crt::lang::LibraryScript& script : crt::lang::library()) {
+    CAPTURE(script.name);
+    const std::vector<std::string> names = names_in(script.text);
+    CHECK(names.size() >= 4);
+    std::string text = fmt::format("import \"crt/{}\"\n", script.name);
+    for (const std::string& name : names) {
+      CHECK_MESSAGE(origin.emplace(name, script.name).second, name);
+      text += fmt::format("print({})\n", name);
+    }
+    const crt::test::Run run = crt::test::run_statements(text);
+    CHECK(run.result.diagnostics.empty());
+    CHECK(run.printed.size() == names.size());
+  }
+}
+
+TEST_CASE("the reference lists the library: each script with all of its names") {
+  const std::string text = reference();
+  for (const crt::lang::LibraryScript& script : crt::lang::library()) {
+    std::string entry = fmt::format("**`\"crt/{}\"`**: ", script.name);
+    for (const std::string& name : names_in(script.text)) entry += fmt::format("`{}` ", name);
+    entry.back() = '.';
+    CHECK_MESSAGE(text.find(entry) != std::string::npos, entry);
+  }
+}
+
+TEST_CASE("the library is found without a file, and no file takes its place") {
+  crt::ScriptOptions options;
+  std::size_t asked = 0;
+  options.open_file = [&](const std::filesystem::path&) {
+    ++asked;
+    return std::vector<std::byte>();
+  };
+  options.resource_directories = {"/"};
+  options.allow_outside_files = true;
+  CHECK(crt::test::run("import \"crt/metals\" Scene { } print(gold)", options).printed ==
+        std::vector<std::string>{"<Material>"});
+  CHECK_FALSE(crt::test::run("import \"crt/no\" Scene { }", options).ok());
+  CHECK_FALSE(crt::test::run("import \"crt/../../etc/passwd\" Scene { }", options).ok());
+  CHECK(asked == 0);
+}
+
+TEST_CASE("the library counts as text of the script") {
+  crt::ScriptOptions options;
+  options.limits.source_bytes = 1000;
+  CHECK(crt::test::run("import \"crt/metals\" Scene { }", options)
+            .failed_with(crt::ErrorCode::limit));
+}
+
+TEST_CASE("a script may set a name of the library anew, also from outside") {
+  crt::ScriptOptions options;
+  CHECK(crt::test::run("import \"crt/colors\" red = 3 print(red) Scene { }").printed ==
+        std::vector<std::string>{"3"});
+  options.variables = {{"red", "4"}};
+  CHECK(crt::test::run("import \"crt/colors\" print(red) Scene { }", options).printed ==
+        std::vector<std::string>{"4"});
+}

@@ -1,0 +1,82 @@
+// These tests check what the modifiers of an entity do to the scene.
+#include <doctest/doctest.h>
+
+#include <set>
+#include <string>
+
+#include "crt/query.hpp"
+#include "crt/render.hpp"
+#include "run.hpp"
+
+namespace {
+
+crt::Scene scene_of(const std::string& text) {
+  crt::test::Run result = crt::test::run(text);
+  for (const crt::Diagnostic& diagnostic : result.result.diagnostics)
+    MESSAGE(crt::format_diagnostic(diagnostic));
+  REQUIRE(result.ok());
+  return std::move(*result.result.scene);
+}
+
+/// Returns the pixels of a small picture of what stands at the origin.
+std::vector<float> pixels_of(const std::string& entities) {
+  const crt::Scene scene = scene_of(R"(
+    Settings {
+      width -> 16 height -> 12
+      camera -> Camera { position -> vec3(0, 1, -4) pointing -> vec3(0, 0, 0) }
+      lights -> [PointLight { origin -> vec3(3, 5, -4) color -> rgb(1, 1, 1) ambient -> 0.2 }]
+    }
+    red = Material { color -> rgb(0.9, 0.1, 0.1) }
+    blue = Material { color -> rgb(0.1, 0.1, 0.9) specular -> 0.5 }
+    print(red == blue)
+    Scene { )" + entities + " }");
+  const crt::Image image = crt::render(crt::prepare(scene));
+  const std::span<const float> pixels = image.pixels();
+  return {pixels.begin(), pixels.end()};
+}
+
+std::optional<std::uint32_t> id_seen_from_the_camera(const crt::Scene& scene) {
+  const auto hit = crt::intersect(crt::prepare(scene), {.origin = {0, 0, -9}});
+  return hit ? std::optional(hit->entity_id) : std::nullopt;
+}
+
+}  // namespace
+
+TEST_CASE("a material as a modifier is that of the attribute") {
+  const auto given = pixels_of("Sphere { center -> vec3(0,0,0) radius -> 1 material -> red }");
+  CHECK(pixels_of("Sphere { center -> vec3(0,0,0) radius -> 1 } <material red>") == given);
+  CHECK(pixels_of("Sphere { center -> vec3(0,0,0) radius -> 1 } <material blue>") != given);
+}
+
+TEST_CASE("a material as a modifier is for the parts that have none") {
+  const std::string half = "Sphere { center -> vec3(0,0,0) radius -> 1 ";
+  const std::string box = "Box { cornerA -> vec3(0,0,-2) cornerB -> vec3(2,2,2) material -> blue }";
+  const auto given = pixels_of(half + "material -> red } - " + box);
+  CHECK(pixels_of("(" + half + "} - " + box + ") <material red>") == given);
+  CHECK(pixels_of(half + "material -> red } <material blue> - " + box) == given);
+}
+
+TEST_CASE("an id is what hits report, and the outermost holds") {
+  const std::string ball = "Scene { Sphere { center -> vec3(0,0,0) radius -> 1 } ";
+  CHECK(id_seen_from_the_camera(scene_of(ball + "}")) == 0);
+  CHECK(id_seen_from_the_camera(scene_of(ball + "<id 7> }")) == 7);
+  CHECK(id_seen_from_the_camera(scene_of(ball + "<id 7> <id 4294967295> }")) == 4294967295);
+  CHECK(id_seen_from_the_camera(scene_of(ball + "<id 7, scale 2, id 8> }")) == 8);
+}
+
+TEST_CASE("a matrix moves as its rows say") {
+  const std::string ball = "Scene { Sphere { center -> vec3(0, 0, 0) radius -> 1 } ";
+  // x and y change places, all is twice as large along z, and moved along z by 5.
+  const std::string numbers = "<matrix [0, 1, 0, 0, 1, 0, 0, 0, 0, 0, 2, 5]>";
+  const std::string rows = "<matrix [[0, 1, 0, 0], [1, 0, 0, 0], [0, 0, 2, 5]]>";
+  for (const std::string& matrix : {numbers, rows}) {
+    const crt::PreparedScene prepared = crt::prepare(scene_of(ball + matrix + " }"));
+    const auto hit = crt::intersect(prepared, {.origin = {0, 0, -5}});
+    REQUIRE(hit);
+    CHECK(hit->t == doctest::Approx(8));
+  }
+  const std::string moved = "<translate vec3(0.5, 0, 0)> ";
+  const crt::PreparedScene prepared = crt::prepare(scene_of(ball + moved + rows + " }"));
+  CHECK(crt::intersect(prepared, {.origin = {0, 1.4, -5}}));
+  CHECK_FALSE(crt::intersect(prepared, {.origin = {1.4, 0, -5}}));
+}
