@@ -96,7 +96,8 @@ std::string comment_above(const lang::Source& source, lang::Span span) {
     text.remove_prefix(std::min(text.find_first_not_of(" \t"), text.size()));
     if (!text.starts_with("--")) break;
     text.remove_prefix(std::min(text.find_first_not_of("- \t"), text.size()));
-    result = lang::printable(text) + (result.empty() ? "" : "\n" + result);
+    if (!result.empty()) result.insert(0, 1, '\n');
+    result.insert(0, lang::printable(text));
     line = above;
   }
   return result;

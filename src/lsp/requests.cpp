@@ -85,6 +85,7 @@ std::vector<json> Requests::check_next() {
 
 std::vector<json> Requests::diagnostics_of(const std::vector<FileDiagnostics>& files) const {
   std::vector<json> notifications;
+  notifications.reserve(files.size());
   for (const FileDiagnostics& file : files)
     notifications.push_back(diagnostics_json(file, workspace_.encoding()));
   return notifications;

@@ -53,7 +53,7 @@ class Requests {
   using Json = nlohmann::json;
 
   Document& document_of(const Json& params);
-  std::uint32_t byte_of(const Document& document, const Json& position) const;
+  std::uint32_t byte_of(const Document& document, const Json& params) const;
   Json completion(const Json& params);
   Json hover(const Json& params);
   Json definition(const Json& params);

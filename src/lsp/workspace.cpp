@@ -92,7 +92,7 @@ std::vector<Document*> Workspace::documents() {
   return documents;
 }
 
-const Program& Workspace::program(Document& document) {
+const Program& Workspace::program(Document& document) const {
   if (!document.program)
     document.program = std::make_unique<Program>(document.text(), document.name, options());
   return *document.program;

@@ -64,7 +64,7 @@ class Workspace {
   Document* find(const std::string& uri);
   std::vector<Document*> documents();
 
-  const Program& program(Document& document);
+  const Program& program(Document& document) const;
 
   /// Returns options by which scripts find their files: open texts before those on the disk.
   ScriptOptions options() const;

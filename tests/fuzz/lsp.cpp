@@ -1,6 +1,6 @@
-// This fuzzer plays a client of the language server. The first byte chooses between raw bytes, and
-// a text that is opened and asked about everywhere. The server must live on and answer each request
-// once.
+// This fuzzer plays a client of the language server. The first byte chooses between raw bytes, a
+// text that is formatted twice, and one that is opened and asked about at some places. The server
+// must live on and answer each request once.
 #include <algorithm>
 #include <cstdint>
 #include <cstdlib>
@@ -64,7 +64,7 @@ void ask_everywhere(Client& client, const std::string& text) {
   item["version"] = 1;
   item["text"] = text;
   client.notify("textDocument/didOpen", {{"textDocument", item}});
-  constexpr std::size_t most_places = 8;
+  constexpr std::size_t most_places = 2;
   const std::size_t step = text.size() / most_places + 1;
   for (std::size_t i = 0; i <= text.size(); i += step) {
     const auto line = std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(i), '\n');
@@ -78,19 +78,28 @@ void ask_everywhere(Client& client, const std::string& text) {
   }
 }
 
+void format_twice(const std::string& text) {
+  const auto once = crt::format::format_script(text, "fuzz").text;
+  if (once) require(crt::format::format_script(*once, "fuzz").text == once);
+}
+
 }  // namespace
 
 extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
   if (size == 0) return 0;
   const std::string text(reinterpret_cast<const char*>(data) + 1, size - 1);
-  Client client;
-  if (data[0] % 4 == 0) {
-    client.send(text);
-    client.send(crt::lsp::framed(text));
+  constexpr int ways = 4;
+  const int way = data[0] % ways;
+  if (way == 1) {
+    format_twice(text);
     return 0;
   }
-  ask_everywhere(client, text);
-  const auto once = crt::format::format_script(text, "fuzz").text;
-  if (once) require(crt::format::format_script(*once, "fuzz").text == once);
+  Client client;
+  if (way == 0) {
+    client.send(text);
+    client.send(crt::lsp::framed(text));
+  } else {
+    ask_everywhere(client, text);
+  }
   return 0;
 }

@@ -144,7 +144,7 @@ class Hovers(ServerTest):
     def test_objects_attributes_and_built_ins_have_the_references_text(self):
         self.assertIn("All that lies behind a plane", self.shown("a = Pl|ane { }"))
         self.assertIn("radius of the tube", self.shown("a = Torus { thick|ness -> 1 }"))
-        self.assertIn("Screens expect 2.2", self.shown("Settings { ga|mma -> 1 }"))
+        self.assertIn("value^(1/gamma)", self.shown("Settings { ga|mma -> 1 }"))
         self.assertIn("brighter than 1", self.shown("a = PointLight { colo|r -> 1 }"))
         self.assertIn("natural logarithm", self.shown("a = lo|g(2)"))
         self.assertIn("number of the frame", self.shown("a = t|"))
