@@ -208,6 +208,21 @@ typedef enum crt_pattern_type {
   CRT_PATTERN_IMAGE     /**< `image` laid over the surface by its (u, v) */
 } crt_pattern_type;
 
+/** Lists how a picture is laid over a surface. All but the first work in space. */
+typedef enum crt_image_mapping {
+  CRT_MAPPING_UV = 0,      /**< by the surface's own (u, v) */
+  CRT_MAPPING_PLANAR,      /**< along `direction`, as seen from where that comes from */
+  CRT_MAPPING_CYLINDRICAL, /**< once around the axis `direction`, and up along it */
+  CRT_MAPPING_CUBIC        /**< planar, along the axis that is nearest to the normal */
+} crt_image_mapping;
+
+/** Is the colour at a place of a smooth pattern. The layout is fixed for ever: 40 bytes. */
+typedef struct crt_color_stop {
+  double position; /**< in [0, 1]: 0 is where color_a would be, and 1 where color_b would be */
+  double color[3]; /**< linear RGB, each in [0, 1e30] */
+  double alpha;    /**< in [0, 1] */
+} crt_color_stop;
+
 /**
  * Describes colours that vary over a surface or through space. A pattern lives in the space of the
  * entity that wears it.
@@ -228,6 +243,17 @@ typedef struct crt_pattern {
   const crt_image* image; /**< of CRT_PATTERN_IMAGE alone */
   double repeat_u;        /**< how often the image repeats across the surface; > 0 */
   double repeat_v;
+  const struct crt_pattern* pattern_a; /**< takes the place of color_a; default NULL */
+  /** Takes the place of color_b; default NULL. At most 5 patterns lie within one another. */
+  const struct crt_pattern* pattern_b;
+  /** Takes the place of both colours of gradient, noise, marble and wood: 2 to 64 stops at
+   * ascending positions. Two at one position make an edge. */
+  const crt_color_stop* colors;
+  uint64_t color_count; /**< of `colors`; default 0 */
+  /** Says how the image is laid over the surface: a crt_image_mapping. All but CRT_MAPPING_UV take
+   * `direction`, `offset` and `scale`, the width and height of the picture. */
+  int32_t mapping;
+  int32_t reserved_2; /**< must be 0 */
 } crt_pattern;
 
 /** Describes what a surface is made of. */
@@ -506,8 +532,8 @@ CRT_API crt_status crt_difference_create(crt_entity* from, crt_entity* const* cu
  *
  * @code{.c}
  * double turn[12], lift[12], both[12];
- * const double y[3] = {0, 1, 0}, up[3] = {0, 2, 0};
- * crt_affine_rotation(y, 0.5, turn);
+ * const double axis[3] = {0, 1, 0}, up[3] = {0, 2, 0};
+ * crt_affine_rotation(axis, 0.5, turn);
  * crt_affine_translation(up, lift);
  * crt_affine_product(turn, lift, both);
  * crt_entity_with_transform(sphere, both, &part);

@@ -11,10 +11,13 @@ template <>
 std::span<const std::size_t> field_ends<crt_pattern>() {
   using S = crt_pattern;
   static constexpr std::array ends = {
-      CRT_END(S, type),       CRT_END(S, color_a),   CRT_END(S, alpha_a),  CRT_END(S, color_b),
-      CRT_END(S, alpha_b),    CRT_END(S, direction), CRT_END(S, offset),   CRT_END(S, scale),
-      CRT_END(S, turbulence), CRT_END(S, octaves),   CRT_END(S, reserved), CRT_END(S, image),
-      CRT_END(S, repeat_u),   CRT_END(S, repeat_v)};
+      CRT_END(S, type),      CRT_END(S, color_a),   CRT_END(S, alpha_a),
+      CRT_END(S, color_b),   CRT_END(S, alpha_b),   CRT_END(S, direction),
+      CRT_END(S, offset),    CRT_END(S, scale),     CRT_END(S, turbulence),
+      CRT_END(S, octaves),   CRT_END(S, reserved),  CRT_END(S, image),
+      CRT_END(S, repeat_u),  CRT_END(S, repeat_v),  CRT_END(S, pattern_a),
+      CRT_END(S, pattern_b), CRT_END(S, colors),    CRT_END(S, color_count),
+      CRT_END(S, mapping),   CRT_END(S, reserved_2)};
   return ends;
 }
 

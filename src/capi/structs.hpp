@@ -30,6 +30,8 @@ Enum to_enum(std::int32_t value, Enum last, const char* argument, const char* li
 // Each takes all that the caller's struct holds, and throws for NULL and unknown enumeration
 // values.
 Material to_material(const crt_material* material);
+/// `depth` counts the patterns that this one lies within, and itself.
+Pattern to_pattern(const crt_pattern* pattern, const char* argument, int depth = 1);
 Light to_light(const crt_light* light);
 Camera to_camera(const crt_camera* camera);
 Background to_background(const crt_background* background);

@@ -4,94 +4,10 @@
 
 #include <type_traits>
 
+#include "capi/numbers.hpp"
 #include "capi/structs.hpp"
-#include "crt/pattern.hpp"
 
 namespace crt::capi {
-
-namespace {
-
-Color to_color(const double (&rgb)[3], double alpha = 1) {
-  return {rgb[0], rgb[1], rgb[2], alpha};
-}
-
-Vec3 to_vec3(const double (&numbers)[3]) {
-  return {numbers[0], numbers[1], numbers[2]};
-}
-
-void put(double (&out)[3], const Vec3& v) {
-  for (int axis = 0; axis < 3; ++axis) out[axis] = v[axis];
-}
-
-void put(double (&out)[3], const Color& color) {
-  out[0] = color.r;
-  out[1] = color.g;
-  out[2] = color.b;
-}
-
-std::shared_ptr<const Image> to_image(const crt_image* image, const char* argument) {
-  require(image, argument);
-  return image->value;
-}
-
-/// Converts the fields that nearly every pattern has.
-template <class Type>
-void take_colors(Type& pattern, const crt_pattern& given) {
-  pattern.color_a = to_color(given.color_a, given.alpha_a);
-  pattern.color_b = to_color(given.color_b, given.alpha_b);
-  pattern.scale = given.scale;
-  pattern.offset = to_vec3(given.offset);
-  if constexpr (requires { pattern.direction; }) pattern.direction = to_vec3(given.direction);
-  if constexpr (requires { pattern.octaves; }) pattern.octaves = given.octaves;
-  if constexpr (requires { pattern.turbulence; }) pattern.turbulence = given.turbulence;
-}
-
-template <class Type>
-Pattern colored(const crt_pattern& given) {
-  Type pattern;
-  take_colors(pattern, given);
-  return pattern;
-}
-
-Pattern to_pattern(const crt_pattern* pattern, const char* argument) {
-  const auto given = taken(pattern, argument);
-  switch (given.type) {
-    case CRT_PATTERN_CHECKER:
-      return colored<Checker>(given);
-    case CRT_PATTERN_STRIPES:
-      return colored<Stripes>(given);
-    case CRT_PATTERN_GRADIENT:
-      return colored<Gradient>(given);
-    case CRT_PATTERN_NOISE:
-      return colored<Noise>(given);
-    case CRT_PATTERN_MARBLE:
-      return colored<Marble>(given);
-    case CRT_PATTERN_WOOD:
-      return colored<Wood>(given);
-    case CRT_PATTERN_IMAGE:
-      return ImageMap{.image = to_image(given.image, "pattern.image"),
-                      .repeat_u = given.repeat_u,
-                      .repeat_v = given.repeat_v};
-    default:
-      reject_value("pattern.type", given.type, "crt_pattern_type");
-  }
-}
-
-/// Writes the values that this type of pattern starts with. Fields that it does not use keep their
-/// values.
-template <class Type>
-void put_defaults(crt_pattern& out) {
-  const Type pattern;
-  put(out.color_a, pattern.color_a);
-  put(out.color_b, pattern.color_b);
-  out.scale = pattern.scale;
-  put(out.offset, pattern.offset);
-  if constexpr (requires { pattern.direction; }) put(out.direction, pattern.direction);
-  if constexpr (requires { pattern.octaves; }) out.octaves = pattern.octaves;
-  if constexpr (requires { pattern.turbulence; }) out.turbulence = pattern.turbulence;
-}
-
-}  // namespace
 
 void reject_value(const char* argument, std::int32_t value, const char* list) {
   reject(argument, fmt::format("is {}, which is no {}", value, list));
@@ -102,47 +18,7 @@ Vec3 to_vec3(const double* numbers, const char* argument) {
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-// ---- patterns and materials
-// -----------------------------------------------------------------------
-
-crt_pattern default_pattern(std::int32_t type) {
-  crt_pattern out{};
-  out.struct_size = sizeof out;
-  out.alpha_a = out.alpha_b = 1;
-  const ImageMap map;
-  out.repeat_u = map.repeat_u;
-  out.repeat_v = map.repeat_v;
-  put_defaults<Marble>(out);  // has every field
-  switch (type) {
-    case CRT_PATTERN_CHECKER:
-      put_defaults<Checker>(out);
-      break;
-    case CRT_PATTERN_STRIPES:
-      put_defaults<Stripes>(out);
-      break;
-    case CRT_PATTERN_GRADIENT:
-      put_defaults<Gradient>(out);
-      break;
-    case CRT_PATTERN_NOISE:
-      put_defaults<Noise>(out);
-      break;
-    case CRT_PATTERN_MARBLE:
-    case CRT_PATTERN_IMAGE:
-      break;
-    case CRT_PATTERN_WOOD:
-      put_defaults<Wood>(out);
-      break;
-    default:
-      reject_value("type", type, "crt_pattern_type");
-  }
-  out.type = type;
-  return out;
-}
-
-template <>
-crt_pattern defaults<crt_pattern>() {
-  return default_pattern(CRT_PATTERN_CHECKER);
-}
+// ---- materials ----------------------------------------------------------------------------------
 
 /// This value stands for a diffuse factor that follows from the others.
 constexpr double automatic_diffuse = -1;

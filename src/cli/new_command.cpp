@@ -56,7 +56,8 @@ die = (cube ^ ball) - drill - drill <rotate vec3(90, 0, 0)> - drill <rotate vec3
 -- A macro makes many things out of one: a ring of balls around the y axis.
 ring = Macro (count, radius) {
     for (i in range(count)) {
-        Sphere { center -> vec3(radius, 0.2, 0) radius -> 0.2 } <rotate vec3(0, 360.0 * i / count, 0)>
+        turn = 360.0 * i / count
+        Sphere { center -> vec3(radius, 0.2, 0) radius -> 0.2 } <rotate vec3(0, turn, 0)>
     }
 }
 

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -63,6 +64,19 @@ void choose(const Given& given, const std::array<std::pair<std::string_view, Enu
   reject(given, fmt::format("must be {}{}", enumerate(quoted), suggestion));
 }
 
+/// The memory of a stop of a pattern is paid for by so many steps, whenever the pattern is copied.
+constexpr std::size_t steps_per_stop = 4;
+
+const Pattern& copied(const Given& given, Context& context, const Pattern& pattern) {
+  std::visit(
+      [&](const auto& kind) {
+        if constexpr (requires { kind.colors; })
+          context.spend(given.value_span, steps_per_stop * kind.colors.size());
+      },
+      pattern);
+  return pattern;
+}
+
 /// An optional field takes what the field itself takes.
 template <class Field>
 void convert_optional(const Given& given, Context& context, std::optional<Field>& field) {
@@ -115,16 +129,43 @@ void convert(const Given& given, Context&, Color& field) {
   field = color;
 }
 
-void convert(const Given& given, Context&, Pattern& field) {
-  field = *get<std::shared_ptr<const Pattern>>(given);
+void convert(const Given& given, Context& context, Pattern& field) {
+  field = copied(given, context, *get<std::shared_ptr<const Pattern>>(given));
 }
 
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field) {
   if (const auto* pattern = std::get_if<std::shared_ptr<const Pattern>>(&given.value)) {
-    field = **pattern;
+    field = copied(given, context, **pattern);
   } else {
     convert(given, context, field.emplace<Color>());
   }
+}
+
+void convert(const Given& given, Context& context, std::vector<ColorStop>& field) {
+  const std::vector<Value>& items = get<List>(given)->items;
+  // The core refuses more stops than a few. Here they must only not be copied by the million.
+  constexpr std::size_t most_items = 1000;
+  field.clear();
+  for (std::size_t i = 0; i < std::min(items.size(), most_items); ++i) {
+    const List* stop = std::get_if<List>(&items[i]);
+    double storage = 0;
+    const bool is_pair = stop && (*stop)->items.size() == 2;
+    const double* position = is_pair ? as_float((*stop)->items[0], storage) : nullptr;
+    const Color* color = is_pair ? std::get_if<Color>(&(*stop)->items[1]) : nullptr;
+    if (!position || !color)
+      reject(given, "must be a List such as [[0, rgb(1, 0, 0)], [0.4, rgb(0, 1, 0)], ...]");
+    field.push_back({*position, *color});
+  }
+  context.spend(given.value_span, steps_per_stop * field.size());
+}
+
+void convert(const Given& given, Context&, ImageMapping& field) {
+  using enum ImageMapping;
+  using Choice = std::pair<std::string_view, ImageMapping>;
+  choose(given,
+         std::array{Choice{"uv", uv}, Choice{"planar", planar}, Choice{"cylindrical", cylindrical},
+                    Choice{"cubic", cubic}},
+         field);
 }
 
 void convert(const Given& given, Context&, SharedMaterial& field) {

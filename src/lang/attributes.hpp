@@ -29,6 +29,8 @@ void convert(const Given& given, Context& context, Vec3& field);
 void convert(const Given& given, Context& context, Color& field);
 void convert(const Given& given, Context& context, Pattern& field);
 void convert(const Given& given, Context& context, std::variant<Color, Pattern>& field);
+void convert(const Given& given, Context& context, std::vector<ColorStop>& field);
+void convert(const Given& given, Context& context, ImageMapping& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
 void convert(const Given& given, Context& context, Projection& field);
@@ -77,6 +79,12 @@ constexpr std::string_view type_text(const Pattern*) {
 }
 constexpr std::string_view type_text(const std::variant<Color, Pattern>*) {
   return "Color or Pattern";
+}
+constexpr std::string_view type_text(const std::vector<ColorStop>*) {
+  return "List of colors";
+}
+constexpr std::string_view type_text(const ImageMapping*) {
+  return "String";
 }
 constexpr std::string_view type_text(const SharedMaterial*) {
   return "Material";

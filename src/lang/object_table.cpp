@@ -104,12 +104,34 @@ Value finish_pattern(Kind kind, const ObjectSite&) {
   return pattern;
 }
 
+/// Makes an attribute that is a colour or another pattern in its place.
+template <class Kind>
+AttributeType color_or_pattern(std::string_view name, Color Kind::*color,
+                               SharedPattern Kind::*pattern, std::string_view default_text) {
+  AttributeType type = attribute(name, color, default_text);
+  type.type = type_text(static_cast<const std::variant<Color, Pattern>*>(nullptr));
+  type.assign = [color, pattern](void* object, const Given& given, Context& context) {
+    auto& kind = *static_cast<Kind*>(object);
+    std::variant<Color, Pattern> value;
+    convert(given, context, value);
+    if (auto* inner = std::get_if<Pattern>(&value)) {
+      kind.*pattern = nested(std::move(*inner));
+    } else {
+      kind.*color = std::get<Color>(value);
+    }
+  };
+  return type;
+}
+
 /// Makes the row of a pattern of two colours: these, its own attributes, then its size and place.
 template <class Kind>
 ObjectType two_colors(std::string_view name, std::string_view color_a, std::string_view color_b,
                       std::vector<AttributeType> own) {
-  std::vector<AttributeType> attributes = {attribute("colorA", &Kind::color_a, color_a),
-                                           attribute("colorB", &Kind::color_b, color_b)};
+  std::vector<AttributeType> attributes = {
+      color_or_pattern("colorA", &Kind::color_a, &Kind::pattern_a, color_a),
+      color_or_pattern("colorB", &Kind::color_b, &Kind::pattern_b, color_b)};
+  if constexpr (requires(Kind kind) { kind.colors; })
+    attributes.push_back(attribute("colors", &Kind::colors, "none"));
   attributes.insert(attributes.end(), own.begin(), own.end());
   attributes.push_back(attribute("scale", &Kind::scale, "1"));
   attributes.push_back(attribute("offset", &Kind::offset, "vec3(0, 0, 0)"));
@@ -137,7 +159,11 @@ std::vector<ObjectType> patterns() {
       object<ImageMap>(
           "ImageMap",
           {required("image", &ImageMap::image), attribute("repeatU", &ImageMap::repeat_u, "1"),
-           attribute("repeatV", &ImageMap::repeat_v, "1")},
+           attribute("repeatV", &ImageMap::repeat_v, "1"),
+           attribute("mapping", &ImageMap::mapping, "\"uv\""),
+           attribute("direction", &ImageMap::direction, "vec3(0, 0, 1)"),
+           attribute("scale", &ImageMap::scale, "1"),
+           attribute("offset", &ImageMap::offset, "vec3(0, 0, 0)")},
           finish_pattern<ImageMap>),
   };
 }

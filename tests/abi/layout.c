@@ -14,7 +14,7 @@
   _Static_assert(offsetof(type, field) == (bytes), "the place of " #type "." #field)
 #define VALUE(name, number) _Static_assert((name) == (number), "the value of " #name)
 
-SIZE(crt_pattern, 168);
+SIZE(crt_pattern, 208);
 AT(crt_pattern, struct_size, 0);
 AT(crt_pattern, type, 4);
 AT(crt_pattern, color_a, 8);
@@ -30,6 +30,22 @@ AT(crt_pattern, reserved, 140);
 AT(crt_pattern, image, 144);
 AT(crt_pattern, repeat_u, 152);
 AT(crt_pattern, repeat_v, 160);
+AT(crt_pattern, pattern_a, 168);
+AT(crt_pattern, pattern_b, 176);
+AT(crt_pattern, colors, 184);
+AT(crt_pattern, color_count, 192);
+AT(crt_pattern, mapping, 200);
+AT(crt_pattern, reserved_2, 204);
+
+SIZE(crt_color_stop, 40);
+AT(crt_color_stop, position, 0);
+AT(crt_color_stop, color, 8);
+AT(crt_color_stop, alpha, 32);
+
+VALUE(CRT_MAPPING_UV, 0);
+VALUE(CRT_MAPPING_PLANAR, 1);
+VALUE(CRT_MAPPING_CYLINDRICAL, 2);
+VALUE(CRT_MAPPING_CUBIC, 3);
 
 SIZE(crt_material, 136);
 AT(crt_material, struct_size, 0);

@@ -216,6 +216,13 @@ void Session::dress() {
       pattern.scale = input_.number();
       pattern.octaves = input_.byte();
       pattern.image = images_.any(input_);
+      auto inner = pattern;
+      if (input_.below(4) == 0) pattern.pattern_a = &inner;
+      if (input_.below(8) == 0) inner.pattern_b = &pattern;  // a circle
+      const crt_color_stop stops[] = {{input_.number(), {1, 0, 0}, 1}, {1, {0, 0, 1}, 1}};
+      if (input_.below(4) == 0) pattern.colors = stops;
+      pattern.color_count = input_.below(3);
+      pattern.mapping = static_cast<std::int32_t>(input_.below(6)) - 1;
       material.color[1] = input_.number();
       material.transparency = input_.number();
       material.reflectivity = input_.number();

@@ -14,6 +14,7 @@ from ._structs import (
     Int,
     Long,
     PatternPointer,
+    Pointer,
     Struct,
     Text,
     Vector,
@@ -49,6 +50,12 @@ class Pattern(Struct):
     image: ImagePointer
     repeat_u: Double
     repeat_v: Double
+    pattern_a: PatternPointer
+    pattern_b: PatternPointer
+    colors: Pointer
+    color_count: Long
+    mapping: Int
+    reserved_2: Int
 
     @classmethod
     def checker(cls, **fields: Any) -> "Pattern":

@@ -88,7 +88,27 @@ void require_image(const std::shared_ptr<const Image>& image) {
   if (!image || image->empty()) reject("image", "must be a picture (there is none)");
 }
 
+constexpr int most_nested_patterns = 5;
+constexpr std::size_t most_color_stops = 64;
+
+void require_stops(const std::vector<ColorStop>& stops) {
+  if (stops.empty()) return;
+  if (stops.size() < 2 || stops.size() > most_color_stops)
+    reject("colors",
+           fmt::format("must be between 2 and {} (there are {})", most_color_stops, stops.size()));
+  double before = 0;
+  for (const ColorStop& stop : stops) {
+    require_color("colors", stop.color, largest_factor);
+    if (!(stop.position >= before && stop.position <= 1))
+      reject("colors",
+             fmt::format("must have ascending positions from 0 to 1 (one is {})", stop.position));
+    before = stop.position;
+  }
+}
+
 struct PatternCheck {
+  int depth = 1;
+
   void operator()(const Checker& pattern) const { common(pattern); }
   void operator()(const Stripes& pattern) const {
     common(pattern);
@@ -108,23 +128,43 @@ struct PatternCheck {
     require_image(pattern.image);
     require_positive("repeat_u", pattern.repeat_u, largest_factor);
     require_positive("repeat_v", pattern.repeat_v, largest_factor);
+    if (pattern.mapping < ImageMapping::uv || pattern.mapping > ImageMapping::cubic)
+      reject("mapping", "must be one of ImageMapping");
+    require_direction("direction", pattern.direction);
+    require_positive("scale", pattern.scale, largest_coordinate);
+    require_point("offset", pattern.offset);
   }
 
  private:
   template <class P>
-  static void common(const P& pattern) {
+  void common(const P& pattern) const {
     require_color("color_a", pattern.color_a, largest_factor);
     require_color("color_b", pattern.color_b, largest_factor);
+    nested_pattern("color_a", pattern.pattern_a);
+    nested_pattern("color_b", pattern.pattern_b);
+    if constexpr (requires { pattern.colors; }) {
+      require_stops(pattern.colors);
+      if (!pattern.colors.empty() && (pattern.pattern_a || pattern.pattern_b))
+        reject("colors", "take the place of both colours, so there can be no patterns in these");
+    }
     require_positive("scale", pattern.scale, largest_coordinate);
     require_point("offset", pattern.offset);
   }
   template <class P>
-  static void grained(const P& pattern) {
+  void grained(const P& pattern) const {
     common(pattern);
     require_direction("direction", pattern.direction);
     require_between("turbulence", pattern.turbulence, 0, largest_factor);
     octaves(pattern.octaves);
   }
+  void nested_pattern(std::string_view field, const SharedPattern& inner) const {
+    if (!inner) return;
+    if (depth >= most_nested_patterns)
+      reject(field,
+             fmt::format("has more than {} patterns within one another", most_nested_patterns));
+    std::visit(PatternCheck{depth + 1}, inner->pattern);
+  }
+
   static void octaves(int count) { require_between("octaves", count, 1, 16); }
 };
 

@@ -1,6 +1,8 @@
 #include "core/shading/bump.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <limits>
 #include <type_traits>
 
 #include "core/math/direction_and_length.hpp"
@@ -25,8 +27,36 @@ double smallest_feature(const Gradient& pattern) {
 
 /// Returns the grain of Noise, Marble or Wood, whose last octave is the finest.
 template <class Noisy>
+requires requires(const Noisy& pattern) {
+  pattern.octaves;
+}
 double smallest_feature(const Noisy& pattern) {
   return std::scalbn(pattern.scale, 1 - pattern.octaves);
+}
+
+/// Returns the size for which a step is half a texel of the picture, as it lies in space.
+double smallest_feature(const ImageMap& map, const Texture& texture) {
+  const double texels = std::max(map.repeat_u * texture.width(), map.repeat_v * texture.height());
+  return map.scale / texels / (2 * step_of_feature);
+}
+
+/// Returns the smallest feature of a pattern and of those within it. A picture that lies on (u, v)
+/// within another pattern has none, as its slopes are not known in space.
+double smallest_feature(const PreparedPattern& pattern) {
+  double feature = std::visit(
+      [&](const auto& kind) {
+        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ImageMap>) {
+          return kind.mapping == ImageMapping::uv ? std::numeric_limits<double>::max()
+                                                  : smallest_feature(kind, *pattern.texture());
+        } else {
+          return smallest_feature(kind);
+        }
+      },
+      pattern.description());
+  for (const PreparedPattern* inner : {pattern.pattern_a(), pattern.pattern_b()}) {
+    if (inner) feature = std::min(feature, smallest_feature(*inner));
+  }
+  return feature;
 }
 
 double luminance_at(const PreparedPattern& pattern, const SurfacePoint& point) {
@@ -64,7 +94,8 @@ double slope(const PreparedPattern& pattern, SurfacePoint point, double SurfaceP
 LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const SurfacePoint& point,
                                      const Shape& shape, std::uint32_t face,
                                      CrossingList& scratch) {
-  if (const auto* map = std::get_if<ImageMap>(&pattern.description())) {
+  const auto* map = std::get_if<ImageMap>(&pattern.description());
+  if (map && map->mapping == ImageMapping::uv) {
     const UvGradient uv = uv_gradient(shape, face, point.position, point.normal, scratch);
     const double slope_u =
         slope(pattern, point, &SurfacePoint::u, map->repeat_u * pattern.texture()->width());
@@ -72,15 +103,7 @@ LuminanceGradient luminance_gradient(const PreparedPattern& pattern, const Surfa
         slope(pattern, point, &SurfacePoint::v, map->repeat_v * pattern.texture()->height());
     return {slope_u * uv.u + slope_v * uv.v, 4};
   }
-  const double feature = std::visit(
-      [](const auto& kind) {
-        if constexpr (std::is_same_v<std::decay_t<decltype(kind)>, ImageMap>) {
-          return 0.0;
-        } else {
-          return smallest_feature(kind);
-        }
-      },
-      pattern.description());
+  const double feature = smallest_feature(pattern);
   return {gradient_in_space(pattern, point, step_of_feature * feature), 6};
 }
 

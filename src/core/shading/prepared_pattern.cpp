@@ -7,6 +7,7 @@
 #include <type_traits>
 
 #include "core/math/direction_and_length.hpp"
+#include "core/shading/image_mapping.hpp"
 #include "core/shading/noise.hpp"
 #include "core/shading/rgb.hpp"
 
@@ -68,33 +69,49 @@ constexpr bool has_edges = requires(const Kind& kind, const SurfacePoint& point)
   is_second(kind, point);
 };
 
-Color color_of(const Gradient& gradient, const SurfacePoint& point) {
+// For the other patterns of two colours, share_of() returns how much of the second is seen.
+
+double share_of(const Gradient& gradient, const SurfacePoint& point) {
   const Vec3 place = in_periods(gradient, point.position);
-  return mix(gradient.color_a, gradient.color_b, wave(glm::dot(place, gradient.direction)));
+  return wave(glm::dot(place, gradient.direction));
 }
 
-Color color_of(const Noise& noise, const SurfacePoint& point) {
+double share_of(const Noise& noise, const SurfacePoint& point) {
   const double level = fractal_noise(in_periods(noise, point.position), noise.octaves);
-  return mix(noise.color_a, noise.color_b, 0.5 + 0.5 * level);
+  return 0.5 + 0.5 * level;
 }
 
-Color color_of(const Marble& marble, const SurfacePoint& point) {
+double share_of(const Marble& marble, const SurfacePoint& point) {
   const Vec3 place = in_periods(marble, point.position);
   const double shift = marble.turbulence * fractal_noise(place, marble.octaves);
-  return mix(marble.color_a, marble.color_b, wave(glm::dot(place, marble.direction) + shift));
+  return wave(glm::dot(place, marble.direction) + shift);
 }
 
-Color color_of(const Wood& wood, const SurfacePoint& point) {
+double share_of(const Wood& wood, const SurfacePoint& point) {
   const Vec3 place = in_periods(wood, point.position);
   const Vec3 from_line = place - glm::dot(place, wood.direction) * wood.direction;
   const double shift = wood.turbulence * fractal_noise(place, wood.octaves);
-  return mix(wood.color_a, wood.color_b, wave(direction_and_length(from_line).length + shift));
+  return wave(direction_and_length(from_line).length + shift);
+}
+
+/// Returns the colour between the stops around a share.
+Color color_between(const std::vector<ColorStop>& stops, double share) {
+  const auto after =
+      std::upper_bound(stops.begin(), stops.end(), share,
+                       [](double value, const ColorStop& stop) { return value < stop.position; });
+  if (after == stops.begin()) return stops.front().color;
+  if (after == stops.end()) return stops.back().color;
+  const ColorStop& before = *(after - 1);
+  return mix(before.color, after->color,
+             (share - before.position) / (after->position - before.position));
 }
 
 Color color_of(const ImageMap& map, const Texture& texture, const SurfacePoint& point) {
+  const PictureCoordinates at =
+      map.mapping == ImageMapping::uv ? PictureCoordinates{point.u, point.v} : mapped(map, point);
   // v runs up the surface, rows run down the picture.
-  const double x = period_share(point.u * map.repeat_u) * texture.width();
-  const double y = (1 - period_share(point.v * map.repeat_v)) * texture.height();
+  const double x = period_share(at.u * map.repeat_u) * texture.width();
+  const double y = (1 - period_share(at.v * map.repeat_v)) * texture.height();
   return texture.bilinear(x, y, TextureWrap::repeat, TextureWrap::repeat);
 }
 
@@ -106,7 +123,7 @@ Color color_at(const Kind& kind, const Texture* texture, const SurfacePoint& poi
   } else if constexpr (std::is_same_v<Kind, ImageMap>) {
     return color_of(kind, *texture, point);
   } else {
-    return color_of(kind, point);
+    return mix(kind.color_a, kind.color_b, share_of(kind, point));
   }
 }
 
@@ -132,6 +149,30 @@ constexpr bool has_direction = requires(Solid pattern) {
 
 }  // namespace
 
+template <class Kind>
+void PreparedPattern::prepare_colors(const Kind& kind, TexturePool& textures) {
+  const auto take_color = [this](const Color& color) {
+    opaque_ = opaque_ && color.a == 1;
+    brightest_ = std::max(brightest_, brightest_channel(color));
+  };
+  if constexpr (requires { kind.colors; }) {
+    is_composed_ = !kind.colors.empty();
+    for (const ColorStop& stop : kind.colors) take_color(stop.color);
+    if (is_composed_) return;
+  }
+  const auto take_side = [&](const Color& color, const SharedPattern& pattern,
+                             std::shared_ptr<const PreparedPattern>& prepared) {
+    if (!pattern) return take_color(color);
+    is_composed_ = true;
+    prepared = std::make_shared<const PreparedPattern>(pattern->pattern, textures);
+    uses_uv_ = uses_uv_ || prepared->uses_uv();
+    opaque_ = opaque_ && prepared->opaque();
+    brightest_ = std::max(brightest_, prepared->brightest());
+  };
+  take_side(kind.color_a, kind.pattern_a, pattern_a_);
+  take_side(kind.color_b, kind.pattern_b, pattern_b_);
+}
+
 PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures)
     : pattern_(pattern) {
   std::visit(
@@ -139,24 +180,55 @@ PreparedPattern::PreparedPattern(const Pattern& pattern, TexturePool& textures)
         using Kind = std::decay_t<decltype(kind)>;
         if constexpr (std::is_same_v<Kind, ImageMap>) {
           texture_ = textures.get(kind.image);
+          uses_uv_ = kind.mapping == ImageMapping::uv;
           opaque_ = texture_->opaque();
           brightest_ = texture_->brightest();
         } else {
-          opaque_ = kind.color_a.a == 1 && kind.color_b.a == 1;
-          brightest_ = std::max(brightest_channel(kind.color_a), brightest_channel(kind.color_b));
-          if constexpr (has_direction<Kind>)
-            kind.direction = direction_and_length(kind.direction).direction;
+          prepare_colors(kind, textures);
+        }
+        if constexpr (has_direction<Kind>)
+          kind.direction = direction_and_length(kind.direction).direction;
+      },
+      pattern_);
+}
+
+/// Returns the colour of a pattern of other patterns or of several colours.
+Color PreparedPattern::composed_color(const SurfacePoint& point) const {
+  const auto color_of_side = [&](const auto& side, const Color& color) {
+    return side ? side->color(point) : color;
+  };
+  return std::visit(
+      [&](const auto& kind) -> Color {
+        using Kind = std::decay_t<decltype(kind)>;
+        if constexpr (std::is_same_v<Kind, ImageMap>) {
+          return color_of(kind, *texture_, point);
+        } else if constexpr (has_edges<Kind>) {
+          return is_second(kind, point) ? color_of_side(pattern_b_, kind.color_b)
+                                        : color_of_side(pattern_a_, kind.color_a);
+        } else {
+          const double share = share_of(kind, point);
+          if (!kind.colors.empty()) return color_between(kind.colors, share);
+          return mix(color_of_side(pattern_a_, kind.color_a),
+                     color_of_side(pattern_b_, kind.color_b), share);
         }
       },
       pattern_);
 }
 
 Color PreparedPattern::color(const SurfacePoint& point) const {
+  if (is_composed_) return composed_color(point);
   return std::visit([&](const auto& kind) { return color_at(kind, texture_.get(), point); },
                     pattern_);
 }
 
 ColorLanes PreparedPattern::colors(const SurfacePointLanes& points, std::uint32_t lanes) const {
+  if (is_composed_) {
+    ColorLanes result;
+    for (std::size_t lane = 0; lane < lane_count; ++lane) {
+      if ((lanes >> lane & 1u) != 0) result.set(lane, composed_color(lane_of(points, lane)));
+    }
+    return result;
+  }
   return std::visit(
       [&](const auto& kind) { return colors_at(kind, texture_.get(), points, lanes); }, pattern_);
 }

@@ -22,7 +22,7 @@ class PreparedPattern {
   ColorLanes colors(const SurfacePointLanes& points, std::uint32_t lanes) const;
 
   /// Returns whether the pattern uses u and v.
-  bool uses_uv() const { return texture_ != nullptr; }
+  bool uses_uv() const { return uses_uv_; }
 
   /// Returns whether alpha is 1 everywhere.
   bool opaque() const { return opaque_; }
@@ -35,9 +35,21 @@ class PreparedPattern {
   /// Returns the picture of an image map, or null for other patterns.
   const Texture* texture() const { return texture_.get(); }
 
+  /// These are the patterns in the place of its colours, or null.
+  const PreparedPattern* pattern_a() const { return pattern_a_.get(); }
+  const PreparedPattern* pattern_b() const { return pattern_b_.get(); }
+
  private:
+  template <class Kind>
+  void prepare_colors(const Kind& kind, TexturePool& textures);
+  Color composed_color(const SurfacePoint& point) const;
+
   Pattern pattern_;
   std::shared_ptr<const Texture> texture_;
+  std::shared_ptr<const PreparedPattern> pattern_a_;
+  std::shared_ptr<const PreparedPattern> pattern_b_;
+  bool is_composed_ = false;  ///< of patterns, or of more colours than two
+  bool uses_uv_ = false;
   bool opaque_ = true;
   double brightest_ = 0;
 };
