@@ -298,8 +298,8 @@ ExitCode complain(const std::exception& error, const CLI::App& app, int argc,
   if (command == "crt" && argc > 1 && std::filesystem::path(argv[1]).extension() == ".crt") {
     message = fmt::format("what to do with '{0}'? To render it: crt render {0}", argv[1]);
   } else if (command == "crt" && argc > 1 && argv[1][0] != '-') {
-    message = fmt::format(
-        "no command '{}': there are new, render, trade, check, format and lsp", argv[1]);
+    message = fmt::format("no command '{}': there are new, render, trade, check, format and lsp",
+                          argv[1]);
   } else if (argc <= 1) {
     message = "say what to do, such as: crt render scene.crt";
   }
