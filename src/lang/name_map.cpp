@@ -80,10 +80,11 @@ class NameMapper {
     visit(loop.list);
     visit_inside(loop.body, {&loop.variable, 1}, NameKind::loop_variable);
   }
-  void operator()(const Return& statement) {
-    visit(statement.value);
-    const auto* name = statement.name ? std::get_if<Name>(&statement.name->node) : nullptr;
-    if (name && find(name->symbol, false) != NameUse::nothing) visit(statement.name);
+  void operator()(const Return& result) {
+    visit(result.value);
+    // Alone it is the variable of that name if there is one.
+    const auto* name = result.name ? std::get_if<Name>(&result.name->node) : nullptr;
+    if (name && find(name->symbol, false) != NameUse::nothing) visit(result.name);
   }
   void operator()(const SettingsBlock& settings) { visit(settings.attributes); }
   void operator()(const SceneBlock& scene) { visit_inside(scene.body, {}); }

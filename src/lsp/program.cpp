@@ -59,11 +59,7 @@ const lang::Script* Program::import_script(const lang::Import& import) {
   if (scripts_.size() >= most_imports) return nullptr;
   try {
     const lang::Span span = import.path_span;
-    if (lang::is_library_path(import.path)) {
-      if (!paths_.insert(import.path).second) return nullptr;
-      parse(sources_.add(import.path, std::string(lang::find_library(import.path, span))));
-      return &scripts_.back();
-    }
+    if (lang::is_library_path(import.path)) return import_library(import);
     lang::Files::Found found = files_.find(import.path, sources_.source_of(span).directory, span);
     const std::filesystem::path shown = found.shown;
     const bool is_new = paths_.insert(without_links(found.path)).second;
@@ -77,6 +73,13 @@ const lang::Script* Program::import_script(const lang::Import& import) {
   } catch (const lang::Failure&) {
     return nullptr;
   }
+}
+
+const lang::Script* Program::import_library(const lang::Import& import) {
+  const std::string_view text = lang::find_library(import.path, import.path_span);
+  if (!paths_.insert(import.path).second) return nullptr;
+  parse(sources_.add(import.path, std::string(text)));
+  return &scripts_.back();
 }
 
 std::string_view Program::text_of(lang::Span span) const {

@@ -54,6 +54,7 @@ class Program {
 
  private:
   const lang::Script* import_script(const lang::Import& import);
+  const lang::Script* import_library(const lang::Import& import);
   void parse(const lang::Source& source);
 
   const ScriptOptions options_;

@@ -196,6 +196,7 @@ class Reference::Reader {
       if (paragraph.starts_with("A **macro** is")) reference_.words_["Macro"] = paragraph;
     }
     reference_.words_["else"] = reference_.words_["if"];
+    reference_.words_["elif"] = reference_.words_["if"];
     reference_.words_["in"] = reference_.words_["for"];
   }
 

@@ -17,8 +17,9 @@ TEST_CASE("each built-in, constant and keyword has its text in the reference") {
     CAPTURE(builtin.name);
     CHECK_FALSE(reference.word(builtin.name).empty());
   }
-  for (const char* word : {"pi", "t", "Settings", "Scene", "Macro", "import", "while", "for", "in",
-                           "if", "else", "scale", "translate", "rotate"}) {
+  for (const char* word :
+       {"pi", "t", "Settings", "Scene", "Macro", "import", "while", "for", "in", "if", "else",
+        "elif", "return", "scale", "translate", "rotate", "material", "id", "matrix"}) {
     CAPTURE(word);
     CHECK_FALSE(reference.word(word).empty());
   }
