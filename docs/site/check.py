@@ -87,20 +87,22 @@ def site_faults(site: pathlib.Path) -> tuple[list[str], int]:
             check(name, target)
     for target in menu_targets(site):
         count += 1
+        # Doxygen lists values of C's enumerations that need no comment without an anchor of their
+        # own. The tree then leads to the top of the right page.
+        target = re.sub(r"^(group__\w+\.html)#gga\w+$", r"\1", target)
         check("the menu", target.removeprefix("search/../").removeprefix("search/"))
     return faults, count
 
 
 def disk_faults() -> tuple[list[str], int]:
     texts = {page: (ROOT / page).read_text() for page in page_files()}
-    converter = markdown.Converter(ROOT, list(texts))
     faults, count = [], 0
     for page, text in texts.items():
         for target, _ in markdown.links(text):
             if markdown.is_outside(target):
                 continue
             count += 1
-            path, anchor = converter.resolve(page, target)
+            path, anchor = markdown.resolve(page, target)
             if not (ROOT / path).exists():
                 faults.append(f"{page}: {target} is not there")
             elif anchor and anchor not in markdown.anchors(texts.get(path, "")):

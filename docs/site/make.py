@@ -22,9 +22,7 @@ PYTHON_PACKAGES = ["python/crt", "examples/python/crt"]  # the first that exists
 
 # What a user can see and nothing explains is a fault, but a plain field needs no comment of its
 # own, as its struct's often says all. Nor does a default comparison.
-UNDOCUMENTED = re.compile(
-    r"(\(variable\) of struct|operator==.*=default) .*is not documented"
-)
+UNDOCUMENTED = re.compile(r"(\(variable\) of struct|operator==.*=default) .*is not documented")
 
 
 def page_files() -> list[pathlib.PurePath]:
@@ -66,14 +64,15 @@ def write_pages(folder: pathlib.Path) -> markdown.Converter:
 
 def navigation() -> str:
     """Returns the navigation: the parts and links of docs/README.md, in its order."""
-    text = (ROOT / "docs/README.md").read_text()
+    readme = pathlib.PurePath("docs/README.md")
+    text = (ROOT / readme).read_text()
     parts: list[tuple[str, list[str]]] = []
     for line in text.splitlines():
         heading = re.match(r"## (.*)|\*\*(.*?)\*\*", line)
         if heading:
             parts.append((heading[1] or heading[2], []))
         for target in re.findall(r"^- \[[^\]]*\]\(([^)#]+)\)", line):
-            path, _ = markdown.Converter(ROOT, []).resolve(pathlib.PurePath("docs/README.md"), target)
+            path, _ = markdown.resolve(readme, target)
             title = markdown.HEADING.match((ROOT / path).read_text().splitlines()[0])
             parts[-1][1].append(tab(title[2] if title else target, markdown.page_name(path)))
     groups = [
@@ -96,6 +95,26 @@ def navigation() -> str:
     )
 
 
+PYTHON_NAME = re.compile(r'<a class="\w+" href="[^"]*"[^>]*>(crt\.(\w+)[^<]*)</a>')
+
+
+def lead_python_names_home(folder: pathlib.Path) -> None:
+    """Makes links by names as crt.Image, which Doxygen takes for crt::Image, lead to Python's."""
+    anchors = set(re.findall(r'id="(python_api--\w+)"', (folder / "python_api.html").read_text()))
+
+    def link(match: re.Match[str]) -> str:
+        anchor = f"python_api--{match[2]}"
+        if anchor not in anchors:
+            return match[1]
+        return f'<a class="el" href="python_api.html#{anchor}">{match[1]}</a>'
+
+    for file in folder.glob("*.html"):
+        text = file.read_text()
+        changed = PYTHON_NAME.sub(link, text)
+        if changed != text:
+            file.write_text(changed)
+
+
 def tab(title: str, label: str) -> str:
     plain = re.sub(r"[`*]", "", title).replace("&", "&amp;")
     return f'<tab type="user" visible="yes" url="@ref {label}" title="{plain}"/>'
@@ -103,8 +122,8 @@ def tab(title: str, label: str) -> str:
 
 def write_layout(file: pathlib.Path) -> None:
     subprocess.run(["doxygen", "-l", file], check=True, stdout=subprocess.DEVNULL)
-    layout = re.sub(r"<navindex>.*</navindex>", lambda _: navigation(), file.read_text(), flags=re.S)
-    file.write_text(layout)
+    before, rest = file.read_text().split("<navindex>")
+    file.write_text(before + navigation() + rest.split("</navindex>")[1])
 
 
 def main(folder: pathlib.Path) -> int:
@@ -115,6 +134,7 @@ def main(folder: pathlib.Path) -> int:
     write_layout(folder / "layout.xml")
     settings = (ROOT / "docs/Doxyfile").read_text().replace("build/docs", str(folder))
     subprocess.run(["doxygen", "-"], input=settings, text=True, cwd=ROOT, check=True)
+    lead_python_names_home(folder / "html")
     missing = [image for image in sorted(converter.images) if not (ROOT / image).is_file()]
     for image in converter.images - set(missing):
         target = folder / "html" / markdown.image_name(image)

@@ -91,6 +91,13 @@ def source_name(path: pathlib.PurePath) -> str:
     return "source_" + re.sub(r"\W", "_", str(path))
 
 
+def resolve(page: pathlib.PurePath, target: str) -> tuple[pathlib.PurePath, str]:
+    """Returns the file in the project that a link means, and its anchor."""
+    file, _, anchor = target.partition("#")
+    path = os.path.normpath(page.parent / file) if file else str(page)
+    return pathlib.PurePath(path), anchor
+
+
 class Converter:
     """A Converter turns pages into Doxygen's, and remembers what else they link to."""
 
@@ -99,12 +106,6 @@ class Converter:
         self.pages = set(pages)
         self.sources: set[pathlib.PurePath] = set()
         self.images: set[pathlib.PurePath] = set()
-
-    def resolve(self, page: pathlib.PurePath, target: str) -> tuple[pathlib.PurePath, str]:
-        """Returns the file in the project that a link means, and its anchor."""
-        file, _, anchor = target.partition("#")
-        path = os.path.normpath(page.parent / file) if file else str(page)
-        return pathlib.PurePath(path), anchor
 
     def convert(self, page: pathlib.PurePath, text: str) -> str:
         name = page_name(page)
@@ -153,7 +154,7 @@ class Converter:
             return self._image(page, target, one_line.replace('"', "&quot;"))
         if is_outside(target):
             return match[0]
-        path, anchor = self.resolve(page, target)
+        path, anchor = resolve(page, target)
         if path in self.pages:
             label = page_name(path) + (f"--{anchor}" if anchor else "")
         elif path.parts[:2] == ("include", "crt") and path.suffix:
@@ -164,7 +165,7 @@ class Converter:
         return f"[{one_line}](@ref {label})"
 
     def _image(self, page: pathlib.PurePath, target: str, alt: str) -> str:
-        path, _ = self.resolve(page, target)
+        path, _ = resolve(page, target)
         self.images.add(path)
         return f'<img src="{image_name(path)}" alt="{alt}">'
 

@@ -12,8 +12,8 @@
 namespace crt {
 
 /// @name Checks of descriptions
-/// Each throws Error (invalid_argument) for the first value that is out of the range that its header
-/// states, or not finite; Error::argument() names the field.
+/// Each throws Error (invalid_argument) for the first value that is out of the range that its
+/// header states, or not finite; Error::argument() names the field.
 /// @{
 
 /// Checks a primitive.
