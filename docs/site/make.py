@@ -95,7 +95,7 @@ def navigation() -> str:
     )
 
 
-PYTHON_NAME = re.compile(r'<a class="\w+" href="[^"]*"[^>]*>(crt\.(\w+)[^<]*)</a>')
+PYTHON_NAME = re.compile(r'<a class="[^"]*" href="[^"]*"[^>]*>(crt\.(\w+)[^<]*)</a>')
 
 
 def lead_python_names_home(folder: pathlib.Path) -> None:

@@ -60,7 +60,8 @@ def signature(name: str, node: ast.FunctionDef, is_method: bool) -> str:
     is_static = any(ast.unparse(d) == "staticmethod" for d in node.decorator_list)
     if is_method and not is_static and arguments.args:
         arguments.args = arguments.args[1:]
-    result = f" -> {ast.unparse(node.returns)}" if node.returns and name != "__init__" else ""
+    is_maker = node.name == "__init__"
+    result = f" -> {ast.unparse(node.returns)}" if node.returns and not is_maker else ""
     line = f"{name}({ast.unparse(arguments)}){result}"
     if len(line) <= 88:
         return line

@@ -1,6 +1,9 @@
 """The second program of the tutorial for Python: it asks rays how thick a part is."""
 
+from typing import Any
+
 import numpy as np
+from numpy.typing import NDArray
 
 import crt
 from tutorial_scene import bracket
@@ -14,7 +17,7 @@ def walls(origin: tuple[float, float, float], direction: tuple[float, float, flo
     return [round(float(end - begin), 6) for begin, end in zip(t[::2], t[1::2])]
 
 
-def heights(count: int) -> np.ndarray:
+def heights(count: int) -> NDArray[Any]:
     """Looks down on the part from a height of 5, count x count times, and returns how high it is
     there."""
     rays = crt.rays((count, count))

@@ -3,11 +3,13 @@ for its variables. `tutorial_script.py SCRIPT.crt NAME=VALUE...` writes script.p
 
 import pathlib
 import sys
+from collections.abc import Mapping
+from typing import Any
 
 import crt
 
 
-def run(script: pathlib.Path, variables: dict[str, object]) -> crt.Scene:
+def run(script: pathlib.Path, variables: Mapping[str, Any]) -> crt.Scene:
     scene = crt.Scene.from_script(
         script, variables=variables, settings={"width": 240, "height": 160}, print=print
     )
