@@ -11,15 +11,26 @@
 
 namespace crt {
 
-// Each throws Error (invalid_argument) for the first value that is out of the range that its header
-// states, or not finite; Error::argument() names the field.
+/// @name Checks of descriptions
+/// Each throws Error (invalid_argument) for the first value that is out of the range that its
+/// header states, or not finite; Error::argument() names the field.
+/// @{
 
+/// Checks a primitive.
 void validate(const Primitive& primitive);
+/// Checks a pattern.
 void validate(const Pattern& pattern);
+/// Checks a material.
 void validate(const Material& material);
+/// Checks a light.
 void validate(const Light& light);
+/// Checks a camera.
 void validate(const Camera& camera);
+/// Checks a background.
 void validate(const Background& background);
+/// Checks settings.
 void validate(const Settings& settings);
+
+/// @}
 
 }  // namespace crt

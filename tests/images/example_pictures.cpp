@@ -19,7 +19,7 @@ const fs::path source_dir = CRT_SOURCE_DIR;
 
 /// Says whether a setting's value on the command line is text, which a script puts in quotes.
 bool is_text_setting(const std::string& name) {
-  return name == "projection" || name == "falloffmodel";
+  return name == "projection" || name == "falloffmodel" || name == "ambientmodel";
 }
 
 /// Takes the arguments that a "-- picture:" line gives to `crt render`, as the command does.
@@ -64,8 +64,10 @@ void add_pictures_of(const fs::path& script, std::vector<ExamplePicture>& pictur
 
 std::vector<ExamplePicture> example_pictures() {
   std::vector<ExamplePicture> pictures;
-  for (const fs::directory_entry& entry : fs::directory_iterator(source_dir / "examples/scenes")) {
-    if (entry.path().extension() == ".crt") add_pictures_of(entry.path(), pictures);
+  for (const char* folder : {"examples/scenes", "examples/tutorial"}) {
+    for (const fs::directory_entry& entry : fs::directory_iterator(source_dir / folder)) {
+      if (entry.path().extension() == ".crt") add_pictures_of(entry.path(), pictures);
+    }
   }
   std::sort(pictures.begin(), pictures.end(),
             [](const ExamplePicture& a, const ExamplePicture& b) { return a.name < b.name; });
@@ -75,6 +77,8 @@ std::vector<ExamplePicture> example_pictures() {
 Scene small_scene(const ExamplePicture& picture) {
   constexpr int largest_width = 160;
   constexpr int most_dof_samples = 9;
+  constexpr int least_samples = 4;  // of a picture with a target error
+  constexpr int most_samples = 16;
 
   ScriptResult result = run_script_file(picture.script, picture.options);
   // The sample of the thesis has a parameter that it does not use.
@@ -98,6 +102,8 @@ Scene small_scene(const ExamplePicture& picture) {
                   [](const auto& setting) { return setting.first == "supersampling"; });
   if (!asked_for) settings.supersampling = 1;
   settings.dof_samples = std::min(settings.dof_samples, most_dof_samples);
+  settings.min_samples = least_samples;
+  settings.max_samples = most_samples;
   return scene;
 }
 

@@ -18,12 +18,12 @@ struct ExamplePicture {
   ScriptOptions options{};
 };
 
-/// Returns every picture of every script in examples/scenes, by name.
+/// Returns every picture of every script in examples/scenes and examples/tutorial, by name.
 std::vector<ExamplePicture> example_pictures();
 
 /// Runs the script and makes its picture small: at most 160 pixels wide, one ray a pixel (unless
-/// the picture is about that) and few points of the lens. Throws Error with the diagnostics if the
-/// script has errors or warnings.
+/// the picture is about that) and few points of the lens, or few samples where it has a target
+/// error. Throws Error with the diagnostics if the script has errors or warnings.
 Scene small_scene(const ExamplePicture& picture);
 
 /// Returns the hash of a picture's float pixels.

@@ -8,6 +8,12 @@ from support import SOURCE
 
 sys.path.insert(0, str(SOURCE / "examples/python"))
 import golf  # noqa: E402
+import tutorial_rays  # noqa: E402
+import tutorial_render  # noqa: E402
+import tutorial_scene  # noqa: E402
+import tutorial_script  # noqa: E402
+
+import crt  # noqa: E402
 
 
 class Golf(unittest.TestCase):
@@ -26,3 +32,58 @@ class Golf(unittest.TestCase):
         self.assertGreater(white[:3].min(), 0.3)
         self.assertGreater(red[0], 3 * red[1])
         self.assertGreater(sky[2], sky[0])
+
+
+def small(scene: crt.Scene) -> crt.Scene:
+    settings = scene.settings
+    settings.set(width=80, height=60, supersampling=1)
+    scene.settings = settings
+    return scene
+
+
+class Tutorial(unittest.TestCase):
+    def test_a_bracket_has_as_many_holes_as_asked_for(self):
+        for holes in (2, 5):
+            prepared = crt.Scene([tutorial_scene.bracket(holes)]).prepare()
+            row = crt.ray((-3, 0.15, -0.6), (1, 0, 0))
+            pieces = prepared.crossings(row)
+            self.assertEqual(len(pieces) // 2, holes + 1)
+
+    def test_there_is_a_picture_of_the_bracket(self):
+        pixels = small(tutorial_scene.bracket_scene()).render().pixels
+        plate, floor = pixels[44, 30], pixels[5, 5]
+        self.assertGreater(plate[2], plate[0])
+        self.assertGreater(floor[0], floor[2])
+
+    def test_walls_are_as_thick_as_they_were_made(self):
+        self.assertEqual(tutorial_rays.walls((1.9, 5, -1), (0, -1, 0)), [0.3])
+        self.assertEqual(tutorial_rays.walls((-5, 1.8, 1.35), (1, 0, 0)), [0.5, 0.5])
+        self.assertEqual(tutorial_rays.walls((0.5, 5, -0.6), (0, -1, 0)), [])
+
+    def test_heights_are_those_of_plates_and_eye(self):
+        heights = tutorial_rays.heights(41)
+        self.assertAlmostEqual(heights.max(), 3)
+        self.assertAlmostEqual(heights[-2, 1], 0.3)
+        self.assertEqual(heights[28, 15], 0)  # a hole
+
+    def test_a_render_is_watched_and_may_be_stopped(self):
+        scene = small(tutorial_scene.bracket_scene())
+        image = tutorial_render.render(scene)
+        normals = tutorial_render.normal_picture(image).pixels
+        np.testing.assert_allclose(normals[5, 5, :3], (0.5, 1, 0.5), atol=1e-6)
+        with self.assertRaises(crt.Error) as caught:
+            scene.settings = crt.Settings(width=4000, height=3000, supersampling=8)
+            tutorial_render.render(scene, stop_at=0)
+        self.assertEqual(caught.exception.status, crt.Status.CANCELLED)
+
+    def test_a_script_runs_with_other_values_of_its_variables(self):
+        script = SOURCE / "examples/tutorial/step5.crt"
+        few, many = (
+            tutorial_script.run(script, {"balls": crt.Expression(count)})
+            for count in ("3", "6 + 6")
+        )
+        self.assertEqual(few.settings.width, 240)
+        counts = [sum(e.primitive_count for e in scene.entities) for scene in (few, many)]
+        self.assertEqual(counts[1] - counts[0], 2 * 9)  # balls, and their pockets in the cage
+        with self.assertRaises(crt.ScriptError):
+            tutorial_script.run(SOURCE / "examples/c/wrong.crt", {})
