@@ -250,7 +250,7 @@ typedef struct crt_pattern {
    * ascending positions. Two at one position make an edge. */
   const crt_color_stop* colors;
   uint64_t color_count; /**< of `colors`; default 0 */
-  /** Says how the image is laid over the surface: a crt_image_mapping. All but CRT_MAPPING_UV take
+  /** Says how the image is laid over the surface (crt_image_mapping). All but CRT_MAPPING_UV take
    * `direction`, `offset` and `scale`, the width and height of the picture. */
   int32_t mapping;
   int32_t reserved_2; /**< must be 0 */

@@ -17,6 +17,25 @@ FIELDS = {
         ("const crt_image* image", "of PatternType.IMAGE alone"),
         ("double repeat_u", "how often the image repeats across the surface; > 0"),
         ("double repeat_v", ""),
+        ("const struct crt_pattern* pattern_a", "takes the place of color_a; default None"),
+        (
+            "const struct crt_pattern* pattern_b",
+            "Takes the place of color_b; default None. At most 5 patterns lie within one "
+            "another.",
+        ),
+        (
+            "const crt_color_stop* colors",
+            "Takes the place of both colours of gradient, noise, marble and wood: 2 to 64 stops"
+            " at ascending positions. Two at one position make an edge.",
+        ),
+        ("uint64_t color_count", "of `colors`; default 0"),
+        (
+            "int32_t mapping",
+            "Says how the image is laid over the surface (ImageMapping). All but "
+            "ImageMapping.UV take `direction`, `offset` and `scale`, the width and height of "
+            "the picture.",
+        ),
+        ("int32_t reserved_2", "must be 0"),
     ),
     "crt_material": (
         ("int32_t reserved", "0"),

@@ -130,6 +130,16 @@ FUNCTIONS = {
         "size_t count",
         "crt_entity** out",
     ),
+    "crt_affine_identity": ("void", "double out[12]"),
+    "crt_affine_translation": ("void", "const double by[3]", "double out[12]"),
+    "crt_affine_scaling": ("void", "const double by[3]", "double out[12]"),
+    "crt_affine_rotation": ("crt_status", "const double axis[3]", "double angle", "double out[12]"),
+    "crt_affine_product": (
+        "void",
+        "const double first[12]",
+        "const double then[12]",
+        "double out[12]",
+    ),
     "crt_entity_with_transform": (
         "crt_status",
         "crt_entity* entity",

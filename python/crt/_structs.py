@@ -80,7 +80,11 @@ class Struct(ctypes.Structure):
     def _types(cls) -> dict[str, str]:
         """Returns how Python declares the types of these fields."""
         names = {ctypes.c_double: "float", ctypes.c_char_p: "str | None"}
-        pointees = {"crt_pattern": "Pattern | None", "crt_image": "Image | None"}
+        pointees = {
+            "crt_pattern": "Pattern | None",
+            "crt_image": "Image | None",
+            "crt_color_stop": "ColorStops | None",
+        }
         types = {}
         for name in cls._public():
             kind = cls._kinds[name]
@@ -176,7 +180,7 @@ def growable(
 
 def _field(declaration: str) -> tuple[str, Any, str | None]:
     """Returns the name of a field, its type of ctypes, and what it must point to."""
-    words = declaration.split()
+    words = declaration.replace("struct ", "").split()
     field = words[-1].removesuffix("[3]")
     if words[0] in CALLBACKS:
         return field, CALLBACKS[words[0]], None

@@ -7,9 +7,11 @@ later. An entity copies its material. A scene keeps the very objects that it is 
 changes in them changes the scene.
 """
 
+import ctypes
 import enum
 from typing import TYPE_CHECKING, Any
 
+from . import _arguments
 from ._structs import Struct, growable
 
 if TYPE_CHECKING:
@@ -28,9 +30,56 @@ class PatternType(enum.IntEnum):
     IMAGE = 6
 
 
-@growable("crt_pattern", type=PatternType)
+class ImageMapping(enum.IntEnum):
+    """Says how an image is laid over a surface."""
+
+    UV = 0
+    PLANAR = 1
+    CYLINDRICAL = 2
+    CUBIC = 3
+
+
+class _ColorStop(ctypes.Structure):
+    _fields_ = [
+        ("position", ctypes.c_double),
+        ("color", ctypes.c_double * 3),
+        ("alpha", ctypes.c_double),
+    ]
+
+    @classmethod
+    def of(cls, given: Any, name: str) -> "_ColorStop":
+        if not isinstance(given, (tuple, list)) or not 2 <= len(given) <= 3:
+            raise _arguments.refusal(name, "(position, color) or (position, color, alpha)", given)
+        position = _arguments.number(given[0], f"{name}[0]")
+        color = _arguments.vector(given[1], f"{name}[1]")
+        alpha = _arguments.number(given[2], f"{name}[2]") if len(given) == 3 else 1
+        return cls(position, color, alpha)
+
+
+@growable("crt_pattern", type=PatternType, mapping=ImageMapping)
 class Pattern(Struct):
-    """A Pattern is colours that vary over a surface or through space: Pattern.wood(scale=0.1)."""
+    """A Pattern is colours that vary over a surface or through space: Pattern.wood(scale=0.1).
+    Each of its `colors` is (position, color) or (position, color, alpha)."""
+
+    def __setattr__(self, name: str, value: Any) -> None:
+        if name == "colors":
+            self._set_colors(value)
+        elif name == "color_count":
+            if value != len(self.colors or ()):
+                raise AttributeError("Pattern: color_count is that of colors, and follows them")
+        else:
+            super().__setattr__(name, value)
+
+    def _set_colors(self, value: Any) -> None:
+        stops = []
+        for i, given in enumerate(() if value is None else value):
+            stops.append(_ColorStop.of(given, f"Pattern: colors[{i}]"))
+        array = (_ColorStop * len(stops))(*stops)
+        address = ctypes.addressof(array) if stops else None
+        ctypes.Structure.__setattr__(self, "colors", address)
+        ctypes.Structure.__setattr__(self, "color_count", len(stops))
+        shown = tuple((stop.position, tuple(stop.color), stop.alpha) for stop in stops)
+        self._kept.update({"colors": shown or None, "_stops": array})
 
     @classmethod
     def checker(cls, **fields: Any) -> "Pattern":

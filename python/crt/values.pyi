@@ -11,6 +11,7 @@ from .images import Image
 
 Self = TypeVar("Self")
 Vector = Sequence[float] | NDArray[Any]
+ColorStops = Sequence[tuple[float, Vector] | tuple[float, Vector, float]]
 
 # Each is a ctypes.Structure, of which a checker believes that it has any attribute.
 class _Struct:
@@ -29,8 +30,16 @@ class PatternType(enum.IntEnum):
     WOOD = 5
     IMAGE = 6
 
+class ImageMapping(enum.IntEnum):
+    """Says how an image is laid over a surface."""
+    UV = 0
+    PLANAR = 1
+    CYLINDRICAL = 2
+    CUBIC = 3
+
 class Pattern(_Struct):
     """A Pattern is colours that vary over a surface or through space: Pattern.wood(scale=0.1).
+    Each of its `colors` is (position, color) or (position, color, alpha).
 
     Its fields are:
     - type (PatternType | int): a PatternType
@@ -46,6 +55,15 @@ class Pattern(_Struct):
     - image (Image | None): of PatternType.IMAGE alone
     - repeat_u (float): how often the image repeats across the surface; > 0
     - repeat_v (float)
+    - pattern_a (Pattern | None): takes the place of color_a; default None
+    - pattern_b (Pattern | None): Takes the place of color_b; default None. At most 5 patterns lie
+      within one another.
+    - colors (ColorStops | None): Takes the place of both colours of gradient, noise, marble and
+      wood: 2 to 64 stops at ascending positions. Two at one position make an edge.
+    - color_count (int): of `colors`; default 0
+    - mapping (ImageMapping | int): Says how the image is laid over the surface (ImageMapping). All
+      but ImageMapping.UV take `direction`, `offset` and `scale`, the width and height of the
+      picture.
     """
     type: PatternType | int
     color_a: Vector
@@ -60,6 +78,11 @@ class Pattern(_Struct):
     image: Image | None
     repeat_u: float
     repeat_v: float
+    pattern_a: Pattern | None
+    pattern_b: Pattern | None
+    colors: ColorStops | None
+    color_count: int
+    mapping: ImageMapping | int
     def __init__(
         self,
         *,
@@ -76,6 +99,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> None: ...
     def set(
         self,
@@ -93,6 +121,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> None: ...
     @classmethod
     def checker(
@@ -110,6 +143,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Makes cubes whose edges are `scale` long."""
     @classmethod
@@ -128,6 +166,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Makes bands across `direction`, one of each colour in `scale`."""
     @classmethod
@@ -146,6 +189,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Changes from `color_a` to `color_b` and back along `direction` within `scale`."""
     @classmethod
@@ -164,6 +212,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Makes clouds."""
     @classmethod
@@ -182,6 +235,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Makes veins across `direction`."""
     @classmethod
@@ -200,6 +258,11 @@ class Pattern(_Struct):
         image: Image | None = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Makes rings about the line through `offset` along `direction`."""
     @classmethod
@@ -218,6 +281,11 @@ class Pattern(_Struct):
         octaves: int = ...,
         repeat_u: float = ...,
         repeat_v: float = ...,
+        pattern_a: Pattern | None = ...,
+        pattern_b: Pattern | None = ...,
+        colors: ColorStops | None = ...,
+        color_count: int = ...,
+        mapping: ImageMapping | int = ...,
     ) -> Pattern:
         """Lays a crt.Image over the surface."""
 
@@ -566,6 +634,11 @@ class FalloffModel(enum.IntEnum):
     PATH = 0
     LIGHT = 1
 
+class AmbientModel(enum.IntEnum):
+    """Says how much of a light's ambient share a surface sends back."""
+    LIGHT = 0
+    SURFACE = 1
+
 class Precision(enum.IntEnum):
     """Says how close calls of the geometry are decided."""
     STANDARD = 0
@@ -604,6 +677,9 @@ class Settings(_Struct):
     - compat (int): 0 is the default. With 2015 the picture is formed as the program of that year
       formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. See
       docs/compat.md.
+    - ambient_model (AmbientModel | int): a AmbientModel; default AmbientModel.LIGHT
+    - no_head_light (int): A scene without lights is lit from the camera, unless this is not 0.
+      Default 0.
     """
     width: int
     height: int
@@ -627,6 +703,8 @@ class Settings(_Struct):
     max_samples: int
     filter: PixelFilter | int
     compat: int
+    ambient_model: AmbientModel | int
+    no_head_light: int
     def __init__(
         self,
         *,
@@ -652,6 +730,8 @@ class Settings(_Struct):
         max_samples: int = ...,
         filter: PixelFilter | int = ...,
         compat: int = ...,
+        ambient_model: AmbientModel | int = ...,
+        no_head_light: int = ...,
     ) -> None: ...
     def set(
         self,
@@ -678,6 +758,8 @@ class Settings(_Struct):
         max_samples: int = ...,
         filter: PixelFilter | int = ...,
         compat: int = ...,
+        ambient_model: AmbientModel | int = ...,
+        no_head_light: int = ...,
     ) -> None: ...
 
 class RenderStats(_Struct):

@@ -136,6 +136,7 @@ def stub() -> str:
         "",
         'Self = TypeVar("Self")',
         "Vector = Sequence[float] | NDArray[Any]",
+        "ColorStops = Sequence[tuple[float, Vector] | tuple[float, Vector, float]]",
         "",
         "# Each is a ctypes.Structure, of which a checker believes that it has any attribute.",
         "class _Struct:",
@@ -147,6 +148,8 @@ def stub() -> str:
     thing: Any
     for name, thing in vars(values).items():
         if not isinstance(thing, type) or thing.__module__ != values.__name__:
+            continue
+        if name.startswith("_"):
             continue
         if issubclass(thing, Struct):
             lines += ["", *_struct(name, thing)]

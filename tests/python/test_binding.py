@@ -157,7 +157,7 @@ class Structs(unittest.TestCase):
                     field = declaration.split()[-1]
                     self.assertIs(thing._enums[field], getattr(crt, named[1]), field)
                     found += 1
-        self.assertEqual(found, 8)
+        self.assertEqual(found, 9)
         self.assertIs(crt.Camera().projection, crt.Projection.PINHOLE)
         self.assertEqual(repr(crt.Settings(precision=99).precision), "99")
 

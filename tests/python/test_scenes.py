@@ -111,6 +111,7 @@ class Lists(unittest.TestCase):
         self.assertAlmostEqual(np.asarray(scene.render())[12, 12, 0], lit / 2, 5)
         scene.lights.append(crt.Light.point(origin=(-3, 4, -5)))
         self.assertAlmostEqual(np.asarray(scene.render())[12, 12, 0], 1.5 * lit, 5)
+        scene.settings.no_head_light = 1
         scene.lights = []
         self.assertEqual(np.asarray(scene.render())[12, 12, 0], 0)
         scene.add(crt.Light.point(origin=(-3, 4, -5)))

@@ -1,5 +1,6 @@
 """These tests check materials, lights, cameras, backgrounds and settings."""
 
+import copy
 import math
 import unittest
 
@@ -36,6 +37,28 @@ class Values(unittest.TestCase):
             self.assertEqual(scene.render().to_rgba8()[0, 0].tolist(), expected)
         with self.assertRaisesRegex(crt.Error, "compat"):
             scene.settings = crt.Settings(compat=2014)
+
+    def test_a_pattern_has_many_colours_and_patterns_in_it(self):
+        stops = [(0, (1, 0, 0)), (1, np.array([0, 0, 1]), 0.5)]
+        pattern = crt.Pattern.gradient(colors=stops)
+        self.assertEqual(pattern.colors, ((0, (1, 0, 0), 1), (1, (0, 0, 1), 0.5)))
+        self.assertEqual(pattern.color_count, 2)
+        self.assertEqual(copy.deepcopy(pattern), pattern)
+        floor = crt.Box((0, 0, 0), (1, 1, 1), material=crt.Material(pattern=pattern))
+        self.assertEqual(len(crt.Scene(entities=[floor]).entities), 1)
+        pattern.colors = [(1, (0, 0, 0)), (0, (1, 1, 1))]
+        with self.assertRaisesRegex(crt.Error, "colors"):
+            crt.Box((0, 0, 0), (1, 1, 1), material=crt.Material(pattern=pattern))
+        pattern.colors = None
+        self.assertEqual((pattern.colors, pattern.color_count), (None, 0))
+        with self.assertRaisesRegex(AttributeError, "color_count"):
+            pattern.color_count = 64
+        with self.assertRaisesRegex(TypeError, r"colors\[0\] must be \(position, color\)"):
+            crt.Pattern.noise(colors=[0.5])
+        both = crt.Pattern.checker(pattern_a=crt.Pattern.wood(), pattern_b=pattern)
+        self.assertEqual(both.pattern_b, pattern)
+        with self.assertRaisesRegex(TypeError, "pattern_a must be a Pattern"):
+            crt.Pattern.checker(pattern_a=crt.Camera())
 
     def test_keyword_arguments_and_attributes_change_fields(self):
         camera = crt.Camera(position=np.array([1.0, 2.0, 3.0]), fov=1)
