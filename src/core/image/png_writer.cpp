@@ -52,14 +52,19 @@ std::string_view png_keyword(std::string_view name) {
   return name;
 }
 
+/// Appends texts: as Latin-1 where they are plain ASCII, else as UTF-8 (chapter 11.3.3).
 void append_texts(Bytes& file, const FileTexts& texts) {
   for (const auto& [name, value] : texts) {
     const std::string_view keyword = png_keyword(name);
     Bytes content(keyword.begin(), keyword.end());
     content.push_back(0);
+    const auto is_ascii = [](char c) { return static_cast<unsigned char>(c) < 0x80; };
+    const bool is_plain = std::all_of(value.begin(), value.end(), is_ascii);
+    // It is not compressed, and of no named language.
+    if (!is_plain) content.insert(content.end(), 4, 0);
     // A text ends at its first zero.
     content.insert(content.end(), value.begin(), std::find(value.begin(), value.end(), '\0'));
-    append_chunk(file, "tEXt", content);
+    append_chunk(file, is_plain ? "tEXt" : "iTXt", content);
   }
 }
 
