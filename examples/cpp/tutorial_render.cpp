@@ -16,9 +16,10 @@ crt::Image distance_picture(const crt::Image& image) {
   const double farthest = 14;
   const auto distances = image.channel("Z");
   crt::Image result(image.width(), image.height());
+  std::size_t pixel = 0;  // row by row
   for (int y = 0; y < image.height(); ++y) {
-    for (int x = 0; x < image.width(); ++x) {
-      const double z = distances[static_cast<std::size_t>(y * image.width() + x)];
+    for (int x = 0; x < image.width(); ++x, ++pixel) {
+      const double z = distances[pixel];
       result.set(x, y, crt::grey(std::clamp((farthest - z) / (farthest - nearest), 0.0, 1.0)));
     }
   }

@@ -30,6 +30,7 @@ TEST_CASE("what crt new writes is a script without a warning, that renders") {
   const Outcome check = run_crt(folder, {"check", "first.crt"});
   CHECK(check.exit_code == 0);
   CHECK(check.err.empty());
+  CHECK(run_crt(folder, {"format", "--check", "first.crt"}).exit_code == 0);
   const Outcome render =
       run_crt(folder, {"render", "first.crt", "--width", "32", "--height", "24", "-q"});
   CHECK(render.exit_code == 0);
