@@ -1,4 +1,4 @@
-// This is a module for image files that knows PNG alone. A Python wheel holds it beside the one
+// This is a module for image files that reads PNG alone. A Python wheel holds it beside the one
 // with OpenImageIO, and libcrt takes it where OpenImageIO is not installed. The border is that of
 // core/image/files/interface.hpp.
 //
@@ -15,7 +15,6 @@
 #include <new>
 #include <string>
 #include <string_view>
-#include <vector>
 
 #include "core/image/files/interface.hpp"
 
@@ -161,86 +160,6 @@ ImageFilesStatus decode_png(const ImageFilesContent& content, const ImageFilesPi
   return image_files_ok;
 }
 
-// ---- encoding -------------------------------------------------------------------------------
-
-/// A Writer has libpng's structs, and the bytes so far.
-struct Writer {
-  Failure failure;
-  png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, &failure, fail, ignore);
-  png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
-  std::vector<unsigned char> bytes;
-
-  Writer() = default;
-  Writer(const Writer&) = delete;
-  Writer& operator=(const Writer&) = delete;
-  ~Writer() { png_destroy_write_struct(&png, &info); }
-};
-
-void write_bytes(png_structp png, png_bytep from, std::size_t count) {
-  auto& writer = *static_cast<Writer*>(png_get_io_ptr(png));
-  bool has_room = true;
-  try {
-    writer.bytes.insert(writer.bytes.end(), from, from + count);
-  } catch (const std::bad_alloc&) {
-    has_room = false;
-  }
-  if (!has_room) fail(png, "out of memory");
-}
-
-void flush_nothing(png_structp) {}
-
-/// Returns PNG's name of a text that has one of OpenImageIO's names.
-std::string png_name(std::string_view name) {
-  constexpr std::size_t longest = 79;
-  if (name == "DocumentName") return "Title";
-  if (name == "Artist") return "Author";
-  if (name == "ImageDescription") return "Description";
-  return std::string(name.substr(0, longest));
-}
-
-bool write_picture(Writer& writer, const ImageFilesRequest& request, std::vector<png_text>& texts) {
-  if (setjmp(png_jmpbuf(writer.png)) != 0) return false;
-  const bool has_alpha = request.channels == 4;
-  png_set_write_fn(writer.png, &writer, write_bytes, flush_nothing);
-  png_set_IHDR(writer.png, writer.info, static_cast<png_uint_32>(request.width),
-               static_cast<png_uint_32>(request.height), 8,
-               has_alpha ? PNG_COLOR_TYPE_RGB_ALPHA : PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
-               PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  png_set_text(writer.png, writer.info, texts.data(), static_cast<int>(texts.size()));
-  png_write_info(writer.png, writer.info);
-  const auto row_size =
-      static_cast<std::size_t>(request.channels) * static_cast<std::size_t>(request.width);
-  for (int y = 0; y < request.height; ++y)
-    png_write_row(writer.png, request.bytes + static_cast<std::size_t>(y) * row_size);
-  png_write_end(writer.png, writer.info);
-  return true;
-}
-
-ImageFilesStatus encode_png(const ImageFilesRequest& request, const ImageFilesBytes& sink,
-                            const ImageFilesError& error) {
-  Writer writer;
-  if (writer.info == nullptr) return image_files_out_of_memory;
-  std::vector<std::string> names;
-  std::vector<std::string> values;
-  std::vector<png_text> texts;
-  for (std::size_t i = 0; i < request.text_count; ++i) {
-    names.push_back(png_name(request.texts[i].name));
-    values.emplace_back(request.texts[i].value);
-  }
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    const bool is_ascii = std::all_of(values[i].begin(), values[i].end(),
-                                      [](char c) { return static_cast<unsigned char>(c) < 0x80; });
-    png_text& text = texts.emplace_back();
-    text.compression = is_ascii ? PNG_TEXT_COMPRESSION_NONE : PNG_ITXT_COMPRESSION_NONE;
-    text.key = names[i].data();
-    text.text = values[i].data();
-    (is_ascii ? text.text_length : text.itxt_length) = values[i].size();
-  }
-  if (!write_picture(writer, request, texts)) return failed(error, writer.failure.message.data());
-  const bool is_taken = sink.append(sink.context, writer.bytes.data(), writer.bytes.size());
-  return is_taken ? image_files_ok : image_files_out_of_memory;
-}
-
 // ---- the border -----------------------------------------------------------------------------
 
 ImageFilesStatus decode(const ImageFilesContent* content, const ImageFilesPicture* picture,
@@ -255,15 +174,13 @@ ImageFilesStatus decode(const ImageFilesContent* content, const ImageFilesPictur
   }
 }
 
-ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes* sink,
+/// CRT writes PNG files without a module, and no other format is known here.
+ImageFilesStatus encode(const ImageFilesRequest* request, const ImageFilesBytes*,
                         const ImageFilesError* error) noexcept {
   try {
-    if (std::string_view(request->format) != "png") return unsupported(request->format, *error);
-    return encode_png(*request, *sink, *error);
+    return unsupported(request->format, *error);
   } catch (const std::bad_alloc&) {
     return image_files_out_of_memory;
-  } catch (...) {
-    return image_files_failed;
   }
 }
 
