@@ -69,7 +69,7 @@ class Wheel(unittest.TestCase):
         cls.addClassCleanup(folder.cleanup)
         cls.folder = pathlib.Path(folder.name)
         source = cls.folder / "source"
-        for folder_name in FOLDERS:
+        for folder_name in (*FOLDERS, "share"):
             ignored = shutil.ignore_patterns("__pycache__", ".*")
             shutil.copytree(SOURCE / folder_name, source / folder_name, ignore=ignored)
         for file in ("pyproject.toml", "LICENSE", "MANIFEST.in", "CMakeLists.txt"):
@@ -137,6 +137,9 @@ class Wheel(unittest.TestCase):
             self.assertGreater(len(files), 5, folder)
             self.assertEqual(files - names, set())
         self.assertLessEqual({"CMakeLists.txt", "pyproject.toml", "LICENSE"}, names)
+        library = {f"share/crt/{file.name}" for file in (SOURCE / "share/crt").glob("*.crt")}
+        self.assertIn("share/crt/metals.crt", library)
+        self.assertEqual(library - names, set())
 
     def test_its_program_runs(self):
         scene, depth = self.folder / "scene.crt", self.folder / "depth.png"
