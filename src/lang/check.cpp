@@ -8,6 +8,7 @@
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
 #include "lang/suggestion.hpp"
+#include "lang/tree_walk.hpp"
 
 namespace crt::lang {
 
@@ -81,76 +82,21 @@ class Checker {
   Reporter& reporter_;
 };
 
-/// Visits the expressions that a statement evaluates itself, to any depth, but not the bodies of
+/// Collects the names that a statement assigns to, to any depth, but not those in the bodies of
 /// macros.
-class AssignedNames {
+class AssignedNames : public TreeWalk<AssignedNames> {
  public:
+  using TreeWalk::operator();
+
   explicit AssignedNames(std::set<Symbol>& names) : names_(names) {}
 
-  void operator()(const Literal&) {}
-  void operator()(const Name&) {}
   void operator()(const MacroLiteral&) {}
-  void operator()(const ObjectLiteral& object) { visit(object.attributes); }
-  void operator()(const ListLiteral& list) { visit(list.items); }
-  void operator()(const Index& index) {
-    visit(index.base);
-    visit(index.index);
-  }
-  void operator()(const Call& call) {
-    visit(call.callee);
-    visit(call.arguments);
-  }
-  void operator()(const Modified& modified) {
-    visit(modified.base);
-    for (const Modifier& modifier : modified.modifiers) visit(modifier.operand);
-  }
-  void operator()(const Unary& unary) { visit(unary.operand); }
-  void operator()(const Chain& chain) {
-    visit(chain.first);
-    for (const ChainLink& link : chain.links) visit(link.operand);
-  }
-  void operator()(const Logical& logical) { visit(logical.operands); }
-  void operator()(const Conditional& conditional) {
-    visit(conditional.condition);
-    visit(conditional.yes);
-    visit(conditional.no);
-  }
   void operator()(const Assignment& assignment) {
     names_.insert(assignment.name.symbol);
     visit(assignment.value);
   }
 
-  void operator()(const ExpressionStatement& statement) { visit(statement.expression); }
-  void operator()(const While& loop) {
-    visit(loop.condition);
-    collect_assigned(loop.body, names_);
-  }
-  void operator()(const If& choice) {
-    for (const If::Branch& branch : choice.branches) {
-      visit(branch.condition);
-      collect_assigned(branch.body, names_);
-    }
-  }
-  void operator()(const For& loop) {
-    visit(loop.list);
-    collect_assigned(loop.body, names_);
-  }
-  void operator()(const Return& result) { visit(result.value); }
-  void operator()(const SettingsBlock& settings) { visit(settings.attributes); }
-  void operator()(const SceneBlock& scene) { collect_assigned(scene.body, names_); }
-  void operator()(const Import&) {}
-
  private:
-  void visit(const Expression* expression) {
-    if (expression) std::visit(*this, expression->node);
-  }
-  void visit(const std::vector<const Expression*>& expressions) {
-    for (const Expression* expression : expressions) visit(expression);
-  }
-  void visit(const std::vector<AttributeSyntax>& attributes) {
-    for (const AttributeSyntax& attribute : attributes) visit(attribute.value);
-  }
-
   std::set<Symbol>& names_;
 };
 

@@ -7,13 +7,18 @@
 #include <utility>
 #include <variant>
 
+#include "lang/tree_walk.hpp"
+
 namespace crt::lang {
 
 namespace {
 
 /// Visits a tree in the order in which it runs. Macros wait until the rest is done.
-class NameMapper {
+class NameMapper : public TreeWalk<NameMapper> {
  public:
+  using TreeWalk::operator();
+  using TreeWalk::visit;
+
   explicit NameMapper(const Importer& importer) : importer_(importer) {
     map_.scopes.push_back({.is_border = true});
   }
@@ -32,40 +37,12 @@ class NameMapper {
     return std::move(map_);
   }
 
-  void operator()(const Literal&) {}
-  void operator()(const Name&) {}
-  void operator()(const ObjectLiteral& object) { visit(object.attributes); }
   void operator()(const MacroLiteral& macro) { waiting_.push_back({&macro, scope_}); }
-  void operator()(const ListLiteral& list) { visit(list.items); }
-  void operator()(const Index& index) {
-    visit(index.base);
-    visit(index.index);
-  }
-  void operator()(const Call& call) {
-    visit(call.callee);
-    visit(call.arguments);
-  }
-  void operator()(const Modified& modified) {
-    visit(modified.base);
-    for (const Modifier& modifier : modified.modifiers) visit(modifier.operand);
-  }
-  void operator()(const Unary& unary) { visit(unary.operand); }
-  void operator()(const Chain& chain) {
-    visit(chain.first);
-    for (const ChainLink& link : chain.links) visit(link.operand);
-  }
-  void operator()(const Logical& logical) { visit(logical.operands); }
-  void operator()(const Conditional& conditional) {
-    visit(conditional.condition);
-    visit(conditional.yes);
-    visit(conditional.no);
-  }
   void operator()(const Assignment& assignment) {
     visit(assignment.value);
     assign(assignment.name, assignment.value);
   }
 
-  void operator()(const ExpressionStatement& statement) { visit(statement.expression); }
   void operator()(const While& loop) {
     visit(loop.condition);
     visit_inside(loop.body, {});
@@ -86,11 +63,16 @@ class NameMapper {
     const auto* name = result.name ? std::get_if<Name>(&result.name->node) : nullptr;
     if (name && find(name->symbol, false) != NameUse::nothing) visit(result.name);
   }
-  void operator()(const SettingsBlock& settings) { visit(settings.attributes); }
   void operator()(const SceneBlock& scene) { visit_inside(scene.body, {}); }
   void operator()(const Import& import) {
     // Its top-level names are those of the script that imports it.
     if (const Script* script = importer_(import)) visit(script->statements);
+  }
+
+  void visit(const Expression* expression) {
+    const auto* name = expression ? std::get_if<Name>(&expression->node) : nullptr;
+    if (name) return use(name->symbol, expression->span, find(name->symbol, false));
+    TreeWalk::visit(expression);
   }
 
  private:
@@ -98,22 +80,6 @@ class NameMapper {
     const MacroLiteral* macro = nullptr;
     std::size_t scope = 0;
   };
-
-  void visit(const Expression* expression) {
-    if (!expression) return;
-    if (const auto* name = std::get_if<Name>(&expression->node))
-      return use(name->symbol, expression->span, find(name->symbol, false));
-    std::visit(*this, expression->node);
-  }
-  void visit(const std::vector<const Expression*>& expressions) {
-    for (const Expression* expression : expressions) visit(expression);
-  }
-  void visit(const std::vector<AttributeSyntax>& attributes) {
-    for (const AttributeSyntax& attribute : attributes) visit(attribute.value);
-  }
-  void visit(const Block& block) {
-    for (const Statement& statement : block.statements) std::visit(*this, statement.node);
-  }
 
   /// Visits a body in a scope of its own, where some names are set at its beginning.
   void visit_inside(const Block& body, std::span<const NamePlace> names,

@@ -8,6 +8,7 @@
 #include <variant>
 
 #include "lang/objects.hpp"
+#include "lang/tree_walk.hpp"
 
 namespace crt::lang {
 
@@ -15,9 +16,11 @@ namespace {
 
 using Kind = NameUses::Kind;
 
-/// Visits all of a tree, in the order of the text. Its depth is bounded by max_nesting.
-class Visitor {
+/// Finds what is set and what is read where, in the order of the text.
+class Visitor : public TreeWalk<Visitor> {
  public:
+  using TreeWalk::operator();
+
   Visitor(NameUses& uses, Reporter& reporter) : uses_(uses), reporter_(reporter) {}
 
   void visit_script(const Script& script) {
@@ -27,7 +30,6 @@ class Visitor {
     close_region();
   }
 
-  void operator()(const Literal&) {}
   void operator()(const Name& name) { uses_.reads[name.symbol].push_back(next_read_++); }
   void operator()(const MacroLiteral& macro) {
     open_region();
@@ -35,60 +37,16 @@ class Visitor {
     visit(macro.body);
     close_region();
   }
-  void operator()(const ObjectLiteral& object) { visit(object.attributes); }
-  void operator()(const ListLiteral& list) { visit(list.items); }
-  void operator()(const Index& index) {
-    visit(index.base);
-    visit(index.index);
-  }
-  void operator()(const Call& call) {
-    visit(call.callee);
-    visit(call.arguments);
-  }
-  void operator()(const Modified& modified) {
-    visit(modified.base);
-    for (const Modifier& modifier : modified.modifiers) visit(modifier.operand);
-  }
-  void operator()(const Unary& unary) { visit(unary.operand); }
-  void operator()(const Chain& chain) {
-    visit(chain.first);
-    for (const ChainLink& link : chain.links) visit(link.operand);
-  }
-  void operator()(const Logical& logical) { visit(logical.operands); }
-  void operator()(const Conditional& conditional) {
-    visit(conditional.condition);
-    visit(conditional.yes);
-    visit(conditional.no);
-  }
   void operator()(const Assignment& assignment) {
     bind(assignment.name, kind_of(*assignment.value));
     visit(assignment.value);
   }
 
-  void operator()(const ExpressionStatement& statement) { visit(statement.expression); }
-  void operator()(const While& loop) {
-    visit(loop.condition);
-    visit(loop.body);
-  }
-  void operator()(const If& choice) {
-    for (const If::Branch& branch : choice.branches) {
-      visit(branch.condition);
-      visit(branch.body);
-    }
-  }
-  void operator()(const For& loop) {
-    visit(loop.list);
-    visit(loop.body);
-  }
   void operator()(const Return& result) {
     const bool is_stray = result.value && regions_.size() < 2;
     if (is_stray) reporter_.error(result.keyword, "'return' stands in a macro only");
-    visit(result.value);
-    visit(result.name);
+    TreeWalk::operator()(result);
   }
-  void operator()(const SettingsBlock& settings) { visit(settings.attributes); }
-  void operator()(const SceneBlock& scene) { visit(scene.body); }
-  void operator()(const Import&) {}
 
  private:
   /// A Region is a macro or the top level: no assignment reaches out of it.
@@ -121,19 +79,6 @@ class Visitor {
   void bind(const NamePlace& name, Kind kind) {
     regions_.back().bindings.try_emplace(name.symbol,
                                          NameUses::Binding{.name = name, .kind = kind});
-  }
-
-  void visit(const Expression* expression) {
-    if (expression) std::visit(*this, expression->node);
-  }
-  void visit(const std::vector<const Expression*>& expressions) {
-    for (const Expression* expression : expressions) visit(expression);
-  }
-  void visit(const std::vector<AttributeSyntax>& attributes) {
-    for (const AttributeSyntax& attribute : attributes) visit(attribute.value);
-  }
-  void visit(const Block& block) {
-    for (const Statement& statement : block.statements) std::visit(*this, statement.node);
   }
 
   NameUses& uses_;
