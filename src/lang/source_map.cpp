@@ -24,7 +24,8 @@ std::vector<std::uint32_t> find_lines(std::string_view text) {
   return starts;
 }
 
-/// Returns the number of the line, from 0, that holds the offset.
+}  // namespace
+
 std::size_t line_of(const Source& source, std::uint32_t offset) {
   const auto after = std::upper_bound(source.line_starts.begin(), source.line_starts.end(), offset);
   return static_cast<std::size_t>(after - source.line_starts.begin()) - 1;
@@ -38,8 +39,6 @@ std::string_view line_at(const Source& source, std::size_t line) {
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
   return text;
 }
-
-}  // namespace
 
 const Source& SourceMap::add(std::string name, std::string text, std::filesystem::path directory) {
   if (text.size() >= most_bytes - next_base_) throw std::length_error("source texts too long");

@@ -33,6 +33,12 @@ struct Source {
   std::vector<std::uint32_t> line_starts;  ///< relative to base
 };
 
+/// Returns the number of the line, from 0, that holds an offset from the source's base.
+std::size_t line_of(const Source& source, std::uint32_t offset);
+
+/// Returns a line that there is, without its end.
+std::string_view line_at(const Source& source, std::size_t line);
+
 class SourceMap {
  public:
   /// Offsets are 32 bits wide. What the limits allow is cut down to this.

@@ -27,20 +27,10 @@ std::uint32_t count_characters(std::string_view text, Encoding encoding) {
   return count;
 }
 
-std::string_view line_of(const lang::Source& source, std::size_t line) {
-  if (line >= source.line_starts.size()) return {};
-  const std::size_t begin = source.line_starts[line];
-  const std::size_t end =
-      line + 1 < source.line_starts.size() ? source.line_starts[line + 1] : source.text.size();
-  std::string_view text = std::string_view(source.text).substr(begin, end - begin);
-  while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.remove_suffix(1);
-  return text;
-}
-
 std::uint32_t byte_at(const lang::Source& source, Position position, Encoding encoding) {
   if (position.line >= source.line_starts.size())
     return static_cast<std::uint32_t>(source.text.size());
-  const std::string_view line = line_of(source, position.line);
+  const std::string_view line = lang::line_at(source, position.line);
   std::size_t place = 0;
   if (encoding == Encoding::utf8) {
     place = std::min<std::size_t>(position.character, line.size());
@@ -57,9 +47,8 @@ std::uint32_t byte_at(const lang::Source& source, Position position, Encoding en
 
 Position position_of(const lang::Source& source, std::uint32_t byte, Encoding encoding) {
   byte = std::min(byte, static_cast<std::uint32_t>(source.text.size()));
-  const auto after = std::upper_bound(source.line_starts.begin(), source.line_starts.end(), byte);
-  const auto line = static_cast<std::uint32_t>(after - source.line_starts.begin()) - 1;
-  const std::string_view text = line_of(source, line);
+  const auto line = static_cast<std::uint32_t>(lang::line_of(source, byte));
+  const std::string_view text = lang::line_at(source, line);
   const std::size_t before = std::min<std::size_t>(byte - source.line_starts[line], text.size());
   return {line, count_characters(text.substr(0, before), encoding)};
 }

@@ -40,9 +40,6 @@ Position position_of(const lang::Source& source, std::uint32_t byte, Encoding en
 /// Returns the range of a span of this source.
 Range range_of(const lang::Source& source, lang::Span span, Encoding encoding);
 
-/// Returns a line without its end, or nothing if there is no such line.
-std::string_view line_of(const lang::Source& source, std::size_t line);
-
 /// Returns the bytes that hold the first so many code points of a text.
 std::string_view first_code_points(std::string_view text, std::size_t count);
 
