@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "lang/utf8.hpp"
+#include "lang/word_byte.hpp"
 
 namespace crt::lang {
 
@@ -38,10 +39,6 @@ constexpr std::array keywords = {
     Keyword{"else", Token::ELSE},         Keyword{"for", Token::FOR},
     Keyword{"in", Token::IN},             Keyword{"import", Token::IMPORT},
 };
-
-bool is_word_byte(unsigned char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 const unsigned char* bytes(const std::string& text) {
   return reinterpret_cast<const unsigned char*>(text.data());

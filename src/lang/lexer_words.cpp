@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "lang/lexer.hpp"
+#include "lang/word_byte.hpp"
 
 namespace crt::lang {
 
@@ -26,10 +27,6 @@ constexpr std::array modifier_words = {
     Word{"id", Token::ID},
     Word{"matrix", Token::MATRIX},
 };
-
-bool is_word_byte(unsigned char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 }  // namespace
 

@@ -13,6 +13,7 @@
 #include "lang/builtins.hpp"
 #include "lang/objects.hpp"
 #include "lang/settings.hpp"
+#include "lang/word_byte.hpp"
 #include "lsp/completion_items.hpp"
 
 namespace crt::lsp {
@@ -20,10 +21,6 @@ namespace crt::lsp {
 namespace {
 
 using Kind = lang::Grammar::symbol_kind;
-
-bool is_word_byte(char c) {
-  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_';
-}
 
 /// A CutText is the script up to the word that the cursor is in, with what the front end makes of
 /// it.
@@ -114,8 +111,8 @@ class Completer {
       : program_(program), options_(options), items_(reference) {
     const std::string& text = program.main().text;
     list_.begin = list_.end = byte;
-    while (list_.begin > 0 && is_word_byte(text[list_.begin - 1])) --list_.begin;
-    while (list_.end < text.size() && is_word_byte(text[list_.end])) ++list_.end;
+    while (list_.begin > 0 && lang::is_word_byte(text[list_.begin - 1])) --list_.begin;
+    while (list_.end < text.size() && lang::is_word_byte(text[list_.end])) ++list_.end;
   }
 
   CompletionList complete() {
@@ -132,7 +129,7 @@ class Completer {
     const bool in_object = unsure && !list_.items.empty();
     if (cut.expects("a whole number") || (unsure && !in_object)) add_expressions(cut);
     for (const std::string& name : cut.expected) {
-      if (!std::all_of(name.begin(), name.end(), is_word_byte)) continue;
+      if (!std::all_of(name.begin(), name.end(), lang::is_word_byte)) continue;
       list_.items.push_back(items_.keyword(name));
       // Behind a '<' these are modifiers, which are what is mostly wanted there.
       if (after_less(cut)) list_.items.back().rank = 0;
