@@ -18,6 +18,7 @@
 #include "cli/option_values.hpp"
 #include "cli/reporter.hpp"
 #include "cli/suggestion.hpp"
+#include "text/words.hpp"
 
 namespace crt::cli {
 
@@ -108,13 +109,6 @@ std::vector<std::string> command_names(const CLI::App& app) {
   return names;
 }
 
-std::string listed(const std::vector<std::string>& words) {
-  std::string text;
-  for (std::size_t i = 0; i < words.size(); ++i)
-    text += (i == 0 ? "" : i + 1 == words.size() ? " and " : ", ") + words[i];
-  return text;
-}
-
 // ---- complaints -----------------------------------------------------------------------------
 
 std::string did_you_mean(const std::string& word, const std::vector<std::string>& known) {
@@ -151,7 +145,7 @@ std::string complaint_about_command(const CLI::App& app, const std::string& word
   const std::vector<std::string> names = command_names(app);
   const std::string hint = did_you_mean(word, names);
   return fmt::format("no command '{}'{}", word,
-                     hint.empty() ? ": there are " + listed(names) : hint);
+                     hint.empty() ? ": there are " + text::enumerate(names, "and") : hint);
 }
 
 ExitCode complain(const std::exception& error, const CLI::App& app, int argc,

@@ -5,6 +5,8 @@
 #include <string_view>
 #include <vector>
 
+#include "text/words.hpp"
+
 namespace crt::lang {
 
 /// Returns the candidate that a typist most likely meant by `word`, or an empty text if none is
@@ -14,7 +16,6 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 /// Returns "; did you mean 'radius'?", or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
 
-/// Returns "a", "a or b" or "a, b or c".
-std::string enumerate(const std::vector<std::string>& items, std::string_view last_joint = "or");
+using text::enumerate;
 
 }  // namespace crt::lang

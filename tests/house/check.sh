@@ -54,6 +54,8 @@ check_layers() {
     lines_with "^#include [<\"]core/($later)/" "src/core/${layers[position]}/*"
   done
   lines_with '^#include [<"](lang|cli|capi|format|lsp)/' 'src/core/*'
+  # Anybody may see what is about words, which sees nothing.
+  lines_with '^#include [<"](crt|core|lang|format|lsp|cli|capi)/' 'src/text/*'
   # The front end is seen by what lays scripts out and by what serves editors, and these by the
   # command, each by one header.
   lines_with '^#include [<"](format|lsp|cli|capi)/' 'src/lang/*'
