@@ -5,19 +5,10 @@
 
 #include "core/geometry/checks.hpp"
 #include "core/geometry/near_line.hpp"
+#include "core/math/direction_and_length.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
-namespace {
-
-/// Returns the length of the axis in units, by squares that neither overflow nor vanish.
-double height_of(const Vec3& axis, double unit) {
-  const double scale = power_of_two_below(largest_component(axis));
-  return glm::length(axis * (1 / scale)) * scale / unit;
-}
-
-}  // namespace
-
 CapsuleShape::CapsuleShape(const Capsule& capsule)
     : cylinder_({.from = capsule.from, .to = capsule.to, .radius = capsule.radius}),
       spheres_{SphereShape({.center = capsule.from, .radius = capsule.radius}),
@@ -26,7 +17,7 @@ CapsuleShape::CapsuleShape(const Capsule& capsule)
       radius_(capsule.radius),
       frame_(frame_about(capsule.to - capsule.from)),
       unit_(power_of_two_below(capsule.radius)),
-      height_(height_of(capsule.to - capsule.from, unit_)) {
+      height_(direction_and_length(capsule.to - capsule.from).length / unit_) {
   const double quarter_circle = std::numbers::pi / 2 * (radius_ / unit_);
   tip_share_ = quarter_circle / (2 * quarter_circle + height_);
 }
