@@ -7,6 +7,10 @@
 
 namespace crt::cli {
 
+std::function<void(const std::string&)> into_path(std::filesystem::path& path) {
+  return [&path](const std::string& name) { path = name; };
+}
+
 std::function<void(const std::string&)> into_flag(const std::string& name, bool& flag) {
   return [name, &flag](const std::string& value) {
     if (value != "true" && value != "false") throw WrongValue(name, "true or false", value);
@@ -105,6 +109,25 @@ void add_threads_row(std::vector<OptionRow>& rows, int& threads) {
        .type = "N",
        .help = "threads at most (default: all cores)",
        .take = [&threads](const std::string& value) { threads = parse_threads(value); }});
+}
+
+void add_scene_row(std::vector<OptionRow>& rows, std::filesystem::path& scene,
+                   const std::string& help) {
+  rows.push_back({.names = "scene",
+                  .type = "SCENE.crt",
+                  .help = help,
+                  .take = into_path(scene),
+                  .required = true});
+}
+
+void add_scenes_row(std::vector<OptionRow>& rows, std::vector<std::filesystem::path>& scenes,
+                    const std::string& help) {
+  rows.push_back({.names = "scene",
+                  .type = "SCENE.crt",
+                  .help = help,
+                  .take = [&scenes](const std::string& name) { scenes.emplace_back(name); },
+                  .repeatable = true,
+                  .required = true});
 }
 
 void add_region_row(std::vector<OptionRow>& rows, std::optional<Region>& region,

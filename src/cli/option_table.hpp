@@ -56,6 +56,14 @@ void add_threads_row(std::vector<OptionRow>& rows, int& threads);
 void add_region_row(std::vector<OptionRow>& rows, std::optional<Region>& region,
                     const std::string& help);
 
+/// Adds the script that a command is about, or the scripts. `help` says what it may be.
+void add_scene_row(std::vector<OptionRow>& rows, std::filesystem::path& scene,
+                   const std::string& help);
+void add_scenes_row(std::vector<OptionRow>& rows, std::vector<std::filesystem::path>& scenes,
+                    const std::string& help);
+
+/// Returns what takes the name of a file.
+std::function<void(const std::string&)> into_path(std::filesystem::path& path);
 /// Returns what takes a flag.
 std::function<void(const std::string&)> into_flag(const std::string& name, bool& flag);
 /// Returns what takes a number above 0.

@@ -33,16 +33,12 @@ CommandTable trade_table(TradeRequest& request) {
       .footer = std::string(trade_footer),
       .rows = {}};
   std::vector<OptionRow>& rows = table.rows;
-  rows.push_back({.names = "scene",
-                  .type = "SCENE.crt",
-                  .help = "the script; - is standard input",
-                  .take = [&request](const std::string& name) { request.scene = name; },
-                  .required = true});
+  add_scene_row(rows, request.scene, "the script; - is standard input");
   rows.push_back({.names = "-o,--output",
                   .type = "NAME",
                   .help = "what is written, without the endings (default: the script's name and "
                           "-trade)",
-                  .take = [&request](const std::string& name) { request.output = name; }});
+                  .take = into_path(request.output)});
   add_script_rows(rows, request);
   rows.push_back({.names = "--budget",
                   .type = "SECONDS",
@@ -91,13 +87,7 @@ CommandTable check_table(CheckRequest& request) {
                          "nothing.",
                      .footer = "",
                      .rows = {}};
-  table.rows.push_back(
-      {.names = "scene",
-       .type = "SCENE.crt",
-       .help = "the scripts; - is standard input",
-       .take = [&request](const std::string& name) { request.scenes.emplace_back(name); },
-       .repeatable = true,
-       .required = true});
+  add_scenes_row(table.rows, request.scenes, "the scripts; - is standard input");
   add_script_rows(table.rows, request);
   return table;
 }
@@ -105,11 +95,7 @@ CommandTable check_table(CheckRequest& request) {
 CommandTable new_table(NewRequest& request) {
   CommandTable table{
       .name = "new", .about = "Writes a script to begin with.", .footer = "", .rows = {}};
-  table.rows.push_back({.names = "scene",
-                        .type = "SCENE.crt",
-                        .help = "the script, which does not exist yet",
-                        .take = [&request](const std::string& name) { request.scene = name; },
-                        .required = true});
+  add_scene_row(table.rows, request.scene, "the script, which does not exist yet");
   add_quiet_row(table.rows, request);
   return table;
 }
@@ -119,13 +105,8 @@ CommandTable format_table(FormatRequest& request) {
                      .about = "Lays scripts out: indentation, blanks, blank lines, comments.",
                      .footer = "",
                      .rows = {}};
-  table.rows.push_back(
-      {.names = "scene",
-       .type = "SCENE.crt",
-       .help = "the scripts; - is standard input, and goes to standard output",
-       .take = [&request](const std::string& name) { request.scenes.emplace_back(name); },
-       .repeatable = true,
-       .required = true});
+  add_scenes_row(table.rows, request.scenes,
+                 "the scripts; - is standard input, and goes to standard output");
   table.rows.push_back(
       {.names = "--check",
        .type = "",

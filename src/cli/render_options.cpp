@@ -64,10 +64,8 @@ void add_limits(std::vector<OptionRow>& rows, PictureRequest& request) {
 }
 
 void add_output(std::vector<OptionRow>& rows, PictureRequest& request, const char* help) {
-  rows.push_back({.names = "-o,--output",
-                  .type = "FILE",
-                  .help = help,
-                  .take = [&request](const std::string& name) { request.output = name; }});
+  rows.push_back(
+      {.names = "-o,--output", .type = "FILE", .help = help, .take = into_path(request.output)});
 }
 
 void add_reproducible(std::vector<OptionRow>& rows, PictureRequest& request) {
@@ -94,7 +92,7 @@ void add_frames(std::vector<OptionRow>& rows, RenderRequest& request) {
   rows.push_back({.names = "--keep-frames",
                   .type = "FOLDER",
                   .help = "also writes the frames of a film as PNG files into this folder",
-                  .take = [&request](const std::string& name) { request.keep_frames = name; }});
+                  .take = into_path(request.keep_frames)});
 }
 
 void add_passes(std::vector<OptionRow>& rows, RenderRequest& request) {
@@ -113,7 +111,7 @@ void add_passes(std::vector<OptionRow>& rows, RenderRequest& request) {
        .type = "FILE",
        .help = "with --targeterror, --timebudget or --passes: keeps what is done there, also when "
                "interrupted, and continues from it if it is there",
-       .take = [&request](const std::string& name) { request.render.checkpoint = name; },
+       .take = into_path(request.render.checkpoint),
        .excludes = "--frames"});
 }
 
@@ -125,13 +123,7 @@ CommandTable render_table(RenderRequest& request) {
                      .footer = std::string(render_footer),
                      .rows = {}};
   std::vector<OptionRow>& rows = table.rows;
-  rows.push_back(
-      {.names = "scene",
-       .type = "SCENE.crt",
-       .help = "the scripts; - is standard input",
-       .take = [&request](const std::string& name) { request.scenes.emplace_back(name); },
-       .repeatable = true,
-       .required = true});
+  add_scenes_row(rows, request.scenes, "the scripts; - is standard input");
   add_output(rows, request,
              "the picture (default: the script's name, ending in .png, with --aov in .exr); a "
              "folder for those of several scripts; - for standard output");
@@ -167,11 +159,7 @@ CommandTable watch_table(WatchRequest& request) {
                      .footer = std::string(watch_footer),
                      .rows = {}};
   std::vector<OptionRow>& rows = table.rows;
-  rows.push_back({.names = "scene",
-                  .type = "SCENE.crt",
-                  .help = "the script",
-                  .take = [&request](const std::string& name) { request.scene = name; },
-                  .required = true});
+  add_scene_row(rows, request.scene, "the script");
   add_output(rows, request, "the picture (default: the script's name, ending in .png)");
   add_script_rows(rows, request);
   add_threads_row(rows, request.render.threads);
