@@ -28,7 +28,7 @@ class _Text:
         return ctypes.c_char_p(None if text is None else _arguments.text(text, "a text"))
 
 
-_KINDS = {
+KINDS = {
     "double": ctypes.c_double,
     "size_t": ctypes.c_size_t,
     "int32_t": ctypes.c_int32,
@@ -47,7 +47,7 @@ def kind_of(declaration: str, is_result: bool = False) -> Any:
             return ctypes.c_char_p if is_result else _Text
     if "*" in declaration or declaration.endswith("]"):
         return ctypes.c_void_p
-    return _KINDS[declaration.split()[0]]
+    return KINDS[declaration.split()[0]]
 
 
 def _find() -> str:

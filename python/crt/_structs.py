@@ -18,18 +18,10 @@ from . import _arguments
 from ._callbacks import CALLBACKS
 from ._fields import FIELDS
 from ._handles import Handle
-from ._library import library
+from ._library import KINDS, library
 
 Self = TypeVar("Self", bound="Struct")
 Class = TypeVar("Class", bound="type[Struct]")
-
-_NUMBERS = {
-    "double": ctypes.c_double,
-    "int32_t": ctypes.c_int32,
-    "uint32_t": ctypes.c_uint32,
-    "uint64_t": ctypes.c_uint64,
-}
-
 
 class Struct(ctypes.Structure):
     """A Struct takes keyword arguments that change fields. The others keep what the library's
@@ -189,7 +181,7 @@ def _field(declaration: str) -> tuple[str, Any, str | None]:
             return field, ctypes.c_char_p, None
         is_ours = words[0] == "const" and words[1].startswith("crt_")
         return field, ctypes.c_void_p, words[1].removesuffix("*") if is_ours else None
-    kind: Any = _NUMBERS[words[0]]
+    kind: Any = KINDS[words[0]]
     return field, kind * 3 if declaration.endswith("[3]") else kind, None
 
 
