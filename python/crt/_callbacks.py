@@ -1,11 +1,10 @@
 """The library calls Python functions through this module."""
 
-import contextlib
 import ctypes
 import signal
 import threading
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from typing import Any
 
 PROGRESS = ctypes.CFUNCTYPE(ctypes.c_int, ctypes.c_double, ctypes.c_void_p)
@@ -25,6 +24,8 @@ CALLBACKS: dict[str, Any] = {
     "crt_poll_fn": POLL,
 }
 
+_DEFAULT_HANDLER = signal.default_int_handler
+
 STOP = -1  # what a callback returns to cancel
 
 
@@ -33,13 +34,14 @@ class Guard:
 
     def __init__(self) -> None:
         self.exception: BaseException | None = None
+        self.has_raised = False  # what callbacks raised has come out
         self.at_end: Callable[[], None] = _nothing  # of the call
         self._thread_inside: int | None = None
 
     def call(self, function: Callable[..., int | None], *arguments: Any) -> int:
         """Returns what a callback returns: the function's result, or STOP if it or one before it
         has raised."""
-        if self.exception is None:
+        if self.exception is None and not self.has_raised:
             self._thread_inside = threading.get_ident()
             try:
                 return function(*arguments) or 0
@@ -53,29 +55,52 @@ class Guard:
         """Says whether this thread is within a call()."""
         return self._thread_inside == threading.get_ident()
 
-    @contextlib.contextmanager
-    def raising(self) -> Iterator[None]:
+    def raising(self) -> "_Raising":
         """Wraps a call of the library. It raises what a callback raised, in place of the error that
         it caused.
 
         Ctrl-C cancels, if a callback looks here now and then. It is noted by a handler of our own,
         since a KeyboardInterrupt raised on the way into a callback could only be printed by ctypes.
         """
-        is_main = threading.current_thread() is threading.main_thread()
-        has_handler = is_main and signal.getsignal(signal.SIGINT) is signal.default_int_handler
-        if has_handler:
-            signal.signal(signal.SIGINT, self._note_interrupt)
-        try:
-            yield
-        finally:
-            if has_handler:
-                signal.signal(signal.SIGINT, signal.default_int_handler)
-            self.at_end()
-            if self.exception is not None:
-                raise self.exception from None
+        return _Raising(self)
 
-    def _note_interrupt(self, _signal: int, _frame: types.FrameType | None) -> None:
+    def note_interrupt(self, _signal: int, _frame: types.FrameType | None) -> None:
+        """Handles Ctrl-C."""
         self.exception = KeyboardInterrupt()
+
+
+class _Raising:
+    """A _Raising is what Guard.raising() returns."""
+
+    def __init__(self, guard: Guard) -> None:
+        self._guard = guard
+        self._has_handler = False
+
+    def __enter__(self) -> None:
+        is_main = threading.current_thread() is threading.main_thread()
+        self._has_handler = is_main and signal.getsignal(signal.SIGINT) is _DEFAULT_HANDLER
+        if self._has_handler:
+            signal.signal(signal.SIGINT, self._guard.note_interrupt)
+
+    def __exit__(
+        self,
+        _kind: type[BaseException] | None,
+        _error: BaseException | None,
+        _traceback: types.TracebackType | None,
+    ) -> None:
+        if self._has_handler:
+            signal.signal(signal.SIGINT, _DEFAULT_HANDLER)
+        self._guard.at_end()
+        # The exception refers to the frames that it went through, and so to all that these have.
+        # Neither the guard, which the library's callbacks refer to, nor this frame may keep it:
+        # nobody finds a cycle through ctypes.
+        exception, self._guard.exception = self._guard.exception, None
+        if exception is not None:
+            self._guard.has_raised = True
+            try:
+                raise exception from None
+            finally:
+                del exception
 
 
 def _nothing() -> None:

@@ -22,6 +22,7 @@ class Job(Handle):
 
     def __init__(self, handle: int, guard: Guard, options: RenderOptions) -> None:
         self._guard = guard
+        self._raised: BaseException | None = None  # by a callback, out of wait()
         self._reference = _JobReference(handle, guard, options)
         _jobs.add(self)
 
@@ -56,11 +57,18 @@ class Job(Handle):
         """Returns the image, once it is there, or raises what went wrong, such as what the progress
         callback raised. Ctrl-C in here cancels the job."""
         reference = self._handle
-        with self._guard.raising():
-            if threading.current_thread() is threading.main_thread():
-                while not library.crt_job_is_finished(reference):
-                    time.sleep(0.01)  # in which Python sees signals
-            return Image._adopt(create("crt_job_wait", reference))
+        if self._raised is not None:
+            raise self._raised
+        try:
+            with self._guard.raising():
+                if threading.current_thread() is threading.main_thread():
+                    while not library.crt_job_is_finished(reference):
+                        time.sleep(0.01)  # in which Python sees signals
+                return Image._adopt(create("crt_job_wait", reference))
+        except BaseException as exception:
+            if self._guard.has_raised:
+                self._raised = exception
+            raise
 
 
 class _JobReference(Reference):

@@ -168,6 +168,41 @@ class Callbacks(unittest.TestCase):
         gc.collect()
         self.assertIsNone(reference())
 
+    def test_what_callbacks_raise_keeps_nothing_that_the_caller_has(self):
+        def fail(*_):
+            raise Interrupt
+
+        def press(*_):
+            os.kill(os.getpid(), signal.SIGINT)
+
+        prepared = small_scene().prepare()
+        gc.disable()
+        self.addCleanup(gc.enable)
+        for callbacks in ({"progress": fail}, {"log": fail}, {"progress": press}):
+            reference = held_by_caller(lambda: prepared.render(**callbacks))
+            self.assertIsNone(reference(), callbacks)
+        reference = held_by_caller(lambda: prepared.start(progress=fail).wait())
+        gc.collect()  # a job keeps what was raised for who waits again
+        self.assertIsNone(reference())
+
+    def test_the_end_of_an_iterator_comes_out_as_such(self):
+        with self.assertRaises(StopIteration):
+            small_scene().render(progress=lambda _, none=iter(()): next(none))
+
+
+def held_by_caller(call):
+    """Has a caller with something large among its locals catch what a call raises."""
+
+    class Large:
+        pass
+
+    large = Large()
+    try:
+        call()
+    except (Interrupt, KeyboardInterrupt):
+        return weakref.ref(large)
+    raise AssertionError("nothing was raised")
+
 
 class Jobs(unittest.TestCase):
     def test_a_job_gives_the_picture_that_a_render_gives(self):

@@ -1,10 +1,12 @@
 """These tests make scenes from scripts."""
 
+import gc
 import os
 import pathlib
 import signal
 import tempfile
 import unittest
+import weakref
 
 import numpy as np
 
@@ -163,3 +165,21 @@ class Callbacks(unittest.TestCase):
         text = 'print("now")\nwhile (true) { a = 1 }\nScene {}'
         with self.assertRaises(KeyboardInterrupt):
             crt.Scene.from_script(text, print=press, max_steps=2**62)
+
+    def test_what_callbacks_raise_keeps_nothing_that_the_caller_has(self):
+        class Large:
+            pass
+
+        def caller(**callbacks):
+            large = Large()
+            with self.assertRaises(KeyError):
+                crt.Scene.from_script('print("a")\nimport "b.crt"\nScene {}', **callbacks)
+            return weakref.ref(large)
+
+        def fail(_):
+            raise KeyError
+
+        gc.disable()
+        self.addCleanup(gc.enable)
+        self.assertIsNone(caller(print=fail)())
+        self.assertIsNone(caller(open_file=fail)())
