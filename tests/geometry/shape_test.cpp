@@ -57,6 +57,7 @@ TEST_CASE("discs, triangles and half planes are surfaces; all else is solid") {
 
 TEST_CASE("an error says what is wrong with which field") {
   CHECK(fault(Sphere{.radius = -1}) == "radius: radius must be greater than 0 (it is -1)");
+  CHECK(fault(Cone{.radius2 = -1}) == "radius2: radius2 must not be negative (it is -1)");
   CHECK(fault(Sphere{.radius = 1e-101}) == "radius: radius must be at least 1e-100 (it is 1e-101)");
   CHECK(fault(Sphere{.radius = 1e101}) == "radius: radius must be at most 1e100 (it is 1e+101)");
   CHECK(fault(Sphere{.radius = not_a_number}) == "radius: radius must be finite (it is nan)");

@@ -54,4 +54,9 @@ void check_radius(const char* argument, double value) {
   if (value > largest_length) reject_value(argument, "must be at most 1e100", value);
 }
 
+void check_radius_or_zero(const char* argument, double value) {
+  if (value < 0) reject_value(argument, "must not be negative", value);
+  if (value != 0) check_radius(argument, value);
+}
+
 }  // namespace crt::core

@@ -24,4 +24,7 @@ void check_end(const char* argument, const Vec3& from, const Vec3& to);
 /// Checks that a radius is between 1e-100 and 1e100.
 void check_radius(const char* argument, double value);
 
+/// Checks a radius that may also be 0.
+void check_radius_or_zero(const char* argument, double value);
+
 }  // namespace crt::core

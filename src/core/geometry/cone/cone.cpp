@@ -9,7 +9,7 @@ void validate(const Cone& cone) {
   check_coordinates("to", cone.to);
   check_end("to", cone.from, cone.to);
   check_radius("radius", cone.radius);
-  if (cone.radius2 != 0) check_radius("radius2", cone.radius2);
+  check_radius_or_zero("radius2", cone.radius2);
 }
 
 std::unique_ptr<const Shape> make_shape(const Cone& cone) {
