@@ -70,6 +70,12 @@ class Values(unittest.TestCase):
         self.assertEqual(prepared.render().width, 16)
         self.assertTrue(prepared.occluded(crt.ray((0, 0, -5), (0, 0, 1))))
 
+    def test_thousands_are_ready_at_a_time(self):
+        count, ray = 3000, crt.ray((0, 0, 0), (1, 0, 0))
+        ready = [crt.Scene([crt.Sphere((10 + i, 0, 0), 1)]).prepare() for i in range(count)]
+        distances = [float(one.distances(ray)[0]) for one in ready]
+        self.assertEqual(distances, [9 + i for i in range(count)])
+
     def test_a_closed_scene_says_so(self):
         scene = crt.Scene()
         scene.close()

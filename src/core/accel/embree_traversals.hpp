@@ -2,13 +2,14 @@
 #pragma once
 
 #include <array>
-#include <atomic>
 #include <cstdint>
 #include <exception>
 #include <limits>
+#include <memory>
 #include <vector>
 
 #include "core/accel/embree_compat.hpp"
+#include "core/accel/embree_device.hpp"
 #include "core/accel/embree_floats.hpp"
 #include "core/accel/embree_tree.hpp"
 #include "core/accel/nearest_sphere_filter.hpp"
@@ -82,15 +83,14 @@ struct Things {
 };
 
 struct EmbreeTree::Handles {
-  std::atomic<std::int64_t> embree_bytes = 0;
-  RTCDevice device = nullptr;
+  std::shared_ptr<EmbreeDevice> device;
   RTCScene scene = nullptr;
   Things things;
-  bool takes_sixteen = false;  ///< rays at once, without taking them one by one
+  std::int64_t embree_bytes = 0;  ///< of memory that Embree takes for the tree
+  bool takes_sixteen = false;     ///< rays at once, without taking them one by one
 
   ~Handles() {
     if (scene != nullptr) rtcReleaseScene(scene);
-    if (device != nullptr) rtcReleaseDevice(device);
   }
 };
 

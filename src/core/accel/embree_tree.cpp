@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <atomic>
 #include <exception>
-#include <limits>
-#include <string>
+#include <memory>
 #include <vector>
 
 #ifndef CRT_TASKS_THREADS
@@ -15,7 +14,6 @@
 #include "core/csg/ray_slabs.hpp"
 #include "core/math/vector.hpp"
 #include "core/ray/object_ray.hpp"
-#include "crt/error.hpp"
 
 namespace crt::core {
 
@@ -36,11 +34,12 @@ constexpr double box_margin = 0x1p-19;  // 32 u
 /// off what they are on. In a scene that is far from the origin that is no small part of its size.
 constexpr double place_margin = 2 * start_rounding;
 
-/// Builds the tree on the threads of the caller's arena. A small tree is built on this thread
-/// alone, as it is not worth starting others.
+/// A tree of fewer boxes is built on this thread alone, as it is not worth starting others.
+constexpr std::size_t worth_threads = 2048;
+
+/// Builds the tree on the threads of the caller's arena, if there are enough boxes.
 void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
 #ifndef CRT_TASKS_THREADS
-  constexpr std::size_t worth_threads = 2048;
   if (box_count < worth_threads) {
     tbb::task_arena(1).execute([scene] { rtcCommitScene(scene); });
     return;
@@ -49,27 +48,10 @@ void build(RTCScene scene, [[maybe_unused]] std::size_t box_count) {
   rtcCommitScene(scene);
 }
 
-[[noreturn]] void fail(RTCError error) {
-  if (error == RTC_ERROR_OUT_OF_MEMORY) {
-    throw Error(ErrorCode::out_of_memory, "not enough memory for the acceleration structure");
-  }
-  if (error == RTC_ERROR_UNSUPPORTED_CPU) {
-    throw Error(ErrorCode::unsupported, "this processor is too old for Embree");
-  }
-  throw Error(ErrorCode::internal,
-              "Embree failed with error " + std::to_string(static_cast<int>(error)));
-}
-
-void check(RTCDevice device) {
-  const RTCError error = rtcGetDeviceError(device);
-  if (error != RTC_ERROR_NONE) fail(error);
-}
-
-/// Counts the memory that Embree takes or, as a negative number, gives back. It returns true, which
-/// allows it.
-bool count_memory(void* embree_bytes, ssize_t bytes, bool /*done*/) {
-  *static_cast<std::atomic<std::int64_t>*>(embree_bytes) += bytes;
-  return true;
+/// Returns the device for a tree of so many boxes. Small trees share one, as a process may have
+/// many of them. What they take there is known because one thread builds each of them.
+std::shared_ptr<EmbreeDevice> device_for(std::size_t box_count) {
+  return box_count < worth_threads ? shared_embree_device() : std::make_shared<EmbreeDevice>();
 }
 
 /// A StoppableBuild is what Embree passes to may_go_on() now and then while it builds. No exception
@@ -127,15 +109,9 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
   total_ = total.grown(2 * margin / scale_);
 
   auto handles = std::make_unique<Handles>();
-#ifdef CRT_TASKS_THREADS
-  // ThreadSanitizer does not see how Embree's own threads agree, so that builds for it use one
-  // thread.
-  handles->device = rtcNewDevice("threads=1");
-#else
-  handles->device = rtcNewDevice(nullptr);
-#endif
-  if (handles->device == nullptr) fail(rtcGetDeviceError(nullptr));
-  rtcSetDeviceMemoryMonitorFunction(handles->device, count_memory, &handles->embree_bytes);
+  handles->device = device_for(boxes.size());
+  const EmbreeDevice& device = *handles->device;
+  const std::int64_t bytes_before = EmbreeDevice::bytes_of_this_thread();
   std::vector<RTCBounds>& floats = handles->things.boxes;
   floats.reserve(boxes.size());
   for (const Bounds& box : boxes) {
@@ -147,8 +123,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
     };
     floats.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
   }
-  handles->scene = rtcNewScene(handles->device);
-  RTCGeometry geometry = rtcNewGeometry(handles->device, RTC_GEOMETRY_TYPE_USER);
+  handles->scene = rtcNewScene(device);
+  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
   rtcSetGeometryUserData(geometry, &handles->things);
   rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
@@ -161,12 +137,18 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
   if (stop != nullptr) rtcSetSceneProgressMonitorFunction(handles->scene, may_go_on, &stoppable);
   build(handles->scene, boxes.size());
   rtcSetSceneProgressMonitorFunction(handles->scene, nullptr, nullptr);
-  if (stoppable.failure) std::rethrow_exception(stoppable.failure);
-  check(handles->device);
+  if (stoppable.failure) {
+    device.forget_failure();
+    std::rethrow_exception(stoppable.failure);
+  }
+  device.check();
   floats = {};
   handles->things.spheres = float_spheres(spheres, center_, scale_);
   handles->takes_sixteen =
-      rtcGetDeviceProperty(handles->device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+      rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+  handles->embree_bytes = boxes.size() < worth_threads
+                              ? EmbreeDevice::bytes_of_this_thread() - bytes_before
+                              : device.bytes();
   handles_ = std::move(handles);
 }
 
