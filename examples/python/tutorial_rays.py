@@ -12,7 +12,8 @@ part = crt.Scene([bracket()]).prepare()
 
 
 def walls(origin: tuple[float, float, float], direction: tuple[float, float, float]) -> list[float]:
-    """Returns how long the pieces of a ray are that lie inside of the part."""
+    """Returns how long the pieces of a ray are that lie inside of the part. The ray must begin and
+    end outside of it."""
     t = part.crossings(crt.ray(origin, direction))["t"]
     return [round(float(end - begin), 6) for begin, end in zip(t[::2], t[1::2])]
 
@@ -20,10 +21,8 @@ def walls(origin: tuple[float, float, float], direction: tuple[float, float, flo
 def heights(count: int) -> NDArray[Any]:
     """Looks down on the part from a height of 5, count x count times, and returns how high it is
     there."""
-    rays = crt.rays((count, count))
     x, z = np.meshgrid(np.linspace(-2, 2, count), np.linspace(1.5, -1.5, count))
-    rays["origin"] = np.stack((x, np.full_like(x, 5), z), axis=-1)
-    rays["direction"] = (0, -1, 0)
+    rays = crt.rays(np.stack((x, np.full_like(x, 5), z), axis=-1), (0, -1, 0))
     return np.maximum(5 - part.intersect(rays)["t"], 0)
 
 

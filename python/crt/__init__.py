@@ -37,7 +37,7 @@ from .primitives import (
     Torus,
     Triangle,
 )
-from .rays import BACKFACE, ENTERING, HIT, RAY, camera_rays, ray, rays
+from .rays import BACKFACE, ENTERING, HIT, NO_ENTITY, RAY, camera_rays, ray, rays
 from .rendering import Prepared
 from .scenes import Scene
 from .values import (
@@ -90,6 +90,7 @@ __all__ = [
     "LightType",
     "Material",
     "Mesh",
+    "NO_ENTITY",
     "Pattern",
     "PatternType",
     "PixelFilter",

@@ -6,10 +6,14 @@ What a number may be is the library's to say. Here it is only made sure that it 
 import ctypes
 import operator
 import os
-from collections.abc import Iterable
-from typing import Any, TypeVar
+from collections.abc import Iterable, Sequence
+from typing import Any, SupportsFloat, TypeVar
+
+from numpy.typing import NDArray
 
 T = TypeVar("T")
+Point = Sequence[SupportsFloat] | NDArray[Any]
+"""is the type of three numbers that are given"""
 
 
 def shown(value: Any) -> str:

@@ -9,18 +9,17 @@ a + b or a | b is the union, a - b the difference, a ^ b or a & b the intersecti
 import ctypes
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any
+from typing import Any, SupportsFloat
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from . import _arguments, _bounds
+from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._structs import reference
 from .values import Material
-
-Point = Sequence[float] | NDArray[Any]
 
 
 class Entity(Handle):
@@ -64,9 +63,10 @@ class Entity(Handle):
         column = _arguments.vector(offset, "moved: offset")
         return self.transformed(np.column_stack((np.eye(3), column)))
 
-    def scaled(self, factors: float | Point) -> "Entity":
+    def scaled(self, factors: SupportsFloat | Point) -> "Entity":
         """Scales by one factor, or one for each axis, about the origin."""
-        if np.ndim(factors) == 0:
+        is_one = isinstance(factors, str) or not isinstance(factors, Sequence)
+        if is_one and np.asarray(factors).ndim == 0:
             scale = np.eye(3) * _arguments.number(factors, "scaled: factors", "one number or three")
         else:
             scale = np.diag(_arguments.vector(factors, "scaled: factors"))

@@ -8,9 +8,10 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from . import _arguments, _bounds
+from ._arguments import Point
 from ._library import create
 from ._structs import reference
-from .entities import Entity, Point
+from .entities import Entity
 from .errors import named
 from .values import Material
 

@@ -2,19 +2,20 @@
 
 import ctypes
 from collections.abc import Iterable
-from typing import Any
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from . import _queries
 from ._callbacks import Guard
-from ._crossings import Crossings, crossings_of_many, crossings_of_one
+from ._crossings import Crossings, crossings_of_many, crossings_of_one, inside_lengths
 from ._handles import Handle
-from ._library import create, library
+from ._library import create
 from .images import Image
 from .jobs import Job
 from .options import Log, Path, Progress, Region, make_options
-from .rays import HIT, RAY, Batch
+from .rays import HIT, RAY, Batch, Ray, Rays
 
 
 class Prepared(Handle):
@@ -96,11 +97,15 @@ class Prepared(Handle):
         )
         return Job(create("crt_render_start", self._handle, ctypes.byref(options)), guard, options)
 
-    def intersect(self, rays: NDArray[Any], out: NDArray[Any] | None = None) -> NDArray[Any]:
-        """Finds the nearest hit of each ray. A miss has an infinite t.
+    def intersect(
+        self, rays: Ray | NDArray[Any], out: NDArray[np.void] | None = None
+    ) -> NDArray[np.void]:
+        """Finds the nearest hit of each ray. A miss has an infinite t, and crt.NO_ENTITY for an
+        entity_id.
 
         `rays` has the dtype crt.RAY, or is float64 with 8 numbers in its last dimension; `out`, if
-        given, has crt.HIT and as many items. Both are used in place.
+        given, has crt.HIT and as many items. Both are used in place. If a ray is wrong, which its
+        error says, `out` may have been written in part.
         """
         questions = Batch(rays, RAY, "rays")
         if out is None:
@@ -110,49 +115,46 @@ class Prepared(Handle):
             raise ValueError(
                 f"hits of shape {answers.shape} cannot be written for rays of {questions.shape}"
             )
-        library.crt_intersect(
-            self._handle,
-            questions.address,
-            questions.stride,
-            questions.count,
-            answers.address,
-            answers.stride,
-        )
+        _queries.intersect(self._handle, questions, answers)
         return out
 
-    def distances(self, rays: NDArray[Any]) -> tuple[NDArray[Any], NDArray[Any]]:
-        """Finds how far each ray's nearest hit is (infinity for a miss), and of which entity,
-        faster than intersect()."""
-        questions = Batch(rays, RAY, "rays")
-        out = np.empty(questions.shape, np.float64)
-        ids = np.empty(questions.shape, np.uint32)
-        library.crt_distances(
-            self._handle,
-            questions.address,
-            questions.stride,
-            questions.count,
-            out.ctypes.data,
-            ids.ctypes.data,
-        )
-        return out, ids
+    def distances(
+        self, rays: Ray | NDArray[Any]
+    ) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:
+        """Finds how far each ray's nearest hit is, and of which entity, faster than intersect(). A
+        miss is at infinity, and of crt.NO_ENTITY."""
+        return _queries.distances(self._handle, Batch(rays, RAY, "rays"))
 
-    def occluded(self, rays: NDArray[Any]) -> NDArray[Any]:
+    def occluded(self, rays: Ray | NDArray[Any]) -> NDArray[np.bool_]:
         """Asks whether any surface blocks each ray."""
-        questions = Batch(rays, RAY, "rays")
-        out = np.empty(questions.shape, np.bool_)
-        library.crt_occluded(
-            self._handle, questions.address, questions.stride, questions.count, out.ctypes.data
-        )
-        return out
+        return _queries.are_occluded(self._handle, Batch(rays, RAY, "rays"))
 
-    def crossings(self, rays: NDArray[Any]) -> Any:
+    @overload
+    def crossings(self, rays: Rays | NDArray[np.float64]) -> Crossings: ...  # type: ignore
+    @overload
+    def crossings(self, rays: Ray) -> NDArray[np.void]: ...
+    def crossings(self, rays: Any) -> Any:
         """Finds every crossing along rays, in order: the solid intervals that CSG leaves.
 
         For one ray (crt.ray(), or a record of an array) it returns an array of crt.HIT. For an
         array of rays it returns crt.Crossings: `hits` has those of all rays one after the other,
-        and those of ray i are hits[offsets[i]:offsets[i + 1]].
+        and those of ray i are hits[offsets[i]:offsets[i + 1]]. Rays that meet something are asked
+        one by one, so that a million takes seconds.
+
+        Crossings of several entities may overlap, and the first of a ray that begins inside of a
+        solid leaves it. So they need not come in pairs: inside_lengths() minds that.
         """
         questions = Batch(np.asarray(rays), RAY, "rays")
         if questions.shape == ():
             return crossings_of_one(self._handle, questions)
         return crossings_of_many(self._handle, questions)
+
+    def inside_lengths(self, rays: Ray | NDArray[Any]) -> NDArray[np.float64]:
+        """Finds how much of each ray is inside of solids, in units of its direction's length: how
+        thick they are. It is 0 for a ray that meets nothing.
+
+        Where entities overlap, it counts once. A ray may begin and end inside of solids. Only one
+        whose whole line crosses nothing counts as outside, though it may be within a crt.Plane's
+        half-space. Surfaces such as a crt.Disc have no inside: the scene must not have any.
+        """
+        return inside_lengths(self._handle, Batch(rays, RAY, "rays"))

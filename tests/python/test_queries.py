@@ -1,12 +1,16 @@
 """These tests ask ray queries on arrays in place."""
 
 import math
+import os
+import signal
 import unittest
+from unittest import mock
 
 import numpy as np
 from support import INFINITY, parallel_rays, prepared_shell, shell, small_scene
 
 import crt
+from crt import _queries
 
 prepared = prepared_shell()
 
@@ -39,6 +43,17 @@ class Answers(unittest.TestCase):
         occluded = prepared.occluded(rays)
         self.assertEqual(occluded.dtype, np.bool_)
         np.testing.assert_array_equal(occluded, np.isfinite(expected_t(rays)))
+
+    def test_a_miss_is_of_no_entity(self):
+        rays = parallel_rays(31)
+        is_miss = ~prepared.occluded(rays)
+        self.assertEqual(crt.NO_ENTITY, 0xFFFFFFFF)
+        hits = np.zeros(62, crt.HIT)[::2].reshape(31, 1)
+        prepared.intersect(rays.reshape(31, 1), out=hits)
+        for ids in (hits["entity_id"][:, 0], prepared.distances(rays)[1]):
+            np.testing.assert_array_equal(ids, np.where(is_miss, crt.NO_ENTITY, 0))
+        one = prepared.intersect(crt.ray((9, 0, 0), (1, 0, 0)))
+        self.assertEqual(one["entity_id"], crt.NO_ENTITY)
 
     def test_every_crossing(self):
         hits = prepared.crossings(crt.ray((0, 0, -5), (0, 0, 2)))
@@ -120,8 +135,21 @@ class Memory(unittest.TestCase):
                 prepared.intersect(wrong)
         with self.assertRaises(TypeError):
             prepared.intersect(parallel_rays(5), out=np.zeros((5, 7)))
-        with self.assertRaises(TypeError):
-            prepared.intersect(np.zeros((8, 5)).T)  # the columns of a ray are apart
+
+    def test_a_wrong_layout_is_named(self):
+        table = np.zeros((5, 16))
+        for wrong in (np.zeros((8, 5)).T, table[:, ::2], table[:, 7::-1]):
+            with self.assertRaisesRegex(TypeError, "do not follow one another.*ascontiguousarray"):
+                prepared.intersect(wrong)
+        with self.assertRaisesRegex(TypeError, r"the shape \(5, 7\), not crt.RAY or float64 with 8"):
+            prepared.intersect(table[:, :7])
+
+    def test_one_record_is_one_ray(self):
+        rays = parallel_rays(5)
+        for ask in (prepared.intersect, prepared.occluded):
+            self.assertEqual(ask(rays[2]).shape, ())
+            self.assertEqual(ask(rays[2]), ask(rays)[2])
+        self.assertEqual(prepared.distances(rays[2])[0], prepared.distances(rays)[0][2])
 
     def test_what_no_stride_describes_is_refused(self):
         rays = parallel_rays(20)
@@ -148,6 +176,70 @@ class Memory(unittest.TestCase):
         with self.assertRaisesRegex(crt.Error, r"rays\[13\]") as caught:
             prepared.intersect(rays)
         self.assertEqual(caught.exception.status, crt.Status.INVALID_ARGUMENT)
+
+
+class Pieces(unittest.TestCase):
+    """Many rays are asked piece by piece."""
+
+    def setUp(self):
+        piece = _queries.PIECE
+        self.addCleanup(setattr, _queries, "PIECE", piece)
+        _queries.PIECE = 7
+
+    def test_answers_are_those_of_all_at_once(self):
+        rays = parallel_rays(60)
+        one_by_one = [prepared.intersect(ray) for ray in rays]
+        hits = np.zeros((60, 2), crt.HIT)
+        prepared.intersect(rays.reshape(6, 10), out=hits[:, 0].reshape(6, 10))
+        np.testing.assert_array_equal(hits[:, 0], one_by_one)
+        distances, ids = prepared.distances(rays)
+        np.testing.assert_array_equal(distances, hits[:, 0]["t"])
+        np.testing.assert_array_equal(ids, hits[:, 0]["entity_id"])
+        np.testing.assert_array_equal(prepared.occluded(rays), np.isfinite(distances))
+
+    def test_a_wrong_ray_is_named_by_its_place_among_all(self):
+        rays = parallel_rays(20)
+        rays["direction"][13] = 0
+        for ask in (prepared.intersect, prepared.distances, prepared.occluded, prepared.crossings):
+            with self.assertRaisesRegex(crt.Error, r"^rays\[13\]: "):
+                ask(rays)
+
+    def test_control_c_ends_them(self):
+        asked = []
+
+        def press(*arguments):
+            asked.append(arguments)
+            os.kill(os.getpid(), signal.SIGINT)
+
+        library = mock.Mock(crt_intersect=press, crt_distances=press, crt_occluded=press)
+        with mock.patch.object(_queries, "library", library):
+            for ask in (prepared.intersect, prepared.distances, prepared.occluded):
+                with self.assertRaises(KeyboardInterrupt):
+                    ask(parallel_rays(60))
+        self.assertEqual(len(asked), 3)
+
+
+class Making(unittest.TestCase):
+    def test_origins_and_directions_broadcast(self):
+        rays = crt.rays((1, 2, 3), np.eye(3))
+        self.assertEqual((rays.dtype, rays.shape), (crt.RAY, (3,)))
+        np.testing.assert_array_equal(rays["origin"], [(1, 2, 3)] * 3)
+        np.testing.assert_array_equal(rays["direction"], np.eye(3))
+        self.assertEqual((rays["t_min"].max(), rays["t_max"].min()), (0, INFINITY))
+        grid = crt.rays(origin=np.zeros((4, 1, 3)), direction=np.ones((5, 3)), t_max=np.arange(5))
+        self.assertEqual(grid.shape, (4, 5))
+        np.testing.assert_array_equal(grid["t_max"][2], np.arange(5))
+        self.assertEqual(crt.rays((0, 0, 0), (0, 0, 1)).shape, ())
+        self.assertEqual(crt.rays(shape=(2, 3)).shape, (2, 3))
+        for wrong in (
+            lambda: crt.rays((0, 0), (0, 0, 1)),
+            lambda: crt.rays(np.zeros((4, 3)), np.zeros((5, 3))),
+            lambda: crt.rays((0, 0, 0), "up"),
+            lambda: crt.rays(origin=(0, 0, 0)),
+            lambda: crt.rays(),
+        ):
+            with self.assertRaises((TypeError, ValueError)):
+                wrong()
 
 
 class Crossings(unittest.TestCase):
@@ -229,6 +321,25 @@ class CameraRays(unittest.TestCase):
         camera = crt.Camera(projection=crt.Projection.ORTHOGRAPHIC)
         with self.assertRaises(ValueError):
             crt.camera_rays(camera, 4, 4)
+
+    def test_what_a_scene_refuses_is_refused_in_the_same_words(self):
+        for fields in (
+            {"fov": 4},
+            {"fov": 0},
+            {"roll": INFINITY},
+            {"position": (1, 2, 3), "pointing": (1, 2, 3)},
+            {"position": (math.nan, 0, 0)},
+        ):
+            camera = crt.Camera(**fields)
+            with self.assertRaises(crt.Error) as of_scene:
+                crt.Scene(camera=camera)
+            with self.assertRaises(crt.Error) as caught:
+                crt.camera_rays(camera, 4, 4)
+            message = str(of_scene.exception).removeprefix("Scene: ")
+            self.assertEqual(str(caught.exception), f"camera_rays: {message}")
+        for width, height in ((0, 4), (4, -1)):
+            with self.assertRaisesRegex(crt.Error, "camera_rays: (width|height) must be between"):
+                crt.camera_rays(crt.Camera(), width, height)
 
     def test_the_middle_ray_looks_straight_ahead(self):
         scene = small_scene()

@@ -28,13 +28,12 @@ class Tour(unittest.TestCase):
 
     def test_crossings_of_many_rays(self):
         part = crt.Box((0, 0, 0), (4, 1, 1)) - crt.Cylinder((2, 0.5, -1), (2, 0.5, 2), 0.25)
-        rays = crt.rays(5)
-        rays["origin"] = [(-1, 0.1 + 0.2 * i, 0.5) for i in range(5)]
-        rays["direction"] = (1, 0, 0)
-        hits, offsets = crt.Scene([part]).prepare().crossings(rays)
-        entries, exits = hits["t"][0::2], hits["t"][1::2]
-        thickness = np.add.reduceat(exits - entries, offsets[:-1] // 2)
-        self.assertEqual(list(np.diff(offsets)), [2, 4, 4, 4, 2])
+        rays = crt.rays([(-1, 0.1 + 0.2 * i, 0.5) for i in range(6)], (1, 0, 0))
+        prepared = crt.Scene([part]).prepare()
+        hits, offsets = prepared.crossings(rays)
+        thickness = prepared.inside_lengths(rays)
+        self.assertEqual(list(np.diff(offsets)), [2, 4, 4, 4, 2, 0])
+        self.assertEqual(len(hits), 16)
         hole = np.sqrt(0.25**2 - 0.2**2)
-        expected = [4, 4 - 2 * hole, 3.5, 4 - 2 * hole, 4]
+        expected = [4, 4 - 2 * hole, 3.5, 4 - 2 * hole, 4, 0]
         np.testing.assert_allclose(thickness, expected, rtol=1e-12)
