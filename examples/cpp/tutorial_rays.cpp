@@ -6,7 +6,8 @@
 
 #include "tee.hpp"
 
-/// Prints the pieces of a ray that are inside of solids.
+/// Prints the pieces of a ray that are inside of the part. The part is one entity, and the ray must
+/// begin and end outside of it. So crossings come in pairs.
 void print_walls(const char* name, const crt::PreparedScene& part, const crt::Ray& ray) {
   const std::vector<crt::Hit> hits = crt::crossings(part, ray);
   std::cout << name << ':';
