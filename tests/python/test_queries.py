@@ -141,7 +141,7 @@ class Memory(unittest.TestCase):
         for wrong in (np.zeros((8, 5)).T, table[:, ::2], table[:, 7::-1]):
             with self.assertRaisesRegex(TypeError, "do not follow one another.*ascontiguousarray"):
                 prepared.intersect(wrong)
-        with self.assertRaisesRegex(TypeError, r"the shape \(5, 7\), not crt.RAY or float64 with 8"):
+        with self.assertRaisesRegex(TypeError, r"shape \(5, 7\), not crt.RAY or float64 with 8"):
             prepared.intersect(table[:, :7])
 
     def test_one_record_is_one_ray(self):
