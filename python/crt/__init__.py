@@ -19,7 +19,7 @@ from ._crossings import Crossings
 from ._library import version
 from ._version import __version__
 from .entities import Entity, difference, intersection, union
-from .errors import Call, Diagnostic, Error, ScriptError, Status
+from .errors import Call, Diagnostic, Error, MissingFileError, ScriptError, Status
 from .expressions import Expression
 from .images import Image
 from .jobs import Job
@@ -90,6 +90,7 @@ __all__ = [
     "LightType",
     "Material",
     "Mesh",
+    "MissingFileError",
     "NO_ENTITY",
     "Pattern",
     "PatternType",

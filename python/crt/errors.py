@@ -2,7 +2,9 @@
 
 import contextlib
 import enum
-from collections.abc import Iterator
+import errno
+import os
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
@@ -37,9 +39,38 @@ class Error(Exception):
         return type(self), (self.status, str(self))  # as a process pool sends it
 
 
+class MissingFileError(Error, FileNotFoundError):
+    """A MissingFileError is a file that is not there: an Error whose status is IO, and Python's
+    FileNotFoundError, too. `filename` is its path."""
+
+    def __init__(self, message: str, path: str | bytes) -> None:
+        super().__init__(Status.IO, message)
+        self.errno = errno.ENOENT
+        self.strerror = os.strerror(errno.ENOENT)
+        self.filename = os.fsdecode(path)
+
+    def __str__(self) -> str:
+        return str(self.args[0])
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        return type(self), (str(self), self.filename)
+
+
+def of_reading(message: str, path: str | bytes) -> Error:
+    """Returns the error that a file is which could not be read."""
+    try:
+        os.stat(path)
+    except FileNotFoundError:
+        return MissingFileError(message, path)
+    except OSError:
+        pass
+    return Error(Status.IO, message)
+
+
 @contextlib.contextmanager
-def named(what: str) -> Iterator[None]:
-    """Says in errors of the library what they are about."""
+def named(what: str, names: Mapping[str, str] = {}) -> Iterator[None]:
+    """Says in errors of the library what they are about, and replaces the library's names at their
+    begin by those of Python."""
     try:
         yield
     except Error as error:

@@ -11,6 +11,7 @@ from . import _arguments
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._structs import Struct, growable, reference
+from .errors import Error, Status, of_reading
 from .values import RenderStats, Settings
 
 
@@ -39,8 +40,15 @@ class Image(Handle):
 
     @classmethod
     def read(cls, path: str | os.PathLike[str]) -> "Image":
-        """Reads an image file. Its content decides which format it has."""
-        return cls._adopt(create("crt_image_read", _arguments.text(path, "Image.read: path")))
+        """Reads an image file. Its content decides which format it has. One that is not there
+        raises crt.MissingFileError, which is a FileNotFoundError."""
+        where = _arguments.text(path, "Image.read: path")
+        try:
+            return cls._adopt(create("crt_image_read", where))
+        except Error as error:
+            if error.status != Status.IO:
+                raise
+            raise of_reading(str(error), where) from None
 
     @classmethod
     def decode(cls, content: bytes, name: str = "image") -> "Image":

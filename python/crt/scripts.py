@@ -10,7 +10,7 @@ from ._callbacks import OPEN_FILE, POLL, PRINT, Guard
 from ._library import create, library
 from ._structs import Struct, growable, texts
 from .diagnostics import diagnostics_of
-from .errors import Diagnostic, Error, ScriptError
+from .errors import Diagnostic, Error, ScriptError, Status, of_reading
 from .expressions import to_expressions
 
 Path = str | os.PathLike[str]
@@ -75,6 +75,10 @@ def _call(script: str | None, name: Path, options: _ScriptOptions) -> tuple[int,
         if said.value is None:
             raise
         text, diagnostics = diagnostics_of(said.value)
+        first = diagnostics[0]
+        if script is None and error.status == Status.IO and first.line == 0:
+            # The script itself could not be read.
+            raise of_reading(f"{first.file}: {first.message}", os.fspath(name)) from None
         raise ScriptError(error.status, text, diagnostics) from None
     return scene, [] if said.value is None else diagnostics_of(said.value)[1]
 

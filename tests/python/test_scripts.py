@@ -3,6 +3,7 @@
 import gc
 import os
 import pathlib
+import pickle
 import signal
 import tempfile
 import unittest
@@ -42,9 +43,6 @@ class Scripts(unittest.TestCase):
             with self.assertRaisesRegex(ValueError, "is the text of a script.*from_script"):
                 crt.Scene.from_file(text)
         self.assertEqual(crt.Scene.from_script("Scene { } -- as in scene.crt").entities, [])
-        with self.assertRaises(crt.ScriptError) as caught:
-            crt.Scene.from_file("not/there.crt")
-        self.assertEqual(caught.exception.status, crt.Status.IO)
 
     def test_variables_and_settings_win_over_those_of_the_script(self):
         lines = []
@@ -117,9 +115,34 @@ class Scripts(unittest.TestCase):
         self.assertIn("not used", scene.diagnostics[0].message)
 
     def test_a_missing_file_is_an_error_of_reading(self):
-        with self.assertRaises(crt.ScriptError) as caught:
-            crt.Scene.from_script(pathlib.Path("/nowhere/at all.crt"))
-        self.assertEqual(caught.exception.status, crt.Status.IO)
+        path = "/nowhere/at all.crt"
+        for read in (
+            lambda: crt.Scene.from_file(path),
+            lambda: crt.Scene.from_script(pathlib.Path(path)),
+            lambda: crt.Image.read(path),
+        ):
+            with self.assertRaisesRegex(crt.Error, path) as caught:
+                read()
+            self.assertIsInstance(caught.exception, FileNotFoundError)
+            self.assertNotIsInstance(caught.exception, crt.ScriptError)
+            self.assertEqual(caught.exception.status, crt.Status.IO)
+            self.assertEqual(caught.exception.filename, path)
+            twin = pickle.loads(pickle.dumps(caught.exception))
+            self.assertEqual((str(twin), twin.filename), (str(caught.exception), path))
+
+    def test_what_is_there_but_no_script_is_another_error(self):
+        for read in (crt.Scene.from_file, crt.Image.read):
+            with self.assertRaises(crt.Error) as caught:
+                read("/")
+            self.assertIs(type(caught.exception), crt.Error)
+            self.assertEqual(caught.exception.status, crt.Status.IO)
+
+    def test_a_missing_file_that_a_script_names_is_an_error_of_the_script(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "import.crt"
+            path.write_text('import "none.crt"\nScene { }')
+            with self.assertRaisesRegex(crt.ScriptError, "none.crt"):
+                crt.Scene.from_file(path)
 
     def test_limits_end_a_script(self):
         with self.assertRaises(crt.ScriptError) as caught:
