@@ -4,6 +4,7 @@ What a number may be is the library's to say. Here it is only made sure that it 
 """
 
 import ctypes
+import enum
 import operator
 import os
 from collections.abc import Iterable, Sequence
@@ -21,6 +22,20 @@ def shown(value: Any) -> str:
     longest = 60
     text = repr(value)
     return text if len(text) <= longest else f"{text[:longest]}..."
+
+
+def written(value: Any) -> str:
+    """Returns how a value is written in the representation of what has it."""
+    if isinstance(value, tuple):
+        return f"({', '.join(map(written, value))})"
+    if isinstance(value, float):
+        return f"{value:g}"
+    if isinstance(value, enum.Enum):
+        return repr(value.name.lower())
+    if isinstance(value, str):
+        return value
+    brief = getattr(value, "_brief", None)
+    return repr(value) if brief is None else str(brief())
 
 
 def refusal(name: str, expected: str, value: Any) -> TypeError:

@@ -23,6 +23,9 @@ from ._library import KINDS, library
 Self = TypeVar("Self", bound="Struct")
 Class = TypeVar("Class", bound="type[Struct]")
 
+_NO_MEANING = ("reserved", "struct_size")  # the fields that fill gaps, or are the library's
+
+
 class Struct(ctypes.Structure):
     """A Struct takes keyword arguments that change fields. The others keep what the library's
     crt_*_init() has put there. It can be copied, compared and pickled."""
@@ -66,7 +69,7 @@ class Struct(ctypes.Structure):
     @classmethod
     def _public(cls) -> list[str]:
         """Returns the names of the fields that mean something."""
-        return [name for name in cls._kinds if not name.startswith("reserved")]
+        return [name for name in cls._kinds if not name.startswith(_NO_MEANING)]
 
     @classmethod
     def _types(cls) -> dict[str, str]:
@@ -81,7 +84,8 @@ class Struct(ctypes.Structure):
         for name in cls._public():
             kind = cls._kinds[name]
             if name in cls._enums:
-                types[name] = f"{cls._enums[name].__name__} | int"
+                enumeration = cls._enums[name].__name__
+                types[name] = f"{enumeration} | int | {enumeration}Name"
             elif name in cls._pointees:
                 types[name] = pointees[cls._pointees[name]]
             else:
@@ -97,7 +101,34 @@ class Struct(ctypes.Structure):
     def _content(self) -> dict[str, Any]:
         return {name: getattr(self, name) for name in self._public()}
 
+    def _snapshot(self: Self, why: str) -> Self:
+        """Returns a copy that refuses changes."""
+        twin = type(self).from_buffer_copy(self)
+        kept = {
+            name: value._snapshot(why) if isinstance(value, Struct) else value
+            for name, value in self._kept.items()
+        }
+        ctypes.Structure.__setattr__(twin, "_kept", {**kept, "_why_frozen": why})
+        return twin
+
+    def _freeze(self: Self, why: str) -> Self:
+        """Makes it refuse changes, which would be lost. Copies of it can be changed."""
+        self._kept["_why_frozen"] = why
+        for value in self._kept.values():
+            if isinstance(value, Struct):
+                value._freeze(why)
+        return self
+
+    def _require_free(self, name: str) -> None:
+        why = self._kept.get("_why_frozen")
+        if why is not None:
+            raise AttributeError(f"{self._shown}: {name} cannot be assigned, as {why}")
+
+    def __dir__(self) -> list[str]:
+        return [name for name in super().__dir__() if not name.startswith(_NO_MEANING)]
+
     def __setattr__(self, name: str, value: Any) -> None:
+        self._require_free(name)
         kind = self._kinds.get(name)
         if kind is None:
             known = ", ".join(self._public())
@@ -108,8 +139,7 @@ class Struct(ctypes.Structure):
                 require_type(value, self._pointees[name], where)
             self._kept[name] = value
         if isinstance(value, str) and name in self._enums:
-            members = ", ".join(f"{self._enums[name].__name__}.{m.name}" for m in self._enums[name])
-            raise _arguments.refusal(where, f"one of {members}", value)
+            value = _member(self._enums[name], value, where)
         super().__setattr__(name, _to_c(kind, value, where))
 
     def __getattribute__(self, name: str) -> Any:
@@ -133,6 +163,17 @@ class Struct(ctypes.Structure):
     def __repr__(self) -> str:
         fields = ", ".join(f"{name}={value!r}" for name, value in self._content().items())
         return f"{type(self).__name__}({fields})"
+
+
+    def _brief(self) -> str:
+        """Returns how it is written without the fields that have their defaults."""
+        has_types = hasattr(library, f"{self._name}_init_type")
+        default = self.of_type(self.type) if has_types else type(self)()
+        fields = []
+        for name, value in self._content().items():
+            if name == "type" and has_types or value != getattr(default, name):
+                fields.append(f"{name}={_arguments.written(value)}")
+        return f"{type(self).__name__}({', '.join(fields)})"
 
 
 def _restored(cls: Callable[..., Struct], content: dict[str, Any]) -> Struct:
@@ -189,15 +230,35 @@ def _document(cls: Any, texts: dict[str, str]) -> None:
     """Adds what crt.h says of the fields to the class's documentation, and its signature."""
     lines = [inspect.cleandoc(cls.__doc__), "", "Its fields are:"]
     for field, type_name in cls._types().items():
+        if field in cls._enums:
+            type_name = f"{cls._enums[field].__name__}, or its name"
         text = f"{field} ({type_name}): {texts[field]}".rstrip(": ")
         lines += textwrap.wrap(text, 96, initial_indent="- ", subsequent_indent="  ")
     cls.__doc__ = "\n".join(lines)
     if cls._has_init:
-        keywords = [
-            inspect.Parameter(field, inspect.Parameter.KEYWORD_ONLY, default=_Default())
-            for field in cls._public()
-        ]
-        cls.__signature__ = inspect.Signature(keywords)
+        cls.__signature__ = inspect.Signature(_keywords(cls, ()))
+    for method in vars(cls).values():
+        if isinstance(method, classmethod):
+            _document_method(cls, method.__func__)
+
+
+def _document_method(cls: Any, function: Any) -> None:
+    """Gives a method that takes any of the fields its signature."""
+    given = list(inspect.signature(function).parameters.values())
+    if given[-1].kind is inspect.Parameter.VAR_KEYWORD:
+        taken = ["type", *(parameter.name for parameter in given)]
+        keywords = _keywords(cls, taken)
+        function.__signature__ = inspect.Signature(
+            [*given[:-1], *keywords], return_annotation=cls.__name__
+        )
+
+
+def _keywords(cls: Any, taken: Iterable[str]) -> list[inspect.Parameter]:
+    return [
+        inspect.Parameter(field, inspect.Parameter.KEYWORD_ONLY, default=_Default())
+        for field in cls._public()
+        if field not in taken
+    ]
 
 
 class _Default:
@@ -254,6 +315,15 @@ def _to_python(value: Any) -> Any:
     if isinstance(value, bytes):
         return value.decode(errors="replace")
     return tuple(value) if isinstance(value, ctypes.Array) else value
+
+
+def _member(kind: type[enum.IntEnum], name: str, where: str) -> enum.IntEnum:
+    """Returns the member of an enumeration that a text names in any case."""
+    try:
+        return kind[name.upper()]
+    except KeyError:
+        members = ", ".join(f"{kind.__name__}.{member.name}" for member in kind)
+        raise _arguments.refusal(where, f"one of {members}", name) from None
 
 
 def _to_enum(kind: type[enum.IntEnum], value: int) -> int:

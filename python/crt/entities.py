@@ -9,7 +9,7 @@ a + b or a | b is the union, a - b the difference, a ^ b or a & b the intersecti
 import ctypes
 import math
 from collections.abc import Iterable, Sequence
-from typing import Any, SupportsFloat
+from typing import Any, SupportsFloat, SupportsIndex
 
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
@@ -19,7 +19,10 @@ from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
 from ._structs import reference
+from .errors import named
 from .values import Material
+
+MOST_CALLS = 3  # that a representation shows
 
 
 class Entity(Handle):
@@ -29,16 +32,24 @@ class Entity(Handle):
     _name = "crt_entity"
     _instead_of_pickle = "pickle what it is made from, or the text of a script"
     _box: _bounds.Box | None = None  # around it; None if that is unknown
+    # For the representation: the primitive that it is made of, if it is one, and the calls that
+    # were made since, or the last of them.
+    _source: tuple[str, dict[str, Any]] | None = None
+    _calls: tuple[tuple[str, Any], ...] = ()
 
     def with_material(self, material: Material) -> "Entity":
         """Returns the entity with a material on every part that has none of its own."""
         given = reference(material, "crt_material", "with_material: material")
-        return self._same_place(create("crt_entity_with_material", self._handle, given))
+        with named("with_material: material"):
+            entity = self._same_place(create("crt_entity_with_material", self._handle, given))
+        kept = material._snapshot("an entity keeps a material of its own")
+        return entity._made_by(self, "with_material", kept)
 
-    def with_id(self, id: int) -> "Entity":
+    def with_id(self, id: SupportsIndex) -> "Entity":
         """Returns the entity under a number that hits report."""
         number = _arguments.whole(id, "with_id: id", ctypes.c_uint32)
-        return self._same_place(create("crt_entity_with_id", self._handle, number))
+        entity = self._same_place(create("crt_entity_with_id", self._handle, number))
+        return entity._made_by(self, "with_id", number)
 
     def transformed(self, matrix: ArrayLike) -> "Entity":
         """Returns the entity moved by an affine map: a 3 x 4 matrix, or a 4 x 4 one whose last row
@@ -53,31 +64,34 @@ class Entity(Handle):
             raise ValueError(
                 "transformed: matrix must be 3 x 4, or 4 x 4 with 0, 0, 0, 1 in its last row"
             )
-        numbers = (ctypes.c_double * 12)(*rows.ravel().tolist())
-        moved = Entity._adopt(create("crt_entity_with_transform", self._handle, numbers))
-        moved._box = _bounds.transformed(self._box, rows.tolist())
-        return moved
+        return self._mapped(rows)._made_by(self, "transformed", tuple(map(tuple, rows.tolist())))
 
     def moved(self, offset: Point) -> "Entity":
         """Returns the entity moved by a vector."""
         column = _arguments.vector(offset, "moved: offset")
-        return self.transformed(np.column_stack((np.eye(3), column)))
+        moved = self._mapped(np.column_stack((np.eye(3), column)))
+        return moved._made_by(self, "moved", tuple(column))
 
     def scaled(self, factors: SupportsFloat | Point) -> "Entity":
         """Scales by one factor, or one for each axis, about the origin."""
         is_one = isinstance(factors, str) or not isinstance(factors, Sequence)
+        given: Any
         if is_one and np.asarray(factors).ndim == 0:
-            scale = np.eye(3) * _arguments.number(factors, "scaled: factors", "one number or three")
+            given = _arguments.number(factors, "scaled: factors", "one number or three")
+            scale = np.eye(3) * given
         else:
-            scale = np.diag(_arguments.vector(factors, "scaled: factors"))
-        return self.transformed(np.column_stack((scale, np.zeros(3))))
+            given = tuple(_arguments.vector(factors, "scaled: factors"))
+            scale = np.diag(given)
+        scaled = self._mapped(np.column_stack((scale, np.zeros(3))))
+        return scaled._made_by(self, "scaled", given)
 
     def rotated(self, degrees: Point) -> "Entity":
         """Rotates by degrees about x, then y, then z, as in scripts: 90 about z takes x to y.
         Multiples of 90 are exact."""
         angles = _arguments.vector(degrees, "rotated: degrees")
         about_x, about_y, about_z = (_rotation(axis, angle) for axis, angle in enumerate(angles))
-        return self.transformed(np.column_stack((about_z @ about_y @ about_x, np.zeros(3))))
+        rotated = self._mapped(np.column_stack((about_z @ about_y @ about_x, np.zeros(3))))
+        return rotated._made_by(self, "rotated", tuple(angles))
 
     def __add__(self, other: "Entity") -> "Entity":
         return union((self, other)) if isinstance(other, Entity) else NotImplemented
@@ -101,6 +115,29 @@ class Entity(Handle):
         """Returns how many primitives it is made of. One that occurs twice counts twice."""
         return int(library.crt_entity_primitive_count(self._handle))
 
+    def _mapped(self, rows: NDArray[np.float64]) -> "Entity":
+        numbers = (ctypes.c_double * 12)(*rows.ravel().tolist())
+        moved = Entity._adopt(create("crt_entity_with_transform", self._handle, numbers))
+        moved._box = _bounds.transformed(self._box, rows.tolist())
+        return moved
+
+    def _made_by(self, source: "Entity", method: str, argument: Any) -> "Entity":
+        """Notes for the representation how this entity was made from another one."""
+        self._source = source._source
+        self._calls = (*source._calls, (method, argument))[-MOST_CALLS - 1 :]
+        return self
+
+    def _expression(self) -> str:
+        """Returns the calls that made it, as far as they are known."""
+        calls = [f".{name}({_arguments.written(value)})" for name, value in self._calls]
+        if len(calls) > MOST_CALLS:
+            calls[0] = " ... "
+        if self._source is None:
+            return "".join(calls)
+        name, given = self._source
+        arguments = ", ".join(f"{key}={_arguments.written(one)}" for key, one in given.items())
+        return f"{name}({arguments})" + "".join(calls)
+
     def _same_place(self, handle: int) -> "Entity":
         entity = Entity._adopt(handle)
         entity._box = self._box
@@ -109,7 +146,8 @@ class Entity(Handle):
     def _summary(self) -> str:
         count = self.primitive_count
         parts = f"{count} primitive" + ("" if count == 1 else "s")
-        return f"{'solid' if self.is_solid else 'surface'} of {parts}"
+        made = self._expression()
+        return f"{'solid' if self.is_solid else 'surface'} of {parts}" + (made and f", {made}")
 
     def _repr_png_(self) -> bytes | None:
         """Shows the entity in notebooks: framed by a camera, under a light."""
@@ -152,7 +190,7 @@ def _handles(parts: list[Entity]) -> tuple[Any, int]:
     return array, len(references)
 
 
-def _rotation(axis: int, degrees: float) -> NDArray[Any]:
+def _rotation(axis: int, degrees: float) -> NDArray[np.float64]:
     quarters = degrees / 90
     if quarters == round(quarters):
         cosine, sine = ((1.0, 0.0), (0.0, 1.0), (-1.0, 0.0), (0.0, -1.0))[round(quarters) % 4]

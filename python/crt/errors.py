@@ -74,7 +74,12 @@ def named(what: str, names: Mapping[str, str] = {}) -> Iterator[None]:
     try:
         yield
     except Error as error:
-        raise Error(error.status, f"{what}: {error}") from None
+        text = str(error)
+        for theirs, ours in names.items():
+            if text.startswith(theirs):
+                text = ours + text[len(theirs) :]
+                break
+        raise Error(error.status, f"{what}: {text}") from None
 
 
 @dataclass(frozen=True)

@@ -28,12 +28,12 @@ class Image(Handle):
     _instead_of_pickle = "pickle its pixels, or its encode('exr')"
 
     @classmethod
-    def from_pixels(cls, pixels: NDArray[Any]) -> "Image":
+    def from_pixels(cls, pixels: NDArray[np.float32]) -> "Image":
         """Makes a copy of height x width x 4 float32. There may be gaps between the rows."""
         return cls._of_array("crt_image_create", pixels, np.dtype(np.float32))
 
     @classmethod
-    def from_rgba8(cls, pixels: NDArray[Any]) -> "Image":
+    def from_rgba8(cls, pixels: NDArray[np.uint8]) -> "Image":
         """Makes a copy of height x width x 4 uint8 as displays want them: gamma applied, alpha
         straight."""
         return cls._of_array("crt_image_from_rgba8", pixels, np.dtype(np.uint8))
@@ -95,7 +95,7 @@ class Image(Handle):
         return int(library.crt_image_height(self._handle))
 
     @property
-    def pixels(self) -> NDArray[Any]:
+    def pixels(self) -> NDArray[np.float32]:
         """Returns height x width x 4 float32, read-only: the library's own memory, which the array
         keeps."""
         return np.asarray(_LentArray.of_pixels(self._handle))
@@ -124,7 +124,7 @@ class Image(Handle):
         names = [library.crt_image_channel_name(reference, index) for index in range(count)]
         return {name.decode(): np.asarray(_LentArray.of_channel(reference, name)) for name in names}
 
-    def to_rgba8(self) -> NDArray[Any]:
+    def to_rgba8(self) -> NDArray[np.uint8]:
         """Returns height x width x 4 uint8, as a file gets them: gamma applied, alpha straight."""
         reference = self._handle
         shape = library.crt_image_height(reference), library.crt_image_width(reference), 4
@@ -158,12 +158,18 @@ class Image(Handle):
     @property
     def stats(self) -> RenderStats:
         """Returns what rendering it took."""
-        return RenderStats._filled_by("crt_image_stats", self._handle)
+        stats = RenderStats._filled_by("crt_image_stats", self._handle)
+        return stats._freeze("those of an image never change")
 
     @property
     def settings(self) -> Settings:
-        """Returns the settings that it was rendered with."""
-        return Settings._filled_by("crt_image_settings", self._handle)
+        """Returns the settings that it was rendered with. To change them, copy.copy() them for
+        with_settings()."""
+        settings = Settings._filled_by("crt_image_settings", self._handle)
+        return settings._freeze(
+            "those of an image never change: change a copy.copy() of them, and take"
+            " image.with_settings()"
+        )
 
     def with_settings(self, settings: Settings) -> "Image":
         """Returns the same pixels with another gamma, other texts, ..."""

@@ -2,7 +2,7 @@
 Entity.with_material and Entity.with_id do."""
 
 import ctypes
-from typing import Any
+from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -31,72 +31,101 @@ __all__ = [
 ]
 
 
+T = TypeVar("T")
+Vector = tuple[float, float, float]
+
+# The library's names of arguments, which begin its messages, and Python's.
+_NAMES = {
+    "to must differ from from": "end must differ from start",
+    "from must": "start must",
+    "to must": "end must",
+}
+
+
+class _Given(Generic[T]):
+    """A _Given is an argument that a primitive was made with, to be read back."""
+
+    def __set_name__(self, owner: type, name: str) -> None:
+        self._name = name
+        self.__doc__ = f"is the argument {name!r} that was given"
+
+    @overload
+    def __get__(self, primitive: None, kind: type) -> "_Given[T]": ...
+    @overload
+    def __get__(self, primitive: "_Primitive", kind: type) -> T: ...
+    def __get__(self, primitive: "_Primitive | None", kind: type) -> Any:
+        return self if primitive is None else (primitive._source or ("", {}))[1].get(self._name)
+
+    def __set__(self, primitive: "_Primitive", value: NoReturn) -> NoReturn:
+        name = type(primitive).__name__
+        raise AttributeError(f"a crt.{name} has no {self._name!r} that can be assigned")
+
+
 class _Primitive(Entity):
     """A _Primitive remembers how it was made, for its representation."""
 
-    _given: dict[str, Any]
+    material = _Given[Material | None]()
+    id = _Given[int | None]()
 
     def _create(
         self,
         function: str,
         box: _bounds.Box,
         material: Material | None,
-        id: int | None,
-        shown: dict[str, Any],
+        id: SupportsIndex | None,
+        given: dict[str, Any],
         *arguments: Any,
     ) -> None:
         name = type(self).__name__
-        with named(name):
+        with named(name, _NAMES):
             self._take(create(function, *arguments))
         self._box = box
         if material is not None:
-            given = reference(material, "crt_material", f"{name}: material")
-            self._take(create("crt_entity_with_material", self._handle, given))
+            place = reference(material, "crt_material", f"{name}: material")
+            with named(f"{name}: material"):
+                self._take(create("crt_entity_with_material", self._handle, place))
+            given["material"] = material._snapshot("an entity keeps a material of its own")
         if id is not None:
             number = _arguments.whole(id, f"{name}: id", ctypes.c_uint32)
             self._take(create("crt_entity_with_id", self._handle, number))
-            shown["id"] = number
-        self._given = shown
+            given["id"] = number
+        self._source = name, given
 
     def _vectors(self, **points: Point) -> list[Any]:
         """Returns points as C has them."""
         name = type(self).__name__
         return [_arguments.vector(point, f"{name}: {key}") for key, point in points.items()]
 
-    def _positive(self, value: float, name: str) -> float:
+    def _positive(self, value: SupportsFloat, name: str) -> float:
         return _arguments.positive(value, f"{type(self).__name__}: {name}")
 
     def __repr__(self) -> str:
-        if self._reference is None:
-            return super().__repr__()
-        given = ", ".join(f"{name}={_written(value)}" for name, value in self._given.items())
-        return f"{type(self).__name__}({given})"
-
-
-def _written(value: Any) -> str:
-    if isinstance(value, tuple):
-        return f"({', '.join(map(_written, value))})"
-    return f"{value:g}" if isinstance(value, float) else str(value)
+        return super().__repr__() if self._reference is None else self._expression()
 
 
 class Empty(_Primitive):
     """Empty is the solid without a point. No ray meets it, and in combinations it behaves as the
     empty set."""
 
-    def __init__(self, *, material: Material | None = None, id: int | None = None) -> None:
+    def __init__(
+        self, *, material: Material | None = None, id: SupportsIndex | None = None
+    ) -> None:
         self._create("crt_empty_create", _bounds.NOWHERE, material, id, {})
 
 
 class Sphere(_Primitive):
     """A Sphere is a ball of `radius` about `center`."""
 
+    center = _Given[Vector]()
+    radius = _Given[float]()
+
     def __init__(
         self,
         center: Point,
-        radius: float,
+        radius: SupportsFloat,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         (middle,) = self._vectors(center=center)
         size = self._positive(radius, "radius")
@@ -108,13 +137,16 @@ class Sphere(_Primitive):
 class Box(_Primitive):
     """A Box is parallel to the axes, between any two opposite corners."""
 
+    corner_a = _Given[Vector]()
+    corner_b = _Given[Vector]()
+
     def __init__(
         self,
         corner_a: Point,
         corner_b: Point,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(corner_a=corner_a, corner_b=corner_b)
         shown = {"corner_a": tuple(a), "corner_b": tuple(b)}
@@ -125,13 +157,16 @@ class Box(_Primitive):
 class Plane(_Primitive):
     """A Plane is the half-space behind a plane. The normal points out of it."""
 
+    normal = _Given[Vector]()
+    position = _Given[Vector]()
+
     def __init__(
         self,
         normal: Point,
         position: Point = (0, 0, 0),
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         out, place = self._vectors(normal=normal, position=position)
         shown = {"normal": tuple(out), "position": tuple(place)}
@@ -142,6 +177,10 @@ class HalfPlane(_Primitive):
     """A HalfPlane is a surface: the half of a plane on the `direction` side of the line through
     `position` across it."""
 
+    normal = _Given[Vector]()
+    position = _Given[Vector]()
+    direction = _Given[Vector]()
+
     def __init__(
         self,
         normal: Point,
@@ -149,7 +188,7 @@ class HalfPlane(_Primitive):
         direction: Point,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         given = {"normal": normal, "position": position, "direction": direction}
         vectors = self._vectors(**given)
@@ -161,14 +200,18 @@ class HalfPlane(_Primitive):
 class Cylinder(_Primitive):
     """A Cylinder of `radius` reaches from the centre of one cap to that of the other."""
 
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+    radius = _Given[float]()
+
     def __init__(
         self,
         start: Point,
         end: Point,
-        radius: float,
+        radius: SupportsFloat,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
         size = self._positive(radius, "radius")
@@ -180,15 +223,20 @@ class Cylinder(_Primitive):
 class Cone(_Primitive):
     """A Cone has its apex at the end, or with `radius2` there it is a part of one."""
 
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+    radius = _Given[float]()
+    radius2 = _Given[float]()
+
     def __init__(
         self,
         start: Point,
         end: Point,
-        radius: float,
-        radius2: float = 0,
+        radius: SupportsFloat,
+        radius2: SupportsFloat = 0,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
         size = self._positive(radius, "radius")
@@ -201,14 +249,18 @@ class Cone(_Primitive):
 class Capsule(_Primitive):
     """A Capsule is all points within `radius` of the straight line from the start to the end."""
 
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+    radius = _Given[float]()
+
     def __init__(
         self,
         start: Point,
         end: Point,
-        radius: float,
+        radius: SupportsFloat,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         a, b = self._vectors(start=start, end=end)
         size = self._positive(radius, "radius")
@@ -222,15 +274,20 @@ class Torus(_Primitive):
     """A Torus is all points within `thickness` of the circle of `radius` about `center` across
     `axis`."""
 
+    center = _Given[Vector]()
+    axis = _Given[Vector]()
+    radius = _Given[float]()
+    thickness = _Given[float]()
+
     def __init__(
         self,
         center: Point,
         axis: Point,
-        radius: float,
-        thickness: float,
+        radius: SupportsFloat,
+        thickness: SupportsFloat,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         middle, across = self._vectors(center=center, axis=axis)
         size = self._positive(radius, "radius")
@@ -243,14 +300,18 @@ class Torus(_Primitive):
 class Disc(_Primitive):
     """A Disc is a surface: flat and round, across `normal`."""
 
+    center = _Given[Vector]()
+    normal = _Given[Vector]()
+    radius = _Given[float]()
+
     def __init__(
         self,
         center: Point,
         normal: Point,
-        radius: float,
+        radius: SupportsFloat,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         middle, across = self._vectors(center=center, normal=normal)
         size = self._positive(radius, "radius")
@@ -262,6 +323,10 @@ class Disc(_Primitive):
 class Triangle(_Primitive):
     """A Triangle is a surface. Its normal is along (b - a) x (c - a)."""
 
+    a = _Given[Vector]()
+    b = _Given[Vector]()
+    c = _Given[Vector]()
+
     def __init__(
         self,
         a: Point,
@@ -269,7 +334,7 @@ class Triangle(_Primitive):
         c: Point,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         corners = self._vectors(a=a, b=b, c=c)
         shown = dict(zip("abc", map(tuple, corners)))
@@ -286,7 +351,7 @@ class Mesh(_Primitive):
         indices: ArrayLike,
         *,
         material: Material | None = None,
-        id: int | None = None,
+        id: SupportsIndex | None = None,
     ) -> None:
         try:
             points = np.ascontiguousarray(positions, np.float64)

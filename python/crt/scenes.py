@@ -4,8 +4,8 @@ import ctypes
 import operator
 import os
 import threading
-from collections.abc import Iterable, Mapping
-from typing import Any, TypeVar
+from collections.abc import Callable, Iterable, Mapping
+from typing import TYPE_CHECKING, Any, Generic, TypeVar
 
 from . import _arguments, scripts
 from ._callbacks import POLL, Guard
@@ -20,6 +20,22 @@ from .rendering import Prepared
 from .values import Background, Camera, Light, Settings
 
 Value = TypeVar("Value", Background, Camera, Settings)
+T = TypeVar("T")
+
+if TYPE_CHECKING:
+
+    class _ListProperty(Generic[T]):
+        """A _ListProperty is a property that is a list, and takes the content of anything. Not
+        every type checker knows that of a property."""
+
+        def __init__(
+            self, get: Callable[[Any], list[T]], set: Callable[[Any, Iterable[T]], None]
+        ) -> None: ...
+        def __get__(self, thing: object, kind: type) -> list[T]: ...
+        def __set__(self, thing: object, content: Iterable[T]) -> None: ...
+
+else:
+    _ListProperty = property
 
 
 class Scene(Handle):
@@ -176,8 +192,7 @@ class Scene(Handle):
                 else:
                     raise _arguments.refusal("add: a thing", "an Entity or a Light", thing)
 
-    @property
-    def entities(self) -> list[Entity]:
+    def _get_entities(self) -> list[Entity]:
         """Is the list of entities. A change of it changes the scene."""
         with self._lock:
             scene = self._handle
@@ -189,14 +204,14 @@ class Scene(Handle):
                 self._known = [entity._handle for entity in self._entities]
             return self._entities
 
-    @entities.setter
-    def entities(self, entities: Iterable[Entity]) -> None:
+    def _set_entities(self, entities: Iterable[Entity]) -> None:
         given = _arguments.instances(entities, Entity, "Scene: entities")
         with self._lock:
             self.entities[:] = given
 
-    @property
-    def lights(self) -> list[Light]:
+    entities = _ListProperty(_get_entities, _set_entities)
+
+    def _get_lights(self) -> list[Light]:
         """Is the list of lights. A change of it, or of a light in it, changes the scene."""
         with self._lock:
             scene = self._handle
@@ -207,11 +222,12 @@ class Scene(Handle):
                 ]
             return self._lights
 
-    @lights.setter
-    def lights(self, lights: Iterable[Light]) -> None:
+    def _set_lights(self, lights: Iterable[Light]) -> None:
         given = _arguments.instances(lights, Light, "Scene: lights")
         with self._lock:
             self.lights[:] = given
+
+    lights = _ListProperty(_get_lights, _set_lights)
 
     @property
     def camera(self) -> Camera:

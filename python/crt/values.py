@@ -71,6 +71,7 @@ class Pattern(Struct):
             super().__setattr__(name, value)
 
     def _set_colors(self, value: Any) -> None:
+        self._require_free("colors")
         stops = []
         for i, given in enumerate(() if value is None else value):
             stops.append(_ColorStop.of(given, f"Pattern: colors[{i}]"))

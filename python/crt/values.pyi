@@ -3,13 +3,15 @@
 
 import enum
 from collections.abc import Sequence
-from typing import Any, TypeVar
+from typing import Any, Literal, SupportsFloat, SupportsIndex, TypeVar
 
 from numpy.typing import NDArray
 
 from .images import Image
 
 Self = TypeVar("Self")
+# What is given may be less than what is read back.
+GivenVector = Sequence[SupportsFloat] | NDArray[Any]
 Vector = Sequence[float] | NDArray[Any]
 ColorStops = Sequence[tuple[float, Vector] | tuple[float, Vector, float]]
 
@@ -19,6 +21,10 @@ class _Struct:
     def of_type(cls: type[Self], kind: int, /, **fields: Any) -> Self: ...
     @classmethod
     def _filled_by(cls: type[Self], function: str, *arguments: Any) -> Self: ...
+    def _freeze(self: Self, why: str) -> Self: ...
+    def _snapshot(self: Self, why: str) -> Self: ...
+
+PatternTypeName = Literal["checker", "stripes", "gradient", "noise", "marble", "wood", "image"]
 
 class PatternType(enum.IntEnum):
     """Lists the kinds of patterns."""
@@ -29,6 +35,8 @@ class PatternType(enum.IntEnum):
     MARBLE = 4
     WOOD = 5
     IMAGE = 6
+
+ImageMappingName = Literal["uv", "planar", "cylindrical", "cubic"]
 
 class ImageMapping(enum.IntEnum):
     """Says how an image is laid over a surface."""
@@ -42,7 +50,7 @@ class Pattern(_Struct):
     Each of its `colors` is (position, color) or (position, color, alpha).
 
     Its fields are:
-    - type (PatternType | int): a PatternType
+    - type (PatternType, or its name): a PatternType
     - color_a (Vector): linear RGB, each in [0, 1e30]
     - alpha_a (float): in [0, 1]; what is missing to 1 adds to the material's transparency
     - color_b (Vector)
@@ -61,11 +69,11 @@ class Pattern(_Struct):
     - colors (ColorStops | None): Takes the place of both colours of gradient, noise, marble and
       wood: 2 to 64 stops at ascending positions. Two at one position make an edge.
     - color_count (int): of `colors`; default 0
-    - mapping (ImageMapping | int): Says how the image is laid over the surface (ImageMapping). All
-      but ImageMapping.UV take `direction`, `offset` and `scale`, the width and height of the
-      picture.
+    - mapping (ImageMapping, or its name): Says how the image is laid over the surface
+      (ImageMapping). All but ImageMapping.UV take `direction`, `offset` and `scale`, the width and
+      height of the picture.
     """
-    type: PatternType | int
+    type: PatternType | int | PatternTypeName
     color_a: Vector
     alpha_a: float
     color_b: Vector
@@ -82,187 +90,187 @@ class Pattern(_Struct):
     pattern_b: Pattern | None
     colors: ColorStops | None
     color_count: int
-    mapping: ImageMapping | int
+    mapping: ImageMapping | int | ImageMappingName
     def __init__(
         self,
         *,
-        type: PatternType | int = ...,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        type: PatternType | int | PatternTypeName = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> None: ...
     def set(
         self,
         *,
-        type: PatternType | int = ...,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        type: PatternType | int | PatternTypeName = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> None: ...
     @classmethod
     def checker(
         cls,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Makes cubes whose edges are `scale` long."""
     @classmethod
     def stripes(
         cls,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Makes bands across `direction`, one of each colour in `scale`."""
     @classmethod
     def gradient(
         cls,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Changes from `color_a` to `color_b` and back along `direction` within `scale`."""
     @classmethod
     def noise(
         cls,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Makes clouds."""
     @classmethod
     def marble(
         cls,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Makes veins across `direction`."""
     @classmethod
     def wood(
         cls,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
         image: Image | None = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Makes rings about the line through `offset` along `direction`."""
     @classmethod
@@ -270,22 +278,22 @@ class Pattern(_Struct):
         cls,
         image: Image,
         *,
-        color_a: Vector = ...,
-        alpha_a: float = ...,
-        color_b: Vector = ...,
-        alpha_b: float = ...,
-        direction: Vector = ...,
-        offset: Vector = ...,
-        scale: float = ...,
-        turbulence: float = ...,
-        octaves: int = ...,
-        repeat_u: float = ...,
-        repeat_v: float = ...,
+        color_a: GivenVector = ...,
+        alpha_a: SupportsFloat = ...,
+        color_b: GivenVector = ...,
+        alpha_b: SupportsFloat = ...,
+        direction: GivenVector = ...,
+        offset: GivenVector = ...,
+        scale: SupportsFloat = ...,
+        turbulence: SupportsFloat = ...,
+        octaves: SupportsIndex = ...,
+        repeat_u: SupportsFloat = ...,
+        repeat_v: SupportsFloat = ...,
         pattern_a: Pattern | None = ...,
         pattern_b: Pattern | None = ...,
         colors: ColorStops | None = ...,
-        color_count: int = ...,
-        mapping: ImageMapping | int = ...,
+        color_count: SupportsIndex = ...,
+        mapping: ImageMapping | int | ImageMappingName = ...,
     ) -> Pattern:
         """Lays a crt.Image over the surface."""
 
@@ -321,35 +329,37 @@ class Material(_Struct):
     def __init__(
         self,
         *,
-        color: Vector = ...,
-        alpha: float = ...,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
         pattern: Pattern | None = ...,
-        reflectivity: float = ...,
-        transparency: float = ...,
-        refractive_index: float = ...,
-        diffuse: float = ...,
-        specular: float = ...,
-        shininess: float = ...,
-        absorption: Vector = ...,
+        reflectivity: SupportsFloat = ...,
+        transparency: SupportsFloat = ...,
+        refractive_index: SupportsFloat = ...,
+        diffuse: SupportsFloat = ...,
+        specular: SupportsFloat = ...,
+        shininess: SupportsFloat = ...,
+        absorption: GivenVector = ...,
         bump: Pattern | None = ...,
-        bump_height: float = ...,
+        bump_height: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
         *,
-        color: Vector = ...,
-        alpha: float = ...,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
         pattern: Pattern | None = ...,
-        reflectivity: float = ...,
-        transparency: float = ...,
-        refractive_index: float = ...,
-        diffuse: float = ...,
-        specular: float = ...,
-        shininess: float = ...,
-        absorption: Vector = ...,
+        reflectivity: SupportsFloat = ...,
+        transparency: SupportsFloat = ...,
+        refractive_index: SupportsFloat = ...,
+        diffuse: SupportsFloat = ...,
+        specular: SupportsFloat = ...,
+        shininess: SupportsFloat = ...,
+        absorption: GivenVector = ...,
         bump: Pattern | None = ...,
-        bump_height: float = ...,
+        bump_height: SupportsFloat = ...,
     ) -> None: ...
+
+LightTypeName = Literal["point", "parallel", "spot", "cylinder"]
 
 class LightType(enum.IntEnum):
     """Lists the kinds of lights. All cast shadows."""
@@ -363,7 +373,7 @@ class Light(_Struct):
     Light.spot() or Light.cylinder().
 
     Its fields are:
-    - type (LightType | int): a LightType; default LightType.POINT
+    - type (LightType, or its name): a LightType; default LightType.POINT
     - origin (Vector): default 0
     - pointing (Vector): default 0; a point light ignores it, others need a point other than
       `origin`
@@ -376,7 +386,7 @@ class Light(_Struct):
       falloff / D^2
     - ambient (float): share of the colour that every point gets, >= 0; default 0
     """
-    type: LightType | int
+    type: LightType | int | LightTypeName
     origin: Vector
     pointing: Vector
     color: Vector
@@ -388,85 +398,87 @@ class Light(_Struct):
     def __init__(
         self,
         *,
-        type: LightType | int = ...,
-        origin: Vector = ...,
-        pointing: Vector = ...,
-        color: Vector = ...,
-        angle: float = ...,
-        penumbra: float = ...,
-        radius: float = ...,
-        falloff: float = ...,
-        ambient: float = ...,
+        type: LightType | int | LightTypeName = ...,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
         *,
-        type: LightType | int = ...,
-        origin: Vector = ...,
-        pointing: Vector = ...,
-        color: Vector = ...,
-        angle: float = ...,
-        penumbra: float = ...,
-        radius: float = ...,
-        falloff: float = ...,
-        ambient: float = ...,
+        type: LightType | int | LightTypeName = ...,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
     ) -> None: ...
     @classmethod
     def point(
         cls,
         *,
-        origin: Vector = ...,
-        pointing: Vector = ...,
-        color: Vector = ...,
-        angle: float = ...,
-        penumbra: float = ...,
-        radius: float = ...,
-        falloff: float = ...,
-        ambient: float = ...,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
     ) -> Light:
         """Shines from `origin` in all directions."""
     @classmethod
     def parallel(
         cls,
         *,
-        origin: Vector = ...,
-        pointing: Vector = ...,
-        color: Vector = ...,
-        angle: float = ...,
-        penumbra: float = ...,
-        radius: float = ...,
-        falloff: float = ...,
-        ambient: float = ...,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
     ) -> Light:
         """Shines along `origin` to `pointing` everywhere, like a sun."""
     @classmethod
     def spot(
         cls,
         *,
-        origin: Vector = ...,
-        pointing: Vector = ...,
-        color: Vector = ...,
-        angle: float = ...,
-        penumbra: float = ...,
-        radius: float = ...,
-        falloff: float = ...,
-        ambient: float = ...,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
     ) -> Light:
         """Shines from `origin` into a cone about the direction to `pointing`."""
     @classmethod
     def cylinder(
         cls,
         *,
-        origin: Vector = ...,
-        pointing: Vector = ...,
-        color: Vector = ...,
-        angle: float = ...,
-        penumbra: float = ...,
-        radius: float = ...,
-        falloff: float = ...,
-        ambient: float = ...,
+        origin: GivenVector = ...,
+        pointing: GivenVector = ...,
+        color: GivenVector = ...,
+        angle: SupportsFloat = ...,
+        penumbra: SupportsFloat = ...,
+        radius: SupportsFloat = ...,
+        falloff: SupportsFloat = ...,
+        ambient: SupportsFloat = ...,
     ) -> Light:
         """Sends parallel rays that fill a cylinder from `origin` towards `pointing`."""
+
+ProjectionName = Literal["pinhole", "spherical", "cylindrical", "orthographic"]
 
 class Projection(enum.IntEnum):
     """Says how a camera maps directions to the picture."""
@@ -474,6 +486,10 @@ class Projection(enum.IntEnum):
     SPHERICAL = 1
     CYLINDRICAL = 2
     ORTHOGRAPHIC = 3
+
+ApertureShapeName = Literal[
+    "circle", "uniform", "gaussian", "triangle", "square", "pentagon", "hexagon", "octagon", "line"
+]
 
 class ApertureShape(enum.IntEnum):
     """Lists the shapes of the lens opening."""
@@ -491,47 +507,49 @@ class Camera(_Struct):
     """A Camera says where the picture is seen from.
 
     Its fields are:
-    - projection (Projection | int): a Projection; default Projection.PINHOLE
+    - projection (Projection, or its name): a Projection; default Projection.PINHOLE
     - position (Vector): default (0, 0, -1)
     - pointing (Vector): the point looked at; default 0
     - fov (float): vertical field of view, radians, in (0, pi); default pi / 3
     - roll (float): radians; positive tips the picture's top to the right; default 0
     - aperture (float): radius of the lens in thousandths of a scene unit; 0 (default): all is sharp
     - focal_distance (float): along the view direction to what is in focus, > 0; default 1
-    - aperture_shape (ApertureShape | int): a ApertureShape; default ApertureShape.CIRCLE
+    - aperture_shape (ApertureShape, or its name): a ApertureShape; default ApertureShape.CIRCLE
     """
-    projection: Projection | int
+    projection: Projection | int | ProjectionName
     position: Vector
     pointing: Vector
     fov: float
     roll: float
     aperture: float
     focal_distance: float
-    aperture_shape: ApertureShape | int
+    aperture_shape: ApertureShape | int | ApertureShapeName
     def __init__(
         self,
         *,
-        projection: Projection | int = ...,
-        position: Vector = ...,
-        pointing: Vector = ...,
-        fov: float = ...,
-        roll: float = ...,
-        aperture: float = ...,
-        focal_distance: float = ...,
-        aperture_shape: ApertureShape | int = ...,
+        projection: Projection | int | ProjectionName = ...,
+        position: GivenVector = ...,
+        pointing: GivenVector = ...,
+        fov: SupportsFloat = ...,
+        roll: SupportsFloat = ...,
+        aperture: SupportsFloat = ...,
+        focal_distance: SupportsFloat = ...,
+        aperture_shape: ApertureShape | int | ApertureShapeName = ...,
     ) -> None: ...
     def set(
         self,
         *,
-        projection: Projection | int = ...,
-        position: Vector = ...,
-        pointing: Vector = ...,
-        fov: float = ...,
-        roll: float = ...,
-        aperture: float = ...,
-        focal_distance: float = ...,
-        aperture_shape: ApertureShape | int = ...,
+        projection: Projection | int | ProjectionName = ...,
+        position: GivenVector = ...,
+        pointing: GivenVector = ...,
+        fov: SupportsFloat = ...,
+        roll: SupportsFloat = ...,
+        aperture: SupportsFloat = ...,
+        focal_distance: SupportsFloat = ...,
+        aperture_shape: ApertureShape | int | ApertureShapeName = ...,
     ) -> None: ...
+
+BackgroundTypeName = Literal["solid", "gradient", "spherical", "cylindrical", "equal_area"]
 
 class BackgroundType(enum.IntEnum):
     """Lists the kinds of backgrounds."""
@@ -546,7 +564,7 @@ class Background(_Struct):
     Background.panorama(image).
 
     Its fields are:
-    - type (BackgroundType | int): a BackgroundType; default BackgroundType.SOLID
+    - type (BackgroundType, or its name): a BackgroundType; default BackgroundType.SOLID
     - color (Vector): linear RGB, >= 0; default 1
     - alpha (float): of the pixels where nothing is hit, in [0, 1]; default 1
     - horizon (Vector)
@@ -556,7 +574,7 @@ class Background(_Struct):
     - image (Image | None): its middle column is straight ahead (+z) at angle 0
     - angle (float): turns the image about y, radians
     """
-    type: BackgroundType | int
+    type: BackgroundType | int | BackgroundTypeName
     color: Vector
     alpha: float
     horizon: Vector
@@ -568,41 +586,41 @@ class Background(_Struct):
     def __init__(
         self,
         *,
-        type: BackgroundType | int = ...,
-        color: Vector = ...,
-        alpha: float = ...,
-        horizon: Vector = ...,
-        horizon_alpha: float = ...,
-        sky: Vector = ...,
-        sky_alpha: float = ...,
+        type: BackgroundType | int | BackgroundTypeName = ...,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
+        horizon: GivenVector = ...,
+        horizon_alpha: SupportsFloat = ...,
+        sky: GivenVector = ...,
+        sky_alpha: SupportsFloat = ...,
         image: Image | None = ...,
-        angle: float = ...,
+        angle: SupportsFloat = ...,
     ) -> None: ...
     def set(
         self,
         *,
-        type: BackgroundType | int = ...,
-        color: Vector = ...,
-        alpha: float = ...,
-        horizon: Vector = ...,
-        horizon_alpha: float = ...,
-        sky: Vector = ...,
-        sky_alpha: float = ...,
+        type: BackgroundType | int | BackgroundTypeName = ...,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
+        horizon: GivenVector = ...,
+        horizon_alpha: SupportsFloat = ...,
+        sky: GivenVector = ...,
+        sky_alpha: SupportsFloat = ...,
         image: Image | None = ...,
-        angle: float = ...,
+        angle: SupportsFloat = ...,
     ) -> None: ...
     @classmethod
     def gradient(
         cls,
         *,
-        color: Vector = ...,
-        alpha: float = ...,
-        horizon: Vector = ...,
-        horizon_alpha: float = ...,
-        sky: Vector = ...,
-        sky_alpha: float = ...,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
+        horizon: GivenVector = ...,
+        horizon_alpha: SupportsFloat = ...,
+        sky: GivenVector = ...,
+        sky_alpha: SupportsFloat = ...,
         image: Image | None = ...,
-        angle: float = ...,
+        angle: SupportsFloat = ...,
     ) -> Background:
         """Changes from `horizon` to `sky`."""
     @classmethod
@@ -612,32 +630,40 @@ class Background(_Struct):
         cylindrical: bool = ...,
         equal_area: bool = ...,
         *,
-        color: Vector = ...,
-        alpha: float = ...,
-        horizon: Vector = ...,
-        horizon_alpha: float = ...,
-        sky: Vector = ...,
-        sky_alpha: float = ...,
-        angle: float = ...,
+        color: GivenVector = ...,
+        alpha: SupportsFloat = ...,
+        horizon: GivenVector = ...,
+        horizon_alpha: SupportsFloat = ...,
+        sky: GivenVector = ...,
+        sky_alpha: SupportsFloat = ...,
+        angle: SupportsFloat = ...,
     ) -> Background:
         """Shows a crt.Image all around: spherical (equirectangular), unless it is one of the
         others.
         """
+
+PixelFilterName = Literal["box", "blackman_harris"]
 
 class PixelFilter(enum.IntEnum):
     """Says what a pixel is the mean of."""
     BOX = 0
     BLACKMAN_HARRIS = 1
 
+FalloffModelName = Literal["path", "light"]
+
 class FalloffModel(enum.IntEnum):
     """Says what the distance D in a light's falloff / D^2 is."""
     PATH = 0
     LIGHT = 1
 
+AmbientModelName = Literal["light", "surface"]
+
 class AmbientModel(enum.IntEnum):
     """Says how much of a light's ambient share a surface sends back."""
     LIGHT = 0
     SURFACE = 1
+
+PrecisionName = Literal["standard", "exact"]
 
 class Precision(enum.IntEnum):
     """Says how close calls of the geometry are decided."""
@@ -656,14 +682,14 @@ class Settings(_Struct):
     - gamma (float): 8-bit files hold clamp(c)^(1/gamma); in [0.1, 10]; default 1
     - min_weight (float): rays with a smaller share of the pixel in every channel are dropped;
       default 1/1024
-    - falloff_model (FalloffModel | int): a FalloffModel; default FalloffModel.PATH
+    - falloff_model (FalloffModel, or its name): a FalloffModel; default FalloffModel.PATH
     - show_clip (int): not 0: pixels with a channel above 1 are red in 8-bit files; default 0
     - seed (int): of the random numbers; default 0
     - title (str | None): this and the next go into the files; None (default) for none
     - author (str | None)
     - date (str | None)
     - notes (str | None)
-    - precision (Precision | int): a Precision; default Precision.STANDARD
+    - precision (Precision, or its name): a Precision; default Precision.STANDARD
     - target_error (float): Above 0, a pixel gets samples until it is this near the truth in 95 of
       100 cases. 1/255 is a step of 8 bits. In [0, 1]; default 0.
     - time_budget (float): Above 0, these are the seconds that tracing may take. It stops at the end
@@ -673,11 +699,11 @@ class Settings(_Struct):
     - min_samples (int): of a pixel, with a target error or a time budget: a power of 2 in [4,
       65536]; default 16
     - max_samples (int): of a pixel, also a power of 2 in [4, 65536]; default 1024
-    - filter (PixelFilter | int): a PixelFilter; default PixelFilter.BOX
+    - filter (PixelFilter, or its name): a PixelFilter; default PixelFilter.BOX
     - compat (int): 0 is the default. With 2015 the picture is formed as the program of that year
       formed it: lens, panoramas, places of the grid's samples, levels of 8-bit files. See
       docs/compat.md.
-    - ambient_model (AmbientModel | int): a AmbientModel; default AmbientModel.LIGHT
+    - ambient_model (AmbientModel, or its name): a AmbientModel; default AmbientModel.LIGHT
     - no_head_light (int): A scene without lights is lit from the camera, unless this is not 0.
       Default 0.
     """
@@ -688,78 +714,78 @@ class Settings(_Struct):
     recursion_depth: int
     gamma: float
     min_weight: float
-    falloff_model: FalloffModel | int
+    falloff_model: FalloffModel | int | FalloffModelName
     show_clip: int
     seed: int
     title: str | None
     author: str | None
     date: str | None
     notes: str | None
-    precision: Precision | int
+    precision: Precision | int | PrecisionName
     target_error: float
     time_budget: float
     filter_width: float
     min_samples: int
     max_samples: int
-    filter: PixelFilter | int
+    filter: PixelFilter | int | PixelFilterName
     compat: int
-    ambient_model: AmbientModel | int
+    ambient_model: AmbientModel | int | AmbientModelName
     no_head_light: int
     def __init__(
         self,
         *,
-        width: int = ...,
-        height: int = ...,
-        supersampling: int = ...,
-        dof_samples: int = ...,
-        recursion_depth: int = ...,
-        gamma: float = ...,
-        min_weight: float = ...,
-        falloff_model: FalloffModel | int = ...,
-        show_clip: int = ...,
-        seed: int = ...,
+        width: SupportsIndex = ...,
+        height: SupportsIndex = ...,
+        supersampling: SupportsIndex = ...,
+        dof_samples: SupportsIndex = ...,
+        recursion_depth: SupportsIndex = ...,
+        gamma: SupportsFloat = ...,
+        min_weight: SupportsFloat = ...,
+        falloff_model: FalloffModel | int | FalloffModelName = ...,
+        show_clip: SupportsIndex = ...,
+        seed: SupportsIndex = ...,
         title: str | None = ...,
         author: str | None = ...,
         date: str | None = ...,
         notes: str | None = ...,
-        precision: Precision | int = ...,
-        target_error: float = ...,
-        time_budget: float = ...,
-        filter_width: float = ...,
-        min_samples: int = ...,
-        max_samples: int = ...,
-        filter: PixelFilter | int = ...,
-        compat: int = ...,
-        ambient_model: AmbientModel | int = ...,
-        no_head_light: int = ...,
+        precision: Precision | int | PrecisionName = ...,
+        target_error: SupportsFloat = ...,
+        time_budget: SupportsFloat = ...,
+        filter_width: SupportsFloat = ...,
+        min_samples: SupportsIndex = ...,
+        max_samples: SupportsIndex = ...,
+        filter: PixelFilter | int | PixelFilterName = ...,
+        compat: SupportsIndex = ...,
+        ambient_model: AmbientModel | int | AmbientModelName = ...,
+        no_head_light: SupportsIndex = ...,
     ) -> None: ...
     def set(
         self,
         *,
-        width: int = ...,
-        height: int = ...,
-        supersampling: int = ...,
-        dof_samples: int = ...,
-        recursion_depth: int = ...,
-        gamma: float = ...,
-        min_weight: float = ...,
-        falloff_model: FalloffModel | int = ...,
-        show_clip: int = ...,
-        seed: int = ...,
+        width: SupportsIndex = ...,
+        height: SupportsIndex = ...,
+        supersampling: SupportsIndex = ...,
+        dof_samples: SupportsIndex = ...,
+        recursion_depth: SupportsIndex = ...,
+        gamma: SupportsFloat = ...,
+        min_weight: SupportsFloat = ...,
+        falloff_model: FalloffModel | int | FalloffModelName = ...,
+        show_clip: SupportsIndex = ...,
+        seed: SupportsIndex = ...,
         title: str | None = ...,
         author: str | None = ...,
         date: str | None = ...,
         notes: str | None = ...,
-        precision: Precision | int = ...,
-        target_error: float = ...,
-        time_budget: float = ...,
-        filter_width: float = ...,
-        min_samples: int = ...,
-        max_samples: int = ...,
-        filter: PixelFilter | int = ...,
-        compat: int = ...,
-        ambient_model: AmbientModel | int = ...,
-        no_head_light: int = ...,
+        precision: Precision | int | PrecisionName = ...,
+        target_error: SupportsFloat = ...,
+        time_budget: SupportsFloat = ...,
+        filter_width: SupportsFloat = ...,
+        min_samples: SupportsIndex = ...,
+        max_samples: SupportsIndex = ...,
+        filter: PixelFilter | int | PixelFilterName = ...,
+        compat: SupportsIndex = ...,
+        ambient_model: AmbientModel | int | AmbientModelName = ...,
+        no_head_light: SupportsIndex = ...,
     ) -> None: ...
 
 class RenderStats(_Struct):

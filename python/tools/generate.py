@@ -128,13 +128,15 @@ def stub() -> str:
     lines = [
         "import enum",
         "from collections.abc import Sequence",
-        "from typing import Any, TypeVar",
+        "from typing import Any, Literal, SupportsFloat, SupportsIndex, TypeVar",
         "",
         "from numpy.typing import NDArray",
         "",
         "from .images import Image",
         "",
         'Self = TypeVar("Self")',
+        "# What is given may be less than what is read back.",
+        "GivenVector = Sequence[SupportsFloat] | NDArray[Any]",
         "Vector = Sequence[float] | NDArray[Any]",
         "ColorStops = Sequence[tuple[float, Vector] | tuple[float, Vector, float]]",
         "",
@@ -144,6 +146,8 @@ def stub() -> str:
         "    def of_type(cls: type[Self], kind: int, /, **fields: Any) -> Self: ...",
         "    @classmethod",
         "    def _filled_by(cls: type[Self], function: str, *arguments: Any) -> Self: ...",
+        "    def _freeze(self: Self, why: str) -> Self: ...",
+        "    def _snapshot(self: Self, why: str) -> Self: ...",
     ]
     thing: Any
     for name, thing in vars(values).items():
@@ -154,8 +158,9 @@ def stub() -> str:
         if issubclass(thing, Struct):
             lines += ["", *_struct(name, thing)]
         else:
-            lines += ["", f"class {name}(enum.IntEnum):", *_doc(thing.__doc__)]
             members: Any = thing
+            lines += ["", *_names(name, [member.name.lower() for member in members])]
+            lines += ["", f"class {name}(enum.IntEnum):", *_doc(thing.__doc__)]
             lines += [f"    {member.name} = {member.value}" for member in members]
     return f"{NOTICE}{STUB_DOC}\n" + "\n".join(lines) + "\n"
 
@@ -166,22 +171,33 @@ def _struct(name: str, struct: Any) -> Iterator[str]:
     yield from _doc(struct.__doc__)
     for field, type_name in types.items():
         yield f"    {field}: {type_name}"
-    keywords = [f"{field}: {type_name} = ..." for field, type_name in types.items()]
+    given = {"float": "SupportsFloat", "int": "SupportsIndex", "Vector": "GivenVector"}
+    keywords = [f"{field}: {given.get(kind, kind)} = ..." for field, kind in types.items()]
     if struct._has_init:
         yield from _function("__init__", ["self", "*", *keywords], "None")
         yield from _function("set", ["self", "*", *keywords], "None")
     for method_name, method in vars(struct).items():
         if not isinstance(method, classmethod) or method_name.startswith("_"):
             continue
-        explicit = []
-        for parameter in list(inspect.signature(method.__func__).parameters.values())[1:]:
-            if parameter.kind is not parameter.VAR_KEYWORD:
-                default = "" if parameter.default is parameter.empty else " = ..."
-                explicit.append(f"{parameter.name}: {_annotation(parameter.annotation)}{default}")
-        taken = {"type", *(piece.split(":")[0] for piece in explicit)}
-        rest = [keyword for keyword in keywords if keyword.split(":")[0] not in taken]
+        parameters = list(inspect.signature(method.__func__).parameters.values())[1:]
+        explicit, names = [], set()
+        for parameter in parameters:
+            if parameter.kind is parameter.KEYWORD_ONLY:
+                names.add(parameter.name)
+                continue
+            default = "" if parameter.default is parameter.empty else " = ..."
+            explicit.append(f"{parameter.name}: {_annotation(parameter.annotation)}{default}")
+        rest = [keyword for keyword in keywords if keyword.split(":")[0] in names]
         yield "    @classmethod"
         yield from _function(method_name, ["cls", *explicit, "*", *rest], name, method.__doc__)
+
+
+def _names(name: str, members: list[str]) -> list[str]:
+    """Returns the type of what members may be called."""
+    lines = textwrap.wrap(", ".join(f'"{member}"' for member in members), COLUMNS - 4)
+    if len(lines) == 1 and len(lines[0]) + len(name) + 17 <= COLUMNS:
+        return [f"{name}Name = Literal[{lines[0]}]"]
+    return [f"{name}Name = Literal[", *(f"    {line}" for line in lines), "]"]
 
 
 def _annotation(annotation: Any) -> str:

@@ -47,9 +47,9 @@ class Messages(unittest.TestCase):
             (lambda: crt.Settings(width=2**31), "Settings: width must be a whole", "2147483648"),
             (lambda: crt.Settings(title=1), "Settings: title must be a text", "1"),
             (
-                lambda: crt.Light(type="spot"),
+                lambda: crt.Light(type="sport"),
                 "Light: type must be one of LightType.POINT, ",
-                "'spot'",
+                "'sport'",
             ),
             (lambda: crt.Scene(ball), "Scene: entities must be a list of entities", "Sphere("),
             (lambda: crt.Scene([ball], [ball]), "Scene: lights[0] must be a Light", "Sphere("),
@@ -83,8 +83,22 @@ class Messages(unittest.TestCase):
     def test_of_a_value_that_the_library_refuses(self):
         with self.assertRaisesRegex(crt.Error, "^Sphere: radius must be greater than 0"):
             crt.Sphere(ORIGIN, -1)
+        with self.assertRaisesRegex(crt.Error, "^Sphere: material: color must not have negative"):
+            crt.Sphere(ORIGIN, 1, material=crt.Material(color=(-1, 0, 0)))
         with self.assertRaisesRegex(crt.Error, "^Scene: settings: width must be"):
             crt.Scene(settings=crt.Settings(width=0))
+
+    def test_of_ends_has_the_names_that_they_have_here(self):
+        for primitive in (crt.Cylinder, crt.Cone, crt.Capsule):
+            name, nowhere = primitive.__name__, (0, float("nan"), 0)
+            for start, end, expected in (
+                (ORIGIN, ORIGIN, "end must differ from start$"),
+                (ORIGIN, (1e-200, 0, 0), "end must differ from start by at least"),
+                (nowhere, ORIGIN, "start must be finite"),
+                (ORIGIN, nowhere, "end must be finite"),
+            ):
+                with self.assertRaisesRegex(crt.Error, f"^{name}: {expected}"):
+                    primitive(start, end, 1)
 
     def test_of_a_name_that_there_is_not(self):
         with self.assertRaisesRegex(TypeError, r"Sphere.*unexpected keyword argument 'colour'"):

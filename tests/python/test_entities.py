@@ -159,6 +159,54 @@ class Materials(unittest.TestCase):
         )
 
 
+class Arguments(unittest.TestCase):
+    def test_they_are_read_back(self):
+        red = crt.Material(color=(1, 0, 0), pattern=crt.Pattern.wood(scale=2))
+        cone = crt.Cone((0, 0, 0), np.array([0, 1, 0]), np.float32(2), 1, material=red, id=7)
+        self.assertEqual((cone.start, cone.end), ((0, 0, 0), (0, 1, 0)))
+        self.assertEqual((cone.radius, cone.radius2, cone.id), (2, 1, 7))
+        self.assertEqual(cone.material, red)
+        ball = crt.Sphere((1, 2, 3), 4)
+        self.assertEqual((ball.center, ball.radius), ((1, 2, 3), 4))
+        self.assertEqual((ball.material, ball.id), (None, None))
+
+    def test_they_do_not_change(self):
+        red = crt.Material(color=(1, 0, 0), pattern=crt.Pattern.wood(scale=2))
+        ball = crt.Sphere((1, 2, 3), 4, material=red)
+        red.color, red.pattern.scale = (0, 1, 0), 5
+        self.assertEqual((ball.material.color, ball.material.pattern.scale), ((1, 0, 0), 2))
+        with self.assertRaisesRegex(AttributeError, "crt.Sphere has no 'radius' that can be assig"):
+            ball.radius = 5
+        for change in (
+            lambda: ball.material.set(color=(0, 0, 1)),
+            lambda: ball.material.pattern.set(scale=3),
+            lambda: ball.material.pattern.set(colors=None),
+        ):
+            with self.assertRaisesRegex(AttributeError, "an entity keeps a material of its own"):
+                change()
+
+    def test_a_representation_has_what_is_not_the_default(self):
+        red = crt.Material(color=(1, 0, 0), pattern=crt.Pattern.wood(scale=2))
+        ball = crt.Sphere((1, 2, 3), 4, material=red, id=7)
+        expected = (
+            "Sphere(center=(1, 2, 3), radius=4, material=Material(color=(1, 0, 0),"
+            " pattern=Pattern(type='wood', scale=2)), id=7)"
+        )
+        self.assertEqual(repr(ball), expected)
+        self.assertEqual(
+            repr(ball.moved((1, 0, 0)).with_id(3)),
+            f"<crt.Entity: solid of 1 primitive, {expected}.moved((1, 0, 0)).with_id(3)>",
+        )
+        self.assertEqual(
+            repr((ball - ball).scaled(2)), "<crt.Entity: solid of 2 primitives, .scaled(2)>"
+        )
+        spun = crt.Sphere((0, 0, 0), 1)
+        for _ in range(9):
+            spun = spun.rotated((0, 90, 0))
+        calls = ".rotated((0, 90, 0))" * 3
+        self.assertIn(f"Sphere(center=(0, 0, 0), radius=1) ... {calls}>", repr(spun))
+
+
 class Lifetime(unittest.TestCase):
     def test_a_closed_entity_cannot_be_used_but_what_is_made_of_it_can(self):
         ball = crt.Sphere((0, 0, 0), 1)

@@ -106,14 +106,14 @@ class Pictures(unittest.TestCase):
 class Words(unittest.TestCase):
     def test_a_representation_says_what_it_is(self):
         scene = small_scene(16)
-        ball = crt.Sphere((0, 0.5, 0), 1)
+        ball, disc = crt.Sphere((0, 0.5, 0), 1), crt.Disc((0, 0, 0), (0, 1, 0), 1)
         cases = {
             "Sphere(center=(0, 0.5, 0), radius=1)": ball,
             "Plane(normal=(0, 1, 0), position=(0, 0, 0))": crt.Plane((0, 1, 0)),
             "Mesh(positions=<3 x 3>, indices=<1 x 3>)": crt.Mesh(np.eye(3), [[0, 1, 2]]),
             "Empty()": crt.Empty(),
             "<crt.Entity: solid of 2 primitives>": ball - crt.Box((0, 0, 0), (1, 1, 1)),
-            "<crt.Entity: surface of 1 primitive>": crt.Disc((0, 0, 0), (0, 1, 0), 1).scaled(2),
+            f"<crt.Entity: surface of 1 primitive, {disc!r}.scaled(2)>": disc.scaled(2),
             "<crt.Scene: 1 entity, 1 light, 16 x 16 pixels>": scene,
             "<crt.Prepared: open>": scene.prepare(),
             "<crt.Image: 16 x 16 pixels>": scene.render(),

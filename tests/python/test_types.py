@@ -24,6 +24,26 @@ image: crt.Image = scene.render(progress=True, aovs=["depth"])
 pixels = image.pixels[0, 0, :3].sum()
 job: crt.Job = scene.prepare().start(progress=lambda fraction: fraction < 0.5)
 width: int = job.wait().width
+
+prepared = scene.prepare()
+ray, rays = crt.ray((0, 0, -5), (0, 0, 1)), crt.rays((0, 0, 0), np.eye(3))
+first: float = prepared.crossings(ray)["t"][0]
+for crossings in (prepared.crossings(rays), prepared.crossings(np.zeros((3, 8)))):
+    total: int = crossings.counts.sum()
+distances, ids = prepared.distances(rays)
+farthest: np.float64 = distances.max()
+lengths = prepared.inside_lengths(rays) * np.linalg.norm(rays["direction"], axis=-1)
+is_hit = ids != crt.NO_ENTITY
+
+balls: list[crt.Sphere] = [crt.Sphere((0, 0, 0), np.float32(0.5), id=np.uint8(3))]
+scene.entities = balls
+scene.entities = (balls[0], crt.Empty())
+scene.lights = (light for light in [crt.Light.spot(angle=np.float32(0.5))])
+scene.entities.append(balls[0].scaled(np.float32(2)).moved((np.float32(1), 2, 3)))
+scene.settings.set(width=np.int32(9), gamma=np.float32(2.2), precision="exact")
+scene.settings.precision = "exact"
+x: float = balls[0].center[0] + balls[0].radius
+number: int | None = balls[0].id
 """
 
 # Each line is a mistake, in which the checker has to name what stands behind it.
@@ -39,6 +59,12 @@ crt.Scene().camera.fow  # "fow"
 crt.Scene().settings.width = "wide"  # "int"
 crt.Scene().render(treads=1)  # "treads"
 crt.Scene.from_file(1)  # "from_file"
+crt.Sphere((0, 0, 0), 1).radius = 2  # "NoReturn"
+crt.Sphere((0, 0, 0), 1).center.real  # "real"
+crt.Scene().entities = [1]  # List item 0
+crt.Scene().settings.set(precision="exakt")  # Literal
+crt.Scene().prepare().occluded(crt.rays(1)).foo  # "foo"
+crt.Scene().prepare().crossings(crt.rays(1)).foo  # "foo"
 """
 
 

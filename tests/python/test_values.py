@@ -1,6 +1,7 @@
 """These tests check materials, lights, cameras, backgrounds and settings."""
 
 import copy
+import inspect
 import math
 import unittest
 
@@ -103,6 +104,36 @@ class Values(unittest.TestCase):
         for mistake in mistakes:
             with self.assertRaises(TypeError):
                 mistake()
+
+    def test_members_of_enumerations_have_names(self):
+        settings = crt.Settings(precision="exact", filter="Blackman_Harris")
+        self.assertIs(settings.precision, crt.Precision.EXACT)
+        self.assertIs(settings.filter, crt.PixelFilter.BLACKMAN_HARRIS)
+        settings.precision = "standard"
+        self.assertIs(settings.precision, crt.Precision.STANDARD)
+        with self.assertRaisesRegex(TypeError, "precision must be one of Precision.STANDARD, "):
+            settings.precision = "exakt"
+
+    def test_dir_and_signatures_have_the_fields_that_mean_something(self):
+        names = dir(crt.Settings())
+        self.assertTrue({"width", "compat", "set"} <= set(names))
+        self.assertEqual([n for n in names if n.startswith(("reserved", "struct_size"))], [])
+        spot = list(inspect.signature(crt.Light.spot).parameters)
+        self.assertEqual(spot[:3], ["origin", "pointing", "color"])
+        self.assertNotIn("type", spot)
+        checker = inspect.signature(crt.Pattern.checker).parameters
+        self.assertIs(checker["scale"].kind, inspect.Parameter.KEYWORD_ONLY)
+        self.assertEqual(list(inspect.signature(crt.Pattern.of_image).parameters)[0], "image")
+
+    def test_what_an_image_has_refuses_changes_that_would_be_lost(self):
+        image = crt.Scene(settings=crt.Settings(width=2, height=2)).render()
+        with self.assertRaisesRegex(AttributeError, "gamma cannot be assigned.*with_settings"):
+            image.settings.gamma = 2.2
+        with self.assertRaises(AttributeError):
+            image.stats.camera_rays = 0
+        settings = copy.copy(image.settings)
+        settings.gamma = 2.2
+        self.assertEqual(image.with_settings(settings).settings.gamma, 2.2)
 
     def test_a_representation_says_what_is_in_it(self):
         self.assertIn("fov=0.5", repr(crt.Camera(fov=0.5)))
