@@ -32,8 +32,10 @@ double distance_to(const PreparedScene& scene) {
 TEST_CASE("thousands of small scenes are ready at a time, each with its own answers") {
   constexpr int count = 3000;  // a process has 1024 keys for what belongs to a thread
   std::vector<PreparedScene> scenes;
+  scenes.reserve(count);
   for (int i = 0; i < count; ++i) scenes.push_back(row_of_balls(10 + i, i % 2 == 0 ? 1 : 70));
-  for (int i = 0; i < count; ++i) REQUIRE(distance_to(scenes[i]) == 9 + i);
+  int place = 9;
+  for (const PreparedScene& scene : scenes) REQUIRE(distance_to(scene) == place++);
   const MemoryUse memory = scenes.front().memory();
   CHECK(memory.tree == scenes[2].memory().tree);
   CHECK(scenes[1].memory().tree > memory.tree);
@@ -45,8 +47,9 @@ TEST_CASE("thousands of small scenes are ready at a time, each with its own answ
 
 TEST_CASE("scenes that threads prepare at once report the same memory") {
   const std::uint64_t expected = row_of_balls(10, 100).memory().tree;
-  std::vector<std::thread> threads;
   std::vector<int> wrong(4);
+  std::vector<std::thread> threads;
+  threads.reserve(wrong.size());
   for (int& mine : wrong) {
     threads.emplace_back([&mine, expected] {
       for (int i = 0; i < 200; ++i) {

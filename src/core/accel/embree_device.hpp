@@ -19,7 +19,7 @@ class EmbreeDevice {
   EmbreeDevice(const EmbreeDevice&) = delete;
   EmbreeDevice& operator=(const EmbreeDevice&) = delete;
 
-  operator RTCDevice() const { return device_; }
+  RTCDevice handle() const { return device_; }
 
   /// Throws if a call that this thread has made since the last check has failed.
   void check() const;

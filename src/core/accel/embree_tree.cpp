@@ -123,8 +123,8 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
     };
     floats.push_back({lower(0), lower(1), lower(2), 0, upper(0), upper(1), upper(2), 0});
   }
-  handles->scene = rtcNewScene(device);
-  RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_USER);
+  handles->scene = rtcNewScene(device.handle());
+  RTCGeometry geometry = rtcNewGeometry(device.handle(), RTC_GEOMETRY_TYPE_USER);
   rtcSetGeometryUserPrimitiveCount(geometry, static_cast<unsigned>(boxes.size()));
   rtcSetGeometryUserData(geometry, &handles->things);
   rtcSetGeometryBoundsFunction(geometry, bounds_callback, nullptr);
@@ -145,7 +145,7 @@ EmbreeTree::EmbreeTree(std::span<const Bounds> boxes, const Bounds& total,
   floats = {};
   handles->things.spheres = float_spheres(spheres, center_, scale_);
   handles->takes_sixteen =
-      rtcGetDeviceProperty(device, RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
+      rtcGetDeviceProperty(device.handle(), RTC_DEVICE_PROPERTY_NATIVE_RAY16_SUPPORTED) != 0;
   handles->embree_bytes = boxes.size() < worth_threads
                               ? EmbreeDevice::bytes_of_this_thread() - bytes_before
                               : device.bytes();
