@@ -190,6 +190,7 @@ CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
  * @code{.c}
  * crt_material glass;
  * crt_material_init(&glass, sizeof glass);
+ * glass.color[0] = glass.color[1] = glass.color[2] = 1;
  * glass.transparency = 0.95;
  * glass.refractive_index = 1.5;
  * crt_entity_with_material(sphere, &glass, &glass_sphere);
@@ -264,7 +265,8 @@ typedef struct crt_material {
   double alpha;     /**< in [0, 1]; what is missing to 1 adds to the transparency; default 1 */
   const crt_pattern* pattern; /**< takes the place of the colour; default NULL */
   double reflectivity;        /**< share of light mirrored, in [0, 1]; default 0 */
-  double transparency;        /**< share of light let through, in [0, 1]; default 0 */
+  double transparency;        /**< share of light let through, times the colour at each surface, in
+                                 [0, 1]; default 0 */
   double refractive_index;    /**< of the inside, in [0.01, 100]; default 1 */
   double diffuse;       /**< >= 0, or -1 (default) for max(0, 1 - reflectivity - transparency) */
   double specular;      /**< strength of the highlight, >= 0; default 0 */
@@ -572,7 +574,10 @@ CRT_API void crt_affine_product(const double first[12], const double then[12], d
 /** Makes the entity moved by an affine map with an inverse, after whatever moved it before. */
 CRT_API crt_status crt_entity_with_transform(crt_entity* entity, const double affine[12],
                                              crt_entity** out);
-/** Makes the entity with a material on every part that has none of its own. */
+/**
+ * Makes the entity with a material on every part that has none of its own. A part that has one,
+ * from its maker or from an earlier call, keeps it.
+ */
 CRT_API crt_status crt_entity_with_material(crt_entity* entity, const crt_material* material,
                                             crt_entity** out);
 /**

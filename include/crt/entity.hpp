@@ -42,7 +42,8 @@ class Entity {
   /// not finite.
   Entity transformed(const Transform& transform) const;
 
-  /// Returns this entity with `material` on every part that has no material of its own.
+  /// Returns this entity with `material` on every part that has no material of its own. A part that
+  /// has one, from its maker or from an earlier call, keeps it.
   Entity with_material(SharedMaterial material) const;
 
   /// Returns this entity under a number of the caller's choice, which hits report. Without one,

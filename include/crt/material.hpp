@@ -18,7 +18,8 @@ struct Material {
   /// This is the share of light mirrored, in [0, 1].
   double reflectivity = 0;
   /// This is the share of light let through, in [0, 1]. Fresnel's equations say what part of it is
-  /// mirrored instead.
+  /// mirrored instead. What passes a surface is multiplied by the colour there: clear glass is
+  /// white.
   double transparency = 0;
   /// This is the refractive index of the inside, relative to vacuum, in [0.01, 100]. 1 lets light
   /// through straight.

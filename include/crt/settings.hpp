@@ -45,7 +45,7 @@ struct Settings {
   /// The size is in pixels: each in [1, 65536], together at most 2^27.
   int width = 640;
   int height = 480;
-  /// Files of 8 and 16 bits store clamp(c)^(1/gamma). It is in [0.1, 10].
+  /// Files of 8 bits store clamp(c)^(1/gamma). It is in [0.1, 10].
   double gamma = 1;
   /// There are n x n rays a pixel, with n in [1, 64]. It has no effect with a target error or a
   /// time budget.

@@ -54,6 +54,22 @@ case $kind in
   pkg_config_static)
     with_pkg_config "$static_only" --static
     run_program ./program
+    # Where both libraries are, the static one is named.
+    # shellcheck disable=SC2046 # flags are words
+    PKG_CONFIG_PATH=$moved/$LIBDIR/pkgconfig "$CC" -std=c99 "$consumers/c/program.c" -o program \
+      $(PKG_CONFIG_PATH=$moved/$LIBDIR/pkgconfig pkg-config --static --cflags --libs crt |
+        sed s/-lcrt/-l:libcrt.a/)
+    ! readelf -d ./program | grep -F 'libcrt.so' || fail "the program needs libcrt.so"
+    run_program ./program
+    ;;
+  examples)
+    # Two stand for all, which take long to build.
+    cmake -S "$moved/share/doc/crt/examples" -B . -DCMAKE_PREFIX_PATH="$moved" \
+      -DCMAKE_C_COMPILER="$CC" -DCMAKE_CXX_COMPILER="$CXX" -DCMAKE_BUILD_TYPE=Release \
+      >configure.log 2>&1 || fail "$(cat configure.log)"
+    cmake --build . --target example_queries hello >build.log 2>&1 || fail "$(cat build.log)"
+    [[ -x hello && -x c/queries ]] || fail "the examples are not built"
+    exit
     ;;
   subdirectory)
     # Building all of CRT once more would take too long.

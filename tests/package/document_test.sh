@@ -51,9 +51,7 @@ lines=0
 while IFS= read -r line; do
   lines=$((lines + 1))
   prepare "line_$lines"
-  tree=$moved
-  [[ $line != *--static* ]] || tree=$static_only
-  PKG_CONFIG_PATH=$tree/$LIBDIR/pkgconfig bash -euc "$line" || fail "$line"
-  run_program LD_LIBRARY_PATH="$tree/$LIBDIR" ./my_program
+  PKG_CONFIG_PATH=$moved/$LIBDIR/pkgconfig bash -euc "$line" || fail "$line"
+  run_program LD_LIBRARY_PATH="$moved/$LIBDIR" ./my_program
 done < <(cat "$work"/*.sh | grep '^cc ')
 ((lines == 2)) || fail "$lines lines to compile with in the document, not 2"

@@ -293,6 +293,18 @@ TEST_CASE("transforms that flatten space are refused") {
       Error);
 }
 
+TEST_CASE("a wrong light is named by its place") {
+  Scene scene;
+  scene.lights = {PointLight{}, SpotLight{.angle = -1}};
+  try {
+    prepare(scene);
+    FAIL("the light is accepted");
+  } catch (const Error& error) {
+    CHECK(error.argument() == "lights[1].angle");
+    CHECK(std::string(error.what()).starts_with("lights[1]: angle must be greater than 0"));
+  }
+}
+
 TEST_CASE("a wrong description is refused with the name of the field") {
   const auto argument_of = [](const Scene& scene) {
     try {

@@ -126,6 +126,7 @@ TEST_CASE("a batch of rays is asked once each, on one thread or several") {
 
 TEST_CASE("what the work on a batch throws comes out") {
   const PreparedScene scene = prepare(lit_sphere(60, 40));
+  CHECK_THROWS_AS(query_in_parallel(scene, 10, {}), Error);
   CHECK_THROWS_AS(query_in_parallel(scene, 100'000,
                                     [](RayQueries&, std::size_t first, std::size_t) {
                                       if (first > 0) throw std::out_of_range("the host's own");

@@ -74,6 +74,8 @@ void require_usable(const core::PreciseTransform& transform) {
   double farthest = 0;
   for (int axis = 0; axis < 3; ++axis)
     farthest = std::max(farthest, std::abs(map.translation[axis]));
+  const char* const flat_map = "a transform must not flatten space (it has no inverse)";
+  if (largest == 0) throw Error(ErrorCode::invalid_argument, flat_map, "transform");
   if (!(largest >= smallest_scale && largest <= largest_scale && farthest <= largest_scale)) {
     throw Error(ErrorCode::invalid_argument,
                 "a transform must keep sizes and places between 1e-100 and 1e100", "transform");
@@ -90,10 +92,7 @@ void require_usable(const core::PreciseTransform& transform) {
       for (int axis = 0; axis < 3; ++axis) flat = flat || !(std::abs(v[axis]) <= largest_scale);
     }
   }
-  if (flat) {
-    throw Error(ErrorCode::invalid_argument,
-                "a transform must not flatten space (it has no inverse)", "transform");
-  }
+  if (flat) throw Error(ErrorCode::invalid_argument, flat_map, "transform");
 }
 
 using ChainPointer = std::shared_ptr<const core::TransformChain>;

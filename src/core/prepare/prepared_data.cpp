@@ -1,5 +1,7 @@
 #include "core/prepare/prepared_data.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <chrono>
 #include <climits>
@@ -21,8 +23,19 @@ namespace crt::core {
 
 namespace {
 
+/// Checks a light. An error says which of them it is.
+void check_light(const Light& light, std::size_t index) {
+  try {
+    validate(light);
+  } catch (const Error& error) {
+    const std::string place = fmt::format("lights[{}]", index);
+    throw Error(error.code(), fmt::format("{}: {}", place, error.what()),
+                fmt::format("{}.{}", place, error.argument()));
+  }
+}
+
 void check_scene(const Scene& scene) {
-  for (const Light& light : scene.lights) validate(light);
+  for (std::size_t i = 0; i < scene.lights.size(); ++i) check_light(scene.lights[i], i);
   validate(scene.camera);
   validate(scene.background);
   validate(scene.settings);

@@ -229,6 +229,7 @@ std::vector<Hit> crossings(const PreparedScene& scene, const Ray& ray) {
 
 void query_in_parallel(const PreparedScene& scene, std::size_t count, const RayBatchWork& work,
                        int threads) {
+  if (!work) throw Error(ErrorCode::invalid_argument, "there is no work to do", "work");
   const std::size_t size = core::batch_size(count, core::allowed_threads(threads));
   const std::size_t batches = count / size + (count % size != 0 ? 1 : 0);
   core::answered([&] {
