@@ -36,6 +36,7 @@ from .primitives import (
     Sphere,
     Torus,
     Triangle,
+    load_mesh,
 )
 from .rays import BACKFACE, ENTERING, HIT, RAY, camera_rays, ray, rays
 from .rendering import Prepared
@@ -110,6 +111,7 @@ __all__ = [
     "camera_rays",
     "difference",
     "intersection",
+    "load_mesh",
     "ray",
     "rays",
     "union",

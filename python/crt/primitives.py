@@ -2,6 +2,7 @@
 Entity.with_material and Entity.with_id do."""
 
 import ctypes
+import os
 from typing import Any
 
 import numpy as np
@@ -27,7 +28,19 @@ __all__ = [
     "Sphere",
     "Torus",
     "Triangle",
+    "load_mesh",
 ]
+
+
+def load_mesh(
+    path: str | os.PathLike[str], *, material: Material | None = None, id: int | None = None
+) -> Entity:
+    """Returns the entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is,
+    or else the name. A broken file is a crt.Error with its line or byte."""
+    entity = Entity._adopt(create("crt_mesh_load", _arguments.text(path, "load_mesh: path"), None))
+    if material is not None:
+        entity = entity.with_material(material)
+    return entity if id is None else entity.with_id(id)
 
 
 class _Primitive(Entity):

@@ -30,8 +30,7 @@ double coordinate(const XmlElement& element, std::string_view attribute) {
   const std::optional<double> value = number_of(text);
   const char* const fault = value ? coordinate_fault(*value) : "is no number";
   if (fault != nullptr)
-    throw RefusedMesh(
-        fmt::format("the coordinate {} {} {}", attribute, in_quotes(text), fault));
+    throw RefusedMesh(fmt::format("the coordinate {} {} {}", attribute, in_quotes(text), fault));
   return *value;
 }
 
