@@ -132,9 +132,37 @@ TEST_CASE("a 3MF file cannot grow without bounds or nest without end") {
   CHECK(contains(error(std::string(64 << 20, ' ')), "it unpacks to more than 100 times its size"));
   CHECK(contains(error("<!--" + repeated("abcdefghijk", 500000) + "-->"),
                  "a tag or comment is longer than 4 MB"));
+  CHECK(contains(error(repeated("<a>", 1000)), "line 4: tags are nested more than 100 deep"));
   const std::string entities =
       "<!DOCTYPE m [<!ENTITY a \"aaaaaaaaaa\"><!ENTITY b \"&a;&a;&a;&a;\">]><m>&b;</m>";
   CHECK(contains(decode_error(three_mf(entities)), "it has a document type (DOCTYPE)"));
+}
+
+TEST_CASE("an archive may have its numbers in 64 bits") {
+  const std::string file = three_mf(model(object(1, mesh), item));
+  const std::size_t end = file.size() - 22;
+  const std::size_t list = file.rfind("PK\x01\x02");
+  // The sizes and the place of the only file move into an extra field behind its name.
+  std::string entry = file.substr(list, end - list);
+  const std::string extra = packed(std::uint16_t{1}) + packed(std::uint16_t{24}) +
+                            entry.substr(24, 4) + std::string(4, '\0') + entry.substr(20, 4) +
+                            std::string(4, '\0') + std::string(8, '\0');
+  entry.replace(20, 8, 8, '\xff');
+  entry.replace(30, 2, packed(static_cast<std::uint16_t>(extra.size())));
+  entry.replace(42, 4, 4, '\xff');
+  using U64 = std::uint64_t;
+  const std::string end_64 = "PK\x06\x06" + packed(U64{44}) + std::string(12, '\0') +
+                             packed(U64{1}) + packed(U64{1}) +
+                             packed(U64{entry.size() + extra.size()}) + packed(U64{list});
+  const std::string locator = "PK\x06\x07" + std::string(4, '\0') +
+                              packed(U64{list + entry.size() + extra.size()}) +
+                              packed(std::uint32_t{1});
+  const std::string begin = file.substr(0, list) + entry + extra + end_64;
+  const std::string last =
+      "PK\x05\x06" + std::string(4, '\0') + std::string(12, '\xff') + std::string(2, '\0');
+  CHECK(decode(begin + locator + last).triangles == one);
+  CHECK(decode_error(begin + "PK\x06\x07" + std::string(4, '\0') + std::string(8, '\xff') +
+                     packed(std::uint32_t{1}) + last) != "");
 }
 
 TEST_CASE("a 3MF file that is no good archive is refused") {

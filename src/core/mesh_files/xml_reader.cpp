@@ -43,6 +43,10 @@ struct XmlReader::Callbacks {
 
   static void on_begin(void* user, const XML_Char* name, const XML_Char** attributes) {
     guarded(user, [&](XmlReader& reader) {
+      // Expat keeps each open tag.
+      constexpr int deepest = 100;
+      if (++reader.depth_ > deepest)
+        throw RefusedMesh(fmt::format("tags are nested more than {} deep", deepest));
       XmlElement& element = reader.element_;
       element.name = name_of(name);
       element.attributes.clear();
@@ -52,7 +56,7 @@ struct XmlReader::Callbacks {
     });
   }
   static void on_end(void* user, const XML_Char*) {
-    guarded(user, [](const XmlReader&) {});
+    guarded(user, [](XmlReader& reader) { --reader.depth_; });
   }
   static void on_text(void* user, const XML_Char*, int) {
     guarded(user, [](const XmlReader&) {});

@@ -35,7 +35,7 @@ struct XmlElement {
 
 /// An XmlReader takes a text piece by piece and passes each element on where it begins. Texts
 /// between tags are left alone. A text with a document type is refused, and with it all entities of
-/// its own.
+/// its own. So are tags that nest more deeply than those of any document.
 class XmlReader {
  public:
   using Take = std::function<void(const XmlElement&)>;
@@ -62,6 +62,7 @@ class XmlReader {
   XML_ParserStruct* parser_;
   XmlElement element_;
   std::exception_ptr failure_;     ///< of a callback, which must not throw through Expat
+  int depth_ = 0;                  ///< of open tags
   std::size_t without_event_ = 0;  ///< bytes since the last element or text
 };
 
