@@ -4,6 +4,7 @@ find_package(glm REQUIRED)
 find_package(fmt REQUIRED)
 find_package(TBB REQUIRED)
 find_package(ZLIB REQUIRED)
+find_package(EXPAT REQUIRED)
 
 # This takes Embree 4 if it is installed, else 3. src/core/accel/ compiles with both.
 find_package(embree 4 QUIET)

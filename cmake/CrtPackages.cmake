@@ -41,7 +41,7 @@ module for image files.")
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_NAME libcrt-dev)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_SECTION libdevel)
 set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS
-  "libglm-dev, libfmt-dev, libtbb-dev, libembree-dev, zlib1g-dev")
+  "libglm-dev, libfmt-dev, libtbb-dev, libembree-dev, zlib1g-dev, libexpat1-dev")
 set(CPACK_COMPONENT_DEVELOPMENT_DESCRIPTION "ray tracer of analytic solids: development files
 ${about}
 .

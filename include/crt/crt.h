@@ -702,7 +702,7 @@ enum {
 };
 
 /**
- * Is called for each file that a script imports or shows, before the file system is asked. The
+ * Is called for each file that a script names, before the file system is asked. The
  * thread that runs the script calls it.
  * @param path  where the file would be: the script's directory or a resource directory, and its
  *   name
@@ -775,6 +775,19 @@ CRT_API crt_status crt_scene_from_script(const char* text, size_t length, const 
 /** Runs a script from a file, otherwise as crt_scene_from_script() does. */
 CRT_API crt_status crt_scene_from_script_file(const char* path, const crt_script_options* options,
                                               crt_diagnostics** diagnostics, crt_scene** out);
+
+/**
+ * Makes an entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is, or else
+ * the name. Only positions and faces are read, in the file's own numbers. Vertices with equal
+ * coordinates become one, and triangles with two equal corners are left out.
+ * @param path     where the file is
+ * @param options  NULL opens the file of that path. With options, the file is looked for like those
+ *                 of a script in the current directory: resource_directories, allow_outside_files
+ *                 and open_file count, the others do not.
+ * @return CRT_ERROR_IO if there is no such file or it is broken; the message has the line or byte
+ */
+CRT_API crt_status crt_mesh_load(const char* path, const crt_script_options* options,
+                                 crt_entity** out);
 
 /** Says how bad a diagnostic is. */
 typedef enum crt_severity { CRT_SEVERITY_WARNING = 0, CRT_SEVERITY_ERROR } crt_severity;

@@ -65,8 +65,8 @@ struct ScriptLimits {
 
 /// Says what a script may see and use. The defaults let it read files in its own directory alone.
 struct ScriptOptions {
-  /// Images and imports are looked for in these after the script's own directory. A path with a
-  /// leading '/' is looked for in these alone.
+  /// Imports, images and meshes are looked for in these after the script's own directory. A path
+  /// with a leading '/' is looked for in these alone.
   std::vector<std::filesystem::path> resource_directories{};
   /// Lets paths leave those directories.
   bool allow_outside_files = false;
@@ -107,5 +107,11 @@ ScriptResult run_script(std::string_view text, const std::string& name,
 
 /// Runs the script in a file. A missing file is a diagnostic with ErrorCode::io.
 ScriptResult run_script_file(const std::filesystem::path& path, const ScriptOptions& options = {});
+
+/// Makes an entity of a mesh file that is found as the files of a script in the current directory
+/// are: there, in the resource directories or by open_file(), and nowhere else unless the options
+/// allow it. Throws Error (io) if there is none, and as load_mesh() in crt/mesh_file.hpp does. What
+/// open_file() throws comes out.
+Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options);
 
 }  // namespace crt

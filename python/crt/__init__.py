@@ -36,6 +36,7 @@ from .primitives import (
     Sphere,
     Torus,
     Triangle,
+    load_mesh,
 )
 from .rays import BACKFACE, ENTERING, HIT, NO_ENTITY, RAY, camera_rays, ray, rays
 from .rendering import Prepared
@@ -112,6 +113,7 @@ __all__ = [
     "camera_rays",
     "difference",
     "intersection",
+    "load_mesh",
     "ray",
     "rays",
     "union",

@@ -224,6 +224,12 @@ FUNCTIONS = {
         "crt_diagnostics** diagnostics",
         "crt_scene** out",
     ),
+    "crt_mesh_load": (
+        "crt_status",
+        "const char* path",
+        "const crt_script_options* options",
+        "crt_entity** out",
+    ),
     "crt_diagnostics_count": ("size_t", "const crt_diagnostics* diagnostics"),
     "crt_diagnostics_get": (
         "crt_status",

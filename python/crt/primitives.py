@@ -2,6 +2,7 @@
 Entity.with_material and Entity.with_id do."""
 
 import ctypes
+import os
 from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
 
 import numpy as np
@@ -28,6 +29,7 @@ __all__ = [
     "Sphere",
     "Torus",
     "Triangle",
+    "load_mesh",
 ]
 
 
@@ -59,6 +61,17 @@ class _Given(Generic[T]):
     def __set__(self, primitive: "_Primitive", value: NoReturn) -> NoReturn:
         name = type(primitive).__name__
         raise AttributeError(f"a crt.{name} has no {self._name!r} that can be assigned")
+
+
+def load_mesh(
+    path: str | os.PathLike[str], *, material: Material | None = None, id: int | None = None
+) -> Entity:
+    """Returns the entity of a mesh file: OBJ, PLY, STL, 3MF or OFF. The content shows which it is,
+    or else the name. A broken file is a crt.Error with its line or byte."""
+    entity = Entity._adopt(create("crt_mesh_load", _arguments.text(path, "load_mesh: path"), None))
+    if material is not None:
+        entity = entity.with_material(material)
+    return entity if id is None else entity.with_id(id)
 
 
 class _Primitive(Entity):

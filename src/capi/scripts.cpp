@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "capi/structs.hpp"
+#include "crt/mesh_file.hpp"
 #include "crt/script.hpp"
 
 namespace crt::capi {
@@ -189,6 +190,15 @@ crt_status crt_scene_from_script_file(const char* path, const crt_script_options
     require(path, "path");
     require(out, "out");
     hand_out(crt::run_script_file(path, to_options(options)), diagnostics, out);
+  });
+}
+
+crt_status crt_mesh_load(const char* path, const crt_script_options* options, crt_entity** out) {
+  return guarded([&] {
+    require(path, "path");
+    require(out, "out");
+    *out = new crt_entity(options == nullptr ? crt::load_mesh(path)
+                                             : crt::load_mesh(path, to_options(options)));
   });
 }
 

@@ -57,7 +57,7 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request) {
                   }});
   rows.push_back({.names = "--resources",
                   .type = "FOLDER",
-                  .help = "a folder where images and imports are looked for, too (repeatable)",
+                  .help = "a folder where imports, images and meshes are found, too (repeatable)",
                   .take =
                       [&script](const std::string& folder) {
                         if (std::error_code unreachable;

@@ -178,6 +178,12 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Image>&
   field = context.files.image(name, directory, given.value_span, context.reporter);
 }
 
+void convert(const Given& given, Context& context, std::shared_ptr<const Entity>& field) {
+  const std::string& name = get<String>(given)->text;
+  const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
+  field = context.files.mesh(name, directory, given.value_span);
+}
+
 void convert(const Given& given, Context&, Projection& field) {
   using enum Projection;
   using Choice = std::pair<std::string_view, Projection>;

@@ -33,6 +33,7 @@ void convert(const Given& given, Context& context, std::vector<ColorStop>& field
 void convert(const Given& given, Context& context, ImageMapping& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
+void convert(const Given& given, Context& context, std::shared_ptr<const Entity>& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
@@ -91,6 +92,9 @@ constexpr std::string_view type_text(const SharedMaterial*) {
   return "Material";
 }
 constexpr std::string_view type_text(const std::shared_ptr<const Image>*) {
+  return "String";
+}
+constexpr std::string_view type_text(const std::shared_ptr<const Entity>*) {
   return "String";
 }
 constexpr std::string_view type_text(const Projection*) {

@@ -9,6 +9,7 @@
 #include <system_error>
 #include <utility>
 
+#include "crt/mesh_file.hpp"
 #include "lang/utf8.hpp"
 
 namespace crt::lang {
@@ -153,6 +154,21 @@ std::shared_ptr<const Image> Files::image(const std::string& name, const fs::pat
     }
   }
   return image;
+}
+
+std::shared_ptr<const Entity> Files::mesh(const std::string& name, const fs::path& directory,
+                                          Span span) {
+  const Found found = find(name, directory, span);
+  std::shared_ptr<const Entity>& mesh = meshes_[found.path];
+  if (!mesh) {
+    try {
+      mesh = std::make_shared<const Entity>(
+          found.content ? load_mesh(*found.content, found.shown.string()) : load_mesh(found.shown));
+    } catch (const Error& error) {
+      throw Failure{.span = span, .message = printable(error.what()), .code = error.code()};
+    }
+  }
+  return mesh;
 }
 
 std::optional<std::string> read_regular_file(const fs::path& path, std::size_t most_bytes) {

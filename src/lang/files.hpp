@@ -1,5 +1,5 @@
-// A script may reach these files: imports and images, in its own directory and those that the
-// caller lists, and nowhere else.
+// A script may reach these files: imports, images and meshes, in its own directory and those that
+// the caller lists, and nowhere else.
 #pragma once
 
 #include <filesystem>
@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "crt/entity.hpp"
 #include "crt/image.hpp"
 #include "crt/script.hpp"
 #include "lang/reporter.hpp"
@@ -45,6 +46,10 @@ class Files {
                                      const std::filesystem::path& directory, Span span,
                                      Reporter& reporter);
 
+  /// Returns the entity of a mesh file, which is read once a run.
+  std::shared_ptr<const Entity> mesh(const std::string& name,
+                                     const std::filesystem::path& directory, Span span);
+
  private:
   std::vector<std::filesystem::path> candidates(const std::string& name,
                                                 const std::filesystem::path& directory) const;
@@ -54,6 +59,7 @@ class Files {
   const ScriptOptions& options_;
   std::filesystem::path script_directory_;
   std::map<std::filesystem::path, std::shared_ptr<const Image>> images_;
+  std::map<std::filesystem::path, std::shared_ptr<const Entity>> meshes_;
 };
 
 /// Returns the whole of a regular file, or nothing if it cannot be read or has more than

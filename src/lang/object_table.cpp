@@ -41,6 +41,17 @@ ObjectType entity(std::string_view name, std::vector<AttributeType> attributes) 
       });
 }
 
+/// A MeshOfFile is an entity whose shape is in a file.
+struct MeshOfFile {
+  std::shared_ptr<const Entity> file;
+  std::optional<SharedMaterial> material;
+};
+
+Value finish_mesh(MeshOfFile mesh, const ObjectSite& site) {
+  site.context.count_made(site.name_span);
+  return mesh.material ? mesh.file->with_material(*mesh.material) : *mesh.file;
+}
+
 std::vector<ObjectType> entities() {
   return {
       entity<Sphere>("Sphere",
@@ -67,6 +78,10 @@ std::vector<ObjectType> entities() {
                             required("radius", &Disc::radius)}),
       entity<Triangle>("Triangle", {required("a", &Triangle::a), required("b", &Triangle::b),
                                     required("c", &Triangle::c)}),
+      object<MeshOfFile>("Mesh",
+                         {required("file", &MeshOfFile::file),
+                          attribute("material", &MeshOfFile::material, "a grey of 0.5")},
+                         finish_mesh),
   };
 }
 

@@ -34,7 +34,7 @@ grep -qF 'soname: [libcrt.so.1]' dynamic.txt || fail "the soname is not libcrt.s
 ! grep TEXTREL dynamic.txt || fail "its code is changed when it is loaded"
 
 allowed='libembree[34]\.so\.[0-9]+|libtbb\.so\.[0-9]+|libfmt\.so\.[0-9]+|libstdc\+\+\.so\.6'
-allowed+='|libz\.so\.1|libm\.so\.6|libgcc_s\.so\.1|libc\.so\.6|ld-linux.*'
+allowed+='|libz\.so\.1|libexpat\.so\.1|libm\.so\.6|libgcc_s\.so\.1|libc\.so\.6|ld-linux.*'
 [[ -z ${SANITIZE:-} ]] || allowed+='|lib(a|ub|t)san\.so\.[0-9]+'
 grep -oP 'NEEDED.*\[\K[^]]+' dynamic.txt >needed.txt
 ! grep -vxE "$allowed" needed.txt || fail "libcrt.so is not to need these"

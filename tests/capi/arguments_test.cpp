@@ -75,6 +75,8 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
       {"positions", [&] { return crt_mesh_create(nullptr, 3, triangle_indices(), 1, &entity); }},
       {"indices", [&] { return crt_mesh_create(z, 1, nullptr, 1, &entity); }},
+      {"path", [&] { return crt_mesh_load(nullptr, nullptr, &entity); }},
+      {"out", [&] { return crt_mesh_load("a.obj", nullptr, nullptr); }},
       {"parts", [&] { return crt_union_create(nullptr, 1, &entity); }},
       {"parts", [&] { return crt_union_create(nothing, 1, &entity); }},
       {"parts", [&] { return crt_intersection_create(nothing, 1, &entity); }},

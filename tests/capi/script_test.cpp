@@ -1,10 +1,12 @@
 // These tests run scripts through the C interface: options, callbacks, diagnostics.
 #include <cstring>
+#include <fstream>
 #include <map>
 #include <string>
 #include <vector>
 
 #include "support.hpp"
+#include "support/temporary_directory.hpp"
 
 using namespace crt::test;
 
@@ -220,4 +222,31 @@ TEST_CASE("a script sees no files outside its directory unless it may") {
   given.resource_directory_count = 1;
   CHECK(run(text, &given).status == CRT_ERROR_INVALID_ARGUMENT);
   CHECK(says("resource_directories"));
+}
+
+TEST_CASE("a mesh file becomes an entity, and a broken one is an error with its line") {
+  const TemporaryDirectory folder;
+  const std::string good = (folder / "good.off").string();
+  const std::string broken = (folder / "broken.off").string();
+  std::ofstream(good) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n";
+  std::ofstream(broken) << "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 3\n";
+  crt_entity* entity = nullptr;
+  CHECK(crt_mesh_load(broken.c_str(), nullptr, &entity) == CRT_ERROR_IO);
+  CHECK(says("line 6: a corner is '3'"));
+  CHECK(crt_mesh_load("none.off", nullptr, &entity) == CRT_ERROR_IO);
+  CHECK(entity == nullptr);
+  const EntityHandle mesh = made<EntityHandle>(
+      [&](crt_entity** out) { return crt_mesh_load(good.c_str(), nullptr, out); });
+
+  // With options, files are found as those of scripts are.
+  crt_script_options given = options();
+  CHECK(crt_mesh_load(good.c_str(), &given, &entity) == CRT_ERROR_IO);
+  CHECK(says("a leading '/' means a resource directory"));
+  const std::string directory = folder.path().string();
+  const char* const directories[] = {directory.c_str()};
+  given.resource_directories = directories;
+  given.resource_directory_count = 1;
+  made<EntityHandle>([&](crt_entity** out) { return crt_mesh_load("good.off", &given, out); });
+  CHECK(crt_mesh_load("../good.off", &given, &entity) == CRT_ERROR_IO);
+  CHECK(says("lies outside the directories"));
 }

@@ -45,7 +45,7 @@ recorded='^tests/abi/(1\.0|older/older_crt\.h)' # kept as it was released
 
 # A folder of src/core uses those before it in this list, and itself.
 layers=(base simd math ray tasks sampling geometry csg shading camera compile accel intersect
-  prepare render image)
+  prepare render image mesh_files)
 check_layers() {
   local position later
   for position in "${!layers[@]}"; do
@@ -180,7 +180,9 @@ only_in 'embree' src/core/accel | complain "Embree outside src/core/accel"
 only_in 'tbb|oneapi/tbb' src/core/tasks src/core/accel |
   complain "TBB outside src/core/tasks and src/core/accel"
 only_in 'png\.h' python/native | complain "libpng outside python/native"
-only_in 'zlib' src/core/image | complain "zlib outside src/core/image"
+only_in 'zlib' src/core/image src/core/mesh_files |
+  complain "zlib outside src/core/image and src/core/mesh_files"
+only_in 'expat' src/core/mesh_files | complain "Expat outside src/core/mesh_files"
 only_in 'OpenImageIO' src/core/image | complain "OpenImageIO outside src/core/image"
 lines_with '^#include <CLI/' "${code[@]}" | without '^src/cli/options.cpp:' |
   complain "CLI11 outside src/cli/options.cpp: one source is enough to wait for"

@@ -282,6 +282,31 @@ TEST_CASE("an image can come from open_file") {
   CHECK(std::get<crt::PanoramaBackground>(result.result.scene->background).image->width() == 3);
 }
 
+TEST_CASE("a mesh is read once a run, and can come from open_file") {
+  const Folder folder;
+  folder.write("work/one.off", "OFF\n3 1 0\n0 0 0\n1 0 0\n0 1 0\n3 0 1 2\n");
+  const std::string two_meshes =
+      "Scene { Mesh { file -> \"one.off\" } Mesh { file -> \"./one.off\" } }";
+  const fs::path script = folder.write("work/scene.crt", two_meshes);
+  const crt::ScriptResult result = crt::run_script_file(script);
+  REQUIRE(result.scene);
+  const std::vector<crt::Entity>& entities = result.scene->entities;
+  REQUIRE(entities.size() == 2);
+  CHECK(entities[0].shared_node() == entities[1].shared_node());
+
+  ScriptOptions options;
+  options.open_file = [](const fs::path& path) -> std::optional<std::vector<std::byte>> {
+    if (path != "folder/there.obj") return std::nullopt;
+    const std::string bytes = "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n";
+    const auto* begin = reinterpret_cast<const std::byte*>(bytes.data());
+    return std::vector<std::byte>(begin, begin + bytes.size());
+  };
+  CHECK(
+      crt::test::run("Scene { Mesh { file -> \"there.obj\" } }", options, "folder/scene.crt").ok());
+  CHECK(crt::load_mesh("folder/there.obj", options).primitive_count() > 0);
+  CHECK_THROWS_AS(crt::load_mesh("folder/none.obj", options), crt::Error);
+}
+
 TEST_CASE("a script file that is missing is a diagnostic of its own") {
   const crt::ScriptResult result = crt::run_script_file("no/such/script.crt");
   CHECK_FALSE(result.scene);

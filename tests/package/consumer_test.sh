@@ -32,7 +32,7 @@ with_pkg_config() {
 
 # This stands for a machine that has libcrt-dev and none of what the C++ libraries need.
 without_dependencies=()
-for package in glm fmt TBB embree ZLIB OpenImageIO Threads; do
+for package in glm fmt TBB embree ZLIB EXPAT OpenImageIO Threads; do
   without_dependencies+=("-DCMAKE_DISABLE_FIND_PACKAGE_$package=ON")
 done
 

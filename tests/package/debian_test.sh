@@ -48,7 +48,7 @@ expect_field "$library" Depends 'libembree[34]-[34]' 'libtbb12' 'libfmt' 'libope
   'libstdc\+\+6'
 expect_field libcrt-dev Depends "^$library \(= [0-9.]+\)$"
 expect_field libcrt-dev Recommends libglm-dev libfmt-dev libtbb-dev libembree-dev \
-  zlib1g-dev
+  zlib1g-dev libexpat1-dev
 expect_field crt Depends "$library \(= [0-9.]+\)" 'libembree' 'libtbb12' 'libc6'
 expect_field "$library" Description '^ray tracer .*library'
 expect_field libcrt-dev Description '^ray tracer .*development'

@@ -1,5 +1,7 @@
 """These tests check where entities are, and what operators make of them."""
 
+import pathlib
+import tempfile
 import unittest
 
 import numpy as np
@@ -50,6 +52,16 @@ class Primitives(unittest.TestCase):
         for wrong in ([[0, 1, 3]], [[0, 1, -1]], [[0.0, 1.0, 2.0]], [0, 1, 2]):
             with self.assertRaises(ValueError):
                 crt.Mesh(corners, wrong)
+
+    def test_a_mesh_file_is_read_and_a_broken_one_says_where(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder, "one.obj")
+            path.write_text("v 1 -1 -1\nv 1 2 -1\nv 1 0 2\nf 1 2 3\n")
+            mesh = crt.load_mesh(path, material=crt.Material(), id=7)
+            self.assertEqual(crossings(mesh), [6])
+            path.write_text("v 1 -1 -1\nf 1 2 3\n")
+            with self.assertRaisesRegex(crt.Error, "line 2: there is no vertex 2"):
+                crt.load_mesh(str(path))
 
     def test_what_cannot_be_is_an_error_that_says_so(self):
         with self.assertRaisesRegex(crt.Error, "radius"):

@@ -1,0 +1,260 @@
+// Reads the rows of PLY files: see ply_header.hpp.
+#include <fmt/format.h>
+
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "core/mesh_files/binary_numbers.hpp"
+#include "core/mesh_files/ply_header.hpp"
+#include "core/mesh_files/readers.hpp"
+#include "core/mesh_files/refused_mesh.hpp"
+#include "core/mesh_files/text_cursor.hpp"
+
+namespace crt::core {
+
+namespace {
+
+/// A TextRows gives the numbers of a text. Their types mean nothing: what is written counts.
+class TextRows {
+ public:
+  TextRows(std::string_view content, const PlyHeader& header)
+      : cursor_(content.substr(header.size), {}, header.lines + 1) {}
+
+  double next(PlyType) { return cursor_.number("a number"); }
+  void skip(PlyType type, std::uint64_t count) {
+    for (std::uint64_t i = 0; i < count; ++i) next(type);
+  }
+  /// Returns how many numbers may follow at most. Each has a digit and a blank behind it.
+  std::uint64_t most_left(PlyType) const { return (cursor_.rest().size() + 1) / 2; }
+  bool at_end() { return cursor_.at_end(); }
+  [[noreturn]] void refuse(const std::string& reason) const { refuse_line(cursor_.line(), reason); }
+
+ private:
+  TextCursor cursor_;
+};
+
+/// A BinaryRows gives the numbers of a binary file.
+class BinaryRows {
+ public:
+  BinaryRows(std::string_view content, const PlyHeader& header)
+      : content_(content),
+        order_(header.binary.value_or(std::endian::native)),
+        place_(header.size),
+        last_(header.size) {}
+
+  double next(PlyType type) {
+    using enum PlyType;
+    last_ = place_;
+    skip(type, 1);
+    switch (type) {
+      case int8:
+        return get<std::int8_t>();
+      case uint8:
+        return get<std::uint8_t>();
+      case int16:
+        return get<std::int16_t>();
+      case uint16:
+        return get<std::uint16_t>();
+      case int32:
+        return get<std::int32_t>();
+      case uint32:
+        return get<std::uint32_t>();
+      case float32:
+        return static_cast<double>(get<float>());
+      case float64:
+        break;
+    }
+    return get<double>();
+  }
+  void skip(PlyType type, std::uint64_t count) {
+    if (count > most_left(type)) refuse_byte(content_.size(), "the file ends within its rows");
+    place_ += size_of(type) * count;
+  }
+  std::uint64_t most_left(PlyType type) const { return (content_.size() - place_) / size_of(type); }
+  /// Says whether nothing follows. Some programs end the file like a text.
+  bool at_end() const {
+    return content_.find_first_not_of(" \r\n", place_) == std::string_view::npos;
+  }
+  [[noreturn]] void refuse(const std::string& reason) const { refuse_byte(last_, reason); }
+
+ private:
+  template <class Number>
+  Number get() const {
+    return number_at<Number>(content_, last_, order_);
+  }
+
+  std::string_view content_;
+  std::endian order_;
+  std::size_t place_;
+  std::size_t last_;  ///< where the last number begins
+};
+
+/// Returns the property of one of these names, or nothing.
+std::optional<std::size_t> find_property(const PlyElement& element,
+                                         std::initializer_list<std::string_view> names) {
+  for (std::size_t i = 0; i < element.properties.size(); ++i) {
+    for (const std::string_view name : names) {
+      if (element.properties[i].name == name) return i;
+    }
+  }
+  return {};
+}
+
+/// A PlyReader reads the elements of a file one after the other.
+template <class Rows>
+class PlyReader {
+ public:
+  PlyReader(Rows rows, MeshBuilder& mesh) : rows_(std::move(rows)), mesh_(mesh) {}
+
+  void read(const PlyHeader& header) {
+    bool has_vertices = false;
+    bool has_faces = false;
+    for (const PlyElement& element : header.elements) {
+      check_count(element);
+      if (element.name == "vertex") {
+        if (has_faces)
+          rows_.refuse("its faces stand before its vertices; CRT reads vertices first");
+        read_vertices(element);
+        has_vertices = true;
+      } else if (element.name == "face") {
+        read_faces(element);
+        has_faces = true;
+      } else {
+        skip_rows(element);
+      }
+    }
+    if (!has_vertices) throw RefusedMesh("it has no element 'vertex'");
+    if (!has_faces) throw RefusedMesh("it has no element 'face', so it has points and no surface");
+    if (!rows_.at_end()) rows_.refuse("after this there is more than the header says");
+  }
+
+ private:
+  /// Refuses what the rest of the file cannot hold. So the header's claims cost nothing.
+  void check_count(const PlyElement& element) {
+    if (element.count == 0 || element.properties.empty()) return;
+    // A row has at least a number for each property. One of 8 bytes stands for the others.
+    std::uint64_t most = std::numeric_limits<std::uint64_t>::max();
+    for (const PlyProperty& property : element.properties)
+      most = std::min(most, rows_.most_left(property.count_type.value_or(property.type)));
+    if (element.count > most) {
+      rows_.refuse(
+          fmt::format("the header says that there are {} rows of {}, and the file has "
+                      "room for {} at most",
+                      element.count, in_quotes(element.name), most));
+    }
+  }
+
+  void skip_property(const PlyProperty& property) {
+    if (property.count_type) {
+      rows_.skip(property.type, read_count(property));
+    } else {
+      rows_.skip(property.type, 1);
+    }
+  }
+
+  void skip_rows(const PlyElement& element) {
+    if (element.properties.empty()) return;
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      for (const PlyProperty& property : element.properties) skip_property(property);
+    }
+  }
+
+  std::uint64_t read_count(const PlyProperty& property) {
+    const double count = rows_.next(*property.count_type);
+    if (!(count >= 0) || count != std::floor(count))
+      rows_.refuse(fmt::format("a list of {} numbers: it should be a whole number from 0", count));
+    const std::uint64_t most = rows_.most_left(property.type);
+    if (count > static_cast<double>(most)) {
+      rows_.refuse(
+          fmt::format("a list of {} numbers, and the file has room for {} at most", count, most));
+    }
+    return static_cast<std::uint64_t>(count);
+  }
+
+  void read_vertices(const PlyElement& element) {
+    std::array<std::size_t, 3> places{};
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      const std::string_view name = std::string_view("xyz").substr(axis, 1);
+      const std::optional<std::size_t> place = find_property(element, {name});
+      if (!place || element.properties[*place].count_type)
+        throw RefusedMesh(fmt::format("its vertices have no property {}", in_quotes(name)));
+      places[axis] = *place;
+    }
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      Vec3 position{};
+      for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        const auto* const place = std::find(places.begin(), places.end(), i);
+        if (place == places.end()) {
+          skip_property(element.properties[i]);
+        } else {
+          position[static_cast<int>(place - places.begin())] = coordinate(element.properties[i]);
+        }
+      }
+      mesh_.add_position(position);
+    }
+  }
+
+  double coordinate(const PlyProperty& property) {
+    const double value = rows_.next(property.type);
+    if (const char* const fault = coordinate_fault(value))
+      rows_.refuse(fmt::format("the coordinate {} of a vertex {}", property.name, fault));
+    return value;
+  }
+
+  void read_faces(const PlyElement& element) {
+    const std::optional<std::size_t> place =
+        find_property(element, {"vertex_indices", "vertex_index"});
+    if (!place || !element.properties[*place].count_type)
+      throw RefusedMesh("its faces have no list 'vertex_indices'");
+    for (std::uint64_t row = 0; row < element.count; ++row) {
+      for (std::size_t i = 0; i < element.properties.size(); ++i) {
+        if (i == *place) {
+          read_face(element.properties[i]);
+        } else {
+          skip_property(element.properties[i]);
+        }
+      }
+    }
+  }
+
+  void read_face(const PlyProperty& property) {
+    const std::uint64_t count = read_count(property);
+    if (count < 3)
+      rows_.refuse(fmt::format("a face needs at least three corners, and here are {}", count));
+    corners_.clear();
+    for (std::uint64_t i = 0; i < count; ++i) {
+      const double index = rows_.next(property.type);
+      if (!(index >= 0 && index < static_cast<double>(mesh_.position_count())) ||
+          index != std::floor(index)) {
+        rows_.refuse(
+            fmt::format("a corner is vertex {}; it should be a whole number from 0, less "
+                        "than {}",
+                        index, mesh_.position_count()));
+      }
+      corners_.push_back(static_cast<std::uint32_t>(index));
+    }
+    mesh_.add_face(corners_);
+  }
+
+  Rows rows_;
+  MeshBuilder& mesh_;
+  std::vector<std::uint32_t> corners_;
+};
+
+}  // namespace
+
+void read_ply(std::string_view content, MeshBuilder& mesh) {
+  const PlyHeader header = read_ply_header(content);
+  if (header.binary) {
+    PlyReader(BinaryRows(content, header), mesh).read(header);
+  } else {
+    PlyReader(TextRows(content, header), mesh).read(header);
+  }
+}
+
+}  // namespace crt::core

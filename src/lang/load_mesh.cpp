@@ -1,0 +1,16 @@
+// Finds mesh files for programs as for scripts.
+#include "crt/script.hpp"
+#include "lang/files.hpp"
+
+namespace crt {
+
+Entity load_mesh(const std::filesystem::path& path, const ScriptOptions& options) {
+  lang::Files files(options);
+  try {
+    return *files.mesh(path.string(), {}, {});
+  } catch (const lang::Failure& failure) {
+    throw Error(failure.code, failure.message);
+  }
+}
+
+}  // namespace crt
