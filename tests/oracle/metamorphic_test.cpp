@@ -17,6 +17,19 @@ namespace {
 
 constexpr std::array both_tiers = {Precision::standard, Precision::exact};
 
+Mesh scaled_mesh(const Mesh& mesh, double factor) {
+  std::vector<Vec3> corners;
+  std::vector<TriangleIndices> triangles;
+  for (const Triangle& triangle : triangles_of(mesh)) {
+    const auto first = static_cast<std::uint32_t>(corners.size());
+    triangles.push_back({first, first + 1, first + 2});
+    for (const Vec3& corner : {triangle.a, triangle.b, triangle.c}) {
+      corners.push_back(factor * corner);
+    }
+  }
+  return {.triangles = mesh_triangles(corners, triangles), .material = mesh.material};
+}
+
 Primitive scaled(Primitive primitive, double factor) {
   std::visit(
       [&]<class P>(P& p) {
@@ -38,6 +51,8 @@ Primitive scaled(Primitive primitive, double factor) {
           p.center *= factor;
           p.radius *= factor;
           p.thickness *= factor;
+        } else if constexpr (std::is_same_v<P, Mesh>) {
+          p = scaled_mesh(p, factor);
         } else {
           p.a *= factor;
           p.b *= factor;

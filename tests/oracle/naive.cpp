@@ -93,6 +93,13 @@ bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::Crossing
   return false;
 }
 
+/// Intersects each triangle by itself.
+bool meet(const Mesh& mesh, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  for (const Triangle& triangle : triangles_of(mesh)) meet(triangle, o, d, out);
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  return false;
+}
+
 /// Solves the quadratic of the side with a unit axis, and intersects with the caps as slabs.
 bool meet_frustum(const Vec3& from, const Vec3& to, double radius, double radius2, const Vec3& o,
                   const Vec3& d, core::CrossingList& out) {
