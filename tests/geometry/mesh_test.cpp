@@ -179,7 +179,6 @@ TEST_CASE("a mesh of cubes and their union are one solid, alone and cut flush, t
 TEST_CASE("a ray that starts on a triangle is inside at once if it leaves into the solid") {
   Random random(4);
   int starts = 0;
-  int met = 0;
   for (int round = 0; round < 100; ++round) {
     const TriangleList mesh = random_mesh(random);
     const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles)};
@@ -204,20 +203,21 @@ TEST_CASE("a ray that starts on a triangle is inside at once if it leaves into t
           .begin = 0};
       core::CrossingList next;
       shape->crossings(start, next);
-      ++starts;
+      for (std::size_t k = 1; k < next.size(); ++k) {
+        REQUIRE(next[k - 1].t <= next[k].t);
+        REQUIRE(next[k - 1].entering != next[k].entering);
+      }
       const auto is_start = [&](const core::Crossing& met) { return met.t == 0; };
-      const bool meets_itself = std::count_if(next.begin(), next.end(), is_start) == 1;
-      const double least = std::min({point.u, point.v, 1 - point.u - point.v});
-      if (least > 1e-6) REQUIRE(meets_itself);
-      if (!meets_itself) continue;  // it leaves from an edge past all triangles
+      // On an edge it is as well on the triangle beyond, or leaves past all of them.
+      if (std::min({point.u, point.v, 1 - point.u - point.v}) < 1e-6) continue;
+      REQUIRE(std::count_if(next.begin(), next.end(), is_start) == 1);
       const auto ahead = std::count_if(next.begin(), next.end(),
                                        [](const core::Crossing& met) { return met.t > 0; });
       REQUIRE((ahead % 2 != 0) == inwards);
-      ++met;
+      ++starts;
     }
   }
-  CHECK(starts > 5000);
-  CHECK(met > 0.95 * starts);
+  CHECK(starts > 2000);
 }
 
 TEST_CASE("corners are one where they are equal, and triangles without an area close gaps") {

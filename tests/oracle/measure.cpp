@@ -11,6 +11,7 @@
 
 #include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/mesh/triangles.hpp"
 #include "core/render/input_rays.hpp"
 #include "oracle/naive.hpp"
 

@@ -8,6 +8,7 @@
 
 #include "crt/query.hpp"
 #include "oracle/measure.hpp"
+#include "oracle/number_vec.hpp"
 #include "oracle/prepared_tree.hpp"
 
 using namespace crt;

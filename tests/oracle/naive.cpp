@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "oracle/number_vec.hpp"
+
 namespace crt::test {
 namespace {
 

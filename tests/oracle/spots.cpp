@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "oracle/number_vec.hpp"
 namespace crt::test {
 
 Frame across(const Vec3& v) {
