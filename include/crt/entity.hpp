@@ -1,6 +1,5 @@
 #pragma once
 
-#include <array>
 #include <concepts>
 #include <crt/material.hpp>
 #include <crt/primitives.hpp>
@@ -94,12 +93,8 @@ Entity csg_difference(const Entity& from, std::span<const Entity> cutters);
 /// changes nothing.
 Entity empty_entity();
 
-/// Names the corners of a triangle of a mesh by their places in the list of positions.
-using TriangleIndices = std::array<std::uint32_t, 3>;
-
-/// Makes a surface of many triangles with shared corners: a union of Triangle. Triangles without an
-/// area are left out. Throws Error (invalid_argument) if that leaves none, for an index that is out
-/// of range, and as Triangle does.
+/// Makes a Mesh of triangles with shared corners, as mesh_triangles() does: a solid if they are
+/// closed, and else a surface.
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles);
 
 }  // namespace crt

@@ -4,9 +4,14 @@
 //   Making an Entity of them checks the values.
 #pragma once
 
+#include <array>
 #include <crt/material.hpp>
 #include <crt/vec.hpp>
+#include <cstdint>
+#include <memory>
 #include <optional>
+#include <span>
+#include <string>
 #include <variant>
 
 namespace crt {
@@ -107,8 +112,36 @@ struct Triangle {
   std::optional<SharedMaterial> material{};
 };
 
+class MeshTriangles;
+
+/// Names the corners of a triangle of a mesh by their places in the list of positions.
+using TriangleIndices = std::array<std::uint32_t, 3>;
+
+/// A Mesh is a solid that triangles enclose, or else a surface: see mesh_triangles(). Copies share
+/// the triangles. (u, v) are the weights of a triangle's second and third corner.
+struct Mesh {
+  std::shared_ptr<const MeshTriangles> triangles{};  ///< from mesh_triangles(); must be given
+  std::optional<SharedMaterial> material{};
+};
+
+/// Makes triangles with shared corners for meshes. Corners are one if their coordinates are equal,
+/// and only then. The triangles enclose a solid if each of their edges belongs to an even number of
+/// them. Inside is every point from which a line to infinity crosses an odd number of triangles,
+/// however these are turned and wherever they pass through one another. If each edge also runs as
+/// often in one direction as in the other, normals are turned out of the solid; all others are
+/// along (b - a) x (c - a). Triangles without an area are left out of what rays meet, but count
+/// where they fill a gap between edges. It takes O(n log n) on the calling thread. Throws Error
+/// (invalid_argument) for an index that is out of range, for coordinates as Triangle does, and if
+/// no triangle has an area.
+std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positions,
+                                                    std::span<const TriangleIndices> triangles);
+
+/// Says why triangles do not enclose a solid, with the first edge that is open and how many are.
+/// It is empty if they do. The text lives as long as the triangles.
+const std::string& solid_fault(const MeshTriangles& triangles);
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
-using Primitive =
-    std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle, Capsule>;
+using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
+                               Capsule, Mesh>;
 
 }  // namespace crt

@@ -8,8 +8,10 @@
 
 #include "crt/error.hpp"
 #include "crt/validate.hpp"
+#include "geometry/meshes.hpp"
 
 using namespace crt;
+using namespace crt::test;
 
 namespace {
 
@@ -33,9 +35,15 @@ std::string argument(const Primitive& primitive) {
 
 }  // namespace
 
-TEST_CASE("every primitive is valid by default and makes a shape that agrees on being a solid") {
-  const Primitive all[] = {Sphere{}, Box{},   Plane{}, HalfPlane{}, Cylinder{},
-                           Cone{},   Torus{}, Disc{},  Triangle{},  Capsule{}};
+TEST_CASE(
+    "every primitive but a mesh is valid by default and makes a shape that agrees on being a "
+    "solid") {
+  CHECK(argument(Mesh{}) == "triangles");
+  Random random(1);
+  const TriangleList list = ball_mesh(random, 1, 0);
+  const Mesh mesh{.triangles = mesh_triangles(list.positions, list.triangles)};
+  const Primitive all[] = {Sphere{}, Box{},  Plane{},    HalfPlane{}, Cylinder{}, Cone{},
+                           Torus{},  Disc{}, Triangle{}, Capsule{},   mesh};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -93,6 +101,7 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Capsule{.to = bad}) == "to");
   CHECK(argument(Capsule{.from = {1, 1, 1}, .to = {1, 1, 1}}) == "to");
   CHECK(argument(Capsule{.radius = 0}) == "radius");
+  CHECK_THROWS_AS(mesh_triangles(std::array{bad}, {}), Error);
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");

@@ -210,6 +210,16 @@ Equations<Number> equations(const Triangle& t, const ExactLine<Number>& line) {
   return {Relative(line, t.a).along(normal_of<Number>(t))};
 }
 
+/// Returns the equations of all planes, of which the tetrahedron is behind.
+template <class Number>
+Equations<Number> equations(const Mesh& mesh, const ExactLine<Number>& line) {
+  Equations<Number> result;
+  for (const Triangle& triangle : triangles_of(mesh)) {
+    result.push_back(Relative(line, triangle.a).along(normal_of<Number>(triangle)));
+  }
+  return result;
+}
+
 template <class Number>
 Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);

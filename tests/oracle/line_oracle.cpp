@@ -78,6 +78,11 @@ double gradient(const Triangle& t, std::size_t, const ExactLine<Number>&, const 
   return glm::length(rounded(normal_of<Number>(t)));
 }
 
+template <class Number>
+double gradient(const Mesh& mesh, std::size_t which, const ExactLine<Number>&, const Number&) {
+  return glm::length(rounded(normal_of<Number>(triangles_of(mesh)[which])));
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>

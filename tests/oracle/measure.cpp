@@ -11,6 +11,7 @@
 
 #include "core/csg/placement.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/mesh/triangles.hpp"
 #include "core/render/input_rays.hpp"
 #include "oracle/naive.hpp"
 
@@ -314,6 +315,8 @@ std::string description(const TestRay& ray) {
                          p.thickness);
     else if constexpr (std::is_same_v<P, Disc>)
       return fmt::format("disc {} {} {:a}", text(p.center), text(p.normal), p.radius);
+    else if constexpr (std::is_same_v<P, Mesh>)
+      return fmt::format("mesh of {} triangles", p.triangles->size());
     else
       return fmt::format("triangle {} {} {}", text(p.a), text(p.b), text(p.c));
   };

@@ -8,6 +8,8 @@
 #include <limits>
 #include <utility>
 
+#include "oracle/number_vec.hpp"
+
 namespace crt::test {
 namespace {
 
@@ -90,6 +92,13 @@ bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::Crossing
   const double v = glm::dot(d, q) / determinant;
   if (u >= 0 && v >= 0 && u + v <= 1)
     emit_surface(glm::cross(ab, ac), d, glm::dot(ac, q) / determinant, out);
+  return false;
+}
+
+/// Intersects each triangle by itself.
+bool meet(const Mesh& mesh, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  for (const Triangle& triangle : triangles_of(mesh)) meet(triangle, o, d, out);
+  std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
   return false;
 }
 

@@ -3,7 +3,9 @@
 
 #include <array>
 #include <type_traits>
+#include <vector>
 
+#include "core/geometry/mesh/triangles.hpp"
 #include "crt/primitives.hpp"
 #include "oracle/interval.hpp"
 
@@ -82,6 +84,20 @@ template <class Number>
 NumberVec<Number> normal_of(const Triangle& t) {
   const NumberVec<Number> a = exactly<Number>(t.a);
   return cross(exactly<Number>(t.b) - a, exactly<Number>(t.c) - a);
+}
+
+/// Returns the triangles of a mesh. Those of this oracle are tetrahedra, which are convex.
+inline std::vector<Triangle> triangles_of(const Mesh& mesh) {
+  std::vector<Triangle> result;
+  for (std::uint32_t i = 0; i < mesh.triangles->size(); ++i) {
+    result.push_back(mesh.triangles->triangle(i));
+  }
+  return result;
+}
+inline Mesh tetrahedron(const std::array<Vec3, 4>& corners) {
+  constexpr std::array<TriangleIndices, 4> sides = {
+      TriangleIndices{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
+  return {.triangles = mesh_triangles(corners, sides)};
 }
 
 /// Holds for the primitives without an inside.

@@ -6,6 +6,7 @@
 #include <glm/geometric.hpp>
 #include <numbers>
 
+#include "oracle/number_vec.hpp"
 namespace crt::test {
 
 Frame across(const Vec3& v) {
@@ -234,6 +235,27 @@ Vec3 edge(Counted& random, const Triangle& t) {
   const auto i = static_cast<std::size_t>(random.integer(0, 2));
   if (random.integer(0, 1) == 0) return corners[i];
   return corners[i] + random.uniform(0, 1) * (corners[(i + 1) % 3] - corners[i]);
+}
+
+void make(Counted& random, const Vec3& at, double size, Mesh& mesh) {
+  std::array<Vec3, 4> offsets{};
+  for (Vec3& offset : offsets) offset = size * random.in_cube();
+  std::array<Vec3, 4> corners{};
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = at + offsets[i];
+  // A size that is lost in the place makes no tetrahedron there.
+  const bool is_lost = std::any_of(corners.begin(), corners.end(), [&](const Vec3& corner) {
+    return glm::length(corner - at) < size / 1024;
+  });
+  mesh = tetrahedron(is_lost ? offsets : corners);
+}
+Triangle any_triangle(Counted& random, const Mesh& mesh) {
+  return triangles_of(mesh)[static_cast<std::size_t>(random.integer(0, 3))];
+}
+Spot spot(Counted& random, const Mesh& mesh) {
+  return spot(random, any_triangle(random, mesh));
+}
+Vec3 edge(Counted& random, const Mesh& mesh) {
+  return edge(random, any_triangle(random, mesh));
 }
 
 }  // namespace

@@ -90,6 +90,16 @@ double outside(const Torus& torus, const IntervalVec& p) {
   return (sqrt(square(outwards) + square(height)) - Interval(torus.thickness)).value();
 }
 
+double outside(const Mesh& mesh, const IntervalVec& p) {
+  double farthest = -infinity;
+  for (const Triangle& triangle : triangles_of(mesh)) {
+    const IntervalVec normal = normal_of<Interval>(triangle);
+    const Interval height = dot(p - exactly<Interval>(triangle.a), normal) / length(normal);
+    farthest = std::max(farthest, height.value());
+  }
+  return farthest;
+}
+
 Vec3 middle(const Vec3& a, const Vec3& b) {
   return a / 2.0 + b / 2.0;
 }
@@ -130,6 +140,10 @@ Ball ball_of(const Triangle& t) {
   const Vec3 center = t.a / 3.0 + t.b / 3.0 + t.c / 3.0;
   return {center, std::max({glm::length(t.a - center), glm::length(t.b - center),
                             glm::length(t.c - center)})};
+}
+Ball ball_of(const Mesh& mesh) {
+  const core::Bounds& box = mesh.triangles->bounds();
+  return {middle(box.lower, box.upper), glm::length(box.upper - box.lower) / 2};
 }
 
 }  // namespace

@@ -4,7 +4,7 @@
 #include <exception>
 
 #include "core/accel/embree_traversals.hpp"
-#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/ray_slabs.hpp"
 #include "core/math/vector_lanes.hpp"
 
 namespace crt::core {

@@ -11,7 +11,7 @@
 #endif
 
 #include "core/accel/embree_traversals.hpp"
-#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/ray_slabs.hpp"
 #include "core/math/vector.hpp"
 #include "core/ray/object_ray.hpp"
 

@@ -11,7 +11,7 @@
 
 #include "core/accel/interval_packet.hpp"
 #include "core/csg/evaluate.hpp"
-#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/ray_slabs.hpp"
 #include "core/math/lanes.hpp"
 
 namespace crt::core {

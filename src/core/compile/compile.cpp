@@ -1,12 +1,16 @@
 #include "core/compile/compile.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <atomic>
+#include <tuple>
 
 #include "core/compile/duplicates.hpp"
 #include "core/compile/flatten.hpp"
 #include "core/compile/surface_table.hpp"
 #include "core/tasks/parallel.hpp"
+#include "crt/error.hpp"
 
 namespace crt::core {
 
@@ -86,6 +90,21 @@ Bounds narrow_bounds(const CsgProgram& program, std::span<Leaf> leaves) {
     leaf.bounds = leaf.bounds.clipped(bounds[program.leaf_parents[i]]);
   }
   return bounds[0];
+}
+
+/// Lists the faces of a leaf of many that lie on surfaces of leaves before it.
+std::unique_ptr<const SharedFaces> shared_faces_of(const Leaf& leaf,
+                                                   std::span<const FaceSurface> faces) {
+  SharedFaces shared;
+  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
+    const std::uint32_t surface = faces[leaf.first_face + face].surface;
+    if (surface < leaf.first_face) shared.faces.push_back({surface, face});
+  }
+  if (shared.faces.empty()) return nullptr;
+  std::sort(shared.faces.begin(), shared.faces.end(), [](const auto& a, const auto& b) {
+    return std::tie(a.surface, a.face) < std::tie(b.surface, b.face);
+  });
+  return std::make_unique<const SharedFaces>(std::move(shared));
 }
 
 class Compiler {
@@ -174,13 +193,23 @@ void Compiler::make_leaves() {
 }
 
 void Compiler::make_faces() {
-  std::uint32_t count = 0;
+  constexpr std::uint64_t most_faces = 0xfffffff0u;
+  std::uint64_t count = 0;
   for (Leaf& leaf : result_.leaves) {
-    leaf.first_face = count;
+    leaf.first_face = static_cast<std::uint32_t>(count);
     count += leaf.face_count;
+    if (count > most_faces) {
+      throw Error(ErrorCode::limit,
+                  fmt::format("the primitives of the scene have more than {} faces", most_faces),
+                  "entities");
+    }
   }
   result_.face_surfaces.assign(count, {});
   number_surfaces(result_.leaves, flat_.programs_of_leaves, result_.face_surfaces, workers_);
+  for (Leaf& leaf : result_.leaves) {
+    if (leaf.face_count <= Leaf::few_faces) continue;
+    leaf.shared_faces = shared_faces_of(leaf, result_.face_surfaces);
+  }
 }
 
 void Compiler::finish_programs() {
@@ -216,7 +245,7 @@ void Compiler::finish_program(CsgProgram& program) {
   std::vector<Bounds> boxes;
   boxes.reserve(leaves.size());
   for (const Leaf& leaf : leaves) boxes.push_back(leaf.bounds);
-  program.tree = LeafBvh(boxes, workers_);
+  program.tree = Bvh(boxes, workers_);
   program.filter = IntervalFilter(program, leaves, result_.face_surfaces);
 }
 

@@ -19,6 +19,20 @@ RayStart start_on_leaf(const Leaf& leaf, std::uint32_t index,
                     .on_face = start.leaf == index && start.face == face};
   };
   if (start.leaf == index) return on_face(start.face);
+  // A surface has the number of the first face that lies on it.
+  if (start.surface >= leaf.first_face) {
+    const std::uint32_t face = start.surface - leaf.first_face;
+    return face < leaf.face_count ? on_face(face) : RayStart{};
+  }
+  if (leaf.shared_faces != nullptr) {
+    const auto& faces = leaf.shared_faces->faces;
+    const auto found = std::lower_bound(
+        faces.begin(), faces.end(), start.surface,
+        [](const SharedFaces::Face& face, std::uint32_t wanted) { return face.surface < wanted; });
+    const bool is_found = found != faces.end() && found->surface == start.surface;
+    return is_found ? on_face(found->face) : RayStart{};
+  }
+  if (leaf.face_count > Leaf::few_faces) return {};
   for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
     if (face_surfaces[leaf.first_face + face].surface == start.surface) return on_face(face);
   }
@@ -96,11 +110,11 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
     tick();
     const LineSpan span = slabs_.span(leaves_[leaf].bounds);
     if (!span.empty() && span.leave >= part_.enter && span.enter <= part_.leave) {
-      put_off(LeafBvh::Child::leaf(leaf), span.enter);
+      put_off(Bvh::Child::leaf(leaf), span.enter);
     }
   }
   if (program.tree.has_root())
-    put_off(LeafBvh::Child::node(0), -std::numeric_limits<double>::infinity());
+    put_off(Bvh::Child::node(0), -std::numeric_limits<double>::infinity());
   open_up_to(farthest_start(ray_));
   const auto is_before_start = [&] {
     return !work_.to_come_.empty() && work_.to_come_.front().t <= ray_.t_min;
@@ -114,7 +128,7 @@ CsgEvaluation::CsgEvaluation(const CsgProgram& program, std::span<const Leaf> le
   starts_inside_ = root_value();
 }
 
-void CsgEvaluation::put_off(LeafBvh::Child child, double enter) {
+void CsgEvaluation::put_off(Bvh::Child child, double enter) {
   work_.openings_.push_back({enter, child});
   std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_opened_later);
 }
@@ -139,7 +153,7 @@ void CsgEvaluation::open_node(std::uint32_t node, double t) {
   do {
     const std::uint32_t next = nodes.back();
     nodes.pop_back();
-    program_.tree.visit(next, slabs_, part_, [&](LeafBvh::Child child, double enter) {
+    program_.tree.visit(next, slabs_, part_, [&](Bvh::Child child, double enter) {
       if (enter > t) {
         put_off(child, enter);
       } else if (child.is_leaf()) {

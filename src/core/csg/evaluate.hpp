@@ -78,7 +78,7 @@ class CsgWorkspace {
   /// An Opening is a box that the line enters at `enter`.
   struct Opening {
     double enter = 0;
-    LeafBvh::Child child;
+    Bvh::Child child;
   };
   /// A ToCome is one of met_ that is still to come.
   struct ToCome {
@@ -168,7 +168,7 @@ class CsgEvaluation {
   using SharedState = CsgWorkspace::SharedState;
 
   /// Puts off a child that is entered at `enter`, to be opened when it is asked for.
-  void put_off(LeafBvh::Child child, double enter);
+  void put_off(Bvh::Child child, double enter);
   /// Opens all boxes that are entered up to t.
   void open_up_to(double t);
   /// Opens all boxes below a node that are entered up to t.

@@ -53,7 +53,7 @@ class NearLeavesWorkspace {
   /// An Opening is a box that some line enters at `enter`, and none before.
   struct Opening {
     double enter = 0;
-    LeafBvh::Child child;
+    Bvh::Child child;
   };
 
   template <class Real>
@@ -104,7 +104,7 @@ class NearLeaves {
     }
     for (const std::uint32_t leaf : program.tree.unbounded()) add(leaf);
     link_added();
-    if (program.tree.has_root()) put_off(LeafBvh::Child::node(0), -infinity);
+    if (program.tree.has_root()) put_off(Bvh::Child::node(0), -infinity);
   }
 
   /// Returns a node by its index, which is 0 for the root.
@@ -123,7 +123,7 @@ class NearLeaves {
     auto& openings = work_.openings_;
     while (!openings.empty() && (count_ < enough || openings.front().enter <= t)) {
       if (count_ > steps_.most()) break;
-      const LeafBvh::Child child = openings.front().child;
+      const Bvh::Child child = openings.front().child;
       std::pop_heap(openings.begin(), openings.end(), is_later);
       openings.pop_back();
       if (++opened_ % steps_per_look == 0) [[unlikely]]
@@ -131,7 +131,7 @@ class NearLeaves {
       if (child.is_leaf()) {
         add(child.index());
       } else {
-        program_.tree.for_each_child(child.index(), [&](LeafBvh::Child next, const Bounds& box) {
+        program_.tree.for_each_child(child.index(), [&](Bvh::Child next, const Bounds& box) {
           const double enter = first_enter(box);
           if (enter < infinity) put_off(next, enter);
         });
@@ -149,7 +149,7 @@ class NearLeaves {
                        const NearLeavesWorkspace::Opening& b) {
     return a.enter > b.enter;
   }
-  void put_off(LeafBvh::Child child, double enter) {
+  void put_off(Bvh::Child child, double enter) {
     work_.openings_.push_back({enter, child});
     std::push_heap(work_.openings_.begin(), work_.openings_.end(), is_later);
   }

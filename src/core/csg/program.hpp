@@ -13,8 +13,8 @@
 
 #include "core/csg/heavy_paths.hpp"
 #include "core/csg/interval_filter.hpp"
-#include "core/csg/leaf_bvh.hpp"
 #include "core/csg/placement.hpp"
+#include "core/geometry/bvh.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/shape.hpp"
 
@@ -32,6 +32,16 @@ struct FaceSurface {
   static constexpr std::uint32_t not_shared = 0xffffffffu;
 };
 
+/// SharedFaces are the faces of a leaf that lie on surfaces of leaves before it, in the order of
+/// surfaces.
+struct SharedFaces {
+  struct Face {
+    std::uint32_t surface;
+    std::uint32_t face;  ///< of the leaf
+  };
+  std::vector<Face> faces;
+};
+
 /// A Leaf is a primitive in its place.
 struct Leaf {
   std::unique_ptr<const Shape> shape;
@@ -46,6 +56,9 @@ struct Leaf {
   std::uint32_t entity_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
   std::uint32_t face_count = 0;
+  /// A leaf of more faces than this has its shared faces in a list, if there are any.
+  static constexpr std::uint32_t few_faces = 8;
+  std::unique_ptr<const SharedFaces> shared_faces;
   bool complemented = false;  ///< a cutter: its outside is what the solid keeps
   bool of_solid = true;       ///< whether its object is a solid, not a mere surface
 };
@@ -65,7 +78,7 @@ struct CsgProgram {
   /// The leaves of the object are this and the following ones of the scene.
   std::uint32_t first_leaf = 0;
   HeavyPaths paths;  ///< of deep programs: what takes the place of walking up from node to node
-  LeafBvh tree;      ///< over what of each leaf's box matters
+  Bvh tree;          ///< over what of each leaf's box matters
   IntervalFilter filter;
   Bounds bounds;  ///< of the object, in the world
   std::uint32_t shared_surfaces = 0;

@@ -9,8 +9,8 @@
 
 namespace crt::core {
 
-/// Returns the fields of a primitive but for its material. All are doubles, so that there are no
-/// gaps among them, and equal bytes are equal shapes. 0 and -0 differ.
+/// Returns the fields of a primitive but for its material. All are doubles, or pointers to what is
+/// shared, so that there are no gaps among them, and equal bytes are equal shapes. 0 and -0 differ.
 inline std::span<const std::byte> description_of(const Primitive& primitive) {
   return std::visit(
       [](const auto& shape) {

@@ -10,6 +10,7 @@
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/exact_shape.hpp"
 #include "core/geometry/half_plane/half_plane.hpp"
+#include "core/geometry/mesh/mesh.hpp"
 #include "core/geometry/plane/plane.hpp"
 #include "core/geometry/sphere/sphere.hpp"
 #include "core/geometry/torus/torus.hpp"

@@ -105,7 +105,8 @@ class Shape {
   /// to which side of the surface (as the face's outward normal has it) the ray leaves, and the
   /// crossings agree with that. If it starts on the face itself (on_face), it also starts within
   /// what the other faces bound, whatever rounding says next to an edge. Then it has no crossing at
-  /// t > 0 if it leaves a convex solid outwards, and exactly one if inwards.
+  /// t > 0 if it leaves a convex solid outwards, and exactly one if inwards. Only a mesh may leave
+  /// out that start, for a ray that leaves from an edge past all triangles.
   virtual bool crossings(const ObjectRay& ray, CrossingList& out) const = 0;
 
   /// Returns position, normal and (u, v) where `ray` crosses. `crossing` came from crossings() of

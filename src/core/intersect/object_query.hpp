@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "core/csg/ray_slabs.hpp"
+#include "core/geometry/ray_slabs.hpp"
 #include "core/intersect/accelerator.hpp"
 #include "core/ray/line_of_ray.hpp"
 

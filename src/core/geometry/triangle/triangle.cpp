@@ -1,6 +1,10 @@
 #include "core/geometry/triangle/triangle.hpp"
 
+#include <algorithm>
+#include <limits>
+
 #include "core/geometry/checks.hpp"
+#include "core/math/dyadic_vector.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -20,21 +24,23 @@ double inverse_length_scale(const Vec3& v) {
   return 1 / power_of_two_below(largest_component(v));
 }
 
-/// Returns (b - a) x (c - a) up to a power of two.
-PreciseVec3 precise_normal_of(const Triangle& triangle) {
-  const Vec3 ab = triangle.b - triangle.a;
-  const Vec3 ac = triangle.c - triangle.a;
-  if (largest_component(ab) == 0 || largest_component(ac) == 0) return {};
-  return cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
-               difference(triangle.c, triangle.a, inverse_length_scale(ac)));
-}
-
-/// Rounds the normal, which is good to a rounding even for slivers. Returns 0 if it is within the
-/// rounding of double-double, so that the corners cannot be distinguished from points on a line.
-Vec3 rounded_normal(const PreciseVec3& product) {
-  constexpr double rounding = 0x1p-98;
-  const Vec3 normal = rounded(product);
-  return largest_component(normal) > rounding ? normal : Vec3(0.0);
+/// Returns the normal where double-double cannot distinguish the corners from points on a line.
+PreciseVec3 exact_normal_of(const Triangle& triangle) {
+  const DyadicVector a = exactly(triangle.a);
+  const DyadicVector normal = cross(exactly(triangle.b) - a, exactly(triangle.c) - a);
+  std::array<ScaledNumber, 3> rounded;
+  int largest = std::numeric_limits<int>::min();
+  for (std::size_t i = 0; i < 3; ++i) {
+    rounded[i] = normal[i].rounded();
+    if (normal[i].sign() != 0) largest = std::max(largest, rounded[i].exponent);
+  }
+  PreciseVec3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    if (normal[i].sign() == 0) continue;
+    rounded[i].exponent -= largest;
+    result[i] = rounded[i].unscaled();
+  }
+  return result;
 }
 
 /// Returns on which side of the edge from `from` to `to` the line passes: the sign of from . (edge
@@ -74,10 +80,21 @@ int side_of_edge(const ObjectRay& ray, const Vec3& from, const Vec3& to, double 
 
 }  // namespace
 
+PreciseVec3 precise_normal_of(const Triangle& triangle) {
+  const Vec3 ab = triangle.b - triangle.a;
+  const Vec3 ac = triangle.c - triangle.a;
+  if (largest_component(ab) == 0 || largest_component(ac) == 0) return {};
+  const PreciseVec3 normal =
+      cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
+            difference(triangle.c, triangle.a, inverse_length_scale(ac)));
+  constexpr double rounding = 0x1p-98;
+  return largest_component(rounded(normal)) > rounding ? normal : exact_normal_of(triangle);
+}
+
 TriangleShape::TriangleShape(const Triangle& triangle)
     : corners_{triangle.a, triangle.b, triangle.c},
       precise_normal_(precise_normal_of(triangle)),
-      face_(rounded_normal(precise_normal_), triangle.a) {}
+      face_(rounded(precise_normal_), triangle.a) {}
 
 Bounds TriangleShape::bounds() const {
   Bounds result;
@@ -168,8 +185,14 @@ void TriangleShape::write_point(const Vec3Of<Real>& offset, const Vec3Of<Real>&,
   point.v = clamp(v, Real{}, 1 - point.u);
 }
 
+// Meshes ask for points of triangles, too.
+template void TriangleShape::write_point<double>(const Vec3&, const Vec3&, std::uint32_t, bool,
+                                                 SurfacePoint&) const;
+template void TriangleShape::write_point<Lanes>(const VectorLanes&, const VectorLanes&,
+                                                std::uint32_t, bool, SurfacePointLanes&) const;
+
 bool has_area(const Triangle& triangle) {
-  return largest_component(rounded_normal(precise_normal_of(triangle))) != 0;
+  return largest_component(rounded(precise_normal_of(triangle))) != 0;
 }
 
 void validate(const Triangle& triangle) {

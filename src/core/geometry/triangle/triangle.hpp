@@ -35,14 +35,20 @@ class TriangleShape final : public ShapeOfPoints<TriangleShape> {
   Surface surface(std::uint32_t) const override { return face_.surface(); }
   std::size_t bytes() const override { return sizeof *this; }
 
- private:
+  /// Finds where a line meets the plane of the triangle.
   PlaneFace::Meeting meet(const ObjectRay& ray) const;
+
+ private:
   bool passes_edges(const ObjectRay& ray) const;
 
   std::array<Vec3, 3> corners_;
   PreciseVec3 precise_normal_;  ///< the face's, with further digits
   PlaneFace face_;
 };
+
+/// Returns (b - a) x (c - a) to about 100 bits of its largest component, up to a power of two. It
+/// is 0 only for corners on one line.
+PreciseVec3 precise_normal_of(const Triangle& triangle);
 
 /// Returns whether the corners are not on one line.
 bool has_area(const Triangle& triangle);

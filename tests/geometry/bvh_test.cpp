@@ -1,4 +1,4 @@
-#include "core/csg/leaf_bvh.hpp"
+#include "core/geometry/bvh.hpp"
 
 #include <doctest/doctest.h>
 
@@ -18,7 +18,7 @@ constexpr LineSpan whole_line = {-infinity, infinity};
 
 /// Returns where a line enters all leaves that it comes near within a part of it, and NaN for
 /// others.
-std::vector<double> entries(const LeafBvh& tree, std::size_t count, const RaySlabs& slabs,
+std::vector<double> entries(const Bvh& tree, std::size_t count, const RaySlabs& slabs,
                             const LineSpan& part = whole_line) {
   std::vector<double> result(count, std::numeric_limits<double>::quiet_NaN());
   if (!tree.has_root()) return result;
@@ -26,7 +26,7 @@ std::vector<double> entries(const LeafBvh& tree, std::size_t count, const RaySla
   while (!open.empty()) {
     const std::uint32_t node = open.back();
     open.pop_back();
-    tree.visit(node, slabs, part, [&](LeafBvh::Child child, double enter) {
+    tree.visit(node, slabs, part, [&](Bvh::Child child, double enter) {
       if (child.is_leaf()) {
         CHECK(std::isnan(result[child.index()]));  // never twice
         result[child.index()] = enter;
@@ -53,7 +53,7 @@ TEST_CASE("a line finds in the tree the boxes that it meets one by one, where it
       boxes.push_back({corner, corner + Vec3(real(0, 2), real(0, 2), i % 7 == 0 ? 0 : real(0, 2))});
     }
     if (count > 3) boxes[3] = {};  // empty: left out
-    const LeafBvh tree(boxes);
+    const Bvh tree(boxes);
     for (int i = 0; i < 200; ++i) {
       Vec3 direction{real(-1, 1), real(-1, 1), real(-1, 1)};
       if (i % 3 == 0) direction[i % 9 / 3] = 0;
@@ -79,7 +79,7 @@ TEST_CASE("a line finds in the tree the boxes that it meets one by one, where it
 TEST_CASE("boxes without end are kept apart") {
   const Bounds half{{-infinity, 0, 0}, {1, 1, 1}};
   const Bounds unit{{0, 0, 0}, {1, 1, 1}};
-  const LeafBvh tree(std::vector<Bounds>{unit, half, Bounds::everything()});
+  const Bvh tree(std::vector<Bounds>{unit, half, Bounds::everything()});
   REQUIRE(tree.unbounded().size() == 2);
   CHECK(tree.unbounded()[0] == 1);
   CHECK(tree.unbounded()[1] == 2);
@@ -88,7 +88,7 @@ TEST_CASE("boxes without end are kept apart") {
 TEST_CASE("a thousand boxes in one place are a tree, too") {
   const std::vector<Bounds> boxes(1000, Bounds{{0, 0, 0}, {1, 1, 1}});
   const RaySlabs slabs({0.5, 0.5, -3}, {0, 0, 1});
-  for (const double enter : entries(LeafBvh(boxes), boxes.size(), slabs))
+  for (const double enter : entries(Bvh(boxes), boxes.size(), slabs))
     CHECK_FALSE(std::isnan(enter));
 }
 
@@ -102,9 +102,9 @@ TEST_CASE("a tree is the same on any number of threads") {
     const Vec3 corner{real(-9, 9), real(-9, 9) * real(0, 1), i % 2 == 0 ? 0 : real(0, 1)};
     boxes.push_back({corner, corner + Vec3(real(0, 0.2))});
   }
-  const LeafBvh tree(boxes, 1);
-  for (const int threads : {0, 2, 5}) CHECK(LeafBvh(boxes, threads) == tree);
-  CHECK_FALSE(LeafBvh(std::span(boxes).first(29'999)) == tree);
+  const Bvh tree(boxes, 1);
+  for (const int threads : {0, 2, 5}) CHECK(Bvh(boxes, threads) == tree);
+  CHECK_FALSE(Bvh(std::span(boxes).first(29'999)) == tree);
 
   for (int i = 0; i < 20; ++i) {
     const RaySlabs slabs({real(-9, 9), real(-9, 9), -5}, {real(-0.1, 0.1), real(-0.1, 0.1), 1});

@@ -1,4 +1,4 @@
-#include "core/csg/leaf_bvh.hpp"
+#include "core/geometry/bvh.hpp"
 
 #include <algorithm>
 #include <cmath>
@@ -33,7 +33,7 @@ struct LaneBox {
   }
 };
 
-/// An Item is a leaf to put into the tree.
+/// An Item is a box to put into the tree.
 struct Item {
   LaneBox box;  ///< with the leaf's number in the lane that is not used
 
@@ -150,16 +150,17 @@ TwoParts split(const Part& part) {
 
 /// A Division is what becomes the children of one node.
 struct Division {
-  std::array<Part, LeafBvh::width> parts;
+  std::array<Part, Bvh::width> parts;
   std::size_t count = 1;
 
-  /// Divides the largest part until there are as many as a node has places for.
-  explicit Division(const Part& whole) : parts{whole} {
+  /// Divides the largest part until there are as many as a node has places for, or all are small
+  /// enough for a leaf.
+  Division(const Part& whole, std::size_t items_a_leaf) : parts{whole} {
     while (count < parts.size()) {
       const auto largest = std::max_element(
           parts.begin(), parts.begin() + static_cast<std::ptrdiff_t>(count),
           [](const Part& a, const Part& b) { return a.items.size() < b.items.size(); });
-      if (largest->items.size() < 2) break;
+      if (largest->items.size() <= items_a_leaf) break;
       const TwoParts two = split(*largest);
       *largest = two.left;
       parts[count++] = two.right;
@@ -171,11 +172,13 @@ struct Division {
 
 /// A Builder divides the upper nodes level by level, a task a node. What is below them is divided
 /// in pieces of their own, a task a piece. Neither depends on the number of threads.
-class LeafBvh::Builder {
+class Bvh::Builder {
  public:
-  Builder(std::vector<Node>& nodes, const Workers& workers) : nodes_(nodes), workers_(workers) {}
+  Builder(std::vector<Node>& nodes, std::uint32_t items_a_leaf, const Workers& workers)
+      : nodes_(nodes), items_a_leaf_(items_a_leaf), workers_(workers) {}
 
   void build(std::span<Item> items) {
+    items_ = items;
     nodes_.emplace_back();
     std::vector<Pending> level{{0, part_of(items)}};
     while (!level.empty()) level = divide_level(level);
@@ -214,7 +217,8 @@ class LeafBvh::Builder {
     }
     std::vector<std::optional<Division>> divisions(large.size());
     for_ranges(large.size(), 1, workers_, [&](std::size_t begin, std::size_t end) {
-      for (std::size_t i = begin; i < end; ++i) divisions[i].emplace(level[large[i]].part);
+      for (std::size_t i = begin; i < end; ++i)
+        divisions[i].emplace(level[large[i]].part, items_a_leaf_);
     });
     std::vector<Pending> next;
     for (std::size_t i = 0; i < large.size(); ++i) {
@@ -223,12 +227,19 @@ class LeafBvh::Builder {
     return next;
   }
 
-  static void add_children(std::vector<Node>& nodes, std::uint32_t node, const Division& division,
-                           std::vector<Pending>& pending) {
+  /// Returns the leaf that has all of a part.
+  Child leaf_of(const Part& part) const {
+    if (items_a_leaf_ == 1) return Child::leaf(part.items[0].leaf());
+    return Child::leaf(static_cast<std::uint32_t>(part.items.data() - items_.data()),
+                       static_cast<std::uint32_t>(part.items.size()));
+  }
+
+  void add_children(std::vector<Node>& nodes, std::uint32_t node, const Division& division,
+                    std::vector<Pending>& pending) const {
     for (std::size_t i = 0; i < division.count; ++i) {
       const Part& part = division.parts[i];
-      if (part.items.size() == 1) {
-        set_child(nodes[node], i, part, Child::leaf(part.items[0].leaf()));
+      if (part.items.size() <= items_a_leaf_) {
+        set_child(nodes[node], i, part, leaf_of(part));
       } else {
         pending.push_back({add_node(nodes), part});
         set_child(nodes[node], i, part, Child::node(pending.back().node));
@@ -237,13 +248,13 @@ class LeafBvh::Builder {
   }
 
   /// Returns the tree over one part, its root first.
-  static std::vector<Node> tree_over(const Part& part) {
+  std::vector<Node> tree_over(const Part& part) const {
     std::vector<Node> nodes;
     std::vector<Pending> open{{add_node(nodes), part}};
     while (!open.empty()) {
       const Pending pending = open.back();
       open.pop_back();
-      add_children(nodes, pending.node, Division(pending.part), open);
+      add_children(nodes, pending.node, Division(pending.part, items_a_leaf_), open);
     }
     return nodes;
   }
@@ -281,11 +292,13 @@ class LeafBvh::Builder {
   }
 
   std::vector<Node>& nodes_;
+  std::size_t items_a_leaf_;
   Workers workers_;
+  std::span<Item> items_;
   std::vector<Pending> lower_parts_;
 };
 
-LeafBvh::LeafBvh(std::span<const Bounds> boxes, const Workers& workers) {
+Bvh::Bvh(std::span<const Bounds> boxes, std::uint32_t items_a_leaf, const Workers& workers) {
   std::vector<Item> items;
   items.reserve(boxes.size());
   for (std::uint32_t leaf = 0; leaf < boxes.size(); ++leaf) {
@@ -297,7 +310,10 @@ LeafBvh::LeafBvh(std::span<const Bounds> boxes, const Workers& workers) {
       unbounded_.push_back(leaf);
     }
   }
-  if (!items.empty()) Builder(nodes_, workers).build(items);
+  if (!items.empty()) Builder(nodes_, items_a_leaf, workers).build(items);
+  if (items_a_leaf == 1) return;
+  order_.reserve(items.size());
+  for (const Item& item : items) order_.push_back(item.leaf());
 }
 
 }  // namespace crt::core

@@ -1,0 +1,29 @@
+// The triangles that a line meets become the crossings of a mesh, in both tiers.
+#pragma once
+
+#include <cstdint>
+
+#include "core/geometry/mesh/passing_line.hpp"
+#include "core/geometry/mesh/triangles.hpp"
+#include "core/geometry/shape.hpp"
+
+namespace crt::core {
+
+/// A MeshTier is what the tiers do differently.
+class MeshTier {
+ public:
+  /// Finds t and its error, where the line meets the plane of a triangle. Returns false if t is
+  /// beyond all doubles.
+  virtual bool meet(std::uint32_t triangle, Crossing& crossing) const = 0;
+  /// Returns the sign of the first t less the second, and 0 if they are equal.
+  virtual int order(const Crossing& first, const Crossing& second) const = 0;
+
+ protected:
+  ~MeshTier() = default;
+};
+
+/// Appends the crossings of a line with a mesh, as Shape::crossings does.
+bool append_crossings(const MeshTriangles& mesh, PassingLine& line, const MeshTier& tier,
+                      CrossingList& out);
+
+}  // namespace crt::core

@@ -1,0 +1,313 @@
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <glm/geometric.hpp>
+#include <optional>
+
+#include "core/geometry/shape.hpp"
+#include "core/math/vector.hpp"
+#include "crt/error.hpp"
+#include "crt/prepared_scene.hpp"
+#include "crt/query.hpp"
+#include "crt/scene.hpp"
+#include "crt/transform.hpp"
+#include "geometry/meshes.hpp"
+
+using namespace crt;
+using namespace crt::test;
+
+namespace {
+
+PreparedScene scene_of(const Entity& entity, Precision precision = Precision::standard) {
+  Scene scene;
+  scene.entities = {entity};
+  scene.settings.precision = precision;
+  return prepare(scene);
+}
+
+constexpr Precision tiers[] = {Precision::standard, Precision::exact};
+
+/// Returns a ray that meets a mesh where that is hardest: through corners, along edges and in the
+/// planes of triangles, often by whole numbers.
+Ray hard_ray(Random& random, const TriangleList& mesh) {
+  const TriangleIndices& triangle = mesh.triangles[random.bits() % mesh.triangles.size()];
+  const Vec3 a = mesh.positions[triangle[0]];
+  const Vec3 b = mesh.positions[triangle[1]];
+  const Vec3 c = mesh.positions[triangle[2]];
+  const auto whole = [&] { return static_cast<double>(random.bits() % 3) - 1; };
+  Vec3 aim = a;
+  Vec3 direction = random.in_cube();
+  switch (random.bits() % 6) {
+    case 0:
+      aim = 2.0 * random.in_cube();
+      break;
+    case 1:
+      break;
+    case 2:
+      aim = 0.5 * (a + b);
+      break;
+    case 3:
+      aim = a + whole() * (b - a) + random.uniform(-1, 2) * (c - a);
+      direction = whole() * (b - a) + random.uniform(-1, 1) * (c - a);
+      break;
+    case 4:
+      direction = {whole(), whole(), whole()};
+      break;
+    default:
+      direction = b - a;
+      break;
+  }
+  if (core::largest_component(direction) == 0) direction.z = 1;
+  const double back = random.one_in(2) ? 8 : random.uniform(0, 8);
+  return {.origin = aim - back * direction, .direction = direction, .t_min = -1e6};
+}
+
+/// Checks that hits come in order, enter and leave by turns, and face the ray as their normals say.
+void check_turns(const std::vector<Hit>& hits, const Ray& ray) {
+  REQUIRE(hits.size() % 2 == 0);
+  for (std::size_t i = 0; i < hits.size(); ++i) {
+    REQUIRE(hits[i].entering == (i % 2 == 0));
+    if (i > 0) REQUIRE(hits[i - 1].t <= hits[i].t);
+    const double along = glm::dot(hits[i].normal, ray.direction) / glm::length(ray.direction);
+    if (std::abs(along) > 1e-9) REQUIRE((along < 0) == hits[i].entering);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("lines enter and leave closed meshes by turns, also through corners and along edges") {
+  Random random(1);
+  for (int round = 0; round < 60; ++round) {
+    const TriangleList mesh = random_mesh(random);
+    REQUIRE(mesh.entity().is_solid());
+    const PreparedScene standard = scene_of(mesh.entity(), Precision::standard);
+    const PreparedScene exact = scene_of(mesh.entity(), Precision::exact);
+    for (int i = 0; i < 500; ++i) {
+      const Ray ray = hard_ray(random, mesh);
+      const std::vector<Hit> hits = crossings(standard, ray);
+      const std::vector<Hit> exact_hits = crossings(exact, ray);
+      check_turns(hits, ray);
+      check_turns(exact_hits, ray);
+      const std::optional<Hit> first = intersect(standard, ray);
+      REQUIRE(first.has_value() == !hits.empty());
+      if (first) REQUIRE(first->t == hits.front().t);
+      if (first) REQUIRE(first->entering);
+      REQUIRE(occluded(exact, ray) == !exact_hits.empty());
+    }
+  }
+}
+
+TEST_CASE("a mesh of cubes is inside exactly where the cubes are filled") {
+  Random random(2);
+  int inside = 0;
+  for (int round = 0; round < 60; ++round) {
+    const Voxels voxels(random, 1 + round % 4);
+    const TriangleList mesh = voxels.mesh();
+    for (const Precision tier : tiers) {
+      const PreparedScene scene = scene_of(mesh.entity(), tier);
+      for (int i = 0; i < 300; ++i) {
+        const Ray ray = hard_ray(random, mesh);
+        const std::vector<Hit> hits = crossings(scene, ray);
+        for (std::size_t k = 0; k + 1 < hits.size(); ++k) {
+          const double t = 0.5 * (hits[k].t + hits[k + 1].t);
+          const Vec3 middle = ray.origin + t * ray.direction;
+          bool is_plain = true;  // not next to a face of any cube
+          for (int axis = 0; axis < 3; ++axis) {
+            is_plain = is_plain && std::abs(middle[axis] - std::round(middle[axis])) > 1e-9;
+          }
+          if (!is_plain) continue;
+          REQUIRE(voxels.at(middle) == (k % 2 == 0));
+          inside += k % 2 == 0 ? 1 : 0;
+        }
+      }
+    }
+  }
+  CHECK(inside > 10000);
+}
+
+TEST_CASE("a mesh of cubes and their union are one solid, alone and cut flush, to the last bit") {
+  Random random(3);
+  std::size_t met = 0;
+  for (int round = 0; round < 80; ++round) {
+    const Voxels voxels(random, 2 + round % 3);
+    const Voxels cutter(random, 2);
+    Entity by_mesh = voxels.mesh().entity();
+    Entity by_boxes = voxels.boxes();
+    const auto whole = [&] { return static_cast<double>(random.bits() % 3); };
+    const Transform moved = translate({whole(), whole(), whole()});
+    switch (round % 4) {
+      case 0:
+        break;
+      case 1: {
+        const Box box{.corner_a = {whole(), 0, 0}, .corner_b = {3, whole() + 1, 2}};
+        by_mesh = by_mesh - box;
+        by_boxes = by_boxes - box;
+        break;
+      }
+      case 2:
+        by_mesh = by_mesh - cutter.mesh().entity().transformed(moved);
+        by_boxes = by_boxes - cutter.boxes().transformed(moved);
+        break;
+      default:
+        by_mesh = by_mesh ^ cutter.mesh().entity().transformed(moved);
+        by_boxes = by_boxes ^ cutter.boxes().transformed(moved);
+        break;
+    }
+    for (const Precision tier : tiers) {
+      const PreparedScene mesh_scene = scene_of(by_mesh, tier);
+      const PreparedScene box_scene = scene_of(by_boxes, tier);
+      for (int i = 0; i < 200; ++i) {
+        Ray ray{.origin = 6.0 * random.in_cube(), .direction = random.direction()};
+        if (random.one_in(4)) ray.origin = Vec3(whole(), whole(), whole()) + Vec3(0.5);
+        const std::vector<Hit> hits = crossings(mesh_scene, ray);
+        const std::vector<Hit> expected = crossings(box_scene, ray);
+        REQUIRE(hits.size() == expected.size());
+        met += hits.size();
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+          REQUIRE(hits[k].t == expected[k].t);
+          REQUIRE(hits[k].normal == expected[k].normal);
+          REQUIRE(hits[k].entering == expected[k].entering);
+        }
+        REQUIRE(occluded(mesh_scene, ray) == !expected.empty());
+      }
+    }
+  }
+  CHECK(met > 5000);
+}
+
+TEST_CASE("a ray that starts on a triangle is inside at once if it leaves into the solid") {
+  Random random(4);
+  int starts = 0;
+  for (int round = 0; round < 100; ++round) {
+    const TriangleList mesh = random_mesh(random);
+    const Primitive primitive = Mesh{.triangles = mesh_triangles(mesh.positions, mesh.triangles)};
+    const auto shape = core::make_shape(primitive);
+    for (int i = 0; i < 200; ++i) {
+      const Ray ray = hard_ray(random, mesh);
+      core::CrossingList list;
+      const core::ObjectRay object_ray{.origin = ray.origin, .direction = ray.direction};
+      shape->crossings(object_ray, list);
+      if (list.empty()) continue;
+      const core::Crossing& crossing = list[random.bits() % list.size()];
+      const core::SurfacePoint point = shape->surface_point(object_ray, crossing);
+      Vec3 direction = random.in_cube();
+      const double along = glm::dot(direction, point.normal);
+      if (std::abs(along) < 1e-3) continue;
+      const bool inwards = along < 0;
+      const core::ObjectRay start{
+          .origin = point.position,
+          .direction = direction,
+          .start = {.face = crossing.face,
+                    .side = inwards ? core::Side::inside : core::Side::outside},
+          .begin = 0};
+      core::CrossingList next;
+      shape->crossings(start, next);
+      for (std::size_t k = 1; k < next.size(); ++k) {
+        REQUIRE(next[k - 1].t <= next[k].t);
+        REQUIRE(next[k - 1].entering != next[k].entering);
+      }
+      const auto is_start = [&](const core::Crossing& met) { return met.t == 0; };
+      // On an edge it is as well on the triangle beyond, or leaves past all of them.
+      if (std::min({point.u, point.v, 1 - point.u - point.v}) < 1e-6) continue;
+      REQUIRE(std::count_if(next.begin(), next.end(), is_start) == 1);
+      const auto ahead = std::count_if(next.begin(), next.end(),
+                                       [](const core::Crossing& met) { return met.t > 0; });
+      REQUIRE((ahead % 2 != 0) == inwards);
+      ++starts;
+    }
+  }
+  CHECK(starts > 2000);
+}
+
+TEST_CASE("corners are one where they are equal, and triangles without an area close gaps") {
+  // A square pyramid, each triangle with corners of its own. One side is divided by a corner in the
+  // middle of its lower edge, where a triangle without an area fills the gap.
+  const Vec3 top{0, 1, 0};
+  const Vec3 middle{0, 0, -1};
+  const std::array<Vec3, 4> base = {Vec3{-1, -0.0, -1}, {1, 0, -1}, {1, 0, 1}, {-1, 0, 1}};
+  TriangleList mesh;
+  const auto add = [&](const Vec3& a, const Vec3& b, const Vec3& c) {
+    const auto first = static_cast<std::uint32_t>(mesh.positions.size());
+    mesh.positions.insert(mesh.positions.end(), {a, b, c});
+    mesh.triangles.push_back({first, first + 1, first + 2});
+  };
+  add(Vec3{-1, 0, -1}, top, middle);
+  add(middle, top, base[1]);
+  for (std::size_t i = 1; i < 4; ++i) add(base[i], top, base[(i + 1) % 4]);
+  add(base[0], base[1], base[2]);
+  add(base[0], base[2], base[3]);
+  CHECK_FALSE(mesh.entity().is_solid());
+  add(base[0], middle, base[1]);
+  CHECK(mesh.entity().is_solid());
+  const PreparedScene scene = scene_of(mesh.entity());
+  for (const double x : {-0.5, 0.0, 0.25}) {
+    const std::vector<Hit> hits =
+        crossings(scene, {.origin = {x, 0.25, -9}, .direction = {0, 0, 1}});
+    REQUIRE(hits.size() == 2);
+    CHECK(hits[0].t == doctest::Approx(8.25));
+    CHECK(hits[1].t == doctest::Approx(9.75));
+  }
+}
+
+TEST_CASE("an open mesh is a surface, says why, and cannot be cut") {
+  Random random(5);
+  TriangleList mesh = ball_mesh(random, 3, 0);
+  mesh.triangles.pop_back();
+  const auto triangles = mesh_triangles(mesh.positions, mesh.triangles);
+  CHECK(solid_fault(*triangles).find("3 of its 108 edges") != std::string::npos);
+  const Entity entity(Mesh{.triangles = triangles});
+  CHECK_FALSE(entity.is_solid());
+  CHECK_THROWS_AS(entity - Sphere{}, Error);
+  const PreparedScene scene = scene_of(entity);
+  const Ray through{.origin = {0.1, 0.2, -9}, .direction = {0.01, 0.02, 1}};
+  const std::vector<Hit> hits = crossings(scene, through);
+  REQUIRE(hits.size() == 2);
+  CHECK(hits[0].entering);
+  CHECK_FALSE(hits[1].entering);
+  CHECK(intersect(scene, through)->t == hits[0].t);
+  mesh.triangles.push_back(mesh.triangles.front());
+  CHECK_FALSE(mesh.entity().is_solid());
+  CHECK_THROWS_AS(Entity(Mesh{}), Error);
+}
+
+TEST_CASE("normals are turned out of a closed mesh") {
+  Random random(6);
+  TriangleList mesh = ball_mesh(random, 3, 0.1);
+  for (TriangleIndices& triangle : mesh.triangles) std::swap(triangle[0], triangle[1]);
+  const PreparedScene scene = scene_of(mesh.entity());
+  const Ray ray{.origin = {0.1, 0.2, -9}, .direction = {0.01, 0.02, 1}};
+  check_turns(crossings(scene, ray), ray);
+  CHECK(crossings(scene, ray).size() == 2);
+}
+
+TEST_CASE("a turned mesh tells one story in both tiers, and any power of two as its size") {
+  Random random(7);
+  for (int round = 0; round < 30; ++round) {
+    const TriangleList mesh = random_mesh(random);
+    const Transform turned = rotate({random.uniform(0, 6), random.uniform(0, 6), 1});
+    const Entity entity = mesh.entity().transformed(turned);
+    const PreparedScene standard = scene_of(entity, Precision::standard);
+    const PreparedScene exact = scene_of(entity, Precision::exact);
+    const double scale = 0x1p-200;
+    const PreparedScene small =
+        scene_of(entity.transformed({{scale, 0, 0}, {0, scale, 0}, {0, 0, scale}, {0, 0, 0}}));
+    for (int i = 0; i < 100; ++i) {
+      Ray ray = hard_ray(random, mesh);
+      ray.t_min = 0;
+      const std::vector<Hit> hits = crossings(standard, ray);
+      const std::vector<Hit> exact_hits = crossings(exact, ray);
+      // Through a corner or an edge the rounding of the transform decides.
+      if (hits.size() == exact_hits.size()) {
+        for (std::size_t k = 0; k < hits.size(); ++k) {
+          REQUIRE(hits[k].t == doctest::Approx(exact_hits[k].t).epsilon(1e-6));
+        }
+      }
+      ray.origin *= scale;
+      ray.direction *= scale;
+      const std::vector<Hit> small_hits = crossings(small, ray);
+      REQUIRE(small_hits.size() == hits.size());
+      for (std::size_t k = 0; k < hits.size(); ++k) REQUIRE(small_hits[k].t == hits[k].t);
+    }
+  }
+}
