@@ -513,7 +513,9 @@ CRT_API crt_status crt_disc_create(const double center[3], const double normal[3
 CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], const double c[3],
                                        crt_entity** out);
 /**
- * Makes a surface of triangles. Triangles without an area are left out; it is an error if all are.
+ * Makes a mesh. It is a solid if each edge belongs to an even number of triangles, and else a
+ * surface. Corners with equal coordinates are one. Inside is every point from which a line to
+ * infinity crosses an odd number of triangles. It is an error if no triangle has an area.
  * @param positions       3 * vertex_count numbers
  * @param indices         3 * triangle_count numbers, each below vertex_count
  */
@@ -588,6 +590,14 @@ CRT_API crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entit
 
 /** Returns 1 if the entity has an inside, and 0 if a part of it is a mere surface or it is NULL. */
 CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
+/**
+ * Says why an entity has no inside: of a mesh which edge is open, and how many are.
+ * @param text      an array of `capacity` bytes, which gets as much of the text as fits, and a 0
+ *                  after it; NULL if that is 0
+ * @param length    gets the length of the whole text without the 0; it is 0 for a solid
+ */
+CRT_API crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity,
+                                          size_t* length);
 /**
  * Returns the number of primitives the entity is made of. A part that occurs twice is counted
  * twice. It is 0 for NULL and for the empty entity.

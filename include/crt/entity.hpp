@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 namespace crt {
 
@@ -50,14 +51,18 @@ class Entity {
   Entity with_id(std::uint32_t id) const;
 
   /// Says whether it has an inside. It has none if any part of it is a mere surface (Disc,
-  /// Triangle, HalfPlane).
+  /// Triangle, HalfPlane, or a Mesh that is open).
   bool is_solid() const;
+
+  /// Says why it has no inside, by the first part that has none: of a mesh which edge is open, and
+  /// how many are. It is empty for a solid.
+  std::string solid_fault() const;
 
   /// Says whether it has no points at all: see empty_entity().
   bool is_empty() const;
 
-  /// Returns how many primitives it is made of. A part that occurs twice is counted twice. The
-  /// count saturates.
+  /// Returns how many primitives it is made of. A part that occurs twice is counted twice, and a
+  /// mesh as often as it has triangles. The count saturates.
   std::uint64_t primitive_count() const;
 
   /// Returns the tree of what was combined and placed. This is internal.

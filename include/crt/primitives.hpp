@@ -11,7 +11,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <string>
 #include <variant>
 
 namespace crt {
@@ -135,10 +134,6 @@ struct Mesh {
 /// no triangle has an area.
 std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positions,
                                                     std::span<const TriangleIndices> triangles);
-
-/// Says why triangles do not enclose a solid, with the first edge that is open and how many are.
-/// It is empty if they do. The text lives as long as the triangles.
-const std::string& solid_fault(const MeshTriangles& triangles);
 
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,

@@ -111,6 +111,15 @@ class Entity(Handle):
         return bool(library.crt_entity_is_solid(self._handle))
 
     @property
+    def solid_fault(self) -> str:
+        """Says why it has no inside: of a mesh which edge is open. It is empty for a solid."""
+        length = ctypes.c_size_t()
+        library.crt_entity_solid_fault(self._handle, None, 0, ctypes.byref(length))
+        text = ctypes.create_string_buffer(length.value + 1)
+        library.crt_entity_solid_fault(self._handle, text, len(text), ctypes.byref(length))
+        return text.value.decode()
+
+    @property
     def primitive_count(self) -> int:
         """Returns how many primitives it is made of. One that occurs twice counts twice."""
         return int(library.crt_entity_primitive_count(self._handle))

@@ -356,7 +356,8 @@ class Triangle(_Primitive):
 
 
 class Mesh(_Primitive):
-    """A Mesh is a surface of triangles: n x 3 positions, and m x 3 indices into them."""
+    """A Mesh is made of triangles: n x 3 positions, and m x 3 indices into them. It is a solid if
+    each edge belongs to an even number of triangles, and else a surface."""
 
     def __init__(
         self,

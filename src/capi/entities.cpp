@@ -1,6 +1,8 @@
 // This file implements the entities of the C interface.
+#include <algorithm>
 #include <cmath>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "capi/structs.hpp"
@@ -198,6 +200,21 @@ crt_status crt_entity_with_id(crt_entity* entity, uint32_t id, crt_entity** out)
 
 int32_t crt_entity_is_solid(const crt_entity* entity) {
   return entity != nullptr && entity->value.is_solid() ? 1 : 0;
+}
+
+crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity,
+                                  size_t* length) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(length, "length");
+    if (capacity > 0) require(text, "text");
+    const std::string fault = entity->value.solid_fault();
+    *length = fault.size();
+    if (capacity == 0) return;
+    const std::size_t fitting = std::min(fault.size(), capacity - 1);
+    std::copy_n(fault.data(), fitting, text);
+    text[fitting] = 0;
+  });
 }
 
 uint64_t crt_entity_primitive_count(const crt_entity* entity) {

@@ -76,6 +76,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"positions", [&] { return crt_mesh_create(nullptr, 3, triangle_indices(), 1, &entity); }},
       {"indices", [&] { return crt_mesh_create(z, 1, nullptr, 1, &entity); }},
       {"path", [&] { return crt_mesh_load(nullptr, nullptr, &entity); }},
+      {"entity", [&] { return crt_entity_solid_fault(nullptr, nullptr, 0, &count); }},
       {"out", [&] { return crt_mesh_load("a.obj", nullptr, nullptr); }},
       {"parts", [&] { return crt_union_create(nullptr, 1, &entity); }},
       {"parts", [&] { return crt_union_create(nothing, 1, &entity); }},

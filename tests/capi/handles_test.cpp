@@ -86,6 +86,16 @@ TEST_CASE("entities say what they are") {
   const EntityHandle mesh = made<EntityHandle>(
       [&](crt_entity** out) { return crt_mesh_create(corners, 4, indices, 3, out); });
   CHECK(crt_entity_is_solid(mesh.get()) == 0);
+  std::size_t length = 0;
+  CHECK(crt_entity_solid_fault(mesh.get(), nullptr, 0, &length) == CRT_OK);
+  std::string fault(length + 1, 'x');
+  CHECK(crt_entity_solid_fault(mesh.get(), fault.data(), fault.size(), &length) == CRT_OK);
+  CHECK(fault.starts_with("a mesh is open: 4 of its 5 edges "));
+  CHECK(fault.back() == 0);
+  CHECK(crt_entity_solid_fault(mesh.get(), fault.data(), 7, &length) == CRT_OK);
+  CHECK(std::string(fault.c_str()) == "a mesh");
+  CHECK(crt_entity_solid_fault(ball.get(), fault.data(), 1, &length) == CRT_OK);
+  CHECK(length == 0);
   CHECK(crt_entity_primitive_count(mesh.get()) == 2);
   crt_entity* out = nullptr;
   crt_entity* const cutters[] = {mesh.get()};

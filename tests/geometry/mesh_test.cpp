@@ -255,8 +255,11 @@ TEST_CASE("an open mesh is a surface, says why, and cannot be cut") {
   TriangleList mesh = ball_mesh(random, 3, 0);
   mesh.triangles.pop_back();
   const auto triangles = mesh_triangles(mesh.positions, mesh.triangles);
-  CHECK(solid_fault(*triangles).find("3 of its 108 edges") != std::string::npos);
   const Entity entity(Mesh{.triangles = triangles});
+  CHECK(entity.solid_fault().starts_with("a mesh is open: 3 of its 108 edges "));
+  CHECK((entity + Sphere{}).with_id(3).solid_fault() == entity.solid_fault());
+  CHECK(Entity(Sphere{}).solid_fault() == "");
+  CHECK(Entity(Disc{}).solid_fault() == "Disc, Triangle and HalfPlane are surfaces");
   CHECK_FALSE(entity.is_solid());
   CHECK_THROWS_AS(entity - Sphere{}, Error);
   const PreparedScene scene = scene_of(entity);

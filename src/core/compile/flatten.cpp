@@ -62,7 +62,7 @@ class Flattening {
 FlatScene Flattening::flatten(std::span<const Entity> entities) {
   std::uint64_t count = 0;
   for (const Entity& entity : entities) {
-    count += entity.primitive_count();
+    count += entity.node().leaf_count;
   }
   result_.leaves.reserve(count);
   result_.programs_of_leaves.reserve(count);

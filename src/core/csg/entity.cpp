@@ -6,6 +6,7 @@
 #include <limits>
 
 #include "core/csg/entity_node.hpp"
+#include "core/geometry/mesh/triangles.hpp"
 #include "core/geometry/shape.hpp"
 #include "crt/error.hpp"
 
@@ -13,10 +14,10 @@ namespace crt {
 
 namespace {
 
-std::uint64_t saturating_sum(std::uint64_t a, std::uint64_t b) {
-  return a > std::numeric_limits<std::uint64_t>::max() - b
-             ? std::numeric_limits<std::uint64_t>::max()
-             : a + b;
+template <class Count>
+Count saturating_sum(Count a, Count b) {
+  constexpr Count most = std::numeric_limits<Count>::max();
+  return a > most - b ? most : a + b;
 }
 
 Entity make_entity(EntityNode::Content content) {
@@ -33,10 +34,9 @@ EntityWrapper wrapper_of(const Entity& entity) {
 
 void require_solid(const Entity& entity, const char* operation) {
   if (entity.is_solid()) return;
-  throw Error(
-      ErrorCode::invalid_argument,
-      std::string("an operand of the ") + operation +
-          " has no inside: Disc, Triangle and HalfPlane are surfaces, and only solids can be cut");
+  throw Error(ErrorCode::invalid_argument,
+              std::string("an operand of the ") + operation +
+                  " has no inside, and only solids can be cut: " + entity.solid_fault());
 }
 
 /// Combines the parts that are not empty. Empty ones must make no difference, so the first part of
@@ -118,13 +118,17 @@ ChainPointer transformed_more(ChainPointer earlier, const Transform& transform) 
 EntityNode::EntityNode(Content new_content) : content(std::move(new_content)) {
   if (const auto* primitive = std::get_if<Primitive>(&content)) {
     solid = core::is_solid(*primitive);
+    if (const auto* mesh = std::get_if<Mesh>(primitive)) primitive_count = mesh->triangles->size();
   } else if (const auto* wrapper = std::get_if<EntityWrapper>(&content)) {
     solid = wrapper->child->solid;
+    leaf_count = wrapper->child->leaf_count;
     primitive_count = wrapper->child->primitive_count;
   } else {
+    leaf_count = 0;
     primitive_count = 0;
     for (const EntityPointer& part : std::get<CsgOperation>(content).parts) {
       solid = solid && part->solid;
+      leaf_count = saturating_sum(leaf_count, part->leaf_count);
       primitive_count = saturating_sum(primitive_count, part->primitive_count);
     }
   }
@@ -189,6 +193,26 @@ Entity Entity::with_id(std::uint32_t id) const {
 
 bool Entity::is_solid() const {
   return node_->solid;
+}
+
+std::string Entity::solid_fault() const {
+  if (is_solid()) return "";
+  const EntityNode* node = node_.get();
+  while (true) {
+    if (const auto* wrapper = std::get_if<EntityWrapper>(&node->content)) {
+      node = wrapper->child.get();
+    } else if (const auto* operation = std::get_if<CsgOperation>(&node->content)) {
+      node = std::find_if(operation->parts.begin(), operation->parts.end(),
+                          [](const EntityPointer& part) { return !part->solid; })
+                 ->get();
+    } else {
+      break;
+    }
+  }
+  const auto& primitive = std::get<Primitive>(node->content);
+  const auto* mesh = std::get_if<Mesh>(&primitive);
+  if (mesh == nullptr) return "Disc, Triangle and HalfPlane are surfaces";
+  return "a mesh is open: " + mesh->triangles->fault();
 }
 
 bool Entity::is_empty() const {

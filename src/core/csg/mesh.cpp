@@ -8,10 +8,6 @@ std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positi
   return std::make_shared<const MeshTriangles>(positions, triangles);
 }
 
-const std::string& solid_fault(const MeshTriangles& triangles) {
-  return triangles.fault();
-}
-
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles) {
   return Mesh{.triangles = mesh_triangles(positions, triangles)};
 }
