@@ -97,6 +97,9 @@ struct ScriptResult {
   /// The scene is present if there was no error.
   std::optional<Scene> scene{};
   std::vector<Diagnostic> diagnostics{};
+  /// Says whether the script or an import reads the constant `t`, once there is a scene. If not,
+  /// every `t` gives the same scene.
+  bool reads_time = false;
 };
 
 /// Runs a script. `name` stands for it in messages, and its files are looked for in the directory

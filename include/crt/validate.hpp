@@ -4,6 +4,7 @@
 
 #include <crt/background.hpp>
 #include <crt/camera.hpp>
+#include <crt/entity.hpp>
 #include <crt/light.hpp>
 #include <crt/material.hpp>
 #include <crt/primitives.hpp>
@@ -32,5 +33,10 @@ void validate(const Background& background);
 void validate(const Settings& settings);
 
 /// @}
+
+/// Says whether some part of an entity has no material of its own, so that Entity::with_material()
+/// changes it. Only some hundred parts are looked at: if all of these have one, it says that
+/// another lacks it.
+bool lacks_material(const Entity& entity);
 
 }  // namespace crt

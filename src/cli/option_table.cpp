@@ -99,7 +99,7 @@ void add_script_rows(std::vector<OptionRow>& rows, CommonRequest& request) {
 void add_quiet_row(std::vector<OptionRow>& rows, CommonRequest& request) {
   rows.push_back({.names = "-q,--quiet",
                   .type = "",
-                  .help = "prints errors and nothing else",
+                  .help = "writes errors, what the script prints, and nothing else",
                   .take = into_flag("--quiet", request.quiet)});
 }
 

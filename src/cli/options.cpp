@@ -116,6 +116,17 @@ std::string did_you_mean(const std::string& word, const std::vector<std::string>
   return meant.empty() ? "" : fmt::format("; did you mean {}?", meant);
 }
 
+/// Proposes long options for an unknown one of one letter, of which any other letter is as near.
+std::string long_names_of(const std::string& option, const std::vector<std::string>& known) {
+  constexpr std::size_t most = 4;
+  std::vector<std::string> meant;
+  for (const std::string& name : known) {
+    if (name.starts_with("-" + option)) meant.push_back(name);
+  }
+  if (meant.empty() || meant.size() > most) return "";
+  return fmt::format("; did you mean {}?", text::enumerate(meant));
+}
+
 /// Says what is wrong with the first word that is no option and has no place.
 std::string complaint_about_unknown(const CLI::App& app, int argc, const char* const* argv) {
   const std::vector<std::string> unknown = app.remaining(true);
@@ -133,7 +144,16 @@ std::string complaint_about_unknown(const CLI::App& app, int argc, const char* c
   for (const OptionDescription& option : command.options)
     names.insert(names.end(), option.names.begin(), option.names.end());
   const std::string name = word.substr(0, word.find('='));
-  return fmt::format("'{}' has no option {}{}", title, name, did_you_mean(name, names));
+  constexpr std::size_t of_one_letter = 2;
+  return fmt::format(
+      "'{}' has no option {}{}", title, name,
+      name.size() == of_one_letter ? long_names_of(name, names) : did_you_mean(name, names));
+}
+
+bool has_unknown_option(const CLI::App& app) {
+  const std::vector<std::string> unknown = app.remaining(true);
+  return std::any_of(unknown.begin(), unknown.end(),
+                     [](const std::string& word) { return word.starts_with('-'); });
 }
 
 ExitCode refuse(const std::string& message, const std::string& command) {
@@ -221,6 +241,8 @@ Request parse_command_line(int argc, const char* const* argv) {
   try {
     app.parse(argc, argv);
   } catch (const CLI::Success& help_or_version) {
+    // In `-w 100 -h 100` no help is meant.
+    if (has_unknown_option(app)) return complain(help_or_version, app, argc, argv);
     return show(help_or_version, app);
   } catch (const CLI::ParseError& error) {
     return complain(error, app, argc, argv);

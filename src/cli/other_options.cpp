@@ -16,7 +16,8 @@ constexpr std::string_view trade_footer =
 depths, exact precision), compares each with a reference that is far more accurate, and writes a
 table (.csv) and a plot (.svg) of seconds against the error: its root mean square, and what 99.9 %
 of the pixels stay below, in steps of an 8-bit picture. By default it measures bands of the picture
-with about 30000 pixels together; all seconds are those that the whole picture would take.
+with about 30000 pixels together; all seconds are those that the whole picture would take. It takes
+half a minute to some minutes, which --most-seconds and --pixels make less.
 
 Examples:
   crt trade scene.crt                      scene-trade.csv and scene-trade.svg
@@ -42,7 +43,8 @@ CommandTable trade_table(TradeRequest& request) {
   add_script_rows(rows, request);
   rows.push_back({.names = "--budget",
                   .type = "SECONDS",
-                  .help = "asks for the most accurate setting within so many seconds a picture",
+                  .help = "asks for the most accurate setting within so many seconds a picture, "
+                          "however long the measuring takes",
                   .take = [&request](const std::string& text) {
                     request.budget = parse_positive("--budget", text);
                   }});

@@ -10,8 +10,8 @@
 
 namespace crt::cli {
 
-std::optional<Scene> run_scene(const ScriptSource& script, const ScriptOptions& options,
-                               bool output_is_free, Reporter& reporter) {
+ScriptResult run_scene(const ScriptSource& script, const ScriptOptions& options,
+                       bool output_is_free, Reporter& reporter) {
   ScriptOptions with_print = options;
   with_print.print = [&](std::string_view line) {
     const std::string text = fmt::format("{}\n", line);
@@ -22,7 +22,7 @@ std::optional<Scene> run_scene(const ScriptSource& script, const ScriptOptions& 
     if (diagnostic.code == ErrorCode::cancelled) throw Error(diagnostic.code, diagnostic.message);
   }
   reporter.add(result.diagnostics);
-  return std::move(result.scene);
+  return result;
 }
 
 namespace {
@@ -34,7 +34,7 @@ Image trace(const Scene& scene, const PictureTask& task, const FormatLoader& loa
       prepare(scene, {.go_on = go_on, .max_primitives = task.request.max_primitives});
   RenderOptions options = task.request.render;
   options.log = [&](LogLevel level, std::string_view line) {
-    if (level == LogLevel::warning) warnings.push_back(fmt::format("crt: warning: {}", line));
+    if (level == LogLevel::warning) warnings.emplace_back(line);
   };
   Progress progress(task.name, task.style);
   options.progress = [&](double share) {
@@ -52,12 +52,21 @@ Image render_scene(const Scene& scene, const PictureTask& task, Reporter& report
   try {
     Image image = trace(scene, task, loader, warnings);
     loader.finish();
-    for (const std::string& warning : warnings) reporter.note(warning);
+    for (const std::string& warning : warnings) reporter.warn(warning);
     return image;
   } catch (const Error& error) {
     if (error.code() == ErrorCode::cancelled) loader.finish();  // which may be the reason
     throw;
   }
+}
+
+std::optional<std::string> warning_of(const Image& image) {
+  constexpr double most_in_a_good_picture = 0.03;
+  const RenderStats& stats = image.stats();
+  const auto ended = static_cast<double>(stats.rays_beyond_depth);
+  if (ended <= most_in_a_good_picture * static_cast<double>(stats.camera_rays)) return std::nullopt;
+  return fmt::format("{} rays ended at recursiondepth {} and count as black: raise recursiondepth",
+                     stats.rays_beyond_depth, image.settings().recursion_depth);
 }
 
 std::string summary(const std::string& name, const Image& image) {

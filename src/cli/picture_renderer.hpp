@@ -16,10 +16,10 @@
 namespace crt::cli {
 
 /// Runs a script. What it prints goes to standard output, or to standard error if standard output
-/// has another use. Returns nothing if the script is wrong, which is then reported. Throws Error
+/// has another use. There is no scene if the script is wrong, which is then reported. Throws Error
 /// (cancelled) if the option go_on said so.
-std::optional<Scene> run_scene(const ScriptSource& script, const ScriptOptions& options,
-                               bool output_is_free, Reporter& reporter);
+ScriptResult run_scene(const ScriptSource& script, const ScriptOptions& options,
+                       bool output_is_free, Reporter& reporter);
 
 /// A PictureTask says which picture is to be made of a scene.
 struct PictureTask {
@@ -33,6 +33,10 @@ struct PictureTask {
 /// Prepares and renders a scene, and loads what writing the picture needs meanwhile. Warnings are
 /// reported. Throws Error: cancelled if go_on said so.
 Image render_scene(const Scene& scene, const PictureTask& task, Reporter& reporter);
+
+/// Returns what the user should know of how a picture was made: that many rays ended before they
+/// had shown all. Returns nothing if all is well.
+std::optional<std::string> warning_of(const Image& image);
 
 /// Returns the line that reports a picture: its size, and the rays and seconds that it took.
 std::string summary(const std::string& name, const Image& image);

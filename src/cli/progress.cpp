@@ -21,6 +21,8 @@ using std::chrono::duration;
 using std::chrono::milliseconds;
 
 constexpr milliseconds redraw_interval{100};
+/// Lines are not for what is done soon, and keep a distance.
+constexpr milliseconds line_interval{2000};
 /// Before this share is done, an estimate of the time left is worth nothing.
 constexpr double least_share_to_estimate = 0.02;
 constexpr std::string_view erase_line = "\r\033[K";
@@ -82,8 +84,9 @@ void Progress::draw_bar(double share, Clock::time_point now) {
 
 void Progress::print_line(double share, Clock::time_point now) {
   const int tenth = static_cast<int>(10 * share);
-  if (tenth <= last_tenth_) return;
+  if (tenth <= last_tenth_ || now - last_line_ < line_interval) return;
   last_tenth_ = tenth;
+  last_line_ = now;
   write_text(stderr, fmt::format("{}: {} %{}\n", name_, 10 * tenth, time_left(share, now)));
 }
 

@@ -1,5 +1,5 @@
 // Progress shows on standard error how far a render is: a bar with the time left on a terminal,
-// else a line every tenth.
+// else a line now and then: at a tenth, and two seconds after the last one or the begin.
 #pragma once
 
 #include <chrono>
@@ -39,6 +39,7 @@ class Progress {
   Clock::time_point start_ = Clock::now();
   Clock::time_point last_drawn_{};
   bool drawn_ = false;
+  Clock::time_point last_line_ = start_;
   int last_tenth_ = 0;
 };
 

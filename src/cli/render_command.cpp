@@ -50,6 +50,7 @@ class RenderJob {
  private:
   /// Makes a picture, or several frames. Returns false if that failed, which is then reported.
   bool render_planned(const PlannedPicture& picture) {
+    has_warned_ = false;
     try {
       if (picture.is_film) return render_film(picture);
       if (!request_.frames) return write_picture(picture, request_.script.t, std::nullopt);
@@ -154,9 +155,11 @@ class RenderJob {
     options.go_on = go_on;
     // Standard output belongs to what was asked for there.
     const bool is_free = request_.stats != standard_stream && planned.output != standard_stream;
-    const std::optional<Scene> scene = run_scene(planned.script, options, is_free, reporter_);
+    const ScriptResult result = run_scene(planned.script, options, is_free, reporter_);
+    const std::optional<Scene>& scene = result.scene;
     const double parse_seconds = watch.seconds();
     if (!scene) return std::nullopt;
+    warn_of_still(planned, result);
     const std::optional<Region>& region = request_.render.region;
     if (region && !reporter_.accept_region(*region, scene->settings)) return std::nullopt;
     projection_ = scene->camera.projection;
@@ -170,6 +173,20 @@ class RenderJob {
     return image;
   }
 
+  /// Warns of frames that will be the same.
+  void warn_of_still(const PlannedPicture& planned, const ScriptResult& result) {
+    const bool is_film = request_.frames && request_.frames->first < request_.frames->last;
+    if (is_film && !result.reads_time)
+      reporter_.warn(fmt::format("all frames of '{}' are the same, as it does not read t",
+                                 planned.script.name()));
+  }
+
+  /// Warns of what a picture lacks. One of a film stands for all.
+  void warn_of_picture(const Image& image) {
+    const std::optional<std::string> warning = warning_of(image);
+    if (warning && !std::exchange(has_warned_, true)) reporter_.warn(*warning);
+  }
+
   fs::path usual_name() const { return std::string("picture") + usual_ending(request_); }
 
   /// Reports a picture that is done.
@@ -177,6 +194,7 @@ class RenderJob {
               std::optional<int> frame) {
     if (request_.show) reporter_.print(terminal_picture(image));
     reporter_.note(summary(name, image));
+    warn_of_picture(image);
     reports_.push_back({.script = planned.script.name(),
                         .output = planned.is_film ? planned.output.string() : name,
                         .frame = frame,
@@ -214,6 +232,7 @@ class RenderJob {
   ProgressStyle style_;
   const InterruptScope* interrupt_ = nullptr;
   Projection projection_{};
+  bool has_warned_ = false;
   std::vector<PictureReport> reports_;
 };
 

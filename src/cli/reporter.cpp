@@ -62,6 +62,11 @@ void Reporter::add(const Error& error) {
   add(error.code(), error.what(), exit_code_of(error.code()));
 }
 
+void Reporter::warn(const std::string& message) {
+  add_one(Diagnostic{.severity = Severity::warning, .message = message},
+          fmt::format("crt: warning: {}\n", message));
+}
+
 bool Reporter::accept_region(const Region& region, const Settings& settings) {
   const bool inside =
       region.width <= settings.width - region.x && region.height <= settings.height - region.y;

@@ -24,6 +24,9 @@ class Reporter {
   void add(ErrorCode code, const std::string& message, ExitCode exit_code);
   void add(const Error& error);
 
+  /// Adds a warning that has no place in a script, unless it was added before (for another frame).
+  void warn(const std::string& message);
+
   /// Says whether a region is inside a picture. If not, it reports an error.
   bool accept_region(const Region& region, const Settings& settings);
 

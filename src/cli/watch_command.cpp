@@ -30,6 +30,7 @@ Scene draft_of(Scene scene) {
   settings.height = std::max(1, settings.height / draft_step);
   settings.supersampling = settings.dof_samples = 1;
   settings.target_error = settings.time_budget = 0;
+  scene.camera.aperture = 0;
   return scene;
 }
 
@@ -73,9 +74,6 @@ class Watch {
     if (request_.scene == standard_stream || request_.output == standard_stream) {
       reporter.add(ErrorCode::invalid_argument, "only files can be watched and written again",
                    ExitCode::usage);
-    } else if (!fs::exists(request_.scene, unlike)) {
-      reporter.add(ErrorCode::io, fmt::format("there is no script '{}'", request_.scene.string()),
-                   ExitCode::files);
     } else if (fs::equivalent(request_.scene, output_, unlike)) {
       reporter.add(ErrorCode::invalid_argument,
                    fmt::format("the picture would overwrite its script '{}': name another file "
@@ -117,6 +115,10 @@ class Watch {
   void render_all(Reporter& reporter) {
     const Stopwatch watch;
     files_.add(request_.scene);
+    if (std::error_code failed; !fs::exists(request_.scene, failed)) {
+      reporter.note(fmt::format("waiting for the script '{}'", request_.scene.string()));
+      return;
+    }
     ScriptOptions options = request_.script;
     options.open_file = [this](const fs::path& file) {
       files_.add(file);
@@ -124,7 +126,7 @@ class Watch {
     };
     options.go_on = [this] { return !interrupt_->interrupted(); };
     const std::optional<Scene> scene =
-        run_scene(ScriptSource(request_.scene), options, true, reporter);
+        run_scene(ScriptSource(request_.scene), options, true, reporter).scene;
     if (!scene) return;
     const double parse_seconds = watch.seconds();
     const Settings& settings = scene->settings;
@@ -138,6 +140,7 @@ class Watch {
     image.stats().parse_seconds = parse_seconds;
     image.write(output_, how);
     reporter.note(summary(output_.string(), image));
+    if (const std::optional<std::string> warning = warning_of(image)) reporter.warn(*warning);
   }
 
   Image render_one(const Scene& scene, ProgressStyle style, Reporter& reporter) {

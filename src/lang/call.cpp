@@ -1,6 +1,8 @@
 // This file has the interpreter's calls of built-ins and of macros, as statements and as values.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "lang/builtins.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
@@ -40,6 +42,13 @@ class DepthGuard {
 
 }  // namespace
 
+std::string parameter_list(const SymbolTable& symbols, const MacroValue& macro) {
+  std::string list;
+  for (const NamePlace& parameter : macro.literal->parameters)
+    list += fmt::format("{}{}", list.empty() ? "" : ", ", symbols.name(parameter.symbol));
+  return fmt::format("({})", list);
+}
+
 std::string_view Interpreter::callee_name(const Call& call) const {
   const auto* name = std::get_if<Name>(&call.callee->node);
   return name ? context_.symbols.name(name->symbol) : "a macro";
@@ -74,12 +83,39 @@ void Interpreter::not_callable(const Call& call, const Value& callee) const {
       Arguments(context_, builtin, expression.span, guard.values(), call.arguments));
 }
 
+/// Refuses arguments that are given by name, as other languages have them: they would be taken for
+/// assignments where the call stands, and their values for those of other parameters.
+[[gnu::noinline]] void Interpreter::complain_of_name(const Assignment& assignment,
+                                                     const MacroValue& macro) const {
+  const std::vector<NamePlace>& parameters = macro.literal->parameters;
+  const bool is_parameter = std::any_of(
+      parameters.begin(), parameters.end(),
+      [&](const NamePlace& parameter) { return parameter.symbol == assignment.name.symbol; });
+  const Span span = assignment.name.span;
+  if (is_parameter) {
+    const std::string message =
+        fmt::format("arguments have no names: give them in the order of the parameters {}",
+                    parameter_list(context_.symbols, macro));
+    if (context_.compat != compat_2015) throw Failure{.span = span, .message = message};
+    context_.reporter.warning(span, message);
+  } else if (context_.compat != compat_2015) {
+    context_.reporter.warning(
+        span,
+        fmt::format("arguments have no names: this sets the variable '{}' outside of the call",
+                    context_.symbols.name(assignment.name.symbol)));
+  }
+}
+
 /// Makes the scope of a call, with the parameters bound to the arguments.
 [[gnu::noinline]] std::shared_ptr<Scope> Interpreter::bind_arguments(const Expression& expression,
                                                                      const Call& call,
                                                                      const MacroValue& macro) {
   const std::vector<NamePlace>& parameters = macro.literal->parameters;
   const std::size_t count = parameters.size();
+  for (const Expression* argument : call.arguments) {
+    const auto* assignment = std::get_if<Assignment>(&argument->node);
+    if (assignment) complain_of_name(*assignment, macro);
+  }
   if (call.arguments.size() != count) {
     fail(expression.span, "'{}' takes {} argument{}, and this call has {}", callee_name(call),
          count, count == 1 ? "" : "s", call.arguments.size());

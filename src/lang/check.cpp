@@ -2,7 +2,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "lang/objects.hpp"
@@ -14,6 +17,42 @@ namespace crt::lang {
 
 namespace {
 
+using Hint = std::pair<std::string_view, std::string_view>;
+
+/// Says what stands here for objects of other languages.
+constexpr std::array foreign_objects = {
+    Hint{"Cube", "; did you mean 'Box'?"},
+    Hint{"Cuboid", "; did you mean 'Box'?"},
+    Hint{"Ball", "; did you mean 'Sphere'?"},
+    Hint{"Tube", "; did you mean 'Cylinder'?"},
+    Hint{"Ring", "; did you mean 'Torus'?"},
+    Hint{"Circle", "; did you mean 'Disc'?"},
+    Hint{"Texture", "; did you mean 'Material'?"},
+    Hint{"Pigment", "; did you mean 'Material'?"},
+    Hint{"Finish", "; did you mean 'Material'?"},
+    Hint{"Ellipsoid", "; it is a Sphere { ... } <scale vec3(1, 2, 1)>"},
+    Hint{"Union", "; the union of two entities is a + b"},
+    Hint{"Difference", "; the difference of two entities is a - b"},
+    Hint{"Intersection", "; the intersection of two entities is a ^ b"},
+};
+
+/// Returns what an unknown object most likely is, or all lights or all objects that there are.
+std::string meant(std::string_view name) {
+  const auto* foreign = std::find_if(foreign_objects.begin(), foreign_objects.end(),
+                                     [name](const Hint& hint) { return hint.first == name; });
+  if (foreign != foreign_objects.end()) return std::string(foreign->second);
+  std::vector<std::string_view> names;
+  for (const ObjectType& type : object_types()) names.push_back(type.name);
+  if (std::string hint = did_you_mean(name, names); !hint.empty()) return hint;
+  constexpr std::string_view light = "Light";
+  const bool is_light = name.ends_with(light);
+  std::vector<std::string> listed;
+  for (const std::string_view known : names) {
+    if (!is_light || known.ends_with(light)) listed.emplace_back(known);
+  }
+  return fmt::format("; there are {}", enumerate(listed, "and"));
+}
+
 class Checker {
  public:
   Checker(int compat, const SymbolTable& symbols, Reporter& reporter)
@@ -23,10 +62,7 @@ class Checker {
     const std::string_view name = symbols_.name(object.name.symbol);
     object.type = find_object_type(name);
     if (object.type) return check_attributes(*object.type, object.name.span, object.attributes);
-    std::vector<std::string_view> names;
-    for (const ObjectType& type : object_types()) names.push_back(type.name);
-    reporter_.error(object.name.span,
-                    fmt::format("unknown object '{}'{}", name, did_you_mean(name, names)));
+    reporter_.error(object.name.span, fmt::format("unknown object '{}'{}", name, meant(name)));
   }
 
   void check_attributes(const ObjectType& type, Span name_span,

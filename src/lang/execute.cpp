@@ -7,10 +7,12 @@
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 #include "lang/settings.hpp"
+#include "lang/word_byte.hpp"
 
 namespace crt::lang {
 
 void Interpreter::run(const Script& script, bool is_import) {
+  has_begun_ = true;
   const Temporarily imports(is_import_, is_import);
   for (const Statement& statement : script.statements.statements) attempt(statement);
 }
@@ -192,6 +194,18 @@ void Interpreter::execute_node(const Import& import) {
   if (!used) context_.reporter.warning(span, "value is not used" + why_not_used(value, span));
 }
 
+/// Says how to call a macro of which only the name stands there.
+std::string Interpreter::how_to_call(const MacroValue& macro, Span span) const {
+  const Source& source = context_.sources.source_of(span);
+  const std::string_view text =
+      std::string_view(source.text).substr(span.begin - source.base, span.end - span.begin);
+  const bool is_name =
+      std::all_of(text.begin(), text.end(), [](char c) { return is_word_byte(c); });
+  const std::string_view name = is_name ? text : "m";
+  return fmt::format("; {} is a macro: call it with {}{}", is_name ? name : "this", name,
+                     parameter_list(context_.symbols, macro));
+}
+
 /// Says where a value that is not used belongs, or what was meant.
 [[gnu::noinline]] std::string Interpreter::why_not_used(const Value& value, Span span) const {
   const Value* first = &value;
@@ -207,6 +221,7 @@ void Interpreter::execute_node(const Import& import) {
     return ": a Material belongs to an entity, as 'material -> m' or <material m>";
   if (std::holds_alternative<std::shared_ptr<const Pattern>>(*first))
     return ": a Pattern belongs into a Material, as its 'color' or 'bump'";
+  if (const auto* macro = std::get_if<Macro>(&value)) return how_to_call(**macro, span);
   const bool stands_outside = !emission_.entities && std::holds_alternative<Entity>(*first);
   if (stands_outside && !is_import_) return ": an Entity belongs into the Scene";
   const Source& source = context_.sources.source_of(span);

@@ -86,6 +86,7 @@ static crt::lang::Grammar::symbol_type yylex(crt::lang::Lexer& lexer) {
 %nterm <std::vector<AttributeSyntax>> attributes
 %nterm <AttributeSyntax> attribute
 %nterm <std::vector<NamePlace>> parameters parameters_or_none
+%nterm <NamePlace> parameter
 %nterm <std::vector<Modifier>> modifiers
 %nterm <Modifier> modifier
 %nterm <BinaryOperator> comparison_operator additive_operator multiplicative_operator
@@ -302,8 +303,13 @@ parameters_or_none:
   | parameters                               { $$ = $1; }
 
 parameters:
-    IDENTIFIER                               { $$.push_back({$1, @1}); }
-  | parameters "," IDENTIFIER                { $$ = $1; $$.push_back({$3, @3}); }
+    parameter                                { $$.push_back($1); }
+  | parameters "," parameter                 { $$ = $1; $$.push_back($3); }
+
+parameter:
+    IDENTIFIER                               { $$ = {$1, @1}; }
+  | IDENTIFIER "=" expression                { tree.refuse_default(@2);
+                                               $$ = {$1, @1}; }
 
 %%
 
@@ -311,6 +317,7 @@ namespace crt::lang {
 
 void Grammar::report_syntax_error(const context& context) const {
   const bool at_cursor = context.token() == symbol_kind::S_CURSOR;
+  if (context.token() == symbol_kind::S_LEFT_BRACE) lexer.pass_over_block();
   if (!at_cursor && !tree.is_past_error(context.location())) return;
   // A place in the grammar expects fewer kinds of token than there are.
   symbol_kind_type expected[YYNTOKENS];

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <functional>
+#include <map>
 #include <memory>
 #include <optional>
 #include <set>
@@ -20,6 +21,8 @@
 #include "lang/value.hpp"
 
 namespace crt::lang {
+
+struct NameUses;
 
 class Interpreter {
  public:
@@ -42,6 +45,12 @@ class Interpreter {
   void set_importer(std::function<void(const Import&)> importer) {
     importer_ = std::move(importer);
   }
+
+  /// Sets where the main script sets its names, which must outlive the interpreter's runs.
+  void set_name_uses(const NameUses& uses) { name_uses_ = &uses; }
+
+  /// Warns of each modifier that gave a material and never changed anything by it.
+  void warn_of_idle_materials() const;
 
   bool has_scene() const { return has_scene_; }
   std::vector<Entity>& entities() { return entities_; }
@@ -96,6 +105,7 @@ class Interpreter {
   std::shared_ptr<Scope> fresh_scope(std::shared_ptr<Scope> used);
   void emit(const Value& value, Span span);
   std::string why_not_used(const Value& value, Span span) const;
+  std::string how_to_call(const MacroValue& macro, Span span) const;
   void emit_entity(const Entity& entity, Span span);
   bool emit_items(const ListValue& list, Span span);
   bool condition(const Expression& expression, const char* what);
@@ -117,7 +127,10 @@ class Interpreter {
   std::vector<Given> evaluate_attributes(const ObjectType& type,
                                          const std::vector<AttributeSyntax>& attributes);
   Entity modify(const Entity& entity, const Modifier& modifier);  // modify.cpp
+  void note_material(const Entity& entity, Span span);
   [[noreturn]] void unknown_name(Symbol name, Span span) const;
+  std::string hint_of_library(std::string_view name) const;
+  std::string hint_of_order(Symbol name, Span span) const;
   void check_stack(Span span) const;
 
   // Calls: call.cpp.
@@ -125,6 +138,7 @@ class Interpreter {
   Value call_macro(const Expression& expression, const Call& call, const MacroValue& macro);
   std::shared_ptr<Scope> bind_arguments(const Expression& expression, const Call& call,
                                         const MacroValue& macro);
+  void complain_of_name(const Assignment& assignment, const MacroValue& macro) const;
   [[noreturn]] void pass_call_depth(Span span) const;
   Value value_of_call(const Expression& expression, const Call& call, const MacroValue& macro);
   [[noreturn]] void not_callable(const Call& call, const Value& callee) const;
@@ -146,6 +160,11 @@ class Interpreter {
   std::size_t call_depth_ = 0;
   std::set<Symbol> overridden_;
 
+  const NameUses* name_uses_ = nullptr;
+  /// Says of each modifier that gave a material whether some part took it.
+  std::map<std::uint32_t, std::pair<Span, bool>> materials_given_;
+
+  bool has_begun_ = false;  ///< with a script, and not only with values from outside
   bool is_import_ = false;
   bool has_scene_ = false;
   std::vector<Entity> entities_;
@@ -153,6 +172,9 @@ class Interpreter {
   std::vector<Given> settings_;
   std::function<void(const Import&)> importer_;
 };
+
+/// Returns the parameters of a macro as they are written: "(r, h)".
+std::string parameter_list(const SymbolTable& symbols, const MacroValue& macro);
 
 /// Is thrown by an expression that uses a variable whose setting failed. That was already reported.
 struct Abandoned {};

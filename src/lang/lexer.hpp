@@ -44,8 +44,22 @@ class Lexer {
   /// Returns the first word of the line that the span begins on.
   std::string_view first_word_of_line(Span span) const;
 
+  /// Returns the word before `(...)`, if that stands before the span on its line.
+  std::string_view word_before_brackets(Span span) const;
+
+  /// Returns the word in `<word value>` if the token before the last one is that '>'.
+  std::optional<Span> word_of_modifier() const;
+
   /// Returns the brackets that are open now, outermost first.
   const std::vector<Span>& open_brackets() const { return open_brackets_; }
+
+  /// Returns the brace that most likely is the one that was not closed, if more are open than are
+  /// closed: the first whose block ends as far left as the one around it, else the innermost.
+  Span brace_to_blame() const;
+
+  /// Takes the brace that was handed out last, which begins nothing, and the one that closes it for
+  /// blanks. So one mistake gives one error.
+  void pass_over_block() { passed_over_.push_back(last_.span); }
 
  private:
   using Byte = unsigned char;
@@ -61,6 +75,8 @@ class Lexer {
   Grammar::symbol_type greater();
   Grammar::symbol_type opening(Grammar::token::token_kind_type kind);
   Grammar::symbol_type closing(Grammar::token::token_kind_type kind, char opening_bracket);
+  bool closes_passed_over();
+  std::size_t indentation(Span span) const;
   Grammar::symbol_type word();
   Grammar::symbol_type wrong_word();
   Grammar::symbol_type single_quoted();
@@ -73,6 +89,7 @@ class Lexer {
   void refuse_letters_after_number();
 
   void unexpected_character();
+  bool refuse_component();
   void not_utf8();
 
   // What other languages write: lexer_foreign.cpp.
@@ -90,6 +107,7 @@ class Lexer {
   const Byte* next_on_line(const Byte* position) const;
   bool value_follows(const Byte* end, bool may_be_signed) const;
   bool modifier_follows() const;
+  bool is_closed_on_line(const Byte* position) const;
   bool begins_modifier() const;
   void forget_closed_modifiers();
   bool may_begin_statement() const;
@@ -114,6 +132,8 @@ class Lexer {
   bool started_ = false;
   bool first_on_line_ = true;
   std::vector<Span> open_brackets_;
+  std::vector<Span> passed_over_;        ///< braces that begin nothing
+  std::optional<Span> shallower_close_;  ///< see brace_to_blame()
   Tolerance tolerance_;
   std::vector<std::size_t> open_modifiers_;  ///< counts the brackets around each open list
   std::set<Symbol> capital_variables_;       ///< those that were reported where they are set

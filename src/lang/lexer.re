@@ -3,6 +3,8 @@
 // Patterns match UTF-8. Bytes that are none fall to the rule `*`.
 #include "lang/lexer.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <optional>
@@ -132,7 +134,8 @@ Grammar::symbol_type Lexer::scan() {
       "("      { return opening(first_on_line_ ? Token::FIRST_PARENTHESIS
                                                : Token::LEFT_PARENTHESIS); }
       "["      { return opening(first_on_line_ ? Token::FIRST_BRACKET : Token::LEFT_BRACKET); }
-      "}"      { return closing(Token::RIGHT_BRACE, '{'); }
+      "}"      { if (closes_passed_over()) continue;
+                 return closing(Token::RIGHT_BRACE, '{'); }
       ")"      { return closing(Token::RIGHT_PARENTHESIS, '('); }
       "]"      { return closing(Token::RIGHT_BRACKET, '['); }
       "<"      { return less(); }
@@ -173,7 +176,9 @@ Grammar::symbol_type Lexer::scan() {
 /// Gives out what the tolerance adds behind the text, then the end.
 Grammar::symbol_type Lexer::ending() {
   if (std::exchange(tolerance_.ends_at_cursor, false)) return sign(Token::CURSOR);
-  if (!tolerance_.closes_brackets || open_brackets_.empty()) return sign(Token::END);
+  if (!tolerance_.closes_brackets) return sign(Token::END);
+  while (closes_passed_over()) continue;
+  if (open_brackets_.empty()) return sign(Token::END);
   const char bracket = text(open_brackets_.back())[0];
   reporter_.error(open_brackets_.back(), "this bracket is never closed");
   open_brackets_.pop_back();
@@ -194,12 +199,48 @@ Grammar::symbol_type Lexer::opening(Token::token_kind_type kind) {
   return sign(kind);
 }
 
+/// Closes a brace that the parser has passed over, if this one does.
+bool Lexer::closes_passed_over() {
+  if (open_brackets_.empty()) return false;
+  const std::uint32_t open = open_brackets_.back().begin;
+  // A brace that was closed by another kind of bracket is not waited for.
+  while (!passed_over_.empty() && passed_over_.back().begin > open) passed_over_.pop_back();
+  if (passed_over_.empty() || passed_over_.back().begin != open) return false;
+  open_brackets_.pop_back();
+  passed_over_.pop_back();
+  first_on_line_ = false;
+  return true;
+}
+
+/// Returns how many blanks the line of a token begins with, or none for a token far from there.
+std::size_t Lexer::indentation(Span span) const {
+  constexpr std::size_t far = 1000;
+  const std::size_t place = span.begin - source_.base;
+  const std::string_view before =
+      std::string_view(source_.text).substr(0, place).substr(place - std::min(place, far));
+  const std::size_t line_end = before.find_last_of("\r\n");
+  if (line_end == std::string_view::npos && place > far) return 0;
+  const std::string_view line = before.substr(line_end + 1);
+  return std::min(line.find_first_not_of(" \t"), line.size());
+}
+
+Span Lexer::brace_to_blame() const {
+  return shallower_close_.value_or(open_brackets_.back());
+}
+
 Grammar::symbol_type Lexer::closing(Token::token_kind_type kind, char opening_bracket) {
   // Brackets that were opened within this pair and never closed are forgotten with it. They are at
   // most a few, as the closing bracket may have no partner.
   const std::size_t size = open_brackets_.size();
   for (std::size_t i = size; i > size - std::min(size, most_forgotten_brackets); --i) {
     if (text(open_brackets_[i - 1])[0] != opening_bracket) continue;
+    const Span partner = open_brackets_[i - 1];
+    if (opening_bracket == '{' && i > 1 && !shallower_close_ && first_on_line_) {
+      const std::size_t blanks = indentation(token_span());
+      const bool is_shallower =
+          blanks < indentation(partner) && blanks <= indentation(open_brackets_[i - 2]);
+      if (is_shallower) shallower_close_ = partner;
+    }
     open_brackets_.resize(i - 1);
     break;
   }
@@ -258,7 +299,28 @@ void Lexer::not_utf8() {
   reporter_.error(token_span(), "this byte is not UTF-8, the encoding of scripts");
 }
 
+/// Reports `v.x`, and says whether it was that.
+bool Lexer::refuse_component() {
+  using Kind = Grammar::symbol_kind;
+  const bool is_behind_value = last_.span.end == offset(token_) &&
+                               (last_.kind == Kind::S_IDENTIFIER ||
+                                last_.kind == Kind::S_RIGHT_PARENTHESIS ||
+                                last_.kind == Kind::S_RIGHT_BRACKET);
+  const std::string_view name = is_behind_value ? next_word() : std::string_view();
+  constexpr std::string_view components = "xyzrgba";
+  const std::size_t component = name.size() == 1 ? components.find(name) : std::string_view::npos;
+  if (component == std::string_view::npos || next_token_start() != cursor_) return false;
+  cursor_ += name.size();
+  constexpr std::size_t colors_from = 3;
+  const std::size_t index = component < colors_from ? component : component - colors_from;
+  const bool is_name = last_.kind == Kind::S_IDENTIFIER;
+  reporter_.error(token_span(), fmt::format("values have no parts with names; write {}[{}]",
+                                            is_name ? text(last_.span) : "v", index));
+  return true;
+}
+
 void Lexer::unexpected_character() {
+  if (token_text() == "." && refuse_component()) return;
   std::size_t position = 0;
   const std::optional<char32_t> character = decode_utf8(token_text(), position);
   std::string message = "unexpected character " + describe_code_point(character.value_or(0));

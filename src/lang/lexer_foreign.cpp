@@ -9,6 +9,7 @@
 #include "lang/builtins.hpp"
 #include "lang/lexer.hpp"
 #include "lang/objects.hpp"
+#include "lang/word_byte.hpp"
 
 namespace crt::lang {
 
@@ -48,8 +49,9 @@ std::string_view object_of(std::string_view small_name) {
 }  // namespace
 
 bool is_foreign_modifier(std::string_view word) {
-  constexpr std::array<std::string_view, 6> others = {"move", "turn",   "shift",
-                                                      "spin", "resize", "transform"};
+  constexpr std::array<std::string_view, 15> others = {
+      "move",  "turn",   "shift",   "spin",    "resize", "transform", "mirror", "flip",
+      "color", "colour", "texture", "pigment", "finish", "shear",     "skew"};
   const std::string small = in_small_letters(word);
   if (contains(others, small)) return true;
   for (const std::string_view known : {"rotate", "scale", "translate"}) {
@@ -69,6 +71,40 @@ std::string_view Lexer::first_word_of_line(Span span) const {
   std::size_t end = begin;
   while (end < all.size() && ((all[end] >= 'a' && all[end] <= 'z') || all[end] == '_')) ++end;
   return all.substr(begin, end - begin);
+}
+
+std::string_view Lexer::word_before_brackets(Span span) const {
+  const auto blank = [](char c) { return c == ' ' || c == '\t'; };
+  const std::string_view all = source_.text;
+  std::size_t end = span.begin - source_.base;
+  while (end > 0 && blank(all[end - 1])) --end;
+  if (end == 0 || all[end - 1] != ')') return {};
+  std::size_t open = 0;
+  do {
+    const char c = all[--end];
+    if (c == ')') ++open;
+    if (c == '(') --open;
+    if (is_line_end(static_cast<unsigned char>(c))) return {};
+  } while (open > 0 && end > 0);
+  while (end > 0 && blank(all[end - 1])) --end;
+  std::size_t begin = end;
+  while (begin > 0 && is_word_byte(all[begin - 1])) --begin;
+  return all.substr(begin, end - begin);
+}
+
+std::optional<Span> Lexer::word_of_modifier() const {
+  if (before_last_.kind != Grammar::symbol_kind::S_GREATER) return std::nullopt;
+  const std::string_view all = source_.text;
+  const std::size_t close = before_last_.span.begin - source_.base;
+  const std::size_t open = all.find_last_of("<\r\n", close);
+  if (open == std::string_view::npos || all[open] != '<') return std::nullopt;
+  const std::size_t begin = all.find_first_not_of(" \t", open + 1);
+  std::size_t end = begin;
+  while (is_word_byte(all[end])) ++end;
+  const std::size_t value = all.find_first_not_of(" \t", end);
+  if (end == begin || value == end || value >= close) return std::nullopt;
+  return Span{source_.base + static_cast<std::uint32_t>(begin),
+              source_.base + static_cast<std::uint32_t>(end)};
 }
 
 void Lexer::foreign_comment() {

@@ -1,6 +1,7 @@
 // This part of the lexer looks ahead, to say which words are keywords where.
 #include <algorithm>
 #include <array>
+#include <cstddef>
 #include <string_view>
 
 #include "lang/lexer.hpp"
@@ -104,8 +105,20 @@ bool Lexer::modifier_follows() const {
   if (compat_ == compat_2015) return false;
   const bool is_modifier = std::any_of(modifier_words.begin(), modifier_words.end(),
                                        [next](const Word& k) { return k.text == next; });
-  if (!is_modifier && !is_foreign_modifier(next)) return false;
-  return value_follows(next_token_start() + next.size(), false);
+  const bool is_foreign = !is_modifier && is_foreign_modifier(next);
+  if (!is_modifier && !is_foreign) return false;
+  const Byte* const behind = next_token_start() + next.size();
+  return value_follows(behind, false) && (is_modifier || is_closed_on_line(behind));
+}
+
+/// Says whether a '>' that is no part of another sign follows on the line, and not far away.
+bool Lexer::is_closed_on_line(const Byte* position) const {
+  constexpr std::ptrdiff_t far = 1000;
+  const Byte* const end = position + std::min(far, limit_ - position);
+  for (; position < end && *position != '\n' && *position != '\r'; ++position) {
+    if (position[0] == '>' && position[-1] != '-' && position[1] != '=') return true;
+  }
+  return false;
 }
 
 /// Says whether a modifier begins here: behind the '<' or a comma of modifiers.

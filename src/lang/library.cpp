@@ -17,6 +17,16 @@ constexpr std::string_view ending = ".crt";
 
 }  // namespace
 
+std::string library_path_of(std::string_view name) {
+  // A test checks that each variable of the library begins a line.
+  const std::string setting = fmt::format("\n{} = ", name);
+  for (const LibraryScript& script : library()) {
+    if (script.text.find(setting) != std::string_view::npos)
+      return fmt::format("{}{}", prefix, script.name);
+  }
+  return {};
+}
+
 bool is_library_path(std::string_view path) {
   return path.starts_with(prefix);
 }

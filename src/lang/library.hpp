@@ -24,4 +24,8 @@ bool is_library_path(std::string_view path);
 /// Returns the text of a script. Throws a Failure at `span` if there is none of that path.
 std::string_view find_library(const std::string& path, Span span);
 
+/// Returns the path of the library's script that sets a name, such as "crt/metals" for gold, or
+/// nothing.
+std::string library_path_of(std::string_view name);
+
 }  // namespace crt::lang

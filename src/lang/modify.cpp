@@ -7,6 +7,7 @@
 #include <optional>
 
 #include "crt/transform.hpp"
+#include "crt/validate.hpp"
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
 
@@ -156,6 +157,8 @@ Entity modified(const Entity& entity, const Modifier& modifier, const Value& ope
 [[gnu::noinline]] Entity Interpreter::modify(const Entity& entity, const Modifier& modifier) {
   const Value operand = evaluate(*modifier.operand);
   context_.count_made(modifier.operand->span);
+  if (modifier.kind == ModifierKind::material && std::holds_alternative<SharedMaterial>(operand))
+    note_material(entity, modifier.operand->span);
   try {
     return modified(entity, modifier, operand);
   } catch (const Error& error) {
@@ -166,6 +169,22 @@ Entity modified(const Entity& entity, const Modifier& modifier, const Value& ope
     if (message.starts_with(argument))
       message.replace(0, argument.size(), fmt::format("'{}'", name_of(modifier.kind)));
     throw Failure{.span = modifier.operand->span, .message = message, .code = error.code()};
+  }
+}
+
+/// Notes whether a material that is given at `span` changes anything.
+void Interpreter::note_material(const Entity& entity, Span span) {
+  const bool changes = entity.is_empty() || lacks_material(entity);
+  const auto [given, is_new] = materials_given_.try_emplace(span.begin, span, changes);
+  given->second.second = given->second.second || changes;
+}
+
+void Interpreter::warn_of_idle_materials() const {
+  for (const auto& [begin, given] : materials_given_) {
+    const auto& [span, changes] = given;
+    if (!changes)
+      context_.reporter.warning(
+          span, "this changes nothing, as every part has a material of its own already");
   }
 }
 

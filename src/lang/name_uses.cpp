@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -21,25 +22,41 @@ class Visitor : public TreeWalk<Visitor> {
  public:
   using TreeWalk::operator();
 
-  Visitor(NameUses& uses, Reporter& reporter) : uses_(uses), reporter_(reporter) {}
+  Visitor(NameUses& uses, const SymbolTable& symbols, Reporter& reporter)
+      : uses_(uses), symbols_(symbols), reporter_(reporter) {}
 
   void visit_script(const Script& script) {
-    open_region();
+    open_region({0, std::numeric_limits<std::uint32_t>::max()});
     visit(script.statements);
     visit(script.expression);
     close_region();
   }
 
-  void operator()(const Name& name) { uses_.reads[name.symbol].push_back(next_read_++); }
+  void operator()(const Name& name) {
+    uses_.reads[name.symbol].push_back(next_read_++);
+    if (is_known_here(name.symbol)) return;
+    regions_.back().read_from_outside.insert(name.symbol);
+    if (symbols_.name(name.symbol) == "t" && !is_bound(name.symbol)) uses_.reads_time = true;
+  }
   void operator()(const MacroLiteral& macro) {
-    open_region();
+    open_region(macro.body.span);
     for (const NamePlace& parameter : macro.parameters) bind(parameter, Kind::parameter);
     visit(macro.body);
     close_region();
   }
   void operator()(const Assignment& assignment) {
-    bind(assignment.name, kind_of(*assignment.value));
+    // The value is computed before the variable is made.
     visit(assignment.value);
+    const Symbol symbol = assignment.name.symbol;
+    const bool was_read = regions_.back().read_from_outside.contains(symbol);
+    if (was_read && regions_.size() > 1 && !is_known_here(symbol))
+      uses_.shadowings.push_back({.name = assignment.name, .depth = regions_.size() - 1});
+    bind(assignment.name, kind_of(*assignment.value));
+  }
+  void operator()(const For& loop) {
+    visit(loop.list);
+    regions_.back().loop_variables.insert(loop.variable.symbol);
+    visit(loop.body);
   }
 
   void operator()(const Return& result) {
@@ -51,8 +68,12 @@ class Visitor : public TreeWalk<Visitor> {
  private:
   /// A Region is a macro or the top level: no assignment reaches out of it.
   struct Region {
+    Span span;
     std::uint32_t first_read = 0;
-    std::unordered_map<Symbol, NameUses::Binding> bindings;
+    std::unordered_map<Symbol, NameUses::Binding> bindings = {};
+    std::set<Symbol> loop_variables = {};
+    std::set<Symbol> read_from_outside = {};
+    std::size_t first_shadowing = 0;
   };
 
   static Kind kind_of(const Expression& value) {
@@ -63,15 +84,38 @@ class Visitor : public TreeWalk<Visitor> {
     return is_material ? Kind::material : Kind::variable;
   }
 
-  void open_region() { regions_.push_back({next_read_, {}}); }
+  void open_region(Span span) {
+    regions_.push_back(
+        {.span = span, .first_read = next_read_, .first_shadowing = uses_.shadowings.size()});
+  }
+
+  static bool knows(const Region& region, Symbol symbol) {
+    return region.bindings.contains(symbol) || region.loop_variables.contains(symbol);
+  }
+
+  /// Says whether the innermost macro, or the top level, has set a name before.
+  bool is_known_here(Symbol symbol) const { return knows(regions_.back(), symbol); }
+
+  /// Says whether the innermost macro, or what is around it, has set a name before.
+  bool is_bound(Symbol symbol) const {
+    return std::any_of(regions_.begin(), regions_.end(),
+                       [symbol](const Region& region) { return knows(region, symbol); });
+  }
 
   void close_region() {
     Region& region = regions_.back();
     for (auto& [symbol, binding] : region.bindings) {
       binding.is_of_macro = regions_.size() > 1;
+      binding.region = region.span;
       binding.first_read = region.first_read;
       binding.end_of_reads = next_read_;
       uses_.bindings.push_back(binding);
+    }
+    const std::size_t depth = regions_.size() - 1;
+    for (std::size_t i = region.first_shadowing; i < uses_.shadowings.size(); ++i) {
+      NameUses::Shadowing& inner = uses_.shadowings[i];
+      const bool is_inside = inner.depth > depth && depth > 0;
+      if (is_inside && knows(region, inner.name.symbol)) inner.is_bound_outside = true;
     }
     regions_.pop_back();
   }
@@ -82,6 +126,7 @@ class Visitor : public TreeWalk<Visitor> {
   }
 
   NameUses& uses_;
+  const SymbolTable& symbols_;
   Reporter& reporter_;
   std::vector<Region> regions_;
   std::uint32_t next_read_ = 0;
@@ -111,12 +156,36 @@ std::string_view word_of(Kind kind) {
 
 }  // namespace
 
-NameUses find_name_uses(const Script& script, Reporter& reporter) {
+NameUses find_name_uses(const Script& script, const SymbolTable& symbols, Reporter& reporter) {
   NameUses uses;
-  Visitor(uses, reporter).visit_script(script);
+  Visitor(uses, symbols, reporter).visit_script(script);
   std::sort(uses.bindings.begin(), uses.bindings.end(),
             [](const auto& a, const auto& b) { return a.name.span.begin < b.name.span.begin; });
   return uses;
+}
+
+const NamePlace* set_further_down(const NameUses& uses, Symbol name, Span place) {
+  // The bindings are in the order of the text.
+  const auto found = std::find_if(
+      uses.bindings.begin(), uses.bindings.end(), [&](const NameUses::Binding& binding) {
+        const bool is_seen =
+            binding.region.begin <= place.begin && place.begin < binding.region.end;
+        return binding.name.symbol == name && is_seen && binding.kind != Kind::parameter;
+      });
+  if (found == uses.bindings.end() || found->name.span.begin <= place.begin) return nullptr;
+  return &found->name;
+}
+
+void warn_of_shadowed_names(const NameUses& uses, const std::set<Symbol>& top_level,
+                            const SymbolTable& symbols, Reporter& reporter) {
+  for (const NameUses::Shadowing& shadowing : uses.shadowings) {
+    const Symbol symbol = shadowing.name.symbol;
+    if (!shadowing.is_bound_outside && !top_level.contains(symbol)) continue;
+    reporter.warning(
+        shadowing.name.span,
+        fmt::format("this sets a new '{0}' inside the macro; the '{0}' outside keeps its value",
+                    symbols.name(symbol)));
+  }
 }
 
 void warn_of_unused_names(const NameUses& uses, const std::set<Symbol>& read_elsewhere,

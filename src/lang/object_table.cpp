@@ -87,6 +87,22 @@ std::vector<ObjectType> entities() {
 
 // ---- materials and patterns -----------------------------------------------------------------
 
+/// Warns of colours of a surface that are brighter than white. Scripts of 2015 are what they are.
+void warn_of_bright_colors(const ObjectSite& site) {
+  if (site.context.compat == compat_2015) return;
+  for (const Given& given : site.attributes) {
+    const auto* color = std::get_if<Color>(&given.value);
+    const bool is_absorption = given.type->name == "absorption";
+    if (color == nullptr || is_absorption || std::max({color->r, color->g, color->b}) <= 1)
+      continue;
+    site.context.reporter.warning(
+        given.value_span,
+        fmt::format("'{}' is brighter than white: the components of a surface's colour are shares "
+                    "from 0 to 1",
+                    given.type->name));
+  }
+}
+
 Value finish_material(Material material, const ObjectSite& site) {
   const bool too_bright = material.reflectivity + material.transparency > 1;
   const SharedMaterial shared(std::move(material));
@@ -95,6 +111,7 @@ Value finish_material(Material material, const ObjectSite& site) {
         site.name_span,
         "'reflectivity' and 'transparency' together are more than 1: more light leaves than comes");
   }
+  warn_of_bright_colors(site);
   return shared;
 }
 
@@ -115,7 +132,8 @@ ObjectType material() {
 }
 
 template <class Kind>
-Value finish_pattern(Kind kind, const ObjectSite&) {
+Value finish_pattern(Kind kind, const ObjectSite& site) {
+  warn_of_bright_colors(site);
   auto pattern = std::make_shared<const Pattern>(std::move(kind));
   validate(*pattern);
   return pattern;

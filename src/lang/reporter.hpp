@@ -48,6 +48,9 @@ class Reporter {
   /// Adds a warning once for a place, and at most as many as errors.
   void warning(Span span, std::string message);
 
+  /// Returns the line that a span begins in, from 1.
+  int line_of(Span span) const { return sources_.place(span).line; }
+
   bool has_errors() const { return error_count_ > 0; }
   std::vector<Diagnostic>& diagnostics() { return diagnostics_; }
 

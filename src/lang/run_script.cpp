@@ -82,6 +82,7 @@ class Session {
   std::set<Symbol> assigned_;                    ///< names set at the top level of any script
   NameUses name_uses_;                           ///< of the text that was loaded last
   std::set<Symbol> read_by_imports_;             ///< names that imported scripts read
+  bool reads_time_ = false;                      ///< whether any text that was loaded does
   std::vector<std::pair<Symbol, Span>> variables_;
   std::vector<Given> overrides_;
 };
@@ -111,7 +112,8 @@ const Script* Session::load(const Source& source, TextKind kind) {
       parse(source, kind, context_.compat, symbols_, reporter_, memory_left_));
   if (reporter_.has_errors()) return nullptr;
   check(script, context_.compat, symbols_, reporter_);
-  name_uses_ = find_name_uses(script, reporter_);
+  name_uses_ = find_name_uses(script, symbols_, reporter_);
+  reads_time_ = reads_time_ || name_uses_.reads_time;
   return reporter_.has_errors() ? nullptr : &script;
 }
 
@@ -133,6 +135,7 @@ void Session::run(std::string_view text, const std::string& name, ScriptResult& 
 
 void Session::run_main(const Source& source, const Script& script, ScriptResult& result) {
   const NameUses name_uses = std::move(name_uses_);
+  interpreter_.set_name_uses(name_uses);
   take_variables();
   take_settings();
   collect_assigned(script.statements, assigned_);
@@ -154,8 +157,12 @@ void Session::run_main(const Source& source, const Script& script, ScriptResult&
   }
   if (reporter_.has_errors()) return;
   // Scripts of 2015 are what they are.
-  if (context_.compat != compat_2015)
+  if (context_.compat != compat_2015) {
+    interpreter_.warn_of_idle_materials();
+    warn_of_shadowed_names(name_uses, assigned_, symbols_, reporter_);
     warn_of_unused_names(name_uses, read_by_imports_, symbols_, reporter_);
+  }
+  result.reads_time = reads_time_;
   scene.entities = std::move(interpreter_.entities());
   result.scene = std::move(scene);
 }
@@ -278,8 +285,12 @@ void Session::refuse_unknown_variables() {
   for (const auto& [symbol, span] : variables_) {
     if (assigned_.contains(symbol)) continue;
     const std::string_view name = symbols_.name(symbol);
+    const std::string path = library_path_of(name);
+    const std::string hint =
+        path.empty() ? did_you_mean(name, names)
+                     : fmt::format("; '{}' is in \"{}\", which it does not import", name, path);
     reporter_.error(span, fmt::format("the script sets no variable '{}' at its top level{}",
-                                      printable(name), did_you_mean(name, names)));
+                                      printable(name), hint));
   }
 }
 

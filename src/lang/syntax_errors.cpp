@@ -59,6 +59,8 @@ std::vector<std::string> in_words(const std::vector<std::string>& expected) {
     erase(names, expression_starts);
     erase(names, operators);
   }
+  // The '=' of a parameter's default is an error of its own.
+  if (names.contains(",") && !after_operand) names.erase("=");
   // A name at the beginning of a modifier is an error of its own.
   if (names.contains("rotate") && !whole_expression && !statement) names.erase("a name");
   if (attribute) {
@@ -99,8 +101,27 @@ bool TreeBuilder::is_past_error(Span place) const {
   return !last_error_line_end_ || place.begin > *last_error_line_end_;
 }
 
+/// Says in which line a brace stands that is open, if that is another line.
+std::string TreeBuilder::open_brace(Span place) {
+  const std::vector<Span>& open = lexer_.open_brackets();
+  if (open.empty() || lexer_.text(open.back()) != "{") return {};
+  const int line = reporter_.line_of(lexer_.brace_to_blame());
+  if (line == reporter_.line_of(place)) return {};
+  has_named_brace_ = true;
+  return fmt::format("; the '{{' in line {} is open", line);
+}
+
 void TreeBuilder::syntax_error(Span place, const std::string& found,
                                const std::vector<std::string>& expected) {
+  if (const std::optional<Span> word = lexer_.word_of_modifier();
+      word && contains(expected, "a whole number")) {
+    last_error_line_end_ = lexer_.line_end(place);
+    return unknown_modifier(*word);
+  }
+  const std::vector<Span>& open = lexer_.open_brackets();
+  const bool at_end = found == "the end of the script";
+  // That a brace is open was said, and what comes of it needs no other error.
+  if (has_named_brace_ && (found == "}" || at_end)) return;
   const std::vector<std::string> words = in_words(expected);
   std::string message = "unexpected " + describe_found(place, found);
   const bool wants_arrow = expected.size() == 1 && expected[0] == "->";
@@ -113,17 +134,20 @@ void TreeBuilder::syntax_error(Span place, const std::string& found,
     message += known;
   } else if (!words.empty()) {
     message += "; expected " + enumerate(words);
+    const bool lacks_brace = words.front() == "an attribute";
+    if (lacks_brace) message += open_brace(place);
   }
   last_error_line_end_ = lexer_.line_end(place);
-  const std::vector<Span>& open = lexer_.open_brackets();
-  if (found == "the end of the script" && !open.empty()) {
-    const std::string_view bracket = lexer_.text(open.back());
-    reporter_.error(open.back(), fmt::format("this '{}' is never closed", bracket));
+  if (at_end && !open.empty()) {
+    const bool is_brace = lexer_.text(open.back()) == "{";
+    const Span blamed = is_brace ? lexer_.brace_to_blame() : open.back();
+    reporter_.error(blamed, fmt::format("this '{}' is never closed", lexer_.text(blamed)));
     return;
   }
   if (contains({"Settings", "Scene", "import"}, found) && !contains(expected, found) &&
       contains(expected, "while"))
-    message = fmt::format("'{}' stands at the top level only, in no braces", found);
+    message =
+        fmt::format("'{}' stands at the top level only, in no braces{}", found, open_brace(place));
   reporter_.error(place, message);
 }
 

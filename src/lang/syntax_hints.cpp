@@ -25,6 +25,11 @@ constexpr std::array hints_before = {
     Hint{"merge", "; the union of two entities is a + b"},
     Hint{"difference", "; the difference of two entities is a - b"},
     Hint{"intersection", "; the intersection of two entities is a ^ b"},
+    Hint{"light_source",
+         "; lights are objects such as PointLight { ... }, in 'lights' of Settings"},
+    Hint{"texture", "; what a surface looks like is a Material { ... }"},
+    Hint{"pigment", "; what a surface looks like is a Material { ... }"},
+    Hint{"finish", "; what a surface looks like is a Material { ... }"},
 };
 
 // These words are unexpected themselves.
@@ -33,27 +38,41 @@ constexpr std::array hints_at = {
     Hint{"or", "; 'or' is written '||'"},
 };
 
-constexpr std::array<std::string_view, 6> macro_words = {"def", "function", "func",
-                                                         "fn",  "sub",      "proc"};
+constexpr std::array<std::string_view, 7> macro_words = {"def", "function", "func",  "fn",
+                                                         "sub", "proc",     "module"};
 
 std::string_view hint_of(std::string_view word, const Hint* begin, const Hint* end) {
   const auto* found = std::find_if(begin, end, [word](const Hint& h) { return h.first == word; });
   return found == end ? std::string_view() : found->second;
 }
 
+bool is_number(std::string_view found) {
+  return found == "a whole number" || found == "a number";
+}
+
 bool contains(const std::vector<std::string>& names, std::string_view name) {
   return std::find(names.begin(), names.end(), name) != names.end();
 }
+
+constexpr std::array<std::string_view, 5> looks = {"color", "colour", "texture", "pigment",
+                                                   "finish"};
 
 std::string_view modifier_hint(std::string_view word) {
   const auto begins = [word](std::string_view small, std::string_view capital) {
     return word.starts_with(small) || word.starts_with(capital);
   };
-  if (begins("rotate", "Rotate"))
+  if (begins("rotate", "Rotate") || word == "turn" || word == "spin")
     return "; 'rotate' takes the angles about x, y and z: <rotate vec3(0, 45, 0)>";
-  if (begins("scale", "Scale")) return "; 'scale' takes all three factors: <scale vec3(1, 2, 1)>";
+  if (begins("scale", "Scale") || word == "resize")
+    return "; 'scale' takes all three factors: <scale vec3(1, 2, 1)>";
   if (begins("translate", "Translate") || word == "move" || word == "shift")
     return "; 'translate' takes all three offsets: <translate vec3(1, 0, 0)>";
+  if (word == "mirror" || word == "flip")
+    return "; to mirror is to scale by -1: <scale vec3(-1, 1, 1)>";
+  if (word == "shear" || word == "skew")
+    return "; 'matrix' does that: <matrix [[1, 0.5, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0]]>";
+  if (std::find(looks.begin(), looks.end(), word) != looks.end())
+    return "; 'material' takes a Material: <material Material { color -> rgb(1, 0, 0) }>";
   return "; there are 'scale', 'translate', 'rotate', 'material', 'id' and 'matrix'";
 }
 
@@ -62,6 +81,10 @@ std::string_view modifier_hint(std::string_view word) {
 void TreeBuilder::unknown_modifier(Span name) {
   const std::string_view word = lexer_.text(name);
   reporter_.error(name, fmt::format("there is no modifier '{}'{}", word, modifier_hint(word)));
+}
+
+void TreeBuilder::refuse_default(Span equals) {
+  reporter_.error(equals, "parameters have no defaults: each call gives all of them");
 }
 
 std::string TreeBuilder::hint(Span place, const std::string& found,
@@ -74,12 +97,18 @@ std::string TreeBuilder::hint(Span place, const std::string& found,
     result = "; a Vec3 is written vec3(x, y, z), and a Color rgb(r, g, b)";
   } else if (found == "scale" || found == "translate" || found == "rotate") {
     result = "; modifiers stand behind an entity: ball <translate vec3(1, 0, 0)>";
+  } else if (is_number(found) && contains(expected, "rotate") && !wants_value) {
+    result = "; three numbers are one Vec3: <scale vec3(1, 2, 1)>";
   } else if (contains(expected, "in") && found == "=") {
     result = "; a loop that counts is written for (i in range(10)) { ... }";
   } else if (text == "{" || text == ":") {
     const std::string_view first = lexer_.first_word_of_line(place);
-    if (std::find(macro_words.begin(), macro_words.end(), first) != macro_words.end())
+    if (std::find(macro_words.begin(), macro_words.end(), first) != macro_words.end()) {
       result = how_to_write_macros;
+    } else {
+      const std::string_view called = lexer_.word_before_brackets(place);
+      result = hint_of(called, hints_before.begin(), hints_before.end());
+    }
   }
   if (result.empty()) result = hint_of(text, hints_at.begin(), hints_at.end());
   if (result.empty()) result = hint_of(before, hints_before.begin(), hints_before.end());

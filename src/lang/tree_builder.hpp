@@ -51,6 +51,7 @@ class TreeBuilder {
     return finish_statement(Statement{span, std::move(node)});
   }
   void unknown_modifier(Span name);
+  void refuse_default(Span equals);
   Statement expression_statement(Span span, const Expression* expression);
   static If branch(If branches, const Expression* condition, Block body);
   Block append(Block block, Statement statement);
@@ -71,6 +72,7 @@ class TreeBuilder {
   void charge(std::size_t bytes, Span span);
   std::string hint(Span place, const std::string& found,
                    const std::vector<std::string>& expected) const;
+  std::string open_brace(Span place);
   std::string describe_found(Span place, const std::string& found) const;
 
   const Lexer& lexer_;
@@ -78,6 +80,7 @@ class TreeBuilder {
   std::size_t& memory_left_;
   int depth_ = 0;
   std::optional<std::uint32_t> last_error_line_end_;
+  bool has_named_brace_ = false;  ///< an error said which brace is not closed
   std::vector<std::string> expected_;
   Script script_;
 };

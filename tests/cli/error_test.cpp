@@ -172,12 +172,49 @@ TEST_CASE_FIXTURE(Fixture, "--quiet still tells errors, and warnings no more") {
 }
 
 TEST_CASE_FIXTURE(Fixture, "a warning is reported once, however many frames give it") {
-  folder.write("unused.crt", "1 + 2\nSettings { width -> 4 height -> 4 }\nScene { }\n");
+  folder.write("unused.crt", "1 + 2\n" + moving_script);
   const Outcome run = run_crt(folder, {"render", "unused.crt", "--frames", "0-3"});
   REQUIRE(run.exit_code == 0);
   const std::size_t first = run.err.find("warning");
   REQUIRE(first != std::string::npos);
   CHECK(run.err.find("warning", first + 1) == std::string::npos);
+}
+
+TEST_CASE_FIXTURE(Fixture, "frames that are all the same get one warning, and moving ones none") {
+  const std::string warning = "all frames of 'film.crt' are the same, as it does not read t";
+  const std::vector<std::string> film = {"render", "film.crt", "--frames", "0-2"};
+  folder.write("film.crt", moving_script);
+  CHECK_FALSE(contains(run_crt(folder, film).err, "warning"));
+  for (const std::string time : {"1", "u"}) {
+    std::string still = "u = 1\nprint(u)\n" + moving_script;
+    still.replace(still.find("1 + t"), 5, time);
+    folder.write("film.crt", still);
+    const std::string err = run_crt(folder, film).err;
+    REQUIRE(contains(err, warning));
+    CHECK(err.find("warning", err.find(warning)) == std::string::npos);
+  }
+  folder.write("film.crt", "t = 1\n" + moving_script);
+  CHECK(contains(run_crt(folder, film).err, warning));
+  folder.write("film.crt", "t = t / 25\n" + moving_script);
+  CHECK_FALSE(contains(run_crt(folder, film).err, warning));
+  folder.write("film.crt", moving_script);
+  CHECK_FALSE(contains(run_crt(folder, {"render", "film.crt"}).err, warning));
+}
+
+TEST_CASE_FIXTURE(Fixture, "a picture where many rays end at the recursion depth gets a warning") {
+  folder.write("mirrors.crt", mirrors_script);
+  const std::vector<std::string> small = {"--width", "8", "--height", "8"};
+  std::vector<std::string> shallow = {"render", "mirrors.crt", "--recursiondepth", "2"};
+  shallow.insert(shallow.end(), small.begin(), small.end());
+  CHECK(contains(run_crt(folder, shallow).err,
+                 "64 rays ended at recursiondepth 2 and count as black: raise recursiondepth"));
+  CHECK_FALSE(contains(run_crt(folder, {"render", "ball.crt"}).err, "warning"));
+}
+
+TEST_CASE_FIXTURE(Fixture, "check warns of what prepare finds") {
+  folder.write("empty.crt", "Scene { }\n");
+  CHECK(contains(run_crt(folder, {"check", "empty.crt"}).err,
+                 "empty.crt: warning: the scene has no entities"));
 }
 
 TEST_CASE_FIXTURE(Fixture, "check tells of every script and renders none") {

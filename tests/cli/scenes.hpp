@@ -22,6 +22,16 @@ Scene {
 }
 )";
 
+/// This ball grows with t.
+inline const std::string moving_script = R"(Settings {
+  width -> 4
+  height -> 4
+  camera -> Camera { position -> vec3(0, 0, -9) pointing -> vec3(0, 0, 0) }
+  lights -> [PointLight { origin -> vec3(3, 5, -9) color -> rgb(1, 1, 1) }]
+}
+Scene { Sphere { center -> vec3(0, 0, 0) radius -> 1 + t } }
+)";
+
 /// This picture is done at once at t = 0, and takes minutes afterwards, so that it can be
 /// interrupted.
 inline const std::string endless_script = R"(side = t < 0.5 ? 4 : 8000

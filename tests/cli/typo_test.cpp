@@ -35,6 +35,19 @@ TEST_CASE("a misspelt option is named as it was written, with the one that was m
   CHECK(contains(run_crt(folder, {"check", "ball.crt", "--sett", "n=1"}).err, "--set?"));
 }
 
+TEST_CASE("an unknown option is refused before help is given") {
+  const TemporaryFolder folder;
+  folder.write("ball.crt", ball_script);
+  const Outcome run = run_crt(folder, {"render", "ball.crt", "-w", "100", "-h", "100"});
+  CHECK(run.exit_code == 2);
+  CHECK(run.out.empty());
+  CHECK(contains(run.err, "'crt render' has no option -w; did you mean --width?"));
+  CHECK(run_crt(folder, {"render", "ball.crt", "-h"}).exit_code == 0);
+  // Any other letter is as near to a letter.
+  const Outcome other = run_crt(folder, {"render", "ball.crt", "-z", "100"});
+  CHECK(contains(other.err, "has no option -z\n"));
+}
+
 TEST_CASE("what is like no option gets no suggestion") {
   const TemporaryFolder folder;
   const Outcome run = run_crt(folder, {"render", "ball.crt", "--xylophone"});

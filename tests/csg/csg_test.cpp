@@ -9,6 +9,7 @@
 
 #include "core/prepare/prepared_data.hpp"
 #include "crt/error.hpp"
+#include "crt/validate.hpp"
 #include "support/solids.hpp"
 
 using namespace crt;
@@ -362,6 +363,11 @@ TEST_CASE("materials given to a group reach only parts without one, and inner on
   CHECK(color_at(-2) == Color{1, 0, 0});
   CHECK(color_at(0) == Color{0, 1, 0});
   CHECK(color_at(2) == Color{0, 0, 1});
+  CHECK(lacks_material(left + middle + right));
+  CHECK(lacks_material(left - right));
+  CHECK_FALSE(lacks_material((left + middle + right).with_material(blue)));
+  CHECK_FALSE(lacks_material((left + middle).transformed(scale(2))));
+  CHECK_FALSE(lacks_material(empty_entity()));
 }
 
 TEST_CASE("the outermost id holds; without one it is the place in the scene") {

@@ -24,6 +24,34 @@ ScriptOptions with_settings(std::vector<std::pair<std::string, std::string>> set
 
 }  // namespace
 
+TEST_CASE("a name of the library in what is set from outside gets a hint") {
+  const auto message = [](std::pair<std::string, std::string> variable) {
+    const auto run = run_statements("a = 1\nprint(a)", with_variables({std::move(variable)}));
+    REQUIRE_FALSE(run.ok());
+    return run.result.diagnostics.front().message;
+  };
+  CHECK(
+      message({"gold", "1"}) ==
+      "the script sets no variable 'gold' at its top level; 'gold' is in \"crt/metals\", which it "
+      "does not import");
+  CHECK(
+      message({"a", "red"}) ==
+      "unknown name 'red'; 'red' is in \"crt/colors\", which is not imported yet: write its value");
+}
+
+TEST_CASE("a result says whether the script reads t") {
+  const auto reads_time = [](const char* script) {
+    return run_statements(script).result.reads_time;
+  };
+  CHECK(reads_time("print(t)"));
+  CHECK(reads_time("f = Macro () { return t }\nprint(f())"));
+  CHECK(reads_time("t = t / 25\nprint(t)"));
+  CHECK_FALSE(reads_time("print(1)"));
+  CHECK_FALSE(reads_time("t = 1\nprint(t)"));
+  CHECK_FALSE(reads_time("f = Macro (t) { return t }\nprint(f(1))"));
+  CHECK(run_statements("a = 1\nprint(a)", with_variables({{"a", "t"}})).result.reads_time);
+}
+
 TEST_CASE("a variable set from outside wins over the script's assignments at the top level") {
   const char* script = "n = 3\nn = n + 1\nif (true) { n = 7 }\nprint(n)";
   CHECK(run_statements(script).printed == Strings{"7"});

@@ -347,7 +347,8 @@ TEST_CASE("a wrong description is refused with the name of the field") {
 
 TEST_CASE("prepare warns of a scene without lights, and of a camera that is on a surface") {
   Scene scene;
-  CHECK(prepare(scene).warnings().empty());
+  CHECK(prepare(scene).warnings() ==
+        std::vector<std::string>{"the scene has no entities: only the background shows"});
   // The default camera is on the default sphere.
   scene.entities = {Sphere{}};
   CHECK(prepare(scene).warnings() ==
@@ -360,5 +361,42 @@ TEST_CASE("prepare warns of a scene without lights, and of a camera that is on a
         std::vector<std::string>{
             "the scene has no lights: only mirrors, glass and the background show"});
   scene.lights = {PointLight{}};
+  CHECK(prepare(scene).warnings().empty());
+}
+
+TEST_CASE("prepare warns of a lens that has no effect, but not in scenes of 2015") {
+  Scene scene;
+  scene.entities = {Sphere{}};
+  scene.lights = {PointLight{}};
+  scene.camera = {.position = {0, 0, -5}, .aperture = 10};
+  CHECK(prepare(scene).warnings() ==
+        std::vector<std::string>{
+            "the camera's aperture has no effect, as dofsamples is 1: all is sharp"});
+  scene.settings.compat = 2015;
+  CHECK(prepare(scene).warnings().empty());
+  scene.settings.compat = 0;
+  scene.settings.dof_samples = 4;
+  CHECK(prepare(scene).warnings().empty());
+}
+
+TEST_CASE("prepare warns of a camera in a solid through which nothing is seen") {
+  const std::vector<std::string> warning = {
+      "the camera is inside an object that is not transparent: it sees that from within"};
+  const SharedMaterial glass(Material{.transparency = 0.9});
+  const Entity room = Box{.corner_a = {-9, -9, -9}, .corner_b = {9, 9, 9}};
+  const Entity hollow = Box{.corner_a = {-8, -8, -8}, .corner_b = {8, 8, 8}};
+  Scene scene;
+  scene.entities = {room};
+  scene.lights = {PointLight{}};
+  scene.camera.position = {0, 0, -5};
+  CHECK(prepare(scene).warnings() == warning);
+  scene.entities = {Plane{.normal = {0, 1, 0}, .position = {0, 3, 0}}};
+  CHECK(prepare(scene).warnings() == warning);
+  scene.entities = {room - hollow};
+  CHECK(prepare(scene).warnings().empty());
+  scene.entities = {room.with_material(glass)};
+  CHECK(prepare(scene).warnings().empty());
+  scene.camera.projection = Projection::orthographic;
+  scene.entities = {room};
   CHECK(prepare(scene).warnings().empty());
 }

@@ -236,7 +236,7 @@ TEST_CASE(
   auto read = std::make_shared<Image>(8, 4);
   read->set_not_finite({.file = "sky.exr", .pixels = 1, .x = 3, .y = 2});
   scene.background = PanoramaBackground{.image = read};
-  scene.entities.clear();
+  scene.entities = {Sphere{}};
   render(prepare(scene), options);
   REQUIRE(warnings.size() == 2);
   CHECK(warnings[1] == read->not_finite().message());

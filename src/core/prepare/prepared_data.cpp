@@ -127,7 +127,11 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
   features_ = find_features(scene_, materials_, geometry_->has_csg);
 
   warnings_ = textures_.warnings();
-  if (scene.lights.empty()) warn_of_no_light();
+  if (leaves_.empty()) {
+    warnings_.emplace_back("the scene has no entities: only the background shows");
+  } else if (scene.lights.empty()) {
+    warn_of_no_light();
+  }
   warn_of_camera();
 
   const std::chrono::duration<double> elapsed = std::chrono::steady_clock::now() - begin;
@@ -135,28 +139,6 @@ PreparedData::PreparedData(const Scene& scene, const PreparedData* earlier, cons
 }
 
 PreparedData::~PreparedData() = default;
-
-void PreparedData::warn_of_no_light() {
-  if (geometry_->entities.empty()) return;
-  warnings_.emplace_back(
-      scene_.lights.empty() ? "the scene has no lights: only mirrors, glass and the background show"
-                            : "the scene has no lights: a head light shines from the camera");
-}
-
-/// Warns if the camera is on a surface. A scene where that takes long to find out is not warned of.
-void PreparedData::warn_of_camera() {
-  if (scene_.camera.projection == Projection::orthographic) return;
-  constexpr std::uint64_t few_steps = 4096;
-  const StepRules rules{.most = few_steps, .poll = {}};
-  RayWorkspace work;
-  work.csg.steps.rules = &rules;
-  try {
-    if (!is_on_surface(scene_.camera.position, work)) return;
-    warnings_.emplace_back(
-        "the camera is on the surface of an object: rounding decides what it sees");
-  } catch (const Error&) {
-  }
-}
 
 MemoryUse PreparedData::memory() const {
   MemoryUse use = accelerator_->memory();
