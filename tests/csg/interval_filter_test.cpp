@@ -31,6 +31,11 @@ constexpr std::uint32_t scene_count = 500;
 /// Says what trees are made of: spheres and boxes, or also cylinders, cones and half-spaces.
 enum class Leaves { spheres_and_boxes, all };
 
+/// Returns how many trees to make of such leaves.
+std::uint32_t scene_count_of(Leaves leaves) {
+  return leaves == Leaves::all ? scene_count / 5 : scene_count;
+}
+
 /// Makes trees, most of whose faces coincide, or all but.
 class Trees {
  public:
@@ -119,9 +124,9 @@ class Trees {
     const int kind = make_.integer(0, 8);
     if (kind == 0) return Plane{.normal = axis, .position = from};
     const double other = make_.integer(0, 1) == 0 ? 0 : size_in_world(make_.integer(0, 3));
-    const Entity leaf = kind < 5 ? Entity(Cylinder{.from = from, .to = to, .radius = radius})
-                                 : Entity(Cone{.from = from, .to = to, .radius = radius,
-                                               .radius2 = other});
+    const Entity leaf =
+        kind < 5 ? Entity(Cylinder{.from = from, .to = to, .radius = radius})
+                 : Entity(Cone{.from = from, .to = to, .radius = radius, .radius2 = other});
     if (make_.integer(0, 5) != 0) return leaf;
     return leaf.transformed(rotate({make_.real(-180, 180), 90.0 * make_.integer(0, 3), 0}))
         .transformed(translate(to_world(make_.grid_point()) - to_world(Vec3(0))));
@@ -288,7 +293,7 @@ class Comparison {
 /// Calls use(trees, comparison) for many trees.
 template <class Use>
 void for_filtered_trees(Leaves leaves, const Use& use) {
-  for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
+  for (std::uint32_t seed = 0; seed < scene_count_of(leaves); ++seed) {
     Trees trees(seed, leaves);
     Comparison comparison(trees.tree(trees.random().integer(1, 3)),
                           seed % 4 == 3 ? Precision::exact : Precision::standard);
@@ -302,8 +307,12 @@ void for_filtered_trees(Leaves leaves, const Use& use) {
 
 TEST_CASE("what a filter calls sure is what following all crossings finds") {
   Leaves leaves{};
-  SUBCASE("of spheres and boxes") { leaves = Leaves::spheres_and_boxes; }
-  SUBCASE("of cylinders, cones and half-spaces, too") { leaves = Leaves::all; }
+  SUBCASE("of spheres and boxes") {
+    leaves = Leaves::spheres_and_boxes;
+  }
+  SUBCASE("of cylinders, cones and half-spaces, too") {
+    leaves = Leaves::all;
+  }
   Counts free;
   Counts from_surface;
   for_filtered_trees(leaves, [&](Trees& trees, Comparison& comparison) {
@@ -328,19 +337,25 @@ TEST_CASE("what a filter calls sure is what following all crossings finds") {
       }
     }
   });
-  CHECK(free.met > scene_count);
-  CHECK(free.missed > scene_count);
-  CHECK(from_surface.met > scene_count / 20);
-  CHECK(from_surface.missed > scene_count);
+  const std::uint32_t count = scene_count_of(leaves);
+  CHECK(free.met > count);
+  CHECK(free.missed > count);
+  CHECK(from_surface.met > count / 20);
+  CHECK(from_surface.missed > count);
 }
 
 TEST_CASE("the filter of a large object is right about what it calls sure") {
   Leaves leaves{};
-  SUBCASE("of spheres and boxes") { leaves = Leaves::spheres_and_boxes; }
-  SUBCASE("of cylinders, cones and half-spaces, too") { leaves = Leaves::all; }
+  SUBCASE("of spheres and boxes") {
+    leaves = Leaves::spheres_and_boxes;
+  }
+  SUBCASE("of cylinders, cones and half-spaces, too") {
+    leaves = Leaves::all;
+  }
   Counts free;
   Counts from_surface;
-  for (std::uint32_t seed = 0; seed < scene_count / 50; ++seed) {
+  const std::uint32_t count = scene_count_of(leaves) / 50;
+  for (std::uint32_t seed = 0; seed < count; ++seed) {
     CAPTURE(seed);
     Trees trees(seed, leaves);
     Comparison comparison(trees.crowd(), seed % 4 == 3 ? Precision::exact : Precision::standard);
@@ -358,16 +373,20 @@ TEST_CASE("the filter of a large object is right about what it calls sure") {
     }
     comparison.compare_packet(rays, RayPacket::all(packet_size));
   }
-  CHECK(free.met > scene_count / 50);
-  CHECK(free.missed > scene_count / 50);
+  CHECK(free.met > count);
+  CHECK(free.missed > count);
   CHECK(from_surface.met > 0);
-  CHECK(from_surface.missed > scene_count / 50);
+  CHECK(from_surface.missed > count);
 }
 
 TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
   Leaves leaves{};
-  SUBCASE("of spheres and boxes") { leaves = Leaves::spheres_and_boxes; }
-  SUBCASE("of cylinders, cones and half-spaces, too") { leaves = Leaves::all; }
+  SUBCASE("of spheres and boxes") {
+    leaves = Leaves::spheres_and_boxes;
+  }
+  SUBCASE("of cylinders, cones and half-spaces, too") {
+    leaves = Leaves::all;
+  }
   for_filtered_trees(leaves, [&](Trees& trees, Comparison& comparison) {
     // The rays are all but alike, so that those of the packet meet the same leaves, or they have
     // nothing in common. Some start on a surface.

@@ -212,8 +212,7 @@ WorldRay hard_ray(const RoundSolid& solid, Random& random) {
   const double size = std::sqrt(dot(solid.axis(), solid.axis())) + solid.from_radius;
   const Vec3 across = solid.across(random);
   const Vec3 place = solid.on_side(random, across);
-  const Vec3 ruling =
-      solid.axis() + (solid.to_radius - solid.from_radius) * across;
+  const Vec3 ruling = solid.axis() + (solid.to_radius - solid.from_radius) * across;
   const Vec3 tangent = cross(solid.axis(), across);
   Vec3 aim = place;
   Vec3 direction = random.direction();
@@ -323,8 +322,8 @@ TEST_CASE("a half-space is entered or left where its enclosure says") {
     Enclosure<double> part;
     enclose(solid, line_of(ray), true, part);
     CrossingList crossings;
-    const bool inside = make_shape(plane)->crossings(
-        {.origin = ray.origin, .direction = ray.direction}, crossings);
+    const bool inside =
+        make_shape(plane)->crossings({.origin = ray.origin, .direction = ray.direction}, crossings);
     for (const Crossing& crossing : crossings) {
       REQUIRE(inside != crossing.entering);
       REQUIRE_FALSE(crossing.t - crossing.error < (inside ? part.leave_from : part.enter_from));

@@ -186,8 +186,8 @@ class IntervalFilter::Search {
   }
 
   bool goes_into(std::uint32_t leaf, std::uint32_t face, std::uint32_t lane) const {
-    return filter_.visit(
-        leaf, [&](const auto& solid) { return lines_.goes_into(solid, face, lane); });
+    return filter_.visit(leaf,
+                         [&](const auto& solid) { return lines_.goes_into(solid, face, lane); });
   }
 
   /// Returns whether a leaf must be outside to make for a value of the root.

@@ -94,7 +94,6 @@ struct LeafSolids<std::variant<NoEnclosure, Solids...>> {
 /// (geometry/enclosed_solid.hpp). Deep programs have none.
 class IntervalFilter {
  public:
-
   /// Makes an empty filter, which is what other programs have.
   IntervalFilter() = default;
   /// Makes the filter of a program, or an empty one. `leaves` are those of the program.

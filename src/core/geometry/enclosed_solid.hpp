@@ -26,8 +26,8 @@ using EnclosedSolid =
 /// The line cuts one span at most out of the solid. enclose() says where it begins and ends, as
 /// Enclosure has it: with all that an exact test of either tier makes of these ends, and with its
 /// bounds on their errors. goes_into() is of lines that start on a face, by identity and to its
-/// inner side. It returns whether they surely come into the solid there, so that all that is open is
-/// where they leave.
+/// inner side. It returns whether they surely come into the solid there, so that all that is open
+/// is where they leave.
 template <class Solid, class Real>
 concept EnclosesLines = requires(const Solid& solid, const FilterLine<Real>& line,
                                  const MaskOf<Real>& asked, Enclosure<Real>& part) {
@@ -37,7 +37,7 @@ concept EnclosesLines = requires(const Solid& solid, const FilterLine<Real>& lin
 
 template <class... Solids>
 constexpr bool all_enclose_lines(std::variant<NoEnclosure, Solids...>*) {
-  return ((EnclosesLines<Solids, double> && EnclosesLines<Solids, Lanes>) && ...);
+  return ((EnclosesLines<Solids, double> && EnclosesLines<Solids, Lanes>)&&...);
 }
 static_assert(all_enclose_lines(static_cast<EnclosedSolid*>(nullptr)),
               "a kind of enclosed solid lacks enclose() or goes_into()");

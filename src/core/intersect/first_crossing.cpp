@@ -58,7 +58,7 @@ template <class Real>
 ChangeCrossing<Real> change_of(const EnclosedFrustum& /*frustum*/, const Leaf& leaf, bool into_leaf,
                                const FilterLine<Real>& line) {
   if (!into_leaf) return {};
-  const auto& shape = static_cast<const FrustumShape&>(*leaf.shape);
+  const auto& shape = *shape_as<FrustumShape>(leaf.shape->typed());
   const auto entry = shape.first_entry<Real>(plain_ray(line));
   return {.crossing = {.found = entry.known, .t = entry.t, .error = entry.error}};
 }

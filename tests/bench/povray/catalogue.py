@@ -155,14 +155,16 @@ def nested(levels: int) -> Scene:
 
 def tubes(count: int) -> Scene:
     """Makes tubes about one axis, of so many cylinders: each tube has the next ones in its bore.
-    Their open ends are seen at a slant."""
+    The inner ones are longer. Their open ends are seen at a slant."""
     def cylinder(number: int) -> Cylinder:
-        longer = 0.25 * (number % 2)
-        return Cylinder((0, 0, -2 - longer), (0, 0, 2 + longer), 3 * (1 - number / count),
-                        HOLE if number % 2 else SHINY)
+        is_bore = number % 2 == 1
+        end = 4 if is_bore else 2 + number / count
+        return Cylinder((0, 0, -end), (0, 0, end), 3 * (1 - number / count),
+                        HOLE if is_bore else SHINY)
     parts = tuple(Difference(cylinder(i), (cylinder(i + 1),)) for i in range(0, count, 2))
-    return Scene(f"one union of tubes in tubes, {count} cylinders", (Union(parts), Plane(-4, FLOOR)),
-                 STUDIO)
+    return Scene(
+        f"one union of tubes in tubes, {count} cylinders", (Union(parts), Plane(-4, FLOOR)), STUDIO
+    )
 
 
 def drilled_plate() -> Scene:

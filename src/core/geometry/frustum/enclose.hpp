@@ -1,4 +1,5 @@
-// Where lines are within a cylinder or a cone, surely; and where they surely pass by something long.
+// Where lines are within a cylinder or a cone, surely; and where they surely pass by something
+// long.
 //
 // Notation as in frustum.hpp: r is the narrower radius and R the wider one, H the height, alpha the
 // angle of the side to the axis. Let w be the offset from a line's origin to the middle of the
@@ -170,8 +171,8 @@ template <class Real>
   const Real sum = select(pass.b >= 0.0, pass.b + root, pass.b - root);
   const Real first = sum / pass.a;
   const Real second = (pass.c - pass.margin) / sum;
-  Real enter = min(first, second);
-  Real leave = max(first, second);
+  const Real enter = min(first, second);
+  const Real leave = max(first, second);
   const Real deeper = 2.0 * pass.margin * inverse_or_more(root);
   const auto error_of = [](const Real& x) { return enclosing_slack * abs(x); };
   Enclosure<Real> part{.enter_from = enter - error_of(enter),
@@ -204,28 +205,24 @@ bool enclose(const EnclosedFrustum& frustum, const FilterLine<Real>& line,
              const MaskOf<Real>& asked, Enclosure<Real>& part) {
   using Mask = MaskOf<Real>;
   const FrustumPass<Real> pass(frustum, line);
-  const Real discriminant =
-      difference_of_products(pass.b, pass.b, pass.a, pass.c - pass.margin);
+  const Real discriminant = difference_of_products(pass.b, pass.b, pass.a, pass.c - pass.margin);
   Mask misses = pass.a > 0.0 && discriminant < 0.0;
   if (!any(asked && !misses)) return false;
   constexpr double largest = 0x1p900;
   Mask unknown = !(pass.margin < largest);
   const Enclosure<Real> caps = between_caps(frustum, pass, misses, unknown);
   const Enclosure<Real> side = within_side(pass, discriminant, unknown);
-  misses = misses || (!unknown && max(caps.enter_from, side.enter_from) >
-                                      min(caps.leave_to, side.leave_to));
+  misses = misses ||
+           (!unknown && max(caps.enter_from, side.enter_from) > min(caps.leave_to, side.leave_to));
   if (!any(asked && !misses)) return false;
   // Next to a rim an end may be on either face, and the bound on its error may reach beyond the
   // other: its interval is that of both.
-  const Mask enters_apart =
-      side.enter_from > caps.enter_to || caps.enter_from > side.enter_to;
-  const Mask leaves_apart =
-      side.leave_from > caps.leave_to || caps.leave_from > side.leave_to;
-  const Real enter_from =
-      select(enters_apart, max(caps.enter_from, side.enter_from),
-             min(caps.enter_from, side.enter_from));
-  const Real leave_to = select(leaves_apart, min(caps.leave_to, side.leave_to),
-                               max(caps.leave_to, side.leave_to));
+  const Mask enters_apart = side.enter_from > caps.enter_to || caps.enter_from > side.enter_to;
+  const Mask leaves_apart = side.leave_from > caps.leave_to || caps.leave_from > side.leave_to;
+  const Real enter_from = select(enters_apart, max(caps.enter_from, side.enter_from),
+                                 min(caps.enter_from, side.enter_from));
+  const Real leave_to =
+      select(leaves_apart, min(caps.leave_to, side.leave_to), max(caps.leave_to, side.leave_to));
   const Real& inverse = line.inverse_length;
   part = {.enter_from = enter_from * inverse,
           .enter_to = max(caps.enter_to, side.enter_to) * inverse,

@@ -58,8 +58,8 @@ struct EnclosedSphere {
   Vec3 center{0, 0, 0};
   double radius = 0;
 
-  /// Returns it where a placement puts it, or nothing if no doubles are exactly there or it is of no
-  /// fair size.
+  /// Returns it where a placement puts it, or nothing if no doubles are exactly there or it is of
+  /// no fair size.
   template <class Placement>
   std::optional<EnclosedSphere> placed(const Placement& placement) const {
     const std::optional<Vec3> place = placement.exactly_to_world(center);
