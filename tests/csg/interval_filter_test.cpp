@@ -28,13 +28,24 @@ constexpr std::uint32_t scene_count = 20'000;
 constexpr std::uint32_t scene_count = 500;
 #endif
 
-/// Makes trees of spheres and boxes, most of whose faces coincide, or all but.
+/// Says what trees are made of: spheres and boxes, or also cylinders, cones and half-spaces.
+enum class Leaves { spheres_and_boxes, all };
+
+/// Returns how many trees to make of such leaves.
+std::uint32_t scene_count_of(Leaves leaves) {
+  return leaves == Leaves::all ? scene_count / 5 : scene_count;
+}
+
+/// Makes trees, most of whose faces coincide, or all but.
 class Trees {
  public:
-  explicit Trees(std::uint32_t seed) : make_(seed), grid_(make_.integer(0, 3)) {
+  explicit Trees(std::uint32_t seed, Leaves leaves = Leaves::spheres_and_boxes)
+      : make_(seed), leaves_(leaves), grid_(make_.integer(0, 3)) {
     // A whole tree may be far from the origin, or of any size.
     if (make_.integer(0, 3) == 0) place_ = std::exp2(make_.integer(0, 24)) * make_.grid_point();
     if (make_.integer(0, 3) == 0) unit_ = std::exp2(make_.integer(-80, 80));
+    if (leaves_ == Leaves::all && make_.integer(0, 15) == 0)
+      unit_ = std::exp2(make_.integer(-299, 299));
   }
 
   SolidMaker& random() { return make_; }
@@ -91,6 +102,7 @@ class Trees {
 
  private:
   Entity leaf() {
+    if (leaves_ == Leaves::all && make_.integer(0, 3) != 0) return round_leaf();
     const Vec3 a = point();
     if (make_.integer(0, 1) == 0) {
       return Sphere{.center = to_world(a),
@@ -100,7 +112,28 @@ class Trees {
     return Box{.corner_a = to_world(a), .corner_b = to_world(a + size)};
   }
 
+  /// Makes a cylinder or a cone, some of which are turned, or a half-space.
+  Entity round_leaf() {
+    const Vec3 a = point();
+    Vec3 axis(0);
+    axis[make_.integer(0, 2)] = (make_.integer(0, 1) == 0 ? -1 : 1) * make_.integer(1, 6);
+    if (make_.integer(0, 3) == 0) axis = make_.grid_point() + Vec3(0, 0, 7);
+    const double radius = size_in_world(coordinate(make_.integer(2, 4)));
+    const Vec3 from = to_world(a);
+    const Vec3 to = to_world(a + axis);
+    const int kind = make_.integer(0, 8);
+    if (kind == 0) return Plane{.normal = axis, .position = from};
+    const double other = make_.integer(0, 1) == 0 ? 0 : size_in_world(make_.integer(0, 3));
+    const Entity leaf =
+        kind < 5 ? Entity(Cylinder{.from = from, .to = to, .radius = radius})
+                 : Entity(Cone{.from = from, .to = to, .radius = radius, .radius2 = other});
+    if (make_.integer(0, 5) != 0) return leaf;
+    return leaf.transformed(rotate({make_.real(-180, 180), 90.0 * make_.integer(0, 3), 0}))
+        .transformed(translate(to_world(make_.grid_point()) - to_world(Vec3(0))));
+  }
+
   SolidMaker make_;
+  Leaves leaves_;
   int grid_;
   Vec3 place_{0, 0, 0};
   double unit_ = 1;
@@ -112,11 +145,18 @@ WorldRay random_ray(Trees& trees) {
   SolidMaker& random = trees.random();
   Vec3 origin(random.real(-9, 9), random.real(-9, 9), random.real(-9, 9));
   Vec3 through(random.real(-3, 3), random.real(-3, 3), random.real(-3, 3));
-  switch (random.integer(0, 3)) {
+  switch (random.integer(0, 4)) {
     case 0:
       origin = 2.0 * trees.point();
       through = trees.point();
       break;
+    case 4: {
+      // This is along an axis, as the rulings of cylinders are, or nearly so.
+      through = trees.point();
+      origin = through + std::exp2(random.integer(-60, 0)) * random.integer(-1, 1) * trees.point();
+      origin[random.integer(0, 2)] += random.real(-9, 9);
+      break;
+    }
     case 1: {
       // One of the coordinates stays that of a plane, or of a sphere's side.
       through = trees.point();
@@ -180,13 +220,20 @@ class Comparison {
     });
   }
 
-  /// Returns whether there is a hit.
-  bool compare(const WorldRay& ray, CsgHit& hit, Counts& counts) {
+  /// Compares the filter alone, whose rays may have directions of any length. Returns whether there
+  /// is a hit.
+  bool compare_filter(const WorldRay& ray, CsgHit& hit, Counts& counts) {
     WorldRay whole = ray;
     if (ray.t_max < infinity) whole.t_max = std::nextafter(ray.t_max, infinity);
     CsgEvaluation evaluation(program(), scene().leaves, scene().face_surfaces, whole, csg_work_);
     const bool found = evaluation.next(hit);
     compare_change(ray, found ? &hit : nullptr, counts);
+    return found;
+  }
+
+  /// Returns whether there is a hit.
+  bool compare(const WorldRay& ray, CsgHit& hit, Counts& counts) {
+    const bool found = compare_filter(ray, hit, counts);
     compare_nearest(ray, found && hit.t < ray.t_max ? &hit : nullptr);
     return found;
   }
@@ -245,9 +292,9 @@ class Comparison {
 
 /// Calls use(trees, comparison) for many trees.
 template <class Use>
-void for_filtered_trees(const Use& use) {
-  for (std::uint32_t seed = 0; seed < scene_count; ++seed) {
-    Trees trees(seed);
+void for_filtered_trees(Leaves leaves, const Use& use) {
+  for (std::uint32_t seed = 0; seed < scene_count_of(leaves); ++seed) {
+    Trees trees(seed, leaves);
     Comparison comparison(trees.tree(trees.random().integer(1, 3)),
                           seed % 4 == 3 ? Precision::exact : Precision::standard);
     if (!comparison.has_filter()) continue;
@@ -259,13 +306,25 @@ void for_filtered_trees(const Use& use) {
 }  // namespace
 
 TEST_CASE("what a filter calls sure is what following all crossings finds") {
+  Leaves leaves{};
+  SUBCASE("of spheres and boxes") {
+    leaves = Leaves::spheres_and_boxes;
+  }
+  SUBCASE("of cylinders, cones and half-spaces, too") {
+    leaves = Leaves::all;
+  }
   Counts free;
   Counts from_surface;
-  for_filtered_trees([&](Trees& trees, Comparison& comparison) {
+  for_filtered_trees(leaves, [&](Trees& trees, Comparison& comparison) {
     for (int i = 0; i < 30; ++i) {
       CAPTURE(i);
-      const WorldRay ray = random_ray(trees);
+      WorldRay ray = random_ray(trees);
       CsgHit hit;
+      if (trees.random().integer(0, 7) == 0) {
+        WorldRay longer = ray;
+        longer.direction *= std::exp2(trees.random().integer(-1000, 1000));
+        comparison.compare_filter(longer, hit, free);
+      }
       if (!comparison.compare(ray, hit, free)) continue;
       for (const Side side : {Side::outside, Side::inside}) {
         for (int k = 0; k < 3; ++k) {
@@ -278,18 +337,27 @@ TEST_CASE("what a filter calls sure is what following all crossings finds") {
       }
     }
   });
-  CHECK(free.met > scene_count);
-  CHECK(free.missed > scene_count);
-  CHECK(from_surface.met > scene_count / 20);
-  CHECK(from_surface.missed > scene_count);
+  const std::uint32_t count = scene_count_of(leaves);
+  CHECK(free.met > count);
+  CHECK(free.missed > count);
+  CHECK(from_surface.met > count / 20);
+  CHECK(from_surface.missed > count);
 }
 
 TEST_CASE("the filter of a large object is right about what it calls sure") {
+  Leaves leaves{};
+  SUBCASE("of spheres and boxes") {
+    leaves = Leaves::spheres_and_boxes;
+  }
+  SUBCASE("of cylinders, cones and half-spaces, too") {
+    leaves = Leaves::all;
+  }
   Counts free;
   Counts from_surface;
-  for (std::uint32_t seed = 0; seed < scene_count / 50; ++seed) {
+  const std::uint32_t count = scene_count_of(leaves) / 50;
+  for (std::uint32_t seed = 0; seed < count; ++seed) {
     CAPTURE(seed);
-    Trees trees(seed);
+    Trees trees(seed, leaves);
     Comparison comparison(trees.crowd(), seed % 4 == 3 ? Precision::exact : Precision::standard);
     if (!comparison.has_filter() || comparison.program().leaf_count() <= 32) continue;
     std::vector<WorldRay> rays;
@@ -305,14 +373,21 @@ TEST_CASE("the filter of a large object is right about what it calls sure") {
     }
     comparison.compare_packet(rays, RayPacket::all(packet_size));
   }
-  CHECK(free.met > scene_count / 50);
-  CHECK(free.missed > scene_count / 50);
+  CHECK(free.met > count);
+  CHECK(free.missed > count);
   CHECK(from_surface.met > 0);
-  CHECK(from_surface.missed > scene_count / 50);
+  CHECK(from_surface.missed > count);
 }
 
 TEST_CASE("rays side by side find of small CSG objects what each finds alone") {
-  for_filtered_trees([&](Trees& trees, Comparison& comparison) {
+  Leaves leaves{};
+  SUBCASE("of spheres and boxes") {
+    leaves = Leaves::spheres_and_boxes;
+  }
+  SUBCASE("of cylinders, cones and half-spaces, too") {
+    leaves = Leaves::all;
+  }
+  for_filtered_trees(leaves, [&](Trees& trees, Comparison& comparison) {
     // The rays are all but alike, so that those of the packet meet the same leaves, or they have
     // nothing in common. Some start on a surface.
     std::vector<WorldRay> rays;

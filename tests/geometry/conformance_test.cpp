@@ -9,12 +9,15 @@
 #include <glm/geometric.hpp>
 #include <optional>
 #include <string>
+#include <type_traits>
 #include <utility>
+#include <variant>
 #include <vector>
 
 #include "core/geometry/description.hpp"
 #include "core/geometry/shape.hpp"
 #include "core/math/vector.hpp"
+#include "core/ray/line_of_ray.hpp"
 #include "crt/error.hpp"
 #include "crt/prepared_scene.hpp"
 #include "crt/query.hpp"
@@ -105,6 +108,17 @@ void for_instances(int count, const Check& check) {
   }
 }
 
+/// Checks that crossings are where an enclosure has them.
+void check_enclosed(const Crossings& crossings, const core::Enclosure<double>& part) {
+  for (const core::Crossing& crossing : crossings.list) {
+    REQUIRE_FALSE(crossing.t - crossing.error <
+                  (crossing.entering ? part.enter_from : part.leave_from));
+    REQUIRE_FALSE(crossing.t + crossing.error >
+                  (crossing.entering ? part.enter_to : part.leave_to));
+  }
+  if (crossings.list.empty() && !crossings.starts_inside) REQUIRE_FALSE(part.is_met());
+}
+
 Transform scaling(double factor) {
   return {{factor, 0, 0}, {0, factor, 0}, {0, 0, factor}, {0, 0, 0}};
 }
@@ -123,6 +137,31 @@ double tolerance(const core::ObjectRay& ray, double t) {
 }
 
 }  // namespace
+
+TEST_CASE("what encloses a primitive along a line holds its crossings, if anything does") {
+  for_instances(400, [](const Primitive&, const core::Shape& shape, Random& random) {
+    const core::EnclosedSolid enclosed = shape.enclosed();
+    if (!std::holds_alternative<core::NoEnclosure>(enclosed)) REQUIRE(shape.is_convex());
+    for (int i = 0; i < 20; ++i) {
+      const core::ObjectRay ray = random_ray(random);
+      const auto line = core::line_of({.origin = ray.origin, .direction = ray.direction});
+      std::visit(
+          [&]<class Solid>(const Solid& solid) {
+            if constexpr (!std::is_same_v<Solid, core::NoEnclosure>) {
+              core::Enclosure<double> part;
+              const Crossings crossings = crossings_of(shape, ray);
+              if (core::enclose(solid, line, true, part)) {
+                check_enclosed(crossings, part);
+              } else {
+                REQUIRE(crossings.list.empty());
+                REQUIRE_FALSE(crossings.starts_inside);
+              }
+            }
+          },
+          enclosed);
+    }
+  });
+}
 
 TEST_CASE("all primitives: crossings come in order and by turns, and solids that end are left") {
   for_instances(300, [](const Primitive&, const core::Shape& shape, Random& random) {

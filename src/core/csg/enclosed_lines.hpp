@@ -1,10 +1,9 @@
 // The parts of lines within the leaves of a CSG object are enclosed here, as far as they matter.
 #pragma once
 
-#include <array>
-#include <limits>
+#include <cstdint>
 
-#include "core/csg/interval_filter.hpp"
+#include "core/geometry/enclosed_solid.hpp"
 #include "core/ray/enclosure.hpp"
 
 namespace crt::core {
@@ -14,8 +13,6 @@ template <class Real>
 class EnclosedLines {
  public:
   using Mask = MaskOf<Real>;
-  using Sphere = IntervalFilter::Sphere;
-  using Box = IntervalFilter::Box;
 
   EnclosedLines(const FilterLine<Real>& lines, const Real& limits, const Mask& asked)
       : lines_(lines), asked_(asked), limits_(finite(limits)) {
@@ -40,16 +37,11 @@ class EnclosedLines {
     return restrict(part);
   }
 
-  /// Returns whether a ray's origin is off a sphere by no more than what rounding makes of 0.
-  bool starts_on(const Sphere& sphere, std::size_t lane) const {
-    return any(lane_bit(lane) && core::starts_on(sphere, lines_));
-  }
-
-  /// Returns whether a ray comes from outside to the upper face of a box across an axis, or else to
-  /// the lower one.
-  bool goes_into_box(std::size_t axis, bool upper, std::size_t lane) const {
-    const Real& speed = lines_.direction[axis];
-    return any(lane_bit(lane) && (upper ? speed < 0.0 : speed > 0.0));
+  /// Returns whether a ray that starts on a face of a solid, and to its inner side, surely comes
+  /// into it there.
+  template <class Solid>
+  bool goes_into(const Solid& solid, std::uint32_t face, std::size_t lane) const {
+    return any(lane_bit(lane) && core::goes_into(solid, face, lines_));
   }
   bool starts_at_0(std::size_t lane) const { return any(lane_bit(lane) && lines_.begin == 0.0); }
   /// Returns whether a ray that starts into a leaf is inside of it as soon as crossings count.

@@ -2,48 +2,17 @@
 
 #include <algorithm>
 #include <bit>
-#include <optional>
+#include <type_traits>
 
 #include "core/csg/evaluate.hpp"
 #include "core/csg/near_leaves.hpp"
 #include "core/csg/program.hpp"
-#include "core/math/vector.hpp"
 
 namespace crt::core {
 
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// Returns whether a face of a box is the upper one across its axis.
-constexpr bool is_upper(std::uint32_t face) {
-  return face % 2 == 1;
-}
-
-/// Returns a leaf as a sphere in the world. Returns nothing if it is none of a fair size, or is not
-/// where doubles can be exactly.
-std::optional<IntervalFilter::Sphere> sphere_of(const Leaf& leaf) {
-  if (shape_as<SphereShape>(leaf.shape->typed()) == nullptr) return {};
-  const Surface surface = leaf.shape->surface(0);
-  const std::optional<Vec3> place = leaf.placement->exactly_to_world(surface.position);
-  if (!place || !has_fair_size(surface.sizes[0])) return {};
-  return IntervalFilter::Sphere{{*place, surface.sizes[0]}};
-}
-
-/// Returns a leaf as a box in the world. Returns nothing if it is none, or is not where doubles can
-/// be exactly. A box's faces are two across each axis.
-std::optional<IntervalFilter::Box> box_of(const Leaf& leaf) {
-  if (shape_as<BoxShape>(leaf.shape->typed()) == nullptr) return {};
-  IntervalFilter::Box box{};
-  for (std::uint32_t face = 0; face < leaf.face_count; ++face) {
-    const std::optional<Vec3> place =
-        leaf.placement->exactly_to_world(leaf.shape->surface(face).position);
-    if (!place) return {};
-    const auto axis = static_cast<int>(face / 2);
-    (is_upper(face) ? box.upper : box.lower)[axis] = (*place)[axis];
-  }
-  return box;
-}
 
 }  // namespace
 
@@ -53,23 +22,10 @@ IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> 
   IntervalFilter filter;
   filter.places_.reserve(leaves.size());
   for (const Leaf& leaf : leaves) {
-    Place place{.complemented = leaf.complemented};
-    if (const std::optional<Sphere> sphere = sphere_of(leaf)) {
-      place.index = static_cast<std::uint32_t>(filter.spheres_.size());
-      filter.spheres_.push_back(*sphere);
-      filter.spheres_.back().leaf = static_cast<std::uint32_t>(filter.places_.size());
-    } else if (const std::optional<Box> box = box_of(leaf)) {
-      place.index = static_cast<std::uint32_t>(filter.boxes_.size());
-      place.is_box = true;
-      filter.boxes_.push_back(*box);
-      filter.boxes_.back().leaf = static_cast<std::uint32_t>(filter.places_.size());
-    } else {
-      return;
-    }
-    filter.places_.push_back(place);
+    const EnclosedSolid solid = placed(leaf.shape->enclosed(), *leaf.placement);
+    if (!filter.add(solid, leaf.complemented)) return;
   }
-  filter.spheres_.shrink_to_fit();
-  filter.boxes_.shrink_to_fit();
+  std::apply([](auto&... lists) { (lists.shrink_to_fit(), ...); }, filter.solids_.lists);
   filter.first_face_ = leaves.front().first_face;
   filter.end_face_ = leaves.back().first_face + leaves.back().face_count;
   for (std::uint32_t face = filter.first_face_; face < filter.end_face_; ++face) {
@@ -78,27 +34,27 @@ IntervalFilter::IntervalFilter(const CsgProgram& program, std::span<const Leaf> 
   *this = std::move(filter);
 }
 
+bool IntervalFilter::add(const EnclosedSolid& solid, bool complemented) {
+  if (std::holds_alternative<NoEnclosure>(solid)) return false;
+  const auto leaf = static_cast<std::uint32_t>(places_.size());
+  std::visit(
+      [&]<class Solid>(const Solid& one) {
+        if constexpr (!std::is_same_v<Solid, NoEnclosure>) {
+          auto& list = std::get<std::vector<LeafSolid<Solid>>>(solids_.lists);
+          places_.push_back({.index = static_cast<std::uint32_t>(list.size()),
+                             .kind = static_cast<std::uint8_t>(solid.index() - 1),
+                             .complemented = complemented});
+          list.push_back({one, leaf});
+        }
+      },
+      solid);
+  return true;
+}
+
 std::size_t IntervalFilter::bytes() const {
-  return spheres_.capacity() * sizeof(Sphere) + boxes_.capacity() * sizeof(Box) +
-         places_.capacity() * sizeof(Place);
-}
-
-const IntervalFilter::Sphere* IntervalFilter::sphere(std::uint32_t leaf) const {
-  const Place& place = places_[leaf];
-  return place.is_box ? nullptr : &spheres_[place.index];
-}
-
-const IntervalFilter::Box* IntervalFilter::box(std::uint32_t leaf) const {
-  const Place& place = places_[leaf];
-  return place.is_box ? &boxes_[place.index] : nullptr;
-}
-
-template <class Real>
-bool IntervalFilter::enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
-                             Enclosure<Real>& interval) const {
-  const Place& place = places_[leaf];
-  return place.is_box ? lines.enclose(boxes_[place.index], interval)
-                      : lines.enclose(spheres_[place.index], interval);
+  const auto bytes_of = [](const auto& list) { return list.capacity() * sizeof(list[0]); };
+  return std::apply([&](const auto&... lists) { return (bytes_of(lists) + ...); }, solids_.lists) +
+         bytes_of(places_);
 }
 
 /// A Search finds the first changes of some rays.
@@ -230,8 +186,8 @@ class IntervalFilter::Search {
   }
 
   bool goes_into(std::uint32_t leaf, std::uint32_t face, std::uint32_t lane) const {
-    if (const Sphere* sphere = filter_.sphere(leaf)) return lines_.starts_on(*sphere, lane);
-    return lines_.goes_into_box(face / 2, is_upper(face), lane);
+    return filter_.visit(leaf,
+                         [&](const auto& solid) { return lines_.goes_into(solid, face, lane); });
   }
 
   /// Returns whether a leaf must be outside to make for a value of the root.

@@ -21,10 +21,11 @@
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <tuple>
+#include <variant>
 #include <vector>
 
-#include "core/geometry/box/enclose.hpp"
-#include "core/geometry/sphere/enclose.hpp"
+#include "core/geometry/enclosed_solid.hpp"
 
 namespace crt::core {
 
@@ -75,17 +76,24 @@ class EnclosedLines;
 class NearLeavesWorkspace;
 class RaySteps;
 
-/// An IntervalFilter is the filter of a program whose leaves all are spheres, or boxes that are not
-/// turned. Deep programs have none.
+/// A LeafSolid is what encloses a leaf in the world.
+template <class Solid>
+struct LeafSolid : Solid {
+  std::uint32_t leaf = 0;  ///< its number within the object
+};
+
+/// LeafSolids are the leaves of a program, sorted by the kind of solid that encloses them.
+template <class Kinds>
+struct LeafSolids;
+template <class... Solids>
+struct LeafSolids<std::variant<NoEnclosure, Solids...>> {
+  std::tuple<std::vector<LeafSolid<Solids>>...> lists;
+};
+
+/// An IntervalFilter is the filter of a program for whose leaves all there is an enclosure
+/// (geometry/enclosed_solid.hpp). Deep programs have none.
 class IntervalFilter {
  public:
-  struct Sphere : EnclosedSphere {
-    std::uint32_t leaf = 0;  ///< its number within the object
-  };
-  struct Box : EnclosedBox {
-    std::uint32_t leaf = 0;
-  };
-
   /// Makes an empty filter, which is what other programs have.
   IntervalFilter() = default;
   /// Makes the filter of a program, or an empty one. `leaves` are those of the program.
@@ -104,23 +112,26 @@ class IntervalFilter {
                                       std::span<const FaceSurface> faces,
                                       NearLeavesWorkspace& workspace, const RaySteps& steps) const;
 
-  /// Returns a leaf in the world by its number within the object, or null if it is of the other
-  /// kind.
-  const Sphere* sphere(std::uint32_t leaf) const;
-  const Box* box(std::uint32_t leaf) const;
   bool is_complemented(std::uint32_t leaf) const { return places_[leaf].complemented; }
 
-  /// Calls use(leaf) for each leaf, as a Sphere or a Box.
+  /// Calls use(solid) for each leaf, with a LeafSolid of its kind.
   template <class Use>
   void for_each_leaf(const Use& use) const {
-    for (const Sphere& sphere : spheres_) use(sphere);
-    for (const Box& box : boxes_) use(box);
+    std::apply(
+        [&](const auto&... lists) {
+          const auto use_all = [&](const auto& list) {
+            for (const auto& solid : list) use(solid);
+          };
+          (use_all(lists), ...);
+        },
+        solids_.lists);
   }
 
-  /// Encloses the part of lines in a leaf, as EnclosedLines does it.
-  template <class Real>
-  bool enclose(std::uint32_t leaf, const EnclosedLines<Real>& lines,
-               Enclosure<Real>& interval) const;
+  /// Returns use(solid) for a leaf by its number within the object.
+  template <class Use>
+  [[gnu::always_inline]] decltype(auto) visit(std::uint32_t leaf, const Use& use) const {
+    return visit_kind<0>(places_[leaf], use);
+  }
 
  private:
   template <class Real>
@@ -129,12 +140,23 @@ class IntervalFilter {
   /// A Place is where a leaf is among those of its kind.
   struct Place {
     std::uint32_t index = 0;
-    bool is_box = false;
+    std::uint8_t kind = 0;  ///< of the lists
     bool complemented = false;
   };
 
-  std::vector<Sphere> spheres_;
-  std::vector<Box> boxes_;
+  using Solids = LeafSolids<EnclosedSolid>;
+
+  template <std::size_t kind, class Use>
+  [[gnu::always_inline]] decltype(auto) visit_kind(const Place& place, const Use& use) const {
+    if constexpr (kind + 1 < std::tuple_size_v<decltype(Solids::lists)>) {
+      if (place.kind != kind) return visit_kind<kind + 1>(place, use);
+    }
+    return use(std::get<kind>(solids_.lists)[place.index]);
+  }
+  /// Takes a leaf, as what encloses it. Returns false if nothing does.
+  bool add(const EnclosedSolid& solid, bool complemented);
+
+  Solids solids_;
   std::vector<Place> places_;     ///< by leaf
   std::uint32_t first_face_ = 0;  ///< in the scene
   std::uint32_t end_face_ = 0;

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "core/csg/enclosed_lines.hpp"
+#include "core/csg/interval_filter.hpp"
 #include "core/csg/program.hpp"
 #include "core/csg/ray_steps.hpp"
 
@@ -185,7 +186,9 @@ class NearLeaves {
   void add(std::uint32_t leaf) {
     if (count_ == leaves_.size()) leaves_.resize(2 * count_ + most_small);
     NearLeaf<Real>& near = leaves_[count_];
-    if (!filter_.enclose(leaf, lines_, near.interval)) return;
+    const bool is_near = filter_.visit(
+        leaf, [&](const auto& solid) { return lines_.enclose(solid, near.interval); });
+    if (!is_near) return;
     near.leaf = leaf;
     ++count_;
   }

@@ -1,7 +1,9 @@
 #include "core/csg/placement.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <glm/geometric.hpp>
 #include <limits>
 
 #include "core/math/vector.hpp"
@@ -268,6 +270,24 @@ Vector Placement::point_to_world(const Vector& object) const {
 }
 template Vec3 Placement::point_to_world(const Vec3&) const;
 template VectorLanes Placement::point_to_world(const VectorLanes&) const;
+
+Vec3 Placement::direction_to_world(const Vec3& object) const {
+  return {glm::dot(to_world_.row_x, object), glm::dot(to_world_.row_y, object),
+          glm::dot(to_world_.row_z, object)};
+}
+
+double Placement::even_scale() const {
+  const std::array<Vec3, 3> rows = {to_world_.row_x, to_world_.row_y, to_world_.row_z};
+  const double square = glm::dot(rows[0], rows[0]);
+  constexpr double rounding = 0x1p-40;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    for (std::size_t k = 0; k <= i; ++k) {
+      const double wanted = i == k ? square : 0;
+      if (!(std::abs(glm::dot(rows[i], rows[k]) - wanted) <= rounding * square)) return 0;
+    }
+  }
+  return std::sqrt(square);
+}
 
 std::optional<Vec3> Placement::exactly_to_world(const Vec3& object) const {
   if (kind_ == Kind::affine) return std::nullopt;

@@ -59,6 +59,12 @@ class Placement {
   /// does more than move.
   std::optional<Vec3> exactly_to_world(const Vec3& object) const;
 
+  /// Returns a direction in the world, rounded, of the length that it has there.
+  Vec3 direction_to_world(const Vec3& object) const;
+  /// Returns by how much the map scales, if it does so alike in all directions but for roundings,
+  /// 2^-40; else 0.
+  double even_scale() const;
+
   /// Returns a covector in the world, such as the gradient of a function of the object point. Its
   /// length matters.
   template <class Vector>

@@ -16,6 +16,7 @@
 #include <vector>
 
 #include "core/geometry/bounds.hpp"
+#include "core/geometry/enclosed_solid.hpp"
 #include "core/geometry/surface.hpp"
 #include "core/geometry/typed_shape.hpp"
 #include "core/ray/object_ray.hpp"
@@ -87,6 +88,10 @@ class Shape {
   /// Returns a box in object space that holds the shape, rounded outwards. It is infinite where the
   /// shape is.
   virtual Bounds bounds() const = 0;
+
+  /// Returns what encloses the shape along lines, in object space. Those that are not convex, or
+  /// that nobody has a formula for, say so by NoEnclosure.
+  virtual EnclosedSolid enclosed() const = 0;
 
   /// Returns the shape itself, if there are conservative tests for its type. A shape without one is
   /// asked for its crossings wherever a ray comes near.

@@ -10,21 +10,6 @@ namespace crt::core {
 
 namespace {
 
-/// Returns by how much a transform scales, if it does so alike in all directions but for its own
-/// roundings; else 0.
-double even_scale(const Transform& transform) {
-  const std::array<Vec3, 3> rows = {transform.row_x, transform.row_y, transform.row_z};
-  const double square = glm::dot(rows[0], rows[0]);
-  constexpr double rounding = 0x1p-40;
-  for (std::size_t i = 0; i < rows.size(); ++i) {
-    for (std::size_t k = 0; k <= i; ++k) {
-      const double wanted = i == k ? square : 0;
-      if (!(std::abs(glm::dot(rows[i], rows[k]) - wanted) <= rounding * square)) return 0;
-    }
-  }
-  return std::sqrt(square);
-}
-
 /// Places a proxy where its sphere or plane is, to the last bit. Returns false if no doubles do.
 bool place_exactly(const Surface& surface, const Placement& placement, BoundingProxy& proxy) {
   const std::optional<Vec3> place = placement.exactly_to_world(surface.position);
@@ -35,7 +20,7 @@ bool place_exactly(const Surface& surface, const Placement& placement, BoundingP
 /// Places a torus, thicker by more than all roundings. Returns false if that cannot be done.
 bool place_torus(const Surface& surface, const Placement& placement, BoundingProxy& proxy,
                  ProxyAxis& of_torus) {
-  const double scale = even_scale(placement.to_world());
+  const double scale = placement.even_scale();
   proxy.place = placement.point_to_world(surface.position);
   const Vec3 tip = placement.point_to_world(surface.position + surface.direction);
   const Vec3 axis = tip - proxy.place;
@@ -62,7 +47,7 @@ bool place_cylinder(const Shape& shape, const Placement& placement, BoundingProx
   const Vec3 to = placement.point_to_world(segment->to);
   const Vec3 axis = to - from;
   const Transform& world = placement.to_world();
-  const double scale = even_scale(world);
+  const double scale = placement.even_scale();
   const double most_scale =
       std::sqrt(glm::dot(world.row_x, world.row_x) + glm::dot(world.row_y, world.row_y) +
                 glm::dot(world.row_z, world.row_z));

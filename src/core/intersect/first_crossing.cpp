@@ -55,6 +55,19 @@ template FirstCrossing<double> first_crossing_of_frustum(const ProxyAxis&,
 template FirstCrossing<Lanes> first_crossing_of_frustum(const ProxyAxis&, const FilterLine<Lanes>&);
 
 template <class Real>
+ChangeCrossing<Real> change_of(const EnclosedFrustum& /*frustum*/, const Leaf& leaf, bool into_leaf,
+                               const FilterLine<Real>& line) {
+  if (!into_leaf) return {};
+  const auto& shape = *shape_as<FrustumShape>(leaf.shape->typed());
+  const auto entry = shape.first_entry<Real>(plain_ray(line));
+  return {.crossing = {.found = entry.known, .t = entry.t, .error = entry.error}};
+}
+template ChangeCrossing<double> change_of(const EnclosedFrustum&, const Leaf&, bool,
+                                          const FilterLine<double>&);
+template ChangeCrossing<Lanes> change_of(const EnclosedFrustum&, const Leaf&, bool,
+                                         const FilterLine<Lanes>&);
+
+template <class Real>
 FirstCrossing<Real> first_crossing_of_torus(const ProxyAxis& torus, const FilterLine<Real>& line,
                                             const typename FirstCrossing<Real>::Mask& asked) {
   const auto entry =

@@ -201,25 +201,52 @@ FirstCrossing<Real> first_crossing(const BoundingProxy& proxy, const BoundingPro
   return first_crossing_of_plane(proxy, proxies.axis(proxy), line);
 }
 
-/// Returns whether crossing_of_change() may be asked of a sphere or box, a leaf of a CSG object.
+/// Returns whether crossing_of_change() may be asked of a leaf of a CSG object.
 inline bool has_resolved_crossings(const Leaf& leaf) {
   return !leaf.exact && leaf.placement->is_identity();
 }
 
-/// Finds where lines that do not start on such a leaf come into it, or else out of it. The filter
-/// has found that they do; `leaf` is its number within the object.
+/// A ChangeCrossing is where lines come into such a leaf, or else out of it.
 template <class Real>
-FirstCrossing<Real> crossing_of_change(const IntervalFilter& filter, std::uint32_t leaf,
-                                       bool into_leaf, const FilterLine<Real>& line) {
-  if (const IntervalFilter::Box* box = filter.box(leaf)) {
-    const auto enters = lanes_of_mask<Real>(into_leaf ? ~std::uint32_t{0} : 0);
-    return end_in_box(*box, BoxMeetings<Real>::of(*box, line), line, enters);
-  }
-  const IntervalFilter::Sphere& sphere = *filter.sphere(leaf);
+struct ChangeCrossing {
+  FirstCrossing<Real> crossing;  ///< not found where only the exact test can find it
+  std::uint8_t root = 0;         ///< as in Crossing
+};
+
+// The overloads of change_of() are for the kinds of solids that enclose a leaf.
+
+template <class Real>
+ChangeCrossing<Real> change_of(const EnclosedSphere& sphere, const Leaf& /*leaf*/, bool into_leaf,
+                               const FilterLine<Real>& line) {
   const double unit = power_of_two_below(sphere.radius);
   const auto chord = SphereChord<Real>::of(plain_ray(line), sphere.center, sphere.radius, unit);
   const Real& t = into_leaf ? chord.enter : chord.leave;
-  return {.found = chord.found, .t = t, .error = chord.error_of(t)};
+  return {.crossing = {.found = chord.found, .t = t, .error = chord.error_of(t)},
+          .root = static_cast<std::uint8_t>(into_leaf ? 0 : 1)};
+}
+template <class Real>
+ChangeCrossing<Real> change_of(const EnclosedBox& box, const Leaf& /*leaf*/, bool into_leaf,
+                               const FilterLine<Real>& line) {
+  const auto enters = lanes_of_mask<Real>(into_leaf ? ~std::uint32_t{0} : 0);
+  return {.crossing = end_in_box(box, BoxMeetings<Real>::of(box, line), line, enters)};
+}
+template <class Real>
+ChangeCrossing<Real> change_of(const EnclosedFrustum& frustum, const Leaf& leaf, bool into_leaf,
+                               const FilterLine<Real>& line);
+template <class Real>
+ChangeCrossing<Real> change_of(const EnclosedPlane& /*plane*/, const Leaf& /*leaf*/,
+                               bool /*into_leaf*/, const FilterLine<Real>& /*line*/) {
+  return {};
+}
+
+/// Finds where lines that do not start on such a leaf come into it, or else out of it. The filter
+/// has found that they do; `number` is the leaf's within the object.
+template <class Real>
+ChangeCrossing<Real> crossing_of_change(const IntervalFilter& filter, std::uint32_t number,
+                                        const Leaf& leaf, bool into_leaf,
+                                        const FilterLine<Real>& line) {
+  return filter.visit(
+      number, [&](const auto& solid) { return change_of<Real>(solid, leaf, into_leaf, line); });
 }
 
 /// Returns whether a line is within a box at t.

@@ -312,7 +312,8 @@ class ObjectTests {
     RayMask resolved = 0;
     if (has_resolved_crossings(leaf)) {
       const bool into_leaf = lane_of(changes.into_leaf, first);
-      const FirstCrossing<Real> crossing = crossing_of_change(filter, number, into_leaf, lines);
+      const auto change = crossing_of_change(filter, number, leaf, into_leaf, lines);
+      const FirstCrossing<Real>& crossing = change.crossing;
       const RayMask starting = Packet::lanes(rays_with(packet_.starts.leaves, index), group);
       const auto span = spans_in(leaf.bounds, lines, alike);
       const auto in_span = crossing.t >= span.enter && crossing.t <= span.leave;
@@ -326,7 +327,7 @@ class ObjectTests {
                .leaf = index,
                .face = face,
                .surface = scene.face_surfaces[leaf.first_face + face].surface,
-               .root = static_cast<std::uint8_t>(filter.sphere(number) != nullptr && !into_leaf),
+               .root = change.root,
                .entering = lane_of(changes.into_object, lane)};
       });
     }

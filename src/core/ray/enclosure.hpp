@@ -133,6 +133,9 @@ inline constexpr double enclosing_slack = 0x1p-44;
 /// A start that rounding has put off a surface is off it by less than so many of its errors.
 inline constexpr double starts_off = 32;
 
+/// What is nowhere near is so far away, by distance.
+inline constexpr double far_away = 0x1p900;
+
 /// Returns the offset from a line's origin to a place.
 template <class Real>
 std::array<Real, 3> offset_to(const FilterLine<Real>& line, const Vec3& place) {

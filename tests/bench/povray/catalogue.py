@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 from .model import (
-    Alternating, Box, Camera, Checker, Difference, Lenses, Material, Plane, PointLight, Scene,
-    Sphere, Spheres, Torus, Union,
+    Alternating, Box, Camera, Checker, Cone, Cylinder, Difference, Lenses, Material, Plane,
+    PointLight, Scene, Sphere, Spheres, Torus, Union,
 )
 from .stream import Stream
 
@@ -153,6 +153,30 @@ def nested(levels: int) -> Scene:
     return Scene(f"unions and differences nested {levels} deep", (body, Plane(-4, FLOOR)), FRONT)
 
 
+def tubes(count: int) -> Scene:
+    """Makes tubes about one axis, of so many cylinders: each tube has the next ones in its bore.
+    The inner ones are longer. Their open ends are seen at a slant."""
+    def cylinder(number: int) -> Cylinder:
+        is_bore = number % 2 == 1
+        end = 4 if is_bore else 2 + number / count
+        return Cylinder((0, 0, -end), (0, 0, end), 3 * (1 - number / count),
+                        HOLE if is_bore else SHINY)
+    parts = tuple(Difference(cylinder(i), (cylinder(i + 1),)) for i in range(0, count, 2))
+    return Scene(
+        f"one union of tubes in tubes, {count} cylinders", (Union(parts), Plane(-4, FLOOR)), STUDIO
+    )
+
+
+def drilled_plate() -> Scene:
+    """Makes a plate with holes, four of them countersunk."""
+    places = [(-3 + 2 * i, -2 + 2 * j) for j in range(3) for i in range(4)][:11]
+    holes = tuple(
+        Cylinder((x, y, -1), (x, y, 2), 0.4 + 0.03 * i, HOLE) for i, (x, y) in enumerate(places))
+    sinks = tuple(Cone((x, y, -0.013), (x, y, 0.9), 0.8, 0.2, HOLE) for x, y in places[:4])
+    plate = Difference(Box((-4, -3, 0), (4, 3, 1), WOOD), holes + sinks)
+    return Scene("a box minus 11 cylinders and 4 cones", (plate, Plane(-4, FLOOR)), FRONT)
+
+
 def powers(first: int, last: int) -> list[tuple[int, str]]:
     return [(10**k, f"1e{k}") for k in range(first, last + 1)]
 
@@ -172,6 +196,8 @@ SCENES = {
     "antialiased": antialiased,
     "nested-50": lambda: nested(50),
     "nested-500": lambda: nested(500),
+    **{f"tubes-{name}": (lambda n=n: tubes(n)) for n, name in powers(1, 3)},
+    "drilled-plate": drilled_plate,
 }
 QUICK = ("spheres-1e2", "spheres-1e4", "plate-1e2", "plate-1e3", "tunnel-1e1", "lenses-1e4",
          "mirror-room", "tori-300", "glass", "depth-of-field", "antialiased", "nested-50")

@@ -151,7 +151,9 @@ class Writer:
                     f" {self.material(thing.material)} }}"
                     f" <rotate {vector(thing.turn)}, translate {vector(thing.center)}>")
         if isinstance(thing, Union):
-            return " + ".join(map(self.value, thing.parts))
+            return " + ".join(
+                f"({self.value(part)})" if isinstance(part, Difference) else self.value(part)
+                for part in thing.parts)
         if isinstance(thing, Difference):
             return " - ".join(map(self.value, (thing.base, *thing.cutters)))
         if isinstance(thing, Alternating):

@@ -21,6 +21,7 @@ class BoxShape final : public ShapeOfPoints<BoxShape> {
 
   bool is_solid() const override { return true; }
   TypedShape typed() const override { return this; }
+  EnclosedSolid enclosed() const override { return EnclosedBox{lower_, upper_}; }
   std::optional<CoreSegment> core_segment() const final;
   Bounds bounds() const override { return {lower_, upper_}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;

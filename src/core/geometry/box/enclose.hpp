@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <optional>
 
 #include "core/ray/enclosure.hpp"
 
@@ -14,6 +16,18 @@ namespace crt::core {
 struct EnclosedBox {
   Vec3 lower{0, 0, 0};
   Vec3 upper{0, 0, 0};
+
+  /// Returns it where a placement puts it, or nothing if no doubles are exactly there.
+  template <class Placement>
+  std::optional<EnclosedBox> placed(const Placement& placement) const {
+    const std::optional<Vec3> at_lower = placement.exactly_to_world(lower);
+    const std::optional<Vec3> at_upper = placement.exactly_to_world(upper);
+    if (!at_lower || !at_upper) return {};
+    return EnclosedBox{*at_lower, *at_upper};
+  }
+
+  static constexpr std::size_t axis_of(std::uint32_t face) { return face / 2; }
+  static constexpr bool is_upper(std::uint32_t face) { return face % 2 == 1; }
 };
 
 /// Where a line meets the six planes of a box, in units of t, by quotients that are off by three
@@ -119,6 +133,14 @@ bool enclose(const EnclosedBox& box, const FilterLine<Real>& line, const MaskOf<
   if (!any(asked && !misses)) return false;
   if (any(misses)) part.set_outside(misses);
   return true;
+}
+
+/// Returns whether lines come from outside to a face of a box.
+template <class Real>
+MaskOf<Real> goes_into(const EnclosedBox& /*box*/, std::uint32_t face,
+                       const FilterLine<Real>& line) {
+  const Real& speed = line.direction[EnclosedBox::axis_of(face)];
+  return EnclosedBox::is_upper(face) ? speed < 0.0 : speed > 0.0;
 }
 
 }  // namespace crt::core

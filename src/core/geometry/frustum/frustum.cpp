@@ -40,6 +40,18 @@ Bounds FrustumShape::bounds() const {
   return result;
 }
 
+EnclosedSolid FrustumShape::enclosed() const {
+  const bool widens = narrow_ == from_;
+  return EnclosedFrustum{.narrow = narrow_,
+                         .axis = axis_,
+                         .height = height_ * unit_,
+                         .narrow_radius = narrow_radius_ * unit_,
+                         .wide_radius = wide_radius_ * unit_,
+                         .cosine = cosine_,
+                         .sine = sine_,
+                         .wide_face = widens ? 2U : 1U};
+}
+
 bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
   NearLine line = NearLine::at_closest(ray, narrow_, unit_);
   ClippedSpan span(ray.start, line.to_t_length(unit_roundoff * std::min(height_, wide_radius_)));

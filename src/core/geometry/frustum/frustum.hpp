@@ -62,6 +62,7 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
 
   bool is_solid() const final { return true; }
   TypedShape typed() const final { return this; }
+  EnclosedSolid enclosed() const final;
   Bounds bounds() const final;
   std::optional<CoreSegment> core_segment() const final {
     return CoreSegment{from_, to_, radii_[0], radii_[1]};

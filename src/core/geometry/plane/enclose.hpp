@@ -2,7 +2,9 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
 #include <limits>
+#include <optional>
 
 #include "core/ray/enclosure.hpp"
 
@@ -12,6 +14,21 @@ namespace crt::core {
 struct EnclosedPlane {
   Vec3 position{0, 0, 0};
   Vec3 normal{0, 0, 0};  ///< its largest component is about 1
+
+  /// Returns it where a placement puts it, or nothing if no doubles are exactly there.
+  template <class Placement>
+  std::optional<EnclosedPlane> placed(const Placement& placement) const {
+    const std::optional<Vec3> place = placement.exactly_to_world(position);
+    if (!place) return {};
+    return EnclosedPlane{*place, normal};
+  }
+
+  /// Returns how fast a line goes up, at a length of the normal of about 1.
+  template <class Real>
+  Real rate(const FilterLine<Real>& line) const {
+    const auto& d = line.direction;
+    return normal.x * d[0] + normal.y * d[1] + normal.z * d[2];
+  }
 };
 
 /// Encloses where lines cross a plane. Nothing is known of lines that are so flat that the error of
@@ -39,6 +56,30 @@ template <class Real>
   const Real nothing_known = broadcast<Real>(std::numeric_limits<double>::quiet_NaN());
   const MaskOf<Real> known = abs(rate) > flattest * speed;
   return {select(known, t - error, nothing_known), select(known, t + error, nothing_known)};
+}
+
+/// Encloses the part of lines below a plane, which is the half-space against its normal.
+template <class Real>
+bool enclose(const EnclosedPlane& plane, const FilterLine<Real>& line,
+             const MaskOf<Real>& /*asked*/, Enclosure<Real>& part) {
+  const EnclosedCrossing<Real> crossing = enclose(plane, line);
+  const MaskOf<Real> rises = plane.rate(line) > 0.0;
+  const Real always = broadcast<Real>(std::numeric_limits<double>::infinity());
+  part = {.enter_from = select(rises, -always, crossing.from),
+          .enter_to = select(rises, -always, crossing.to),
+          .leave_from = select(rises, crossing.from, always),
+          .leave_to = select(rises, crossing.to, always)};
+  const MaskOf<Real> unknown = !(crossing.from <= crossing.to);
+  if (any(unknown)) part.set_unknown(unknown);
+  return true;
+}
+
+/// Returns whether lines that start on a plane downwards go below it: those that are not flat.
+template <class Real>
+MaskOf<Real> goes_into(const EnclosedPlane& plane, std::uint32_t /*face*/,
+                       const FilterLine<Real>& line) {
+  const EnclosedCrossing<Real> crossing = enclose(plane, line);
+  return crossing.from <= crossing.to && plane.rate(line) < 0.0;
 }
 
 }  // namespace crt::core

@@ -17,6 +17,9 @@ class PlaneShape final : public ShapeOfPoints<PlaneShape> {
 
   bool is_solid() const override { return true; }
   TypedShape typed() const override { return this; }
+  EnclosedSolid enclosed() const override {
+    return EnclosedPlane{face_.position(), face_.normal()};
+  }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   Vec3 anchor(std::uint32_t) const override { return face_.position(); }

@@ -10,7 +10,10 @@
 #pragma once
 
 #include <array>
+#include <cstdint>
+#include <optional>
 
+#include "core/math/vector.hpp"
 #include "core/ray/enclosure.hpp"
 
 namespace crt::core {
@@ -55,6 +58,15 @@ struct EnclosedSphere {
   Vec3 center{0, 0, 0};
   double radius = 0;
 
+  /// Returns it where a placement puts it, or nothing if no doubles are exactly there or it is of
+  /// no fair size.
+  template <class Placement>
+  std::optional<EnclosedSphere> placed(const Placement& placement) const {
+    const std::optional<Vec3> place = placement.exactly_to_world(center);
+    if (!place || !has_fair_size(radius)) return {};
+    return EnclosedSphere{*place, radius};
+  }
+
   /// Returns M for lines at such offsets. Roundings change h^2 d^2 by less than 32 u (w^2 + r^2),
   /// with u = 2^-53. The bound on the error of an exact test's t, e, is 16 u r^2 / (d^2 h) at most
   /// and never more than sqrt(2 h e) (standard_error(), grazing_error()): so (h + e)^2 and (h - e)
@@ -84,9 +96,11 @@ bool enclose(const EnclosedSphere& sphere, const FilterLine<Real>& line, const M
   return true;
 }
 
-/// Returns whether the distance of lines' origins from a sphere is what rounding makes of 0.
+/// Returns whether lines that start on a sphere inwards come into it there: the distance of their
+/// origins from it is what rounding makes of 0.
 template <class Real>
-MaskOf<Real> starts_on(const EnclosedSphere& sphere, const FilterLine<Real>& line) {
+MaskOf<Real> goes_into(const EnclosedSphere& sphere, std::uint32_t /*face*/,
+                       const FilterLine<Real>& line) {
   constexpr double share_of_start = 0x1p-4;
   const std::array<Real, 3> offset = offset_to(line, sphere.center);
   const Real squared_offset = dot(offset, offset);

@@ -108,6 +108,7 @@ class SphereShape final : public ShapeOfPoints<SphereShape> {
 
   bool is_solid() const override { return true; }
   TypedShape typed() const override { return this; }
+  EnclosedSolid enclosed() const override { return EnclosedSphere{center_, radius_}; }
   Bounds bounds() const override;
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   /// Finds the chord of rays that do not start on the surface. A ray is an ObjectRay, or as many

@@ -48,6 +48,7 @@ class TorusShape final : public ShapeOfPoints<TorusShape> {
   TypedShape typed() const override { return this; }
   bool is_convex() const override { return false; }
   Bounds bounds() const override;
+  EnclosedSolid enclosed() const override { return NoEnclosure{}; }
   bool crossings(const ObjectRay& ray, CrossingList& out) const override;
   /// Finds the first crossing of wanted rays that do not start on the surface, where it is known
   /// without the others. A ray is an ObjectRay, or as many side by side.
