@@ -207,6 +207,7 @@ class Comparison {
     return scene().objects.size() == 1 && scene().objects.front().is_csg() &&
            scene().programs.size() == 1 && !program().filter.empty();
   }
+  bool is_exact() const { return scene().leaves.front().exact != nullptr; }
   const CsgProgram& program() const { return scene().programs.front(); }
 
   /// Checks that rays find side by side what they find alone.
@@ -322,7 +323,8 @@ TEST_CASE("what a filter calls sure is what following all crossings finds") {
       CAPTURE(i);
       WorldRay ray = random_ray(trees);
       CsgHit hit;
-      if (trees.random().integer(0, 7) == 0) {
+      // What the exact tier makes of such directions are very long numbers.
+      if (!comparison.is_exact() && trees.random().integer(0, 7) == 0) {
         WorldRay longer = ray;
         longer.direction *= std::exp2(trees.random().integer(-1000, 1000));
         comparison.compare_filter(longer, hit, free);
