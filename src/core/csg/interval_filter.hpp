@@ -90,7 +90,7 @@ struct LeafSolids<std::variant<NoEnclosure, Solids...>> {
   std::tuple<std::vector<LeafSolid<Solids>>...> lists;
 };
 
-/// An IntervalFilter is the filter of a program for whose leaves all there is an enclosure
+/// An IntervalFilter is the filter of a program each of whose leaves has an enclosure
 /// (geometry/enclosed_solid.hpp). Deep programs have none.
 class IntervalFilter {
  public:
