@@ -15,14 +15,14 @@ using namespace crt::test;
 
 namespace {
 
-struct Mesh {
+struct WrittenMesh {
   std::vector<Vec3> positions;
   std::vector<TriangleIndices> triangles;
 };
 
 /// Returns a mesh of doubles of all sizes, each vertex of which has a triangle. With `floats` they
 /// are floats.
-Mesh some_mesh(bool floats) {
+WrittenMesh some_mesh(bool floats) {
   std::mt19937_64 random(7);
   std::uniform_real_distribution<double> mantissa(-2, 2);
   std::uniform_int_distribution<int> exponent(floats ? -120 : -1000, floats ? 120 : 320);
@@ -30,7 +30,7 @@ Mesh some_mesh(bool floats) {
     const double value = std::ldexp(mantissa(random), exponent(random));
     return floats ? static_cast<double>(static_cast<float>(value)) : value;
   };
-  Mesh mesh;
+  WrittenMesh mesh;
   for (int i = 0; i < 600; ++i) {
     const double x = coordinate();
     const double y = coordinate();
@@ -44,14 +44,14 @@ Mesh some_mesh(bool floats) {
   return mesh;
 }
 
-void check_equal(const MeshFile& file, const Mesh& mesh, MeshFormat format) {
+void check_equal(const MeshFile& file, const WrittenMesh& mesh, MeshFormat format) {
   CHECK(file.format == format);
   CHECK(file.positions == mesh.positions);
   CHECK(file.triangles == mesh.triangles);
   CHECK(file.dropped_triangles == 0);
 }
 
-std::string obj_text(const Mesh& mesh) {
+std::string obj_text(const WrittenMesh& mesh) {
   std::string text;
   for (const Vec3& p : mesh.positions) text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
   for (const auto& [a, b, c] : mesh.triangles)
@@ -59,28 +59,28 @@ std::string obj_text(const Mesh& mesh) {
   return text;
 }
 
-std::string off_text(const Mesh& mesh) {
+std::string off_text(const WrittenMesh& mesh) {
   std::string text = fmt::format("OFF\n{} {} 0\n", mesh.positions.size(), mesh.triangles.size());
   for (const Vec3& p : mesh.positions) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("3 {} {} {}\n", a, b, c);
   return text;
 }
 
-std::string ply_header(const Mesh& mesh, const char* format) {
+std::string ply_header(const WrittenMesh& mesh, const char* format) {
   return fmt::format(
       "ply\nformat {} 1.0\nelement vertex {}\nproperty double x\nproperty double y\n"
       "property double z\nelement face {}\nproperty list uchar int vertex_indices\nend_header\n",
       format, mesh.positions.size(), mesh.triangles.size());
 }
 
-std::string ply_text(const Mesh& mesh) {
+std::string ply_text(const WrittenMesh& mesh) {
   std::string text = ply_header(mesh, "ascii");
   for (const Vec3& p : mesh.positions) text += fmt::format("{} {} {}\n", p.x, p.y, p.z);
   for (const auto& [a, b, c] : mesh.triangles) text += fmt::format("3 {} {} {}\n", a, b, c);
   return text;
 }
 
-std::string ply_binary(const Mesh& mesh, std::endian order) {
+std::string ply_binary(const WrittenMesh& mesh, std::endian order) {
   std::string bytes =
       ply_header(mesh, order == std::endian::little ? "binary_little_endian" : "binary_big_endian");
   for (const Vec3& p : mesh.positions)
@@ -90,7 +90,7 @@ std::string ply_binary(const Mesh& mesh, std::endian order) {
   return bytes;
 }
 
-std::string stl_text(const Mesh& mesh) {
+std::string stl_text(const WrittenMesh& mesh) {
   std::string text = "solid some name\n";
   for (const TriangleIndices& triangle : mesh.triangles) {
     text += "  facet normal 0 0 1\n    outer loop\n";
@@ -103,7 +103,7 @@ std::string stl_text(const Mesh& mesh) {
   return text + "endsolid some name\n";
 }
 
-std::string stl_binary(const Mesh& mesh) {
+std::string stl_binary(const WrittenMesh& mesh) {
   std::string bytes = "solid as many programs begin it";
   bytes.resize(80, ' ');
   bytes += packed(static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -118,7 +118,7 @@ std::string stl_binary(const Mesh& mesh) {
   return bytes;
 }
 
-std::string three_mf_file(const Mesh& mesh) {
+std::string three_mf_file(const WrittenMesh& mesh) {
   std::string object = "<object id=\"1\" type=\"model\"><mesh><vertices>\n";
   for (const Vec3& p : mesh.positions)
     object += fmt::format("<vertex x=\"{}\" y=\"{}\" z=\"{}\"/>\n", p.x, p.y, p.z);
@@ -132,7 +132,7 @@ std::string three_mf_file(const Mesh& mesh) {
 }  // namespace
 
 TEST_CASE("what is written in each format is read again, with the same doubles") {
-  const Mesh mesh = some_mesh(false);
+  const WrittenMesh mesh = some_mesh(false);
   check_equal(decode(obj_text(mesh)), mesh, MeshFormat::obj);
   check_equal(decode(off_text(mesh)), mesh, MeshFormat::off);
   check_equal(decode(ply_text(mesh)), mesh, MeshFormat::ply);
@@ -140,7 +140,7 @@ TEST_CASE("what is written in each format is read again, with the same doubles")
   check_equal(decode(ply_binary(mesh, std::endian::big)), mesh, MeshFormat::ply);
   check_equal(decode(stl_text(mesh)), mesh, MeshFormat::stl);
   check_equal(decode(three_mf_file(mesh)), mesh, MeshFormat::three_mf);
-  const Mesh floats = some_mesh(true);
+  const WrittenMesh floats = some_mesh(true);
   check_equal(decode(stl_binary(floats)), floats, MeshFormat::stl);
 }
 
@@ -157,7 +157,7 @@ TEST_CASE("equal vertices are one, in the order of the file, and -0 is 0") {
 }
 
 TEST_CASE("a file is recognised by its content first and its ending second") {
-  const Mesh mesh = some_mesh(true);
+  const WrittenMesh mesh = some_mesh(true);
   check_equal(decode(off_text(mesh), "mesh.obj"), mesh, MeshFormat::off);
   check_equal(decode(ply_text(mesh), "mesh.stl"), mesh, MeshFormat::ply);
   check_equal(decode(three_mf_file(mesh), "mesh.off"), mesh, MeshFormat::three_mf);
