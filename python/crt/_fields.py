@@ -43,7 +43,10 @@ FIELDS = {
         ("double alpha", "in [0, 1]; what is missing to 1 adds to the transparency; default 1"),
         ("const crt_pattern* pattern", "takes the place of the colour; default None"),
         ("double reflectivity", "share of light mirrored, in [0, 1]; default 0"),
-        ("double transparency", "share of light let through, in [0, 1]; default 0"),
+        (
+            "double transparency",
+            "share of light let through, times the colour at each surface, in [0, 1]; default 0",
+        ),
         ("double refractive_index", "of the inside, in [0.01, 100]; default 1"),
         ("double diffuse", ">= 0, or -1 (default) for max(0, 1 - reflectivity - transparency)"),
         ("double specular", "strength of the highlight, >= 0; default 0"),

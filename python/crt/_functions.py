@@ -154,6 +154,13 @@ FUNCTIONS = {
     ),
     "crt_entity_with_id": ("crt_status", "crt_entity* entity", "uint32_t id", "crt_entity** out"),
     "crt_entity_is_solid": ("int32_t", "const crt_entity* entity"),
+    "crt_entity_solid_fault": (
+        "crt_status",
+        "crt_entity* entity",
+        "char* text",
+        "size_t capacity",
+        "size_t* length",
+    ),
     "crt_entity_primitive_count": ("uint64_t", "const crt_entity* entity"),
     "crt_scene_create": ("crt_status", "crt_scene** out"),
     "crt_scene_copy": ("crt_status", "const crt_scene* scene", "crt_scene** out"),

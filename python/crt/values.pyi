@@ -305,7 +305,8 @@ class Material(_Struct):
     - alpha (float): in [0, 1]; what is missing to 1 adds to the transparency; default 1
     - pattern (Pattern | None): takes the place of the colour; default None
     - reflectivity (float): share of light mirrored, in [0, 1]; default 0
-    - transparency (float): share of light let through, in [0, 1]; default 0
+    - transparency (float): share of light let through, times the colour at each surface, in [0, 1];
+      default 0
     - refractive_index (float): of the inside, in [0.01, 100]; default 1
     - diffuse (float): >= 0, or -1 (default) for max(0, 1 - reflectivity - transparency)
     - specular (float): strength of the highlight, >= 0; default 0
