@@ -53,6 +53,10 @@ class EnclosedLines {
         interval.enter_to <= lines_.certain_from && interval.leave_from > lines_.certain_from;
     return any(lane_bit(lane) && soon);
   }
+  /// Returns whether a ray that starts out of a leaf has left it as soon as crossings count.
+  bool is_outside_soon(const Enclosure<Real>& interval, std::size_t lane) const {
+    return any(lane_bit(lane) && interval.leave_to <= lines_.certain_from);
+  }
 
   static Mask lane_bit(std::size_t lane) { return lanes_of_mask<Real>(std::uint32_t{1} << lane); }
 

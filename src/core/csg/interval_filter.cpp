@@ -174,7 +174,11 @@ class IntervalFilter::Search {
                                     [&](const auto& other) { return other.leaf == index; });
     const Mask ray = EnclosedLines<Real>::lane_bit(lane);
     if (start_on_leaf(leaf, start.leaf, faces, start).side == Side::outside) {
-      if (found != near.end()) found->interval.set_outside(ray);
+      if (found == near.end()) return true;
+      // Where the ray grazes the leaf, the bounds on the errors of the leaf's crossings at the
+      // start and before it reach so far ahead that others may be at one place with them.
+      if (!lines_.is_outside_soon(found->interval, lane)) return false;
+      found->interval.set_outside(ray);
       return true;
     }
     if (found == near.end() || !goes_into(index, start.face, lane) ||
