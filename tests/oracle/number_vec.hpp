@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "core/geometry/mesh/triangles.hpp"
+#include "crt/error.hpp"
 #include "crt/primitives.hpp"
 #include "oracle/interval.hpp"
 
@@ -94,10 +95,17 @@ inline std::vector<Triangle> triangles_of(const Mesh& mesh) {
   }
   return result;
 }
+/// Returns a tetrahedron, or a mesh without triangles if one of its sides has no area.
 inline Mesh tetrahedron(const std::array<Vec3, 4>& corners) {
   constexpr std::array<TriangleIndices, 4> sides = {
       TriangleIndices{0, 1, 2}, {0, 2, 3}, {0, 3, 1}, {1, 3, 2}};
-  return {.triangles = mesh_triangles(corners, sides)};
+  try {
+    const auto triangles = mesh_triangles(corners, sides);
+    if (triangles->size() == sides.size()) return {.triangles = triangles};
+  } catch (const Error&) {
+    // No side has an area.
+  }
+  return {};
 }
 
 /// Holds for the primitives without an inside.
