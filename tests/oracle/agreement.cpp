@@ -183,9 +183,13 @@ Subject make_crowd(Counted& random, const Vec3& at, double size) {
   Subject crowd{.entities = {}, .parts = {}, .size = size};
   for (int cell = 0; cell < cells * cells * cells; ++cell) {
     const Vec3 place(cell % cells, cell / cells % cells, cell / (cells * cells));
-    Primitive part = solid_part(random, at + 2 * most_sizes * size * place, size);
-    if (std::holds_alternative<Plane>(part))
-      part = Sphere{.center = at + 2 * most_sizes * size * place, .radius = size};
+    const Vec3 middle = at + 2 * most_sizes * size * place;
+    Primitive part = solid_part(random, middle, size);
+    // A mesh may not have found its place.
+    const bool is_elsewhere =
+        std::holds_alternative<Mesh>(part) && !(glm::length(center_of(part) - middle) <= 2 * size);
+    if (std::holds_alternative<Plane>(part) || is_elsewhere)
+      part = Sphere{.center = middle, .radius = size};
     crowd.parts.push_back(part);
     crowd.entities.emplace_back(part);
   }

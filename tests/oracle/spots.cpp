@@ -242,8 +242,11 @@ void make(Counted& random, const Vec3& at, double size, Mesh& mesh) {
   for (Vec3& offset : offsets) offset = size * random.in_cube();
   std::array<Vec3, 4> corners{};
   for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = at + offsets[i];
-  mesh = tetrahedron(corners);
-  // A size that is lost in the place makes no tetrahedron there.
+  // A size that is all but lost in the place makes no tetrahedron there.
+  double largest_place = 0;
+  for (int axis = 0; axis < 3; ++axis) largest_place = std::max(largest_place, std::abs(at[axis]));
+  constexpr double few_digits = 1e-12;
+  if (size > few_digits * largest_place) mesh = tetrahedron(corners);
   if (mesh.triangles == nullptr) mesh = tetrahedron(offsets);
 }
 Triangle any_triangle(Counted& random, const Mesh& mesh) {

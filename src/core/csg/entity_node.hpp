@@ -46,7 +46,7 @@ struct EntityNode {
 
   Content content;
   bool solid = true;
-  /// This counts the leaves of the tree below, each path to one, and saturates at the largest value.
+  /// This counts the leaves of the tree below, each path to one. It saturates at the largest value.
   std::uint32_t leaf_count = 1;
   /// This counts the primitives of these leaves likewise. A mesh is as many as it has triangles.
   std::uint64_t primitive_count = 1;

@@ -12,14 +12,16 @@ namespace crt::core {
 /// A MeshTier is what the tiers do differently.
 class MeshTier {
  public:
+  MeshTier() = default;
+  MeshTier(const MeshTier&) = delete;
+  MeshTier& operator=(const MeshTier&) = delete;
+  virtual ~MeshTier() = default;
+
   /// Finds t and its error, where the line meets the plane of a triangle. Returns false if t is
   /// beyond all doubles.
   virtual bool meet(std::uint32_t triangle, Crossing& crossing) const = 0;
   /// Returns the sign of the first t less the second, and 0 if they are equal.
   virtual int order(const Crossing& first, const Crossing& second) const = 0;
-
- protected:
-  ~MeshTier() = default;
 };
 
 /// Appends the crossings of a line with a mesh, as Shape::crossings does.
