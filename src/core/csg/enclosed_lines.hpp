@@ -35,7 +35,7 @@ class EnclosedLines {
   /// Encloses the part of the lines in a leaf. Returns false if all lines surely are outside as
   /// long as it matters. The enclosure then means nothing.
   template <class Solid>
-  bool enclose(const Solid& solid, Enclosure<Real>& part) const {
+  [[gnu::always_inline]] bool enclose(const Solid& solid, Enclosure<Real>& part) const {
     if (!core::enclose(solid, lines_, asked_, part)) return false;
     return restrict(part);
   }
@@ -61,12 +61,12 @@ class EnclosedLines {
   static Mask lane_bit(std::size_t lane) { return lanes_of_mask<Real>(std::uint32_t{1} << lane); }
 
  private:
+  [[gnu::always_inline]] Real widened(const Real& from) const {
+    return select(from <= lines_.certain_from, min(from, lines_.begin), from);
+  }
   /// Restricts an enclosure to what matters. What may be at the start may be before it as well.
   /// Returns false if nothing matters.
-  bool restrict(Enclosure<Real>& part) const {
-    const auto widened = [&](const Real& from) {
-      return select(from <= lines_.certain_from, min(from, lines_.begin), from);
-    };
+  [[gnu::always_inline]] bool restrict(Enclosure<Real>& part) const {
     part.enter_from = widened(part.enter_from);
     part.leave_from = widened(part.leave_from);
     const Mask outside = part.is_outside(lines_.begin, limits_);

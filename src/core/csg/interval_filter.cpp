@@ -71,8 +71,9 @@ class IntervalFilter::Search {
         near_(filter, program, lines_, rays.asked, workspace, steps),
         steps_(steps) {}
 
-  BoundaryChanges<Real> find(std::span<const Leaf> leaves, std::span<const FaceSurface> faces,
-                             std::uint32_t first_leaf) {
+  [[gnu::always_inline]] BoundaryChanges<Real> find(std::span<const Leaf> leaves,
+                                                    std::span<const FaceSurface> faces,
+                                                    std::uint32_t first_leaf) {
     gather(-least(select(lines_.asked(), -lines_.lines().certain_from, broadcast<Real>(infinity))));
     if (is_too_much()) return changes_;
     Mask asked = lines_.asked();

@@ -201,8 +201,8 @@ template <class Real>
 /// Encloses the part of lines in a cylinder or cone. Returns false if none of the lines that are
 /// asked for comes near it; the enclosure then means nothing.
 template <class Real>
-bool enclose(const EnclosedFrustum& frustum, const FilterLine<Real>& line,
-             const MaskOf<Real>& asked, Enclosure<Real>& part) {
+[[gnu::noinline]] bool enclose(const EnclosedFrustum& frustum, const FilterLine<Real>& line,
+                               const MaskOf<Real>& asked, Enclosure<Real>& part) {
   using Mask = MaskOf<Real>;
   const FrustumPass<Real> pass(frustum, line);
   const Real discriminant = difference_of_products(pass.b, pass.b, pass.a, pass.c - pass.margin);
@@ -237,8 +237,8 @@ bool enclose(const EnclosedFrustum& frustum, const FilterLine<Real>& line,
 /// Returns whether lines that start on a face, and to its inner side, come into a frustum there:
 /// they start on its surface but for what rounding makes of 0, and plainly inwards on a cap.
 template <class Real>
-MaskOf<Real> goes_into(const EnclosedFrustum& frustum, std::uint32_t face,
-                       const FilterLine<Real>& line) {
+[[gnu::noinline]] MaskOf<Real> goes_into(const EnclosedFrustum& frustum, std::uint32_t face,
+                                         const FilterLine<Real>& line) {
   constexpr double share_of_start = 0x1p-4;
   constexpr double plainly = 0x1p-40;
   const FrustumPass<Real> pass(frustum, line);
