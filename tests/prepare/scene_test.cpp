@@ -317,7 +317,7 @@ TEST_CASE("a wrong description is refused with the name of the field") {
   };
   Scene scene;
   scene.camera.pointing = scene.camera.position;
-  CHECK(argument_of(scene) == "lights[0].pointing");
+  CHECK(argument_of(scene) == "pointing");
   scene = {};
   scene.camera.fov = 4;
   CHECK(argument_of(scene) == "fov");
@@ -331,7 +331,7 @@ TEST_CASE("a wrong description is refused with the name of the field") {
   CHECK(argument_of(scene) == "gamma");
   scene = {};
   scene.lights.emplace_back(SpotLight{.origin = {0, 0, 0}, .pointing = {0, 0, 0}});
-  CHECK(argument_of(scene) == "pointing");
+  CHECK(argument_of(scene) == "lights[0].pointing");
   scene.lights = {PointLight{.color = {-1, 0, 0}}};
   CHECK(argument_of(scene) == "lights[0].color");
   scene = {};
