@@ -56,7 +56,8 @@ struct ObjectRay {
   Vec3 direction_low{0, 0, 0};
   RayStart start = {};
   /// Crossings with t below this matter only by their number. Where they are may be found roughly,
-  /// with an error bound that says so.
+  /// with an error bound that says so. They may also be left out, if what is returned says whether
+  /// the line is inside before the first that is not.
   double begin = -std::numeric_limits<double>::infinity();
   /// Crossings after the first one for which is_first_asked() is true may be left out. Crossings
   /// nearer than this to where the ray begins may be at its start and not count.
