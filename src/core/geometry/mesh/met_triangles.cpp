@@ -70,6 +70,7 @@ class MetTriangles {
   void drop_empty_parts();
   void agree_with_start();
   bool is_through_origin(const Crossing& crossing) const;
+  Place put_behind(Place met) const;
   void take_turns();
 
   const MeshTriangles& mesh_;
@@ -163,10 +164,12 @@ void MetTriangles::keep_in_triangle(const Triangle& triangle, Crossing& crossing
 }
 
 int MetTriangles::order(const Crossing& a, const Crossing& b) const {
-  const bool is_certain = std::abs(a.t - b.t) > a.error + b.error || starts_on(a.face) ||
-                          starts_on(b.face) || !std::isfinite(a.t) || !std::isfinite(b.t);
-  if (is_certain) return a.t < b.t ? -1 : (a.t > b.t ? 1 : 0);
-  return tier_.order(a, b);
+  const auto compared = [](double x, double y) { return x < y ? -1 : (x > y ? 1 : 0); };
+  if (!std::isfinite(a.t) || !std::isfinite(b.t)) return compared(a.t, b.t);
+  const double distance = (a.t - b.t) + (a.t_low - b.t_low);
+  const bool is_start = starts_on(a.face) || starts_on(b.face);
+  if (!is_start && std::abs(distance) <= a.error + b.error) return tier_.order(a, b);
+  return compared(distance, 0);
 }
 
 void MetTriangles::sort() {
@@ -204,8 +207,7 @@ bool MetTriangles::is_through_origin(const Crossing& crossing) const {
   const Triangle corners = mesh_.triangle(crossing.face);
   const Vec3 normal = unit_vector(glm::cross(corners.b - corners.a, corners.c - corners.a));
   constexpr double roundings = 64;
-  const double tolerance =
-      roundings * unit_roundoff * (largest_component(ray_.origin) + mesh_.bounds().farthest());
+  const double tolerance = roundings * unit_roundoff * place_size();
   return std::abs(glm::dot(normal, corners.a - ray_.origin)) <= tolerance;
 }
 
@@ -235,7 +237,7 @@ void MetTriangles::agree_with_start() {
     if (nearest == list_.end() || std::abs(met->t) < std::abs(nearest->t)) nearest = met;
   }
   if (nearest == list_.end()) {
-    std::erase_if(list_, is_start);
+    list_.erase(std::remove_if(first(), list_.end(), is_start), list_.end());
     return;
   }
   Crossing moved = *nearest;
@@ -250,28 +252,34 @@ void MetTriangles::agree_with_start() {
   sort();
 }
 
-/// Makes the line enter and leave by turns. Where rounding has changed the order of triangles that
-/// nearly coincide, each gets the place of the other.
+/// Returns the crossing that rounding may have put behind another one, whose turn it is not. There
+/// is none where triangles plainly come in this order, as they pass through one another, and where
+/// normals say nothing.
+MetTriangles::Place MetTriangles::put_behind(Place met) const {
+  if (!mesh_.is_oriented() || starts_on(met->face)) return list_.end();
+  for (auto later = met + 1; later != list_.end(); ++later) {
+    if (later->t - later->error > met->t + met->error) break;
+    if (later->entering != met->entering) return starts_on(later->face) ? list_.end() : later;
+  }
+  return list_.end();
+}
+
+/// Makes the line enter and leave by turns. Where triangles nearly coincide, rounding may have put
+/// the end of a part before its begin. Such a part is left out, as is one of no length.
 void MetTriangles::take_turns() {
   bool inside = (list_.size() - begin_) % 2 != 0;
-  for (auto met = first(); met != list_.end(); ++met, inside = !inside) {
-    if (met->entering != inside) continue;
-    const auto other = std::find_if(met + 1, list_.end(), [&](const Crossing& later) {
-      return later.entering != inside || later.t - later.error > met->t + met->error;
-    });
-    const bool changes_places = mesh_.is_oriented() && other != list_.end() &&
-                                other->entering != inside && !starts_on(met->face) &&
-                                !starts_on(other->face) &&
-                                other->t - other->error <= met->t + met->error;
-    if (changes_places) {
-      const double distance = other->t - met->t;
-      std::swap(*met, *other);
-      std::swap(met->t, other->t);
-      std::swap(met->t_low, other->t_low);
-      met->error += distance;
-      other->error += distance;
+  for (auto met = first(); met != list_.end();) {
+    if (met->entering == inside) {
+      const auto later = put_behind(met);
+      if (later != list_.end()) {
+        list_.erase(later);
+        met = list_.erase(met);
+        continue;
+      }
+      met->entering = !inside;
     }
-    met->entering = !inside;
+    inside = !inside;
+    ++met;
   }
 }
 
