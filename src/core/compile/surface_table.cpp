@@ -6,6 +6,7 @@
 #include <tuple>
 #include <vector>
 
+#include "core/geometry/canonical_plane.hpp"
 #include "core/tasks/parallel.hpp"
 
 namespace crt::core {
@@ -17,34 +18,13 @@ double positive_zero(double value) {
   return value == 0 ? 0.0 : value;
 }
 
-struct CanonicalPlane {
-  std::array<double, 4> numbers{};  ///< normal and offset
-  bool flipped = false;
-};
-
-/// Returns the plane's equation in the world, divided by the normal's largest component. It is
-/// exact to about 100 bits before it is rounded. So planes that are equal but described differently
-/// agree.
 CanonicalPlane canonical_plane(const Surface& plane, const Placement& placement) {
   const PreciseVec3 normal{plane.direction.x, plane.direction.y, plane.direction.z};
-  const DoubleDouble offset = normal[0] * DoubleDouble(plane.position.x) +
-                              normal[1] * DoubleDouble(plane.position.y) +
-                              normal[2] * DoubleDouble(plane.position.z);
+  const PreciseVec3 position{plane.position.x, plane.position.y, plane.position.z};
   PreciseVec3 world_normal;
   DoubleDouble world_offset;
-  placement.plane_to_world(normal, offset, world_normal, world_offset);
-  std::size_t largest = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (std::abs(world_normal[axis].hi) > std::abs(world_normal[largest].hi)) largest = axis;
-  }
-  const DoubleDouble divisor = world_normal[largest];
-  CanonicalPlane result;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    result.numbers[axis] = (world_normal[axis] / divisor).value();
-  }
-  result.numbers[3] = (world_offset / divisor).value();
-  result.flipped = divisor.hi < 0;
-  return result;
+  placement.plane_to_world(normal, dot(normal, position), world_normal, world_offset);
+  return CanonicalPlane::of(world_normal, world_offset);
 }
 
 /// A key begins with the words of the surface. Those of a placement come last, and are filled if it

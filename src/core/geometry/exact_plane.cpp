@@ -1,5 +1,8 @@
 #include "core/geometry/exact_plane.hpp"
 
+#include <algorithm>
+#include <optional>
+
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -9,6 +12,27 @@ namespace {
 constexpr double normal_size = 3;
 
 }  // namespace
+
+DyadicVector exact_normal(const Vec3& a, const Vec3& b, const Vec3& c) {
+  const DyadicVector corner = exactly(a);
+  return cross(exactly(b) - corner, exactly(c) - corner);
+}
+
+PreciseVec3 rounded_direction(const DyadicVector& direction) {
+  std::array<ScaledNumber, 3> rounded;
+  std::optional<int> largest;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rounded[i] = direction[i].rounded();
+    if (direction[i].sign() == 0) continue;
+    largest = std::max(largest.value_or(rounded[i].exponent), rounded[i].exponent);
+  }
+  PreciseVec3 result;
+  for (std::size_t i = 0; i < 3; ++i) {
+    rounded[i].exponent -= largest.value_or(0);
+    result[i] = rounded[i].unscaled();
+  }
+  return result;
+}
 
 ExactPlane::ExactPlane(const Vec3& normal, const Vec3& position) : position_(position) {
   take_normal(exactly(normal));
@@ -24,25 +48,18 @@ ExactPlane ExactPlane::across_axis(const Vec3& from, const Vec3& to, const Vec3&
 ExactPlane ExactPlane::through(const Vec3& a, const Vec3& b, const Vec3& c) {
   ExactPlane plane;
   plane.position_ = a;
-  plane.take_normal(cross(exactly(b) - exactly(a), exactly(c) - exactly(a)));
+  plane.take_normal(exact_normal(a, b, c));
   return plane;
 }
 
 void ExactPlane::take_normal(const DyadicVector& normal) {
   exact_normal_ = normal;
-  int largest = 0;
+  normal_ = rounded_direction(normal);
   int components = 0;
-  std::array<ScaledNumber, 3> rounded;
   for (std::size_t i = 0; i < 3; ++i) {
-    rounded[i] = normal[i].rounded();
     if (normal[i].sign() == 0) continue;
-    largest = components == 0 ? rounded[i].exponent : std::max(largest, rounded[i].exponent);
     ++components;
     axis_ = components == 1 ? static_cast<int>(i) : -1;
-  }
-  for (std::size_t i = 0; i < 3; ++i) {
-    rounded[i].exponent -= largest;
-    normal_[i] = rounded[i].unscaled();
   }
 }
 

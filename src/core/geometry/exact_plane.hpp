@@ -8,6 +8,13 @@
 
 namespace crt::core {
 
+/// Returns (b - a) x (c - a).
+DyadicVector exact_normal(const Vec3& a, const Vec3& b, const Vec3& c);
+
+/// Returns a direction to about 100 bits of each component, up to a power of two: the largest is
+/// about 1. A vector of 0 stays that.
+PreciseVec3 rounded_direction(const DyadicVector& direction);
+
 class ExactPlane {
  public:
   /// Makes the plane through `position` across `normal`.

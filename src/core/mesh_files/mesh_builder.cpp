@@ -1,63 +1,18 @@
 #include "core/mesh_files/mesh_builder.hpp"
 
-#include <algorithm>
-#include <array>
-#include <bit>
 #include <limits>
 #include <utility>
 
+#include "core/geometry/mesh/equal_positions.hpp"
 #include "core/mesh_files/refused_mesh.hpp"
 
 namespace crt::core {
 
 namespace {
 
-/// Returns a number that other positions hardly have. Finding equal ones is faster with it, and
-/// nothing but that depends on it.
-std::uint64_t hash_of(const Vec3& position) {
-  std::uint64_t hash = 0;
-  for (int axis = 0; axis < 3; ++axis) {
-    hash ^= std::bit_cast<std::uint64_t>(position[axis]);
-    hash *= 0x9e3779b97f4a7c15u;  // 2^64 over the golden ratio
-    hash ^= hash >> 32;
-  }
-  return hash;
-}
-
-/// A PlacedVertex is a vertex in the order in which equal ones are neighbours.
-struct PlacedVertex {
-  std::uint64_t hash;
-  std::uint32_t vertex;
-};
-
-/// Sorts vertices so that equal ones stand together, the first of the file first. Sorting takes
-/// O(n log n) for any file, as a hash table would not.
-std::vector<PlacedVertex> sorted(const std::vector<Vec3>& positions) {
-  std::vector<PlacedVertex> order(positions.size());
-  for (std::uint32_t i = 0; i < order.size(); ++i) order[i] = {hash_of(positions[i]), i};
-  std::sort(order.begin(), order.end(), [&](const PlacedVertex& a, const PlacedVertex& b) {
-    if (a.hash != b.hash) return a.hash < b.hash;
-    const Vec3& p = positions[a.vertex];
-    const Vec3& q = positions[b.vertex];
-    if (p.x != q.x) return p.x < q.x;
-    if (p.y != q.y) return p.y < q.y;
-    if (p.z != q.z) return p.z < q.z;
-    return a.vertex < b.vertex;
-  });
-  return order;
-}
-
 /// Leaves the first of equal positions. Returns the new numbers of all.
 std::vector<std::uint32_t> weld(std::vector<Vec3>& positions) {
-  std::vector<std::uint32_t> first(positions.size());
-  {
-    const std::vector<PlacedVertex> order = sorted(positions);
-    for (std::size_t i = 0; i < order.size(); ++i) {
-      const std::uint32_t vertex = order[i].vertex;
-      const bool is_new = i == 0 || positions[order[i - 1].vertex] != positions[vertex];
-      first[vertex] = is_new ? vertex : first[order[i - 1].vertex];
-    }
-  }
+  std::vector<std::uint32_t> first = first_equal(positions);
   std::uint32_t count = 0;
   for (std::uint32_t i = 0; i < positions.size(); ++i) {
     if (first[i] != i) {

@@ -3,12 +3,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <numeric>
 #include <tuple>
 
+#include "core/geometry/canonical_plane.hpp"
 #include "core/geometry/checks.hpp"
+#include "core/geometry/exact_plane.hpp"
+#include "core/geometry/mesh/equal_positions.hpp"
 #include "core/geometry/triangle/triangle.hpp"
-#include "core/math/dyadic_vector.hpp"
 #include "core/math/vector.hpp"
 #include "crt/error.hpp"
 
@@ -34,10 +35,6 @@ void check_indices(std::span<const TriangleIndices> triangles, std::size_t posit
                   "indices");
     }
   }
-}
-
-bool is_before(const Vec3& a, const Vec3& b) {
-  return std::tie(a.x, a.y, a.z) < std::tie(b.x, b.y, b.z);
 }
 
 /// An Edge is one use of an edge by a triangle.
@@ -66,32 +63,20 @@ std::vector<Edge> edges_of(std::span<const TriangleIndices> triangles) {
   return edges;
 }
 
-/// A PlaneKey is a plane's equation, rounded from about 100 bits. Equal planes have equal keys.
+/// A PlaneKey is the plane of a triangle. Equal planes have equal numbers.
 struct PlaneKey {
-  std::array<double, 4> numbers{};
-  bool turned = false;  ///< whether the triangle's normal is opposite to the key's
+  CanonicalPlane plane;
   std::uint32_t triangle = 0;
 
   friend bool operator<(const PlaneKey& a, const PlaneKey& b) {
-    return std::tie(a.numbers, a.triangle) < std::tie(b.numbers, b.triangle);
+    return std::tie(a.plane.numbers, a.triangle) < std::tie(b.plane.numbers, b.triangle);
   }
 };
 
 PlaneKey plane_key(const Triangle& triangle, std::uint32_t number) {
   const PreciseVec3 normal = precise_normal_of(triangle);
-  std::size_t largest = 0;
-  for (std::size_t axis = 1; axis < 3; ++axis) {
-    if (std::abs(normal[axis].hi) > std::abs(normal[largest].hi)) largest = axis;
-  }
-  PlaneKey key{.turned = normal[largest].hi < 0, .triangle = number};
-  DoubleDouble offset;
-  for (std::size_t axis = 0; axis < 3; ++axis) {
-    const DoubleDouble share = normal[axis] / normal[largest];
-    key.numbers[axis] = share.value() + 0.0;  // turns -0 into 0
-    offset = offset + share * DoubleDouble(triangle.a[static_cast<int>(axis)]);
-  }
-  key.numbers[3] = offset.value() + 0.0;
-  return key;
+  const Vec3& corner = triangle.a;
+  return {CanonicalPlane::of(normal, dot(normal, {corner.x, corner.y, corner.z})), number};
 }
 
 /// Returns whether a triangle lies in the plane of another, without rounding.
@@ -105,7 +90,7 @@ bool is_in_plane(const Triangle& triangle, const Triangle& of_plane) {
   };
   if (shares_coordinate(0) || shares_coordinate(1) || shares_coordinate(2)) return true;
   const DyadicVector origin = exactly(of_plane.a);
-  const DyadicVector normal = cross(exactly(of_plane.b) - origin, exactly(of_plane.c) - origin);
+  const DyadicVector normal = exact_normal(of_plane.a, of_plane.b, of_plane.c);
   return std::all_of(std::begin(corners), std::end(corners), [&](const Vec3* corner) {
     return *corner == of_plane.a || *corner == of_plane.b || *corner == of_plane.c ||
            dot(normal, exactly(*corner) - origin).sign() == 0;
@@ -142,19 +127,9 @@ MeshTriangles::MeshTriangles(std::span<const Vec3> positions,
 /// Makes equal corners one, and drops triangles of which two corners are one. What these had for
 /// edges are two uses of one edge, and one of no length.
 void MeshTriangles::weld(std::vector<TriangleIndices>& triangles) {
-  std::vector<std::uint32_t> order(positions_.size());
-  std::iota(order.begin(), order.end(), 0U);
-  std::sort(order.begin(), order.end(), [&](std::uint32_t a, std::uint32_t b) {
-    if (positions_[a] != positions_[b]) return is_before(positions_[a], positions_[b]);
-    return a < b;
-  });
-  std::vector<std::uint32_t> first_equal(positions_.size());
-  for (std::size_t i = 0; i < order.size(); ++i) {
-    const bool is_equal = i > 0 && positions_[order[i]] == positions_[order[i - 1]];
-    first_equal[order[i]] = is_equal ? first_equal[order[i - 1]] : order[i];
-  }
+  const std::vector<std::uint32_t> first = first_equal(positions_);
   for (TriangleIndices& indices : triangles) {
-    for (std::uint32_t& index : indices) index = first_equal[index];
+    for (std::uint32_t& index : indices) index = first[index];
   }
   std::erase_if(triangles, [](const TriangleIndices& indices) {
     const auto [a, b, c] = indices;
@@ -218,14 +193,14 @@ void MeshTriangles::find_planes() {
   std::vector<const PlaneKey*> firsts;  // of the planes with the same key
   for (std::size_t i = 0; i < keys.size(); ++i) {
     const PlaneKey& key = keys[i];
-    if (i == 0 || key.numbers != keys[i - 1].numbers) firsts.clear();
+    if (i == 0 || key.plane.numbers != keys[i - 1].plane.numbers) firsts.clear();
     const auto found = std::find_if(firsts.begin(), firsts.end(), [&](const PlaneKey* first) {
       return is_in_plane(triangle(key.triangle), triangle(first->triangle));
     });
     const PlaneKey& first = found != firsts.end() ? **found : key;
     if (found == firsts.end()) firsts.push_back(&key);
     planes_[key.triangle] = {.first = first.triangle & 0x7fffffffu,
-                             .turned = key.turned != first.turned};
+                             .turned = key.plane.flipped != first.plane.flipped};
   }
 }
 

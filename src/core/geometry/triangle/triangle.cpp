@@ -1,10 +1,7 @@
 #include "core/geometry/triangle/triangle.hpp"
 
-#include <algorithm>
-#include <limits>
-
 #include "core/geometry/checks.hpp"
-#include "core/math/dyadic_vector.hpp"
+#include "core/geometry/exact_plane.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -22,25 +19,6 @@ PreciseVec3 difference(const Vec3& to, const Vec3& from, double scale) {
 
 double inverse_length_scale(const Vec3& v) {
   return 1 / power_of_two_below(largest_component(v));
-}
-
-/// Returns the normal where double-double cannot distinguish the corners from points on a line.
-PreciseVec3 exact_normal_of(const Triangle& triangle) {
-  const DyadicVector a = exactly(triangle.a);
-  const DyadicVector normal = cross(exactly(triangle.b) - a, exactly(triangle.c) - a);
-  std::array<ScaledNumber, 3> rounded;
-  int largest = std::numeric_limits<int>::min();
-  for (std::size_t i = 0; i < 3; ++i) {
-    rounded[i] = normal[i].rounded();
-    if (normal[i].sign() != 0) largest = std::max(largest, rounded[i].exponent);
-  }
-  PreciseVec3 result;
-  for (std::size_t i = 0; i < 3; ++i) {
-    if (normal[i].sign() == 0) continue;
-    rounded[i].exponent -= largest;
-    result[i] = rounded[i].unscaled();
-  }
-  return result;
 }
 
 /// Returns on which side of the edge from `from` to `to` the line passes: the sign of from . (edge
@@ -84,11 +62,12 @@ PreciseVec3 precise_normal_of(const Triangle& triangle) {
   const Vec3 ab = triangle.b - triangle.a;
   const Vec3 ac = triangle.c - triangle.a;
   if (largest_component(ab) == 0 || largest_component(ac) == 0) return {};
-  const PreciseVec3 normal =
-      cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
-            difference(triangle.c, triangle.a, inverse_length_scale(ac)));
+  const PreciseVec3 normal = cross(difference(triangle.b, triangle.a, inverse_length_scale(ab)),
+                                   difference(triangle.c, triangle.a, inverse_length_scale(ac)));
   constexpr double rounding = 0x1p-98;
-  return largest_component(rounded(normal)) > rounding ? normal : exact_normal_of(triangle);
+  if (largest_component(rounded(normal)) > rounding) return normal;
+  // Double-double cannot distinguish the corners from points on a line.
+  return rounded_direction(exact_normal(triangle.a, triangle.b, triangle.c));
 }
 
 TriangleShape::TriangleShape(const Triangle& triangle)
