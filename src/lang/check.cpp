@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <array>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include "lang/objects.hpp"
@@ -16,8 +15,6 @@
 namespace crt::lang {
 
 namespace {
-
-using Hint = std::pair<std::string_view, std::string_view>;
 
 /// Says what stands here for objects of other languages.
 constexpr std::array foreign_objects = {
@@ -38,9 +35,8 @@ constexpr std::array foreign_objects = {
 
 /// Returns what an unknown object most likely is, or all lights or all objects that there are.
 std::string meant(std::string_view name) {
-  const auto* foreign = std::find_if(foreign_objects.begin(), foreign_objects.end(),
-                                     [name](const Hint& hint) { return hint.first == name; });
-  if (foreign != foreign_objects.end()) return std::string(foreign->second);
+  const std::string_view foreign = hint_of(name, foreign_objects);
+  if (!foreign.empty()) return std::string(foreign);
   std::vector<std::string_view> names;
   for (const ObjectType& type : object_types()) names.push_back(type.name);
   if (std::string hint = did_you_mean(name, names); !hint.empty()) return hint;

@@ -41,6 +41,12 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
   return best;
 }
 
+std::string_view hint_of(std::string_view word, std::span<const Hint> hints) {
+  const auto found = std::find_if(hints.begin(), hints.end(),
+                                  [word](const Hint& hint) { return hint.word == word; });
+  return found == hints.end() ? std::string_view() : found->text;
+}
+
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates) {
   const std::string_view meant = nearest(word, candidates);
   return meant.empty() ? std::string() : "; did you mean '" + std::string(meant) + "'?";

@@ -1,6 +1,7 @@
 // These functions make messages such as "did you mean ...?"
 #pragma once
 
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -15,6 +16,15 @@ std::string_view nearest(std::string_view word, const std::vector<std::string_vi
 
 /// Returns "; did you mean 'radius'?", or nothing.
 std::string did_you_mean(std::string_view word, const std::vector<std::string_view>& candidates);
+
+/// A Hint is what to say of a word.
+struct Hint {
+  std::string_view word;
+  std::string_view text;
+};
+
+/// Returns the text of the word's hint, or nothing.
+std::string_view hint_of(std::string_view word, std::span<const Hint> hints);
 
 using text::enumerate;
 

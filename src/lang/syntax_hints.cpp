@@ -5,15 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <utility>
 
+#include "lang/suggestion.hpp"
 #include "lang/tree_builder.hpp"
 
 namespace crt::lang {
 
 namespace {
-
-using Hint = std::pair<std::string_view, std::string_view>;
 
 constexpr std::string_view how_to_write_macros =
     "; a macro is written f = Macro (x) { return x + 1 }";
@@ -40,11 +38,6 @@ constexpr std::array hints_at = {
 
 constexpr std::array<std::string_view, 7> macro_words = {"def", "function", "func",  "fn",
                                                          "sub", "proc",     "module"};
-
-std::string_view hint_of(std::string_view word, const Hint* begin, const Hint* end) {
-  const auto* found = std::find_if(begin, end, [word](const Hint& h) { return h.first == word; });
-  return found == end ? std::string_view() : found->second;
-}
 
 bool is_number(std::string_view found) {
   return found == "a whole number" || found == "a number";
@@ -107,11 +100,11 @@ std::string TreeBuilder::hint(Span place, const std::string& found,
       result = how_to_write_macros;
     } else {
       const std::string_view called = lexer_.word_before_brackets(place);
-      result = hint_of(called, hints_before.begin(), hints_before.end());
+      result = hint_of(called, hints_before);
     }
   }
-  if (result.empty()) result = hint_of(text, hints_at.begin(), hints_at.end());
-  if (result.empty()) result = hint_of(before, hints_before.begin(), hints_before.end());
+  if (result.empty()) result = hint_of(text, hints_at);
+  if (result.empty()) result = hint_of(before, hints_before);
   return std::string(result);
 }
 

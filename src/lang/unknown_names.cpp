@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <array>
 #include <string_view>
-#include <utility>
 
 #include "lang/failure.hpp"
 #include "lang/interpreter.hpp"
@@ -15,8 +14,6 @@
 namespace crt::lang {
 
 namespace {
-
-using Hint = std::pair<std::string_view, std::string_view>;
 
 constexpr std::string_view how_to_set = "; a variable is set by its name alone: x = 1";
 constexpr std::string_view how_to_write_macros = "; a macro is written f = Macro (x) { ... }";
@@ -50,12 +47,6 @@ constexpr std::array foreign_hints = {
     Hint{"intersection", "; the intersection of two entities is a ^ b"},
 };
 
-std::string_view foreign_hint(std::string_view word) {
-  const auto* found = std::find_if(foreign_hints.begin(), foreign_hints.end(),
-                                   [word](const Hint& hint) { return hint.first == word; });
-  return found == foreign_hints.end() ? std::string_view() : found->second;
-}
-
 /// Says how an object is written whose name begins with a small letter.
 std::string hint_of_object(std::string_view word) {
   for (const ObjectType& type : object_types()) {
@@ -71,7 +62,7 @@ std::string hint_of_object(std::string_view word) {
 
 void Interpreter::unknown_name(Symbol name, Span span) const {
   const std::string_view text = context_.symbols.name(name);
-  std::string hint(foreign_hint(text));
+  std::string hint(hint_of(text, foreign_hints));
   if (hint.empty()) hint = hint_of_order(name, span);
   if (hint.empty()) hint = hint_of_library(text);
   if (hint.empty()) hint = hint_of_object(text);
