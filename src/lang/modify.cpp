@@ -174,9 +174,8 @@ Entity modified(const Entity& entity, const Modifier& modifier, const Value& ope
 
 /// Notes whether a material that is given at `span` changes anything.
 void Interpreter::note_material(const Entity& entity, Span span) {
-  const bool changes = entity.is_empty() || lacks_material(entity);
-  const auto [given, is_new] = materials_given_.try_emplace(span.begin, span, changes);
-  given->second.second = given->second.second || changes;
+  bool& changes = materials_given_.try_emplace(span.begin, span, false).first->second.second;
+  changes = changes || entity.is_empty() || lacks_material(entity);
 }
 
 void Interpreter::warn_of_idle_materials() const {
