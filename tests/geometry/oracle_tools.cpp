@@ -1,8 +1,8 @@
 // The oracle needs quadruple precision, random numbers and scaled primitives.
 #include <cmath>
 
-#include "core/geometry/mesh/triangles.hpp"
 #include "geometry/oracle.hpp"
+#include "geometry/scaled_mesh.hpp"
 
 namespace crt::test {
 
@@ -116,14 +116,7 @@ Disc times(Disc s, double k) {
   return s;
 }
 Mesh times(const Mesh& s, double k) {
-  std::vector<Vec3> corners;
-  std::vector<TriangleIndices> triangles;
-  for (std::uint32_t i = 0; i < s.triangles->size(); ++i) {
-    const Triangle triangle = s.triangles->triangle(i);
-    triangles.push_back({3 * i, 3 * i + 1, 3 * i + 2});
-    for (const Vec3& corner : {triangle.a, triangle.b, triangle.c}) corners.push_back(k * corner);
-  }
-  return {.triangles = mesh_triangles(corners, triangles), .material = s.material};
+  return scaled_mesh(s, k);
 }
 Triangle times(Triangle s, double k) {
   s.a *= k;

@@ -7,8 +7,8 @@
 #include <cmath>
 
 #include "crt/query.hpp"
+#include "geometry/scaled_mesh.hpp"
 #include "oracle/measure.hpp"
-#include "oracle/number_vec.hpp"
 #include "oracle/prepared_tree.hpp"
 
 using namespace crt;
@@ -17,19 +17,6 @@ using namespace crt::test;
 namespace {
 
 constexpr std::array both_tiers = {Precision::standard, Precision::exact};
-
-Mesh scaled_mesh(const Mesh& mesh, double factor) {
-  std::vector<Vec3> corners;
-  std::vector<TriangleIndices> triangles;
-  for (const Triangle& triangle : triangles_of(mesh)) {
-    const auto first = static_cast<std::uint32_t>(corners.size());
-    triangles.push_back({first, first + 1, first + 2});
-    for (const Vec3& corner : {triangle.a, triangle.b, triangle.c}) {
-      corners.push_back(factor * corner);
-    }
-  }
-  return {.triangles = mesh_triangles(corners, triangles), .material = mesh.material};
-}
 
 Primitive scaled(Primitive primitive, double factor) {
   std::visit(
