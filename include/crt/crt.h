@@ -599,6 +599,13 @@ CRT_API int32_t crt_entity_is_solid(const crt_entity* entity);
 CRT_API crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity,
                                           size_t* length);
 /**
+ * Gives a box that holds the entity, rounded outwards. It may be larger than the smallest one: of a
+ * difference it holds what is cut from. Sides of what has no end are infinite, and what has no
+ * points has lower > upper. It takes O(n log n) for n primitives. Since 1.1.
+ */
+CRT_API crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]);
+
+/**
  * Returns the number of primitives the entity is made of. A part that occurs twice is counted
  * twice. It is 0 for NULL and for the empty entity.
  */
@@ -882,9 +889,10 @@ typedef void (*crt_log_fn)(int32_t level, const char* message, void* user);
 
 /**
  * These are the bits of crt_render_options.aovs. They say what a render reports of each pixel
- * beside its colour, as channels of the image (see crt_image_channel()). Distance and entity are
- * those of one ray, through the middles of the pixel and of the lens. Normal and albedo are means
- * over the pixel's samples. All describe what camera rays meet first, be it glass or a mirror.
+ * beside its colour, as channels of the image (see crt_image_channel()). Distance, entity and part
+ * are those of one ray, through the middles of the pixel and of the lens. Normal and albedo are
+ * means over the pixel's samples. All describe what camera rays meet first, be it glass or a
+ * mirror.
  */
 enum {
   CRT_AOV_DEPTH =
@@ -896,8 +904,10 @@ enum {
   CRT_AOV_ALBEDO =
       8, /**< "albedo.R", "albedo.G", "albedo.B": the material's colour; 0 where nothing is */
   CRT_AOV_SAMPLES = 16, /**< "samples": how many the pixel has, a channel of whole numbers */
-  CRT_AOV_ERROR = 32    /**< "error": the half-width of the pixel's interval, see half_width_rms in
+  CRT_AOV_ERROR = 32,   /**< "error": the half-width of the pixel's interval, see half_width_rms in
                              crt_render_stats; 1 for the plain grid */
+  CRT_AOV_PART = 64 /**< "part": crt_hit_part.part_id, a channel of whole numbers; UINT32_MAX where
+                       nothing is */
 };
 
 /**
@@ -1241,6 +1251,42 @@ CRT_API crt_status crt_occluded(crt_prepared* prepared, const crt_ray* rays, siz
  */
 CRT_API crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hits,
                                  size_t capacity, size_t* count);
+
+/**
+ * Says on which part of an entity a hit is. A miss has UINT32_MAX for the three ids, and 0 else.
+ * Where surfaces of several parts coincide, it is the part that was combined first. The layout is
+ * fixed for ever: 32 bytes.
+ */
+typedef struct crt_hit_part {
+  uint32_t entity_id; /**< as in crt_hit */
+  uint32_t part_id;  /**< the innermost crt_entity_with_id() around the primitive that was hit, such
+                          as a cutter; without any the entity's place in the scene */
+  uint32_t face;     /**< of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
+                          and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for
+                          the side, 1 at `from`, 2 at `to`. Meshes have the place of the triangle
+                          among those with an area. All others have 0. */
+  uint32_t reserved; /**< 0 */
+  double u, v;       /**< as in crt_hit */
+} crt_hit_part;
+
+/**
+ * Finds on which parts of entities the nearest hits are that crt_intersect() finds. If any ray is
+ * invalid, nothing is written, and the message names its index. Since 1.1.
+ */
+CRT_API crt_status crt_hit_parts(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                                 size_t count, crt_hit_part* parts, size_t part_stride);
+
+/**
+ * Computes the rays through places of the picture and the middle of the camera's lens, for programs
+ * that trace them by themselves. The picture has the size of the scene's settings. A place is x, y
+ * in pixels from the left and from the top: (0.5, 0.5) is the middle of the first pixel. Places
+ * beside the picture are legal. Directions have unit length, t_min is 0 and t_max INFINITY. If a
+ * place is not finite or too far outside, nothing is written, and the message names its index.
+ * Since 1.1.
+ * @param xy  2 * `count` numbers
+ */
+CRT_API crt_status crt_camera_rays(crt_prepared* prepared, const double* xy, size_t count,
+                                   crt_ray* rays, size_t ray_stride);
 
 /** @} */
 

@@ -47,7 +47,8 @@ class Entity {
   Entity with_material(SharedMaterial material) const;
 
   /// Returns this entity under a number of the caller's choice, which hits report. Without one,
-  /// hits report the entity's place in Scene::entities. The outermost id holds.
+  /// hits report the entity's place in Scene::entities. The outermost id holds for the entity, and
+  /// the innermost for the part that it was given to (see HitPart).
   Entity with_id(std::uint32_t id) const;
 
   /// Says whether it has an inside. It has none if any part of it is a mere surface (Disc,
@@ -73,6 +74,21 @@ class Entity {
  private:
   std::shared_ptr<const EntityNode> node_;
 };
+
+/// This is the id of what is hit where nothing is.
+inline constexpr std::uint32_t no_entity_id = 0xffffffff;
+
+/// A BoundingBox is an axis-parallel box. What has no points has lower > upper, and what reaches to
+/// infinity has infinite sides.
+struct BoundingBox {
+  Vec3 lower{0, 0, 0};
+  Vec3 upper{0, 0, 0};
+};
+
+/// Returns a box that holds the entity, rounded outwards. It may be larger than the smallest one:
+/// of a difference it holds what is cut from. It takes O(n log n) for n primitives. Throws Error
+/// (limit, out_of_memory) as prepare() does.
+BoundingBox bounding_box(const Entity& entity);
 
 /// Returns the union: what is in either. Parts keep their materials. Surfaces may take part in it.
 Entity operator+(const Entity& a, const Entity& b);

@@ -15,6 +15,7 @@
 // double. So a ray from a point which rounding has put just below a surface meets it at once.
 #pragma once
 
+#include <array>
 #include <crt/prepared_scene.hpp>
 #include <cstddef>
 #include <cstdint>
@@ -68,6 +69,34 @@ struct PlainHit {
   HitSide side = HitSide::none;
 };
 
+/// A HitPart says on which part of an entity a hit is. A ray that hits nothing has no_entity_id for
+/// all three numbers. Where surfaces of several parts coincide, it is the part that was combined
+/// first.
+struct HitPart {
+  std::uint32_t entity_id = no_entity_id;  ///< as in Hit
+  /// This is the innermost Entity::with_id around the primitive that was hit, such as a cutter.
+  /// Without any it is the entity's place in Scene::entities.
+  std::uint32_t part_id = no_entity_id;
+  /// Numbers the faces of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
+  /// and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side, 1 at
+  /// `from` and 2 at `to`. Meshes have the place of the triangle among those with an area. All
+  /// others have 0.
+  std::uint32_t face = no_entity_id;
+  double u = 0;  ///< as in Hit
+  double v = 0;
+};
+
+/// Returns the ray through a place of the picture and the middle of the camera's lens, as the
+/// scene's settings have the picture. x and y count pixels from the left and from the top: (0.5,
+/// 0.5) is the middle of the first pixel. Places beside the picture are legal. The direction has
+/// unit length. Throws Error (invalid_argument) for numbers that are not finite or too far outside.
+Ray camera_ray(const PreparedScene& scene, double x, double y);
+
+/// Computes the rays through several places {x, y} of the picture, at less cost than one by one.
+/// Throws Error (invalid_argument) as camera_ray(), and where there are fewer rays than places.
+void camera_rays(const PreparedScene& scene, std::span<const std::array<double, 2>> places,
+                 std::span<Ray> rays);
+
 /// Finds the nearest hit. It is empty if the ray hits nothing.
 std::optional<Hit> intersect(const PreparedScene& scene, const Ray& ray);
 
@@ -109,6 +138,8 @@ class RayQueries {
   void intersect(std::span<const Ray> rays, std::span<std::optional<Hit>> hits);
   /// Finds the nearest hits of several rays, as plain numbers.
   void intersect(std::span<const Ray> rays, std::span<PlainHit> hits);
+  /// Finds on which parts of entities the nearest hits of several rays are.
+  void parts(std::span<const Ray> rays, std::span<HitPart> parts);
   /// Asks for each of several rays whether any surface blocks it.
   void occluded(std::span<const Ray> rays, std::span<bool> occluded);
 

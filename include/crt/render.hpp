@@ -19,9 +19,9 @@ struct Region {
 };
 
 /// Aovs say what a render reports of each pixel beside its colour ("arbitrary output variables"),
-/// as Image::channels(). Distance and entity are those of one ray, through the middles of the pixel
-/// and of the lens, and never a blend. Normal and albedo are means over the same samples as the
-/// colour. All describe what camera rays meet first, be it glass or a mirror.
+/// as Image::channels(). Distance, entity and part are those of one ray, through the middles of the
+/// pixel and of the lens, and never a blend. Normal and albedo are means over the same samples as
+/// the colour. All describe what camera rays meet first, be it glass or a mirror.
 struct Aovs {
   /// "Z" is the distance along the ray from the camera (orthographic: from the image plane) to the
   /// first surface, in scene units. It is infinity where there is none.
@@ -32,6 +32,8 @@ struct Aovs {
   /// "id" has whole numbers: Entity::with_id, or else the entity's place in Scene::entities. It is
   /// no_entity_id where there is nothing.
   bool id = false;
+  /// "part" has whole numbers: HitPart::part_id, the id that was given to the part of the entity.
+  bool part = false;
   /// "albedo.R", "albedo.G", "albedo.B" are the material's colour in linear light, from its pattern
   /// if it has one. Samples that meet nothing count as 0.
   bool albedo = false;
@@ -44,9 +46,6 @@ struct Aovs {
 
   bool operator==(const Aovs&) const = default;
 };
-
-/// This is the value of the channel "id" where nothing is hit.
-inline constexpr std::uint32_t no_entity_id = 0xffffffff;
 
 /// Says how much a line of the log matters.
 enum class LogLevel { info, warning };

@@ -38,7 +38,7 @@ from .primitives import (
     Triangle,
     load_mesh,
 )
-from .rays import BACKFACE, ENTERING, HIT, NO_ENTITY, RAY, camera_rays, ray, rays
+from .rays import BACKFACE, ENTERING, HIT, HIT_PART, NO_ENTITY, RAY, camera_rays, ray, rays
 from .rendering import Prepared
 from .scenes import Scene
 from .values import (
@@ -83,6 +83,7 @@ __all__ = [
     "Expression",
     "FalloffModel",
     "HIT",
+    "HIT_PART",
     "HalfPlane",
     "Image",
     "ImageMapping",

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 from ._handles import Reference
 from ._library import library
 from .errors import Error
-from .rays import NO_ENTITY, Batch
+from .rays import HIT_PART, NO_ENTITY, Batch
 
 PIECE = 65536  # rays, which take some hundredths of a second
 
@@ -24,6 +24,18 @@ def intersect(prepared: Reference, rays: Batch, hits: Batch) -> None:
 
     _in_pieces(rays, ask)
     mark_misses(hits.array["t"], hits.array["entity_id"])
+
+
+def hit_parts(prepared: Reference, rays: Batch) -> NDArray[np.void]:
+    """Finds on which parts of entities the nearest hits are."""
+    out = np.empty(rays.shape, HIT_PART)
+
+    def ask(ray: int, first: int, count: int) -> None:
+        place = out.ctypes.data + first * HIT_PART.itemsize
+        library.crt_hit_parts(prepared, ray, rays.stride, count, place, 0)
+
+    _in_pieces(rays, ask)
+    return out
 
 
 def distances(prepared: Reference, rays: Batch) -> tuple[NDArray[np.float64], NDArray[np.uint32]]:

@@ -14,7 +14,7 @@ from typing import Any, SupportsFloat, SupportsIndex
 import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
-from . import _arguments, _bounds
+from . import _arguments
 from ._arguments import Point
 from ._handles import Handle, Reference
 from ._library import create, library
@@ -31,7 +31,6 @@ class Entity(Handle):
 
     _name = "crt_entity"
     _instead_of_pickle = "pickle what it is made from, or the text of a script"
-    _box: _bounds.Box | None = None  # around it; None if that is unknown
     # For the representation: the primitive that it is made of, if it is one, and the calls that
     # were made since, or the last of them.
     _source: tuple[str, dict[str, Any]] | None = None
@@ -41,14 +40,15 @@ class Entity(Handle):
         """Returns the entity with a material on every part that has none of its own."""
         given = reference(material, "crt_material", "with_material: material")
         with named("with_material: material"):
-            entity = self._same_place(create("crt_entity_with_material", self._handle, given))
+            entity = Entity._adopt(create("crt_entity_with_material", self._handle, given))
         kept = material._snapshot("an entity keeps a material of its own")
         return entity._made_by(self, "with_material", kept)
 
     def with_id(self, id: SupportsIndex) -> "Entity":
-        """Returns the entity under a number that hits report."""
+        """Returns the entity under a number that hits report: the outermost one for the entity, the
+        innermost one for its part (see Prepared.hit_parts)."""
         number = _arguments.whole(id, "with_id: id", ctypes.c_uint32)
-        entity = self._same_place(create("crt_entity_with_id", self._handle, number))
+        entity = Entity._adopt(create("crt_entity_with_id", self._handle, number))
         return entity._made_by(self, "with_id", number)
 
     def transformed(self, matrix: ArrayLike) -> "Entity":
@@ -120,15 +120,22 @@ class Entity(Handle):
         return text.value.decode()
 
     @property
+    def bounds(self) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
+        """Returns the low and the high corner of a box that holds it, rounded outwards. The box may
+        be larger than the smallest one: of a difference it holds what is cut from. Sides of what
+        has no end are infinite, and what has no points has its low corner above the high one."""
+        low, high = np.empty(3), np.empty(3)
+        library.crt_entity_bounds(self._handle, low.ctypes.data, high.ctypes.data)
+        return low, high
+
+    @property
     def primitive_count(self) -> int:
         """Returns how many primitives it is made of. One that occurs twice counts twice."""
         return int(library.crt_entity_primitive_count(self._handle))
 
     def _mapped(self, rows: NDArray[np.float64]) -> "Entity":
         numbers = (ctypes.c_double * 12)(*rows.ravel().tolist())
-        moved = Entity._adopt(create("crt_entity_with_transform", self._handle, numbers))
-        moved._box = _bounds.transformed(self._box, rows.tolist())
-        return moved
+        return Entity._adopt(create("crt_entity_with_transform", self._handle, numbers))
 
     def _made_by(self, source: "Entity", method: str, argument: Any) -> "Entity":
         """Notes for the representation how this entity was made from another one."""
@@ -147,11 +154,6 @@ class Entity(Handle):
         arguments = ", ".join(f"{key}={_arguments.written(one)}" for key, one in given.items())
         return f"{name}({arguments})" + "".join(calls)
 
-    def _same_place(self, handle: int) -> "Entity":
-        entity = Entity._adopt(handle)
-        entity._box = self._box
-        return entity
-
     def _summary(self) -> str:
         count = self.primitive_count
         parts = f"{count} primitive" + ("" if count == 1 else "s")
@@ -169,24 +171,20 @@ class Entity(Handle):
 def union(parts: Iterable[Entity]) -> Entity:
     """Returns what is in any of the parts."""
     given = _arguments.instances(parts, Entity, "union: parts")
-    entity = Entity._adopt(create("crt_union_create", *_handles(given)))
-    entity._box = _bounds.united(part._box for part in given)
-    return entity
+    return Entity._adopt(create("crt_union_create", *_handles(given)))
 
 
 def intersection(parts: Iterable[Entity]) -> Entity:
     """Returns what is in all of the parts."""
     given = _arguments.instances(parts, Entity, "intersection: parts")
-    entity = Entity._adopt(create("crt_intersection_create", *_handles(given)))
-    entity._box = _bounds.common(part._box for part in given)
-    return entity
+    return Entity._adopt(create("crt_intersection_create", *_handles(given)))
 
 
 def difference(whole: Entity, cutters: Iterable[Entity]) -> Entity:
     """Returns what is in the whole and in none of the cutters. A cut has its cutter's material."""
     _arguments.instance(whole, Entity, "difference: whole")
     given = _arguments.instances(cutters, Entity, "difference: cutters")
-    return whole._same_place(create("crt_difference_create", whole._handle, *_handles(given)))
+    return Entity._adopt(create("crt_difference_create", whole._handle, *_handles(given)))
 
 
 def _handles(parts: list[Entity]) -> tuple[Any, int]:

@@ -117,8 +117,8 @@ class Image(Handle):
     @property
     def channels(self) -> dict[str, NDArray[Any]]:
         """Returns what there is beside the colours (see Prepared.render), by name: height x width
-        float32, or uint32 for "id" and "samples". They are read-only: the library's own memory,
-        which the arrays keep."""
+        float32, or uint32 for "id", "part" and "samples". They are read-only: the library's own
+        memory, which the arrays keep."""
         reference = self._handle
         count = library.crt_image_channel_count(reference)
         names = [library.crt_image_channel_name(reference, index) for index in range(count)]

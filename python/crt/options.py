@@ -16,7 +16,15 @@ Log = Callable[[str], Any]
 Region = tuple[int, int, int, int]
 Path = str | os.PathLike[str]
 
-AOV_BITS = {"depth": 1, "normal": 2, "id": 4, "albedo": 8, "samples": 16, "error": 32}
+AOV_BITS = {
+    "depth": 1,
+    "normal": 2,
+    "id": 4,
+    "part": 64,
+    "albedo": 8,
+    "samples": 16,
+    "error": 32,
+}
 
 
 @growable("crt_render_options", shown="render")

@@ -1,15 +1,13 @@
 """Small pictures for notebooks, of scenes and of entities alone."""
 
-import itertools
 import math
 
 import numpy as np
 from numpy.typing import NDArray
 
-from . import _bounds
 from .entities import Entity
 from .images import Image
-from .rays import camera_rays, rays
+from .rays import camera_rays
 from .rendering import Prepared
 from .scenes import Scene
 from .values import Background, Camera, Light, Material, Settings
@@ -41,8 +39,7 @@ def picture_of_entity(entity: Entity) -> Image | None:
     and a light comes from above the camera. It is None if there is nothing to see."""
     alone = Scene([entity.with_material(Material(color=(0.6, 0.62, 0.65), specular=0.2))])
     prepared = alone.prepare()
-    box = entity._box if entity._box is not None else found_box(prepared)
-    sphere = _sphere_around(box)
+    sphere = _sphere_around(*entity.bounds)
     if sphere is None:
         return None
     center, radius = sphere
@@ -71,12 +68,13 @@ def _closer(prepared: Prepared, camera: Camera) -> Camera:
     return Camera(position=camera.position, pointing=camera.position + middle, fov=fov)
 
 
-def _sphere_around(box: _bounds.Box) -> tuple[NDArray[np.float64], float] | None:
+def _sphere_around(
+    low: NDArray[np.float64], high: NDArray[np.float64]
+) -> tuple[NDArray[np.float64], float] | None:
     """Returns centre and radius of the ball that a camera has to see, or None for an empty box.
     What has no end is seen about the origin."""
-    if box == _bounds.NOWHERE:
+    if (low > high).any():
         return None
-    low, high = np.array(box)
     sizes = (high - low)[np.isfinite(low) & np.isfinite(high)]
     largest = float(sizes.max()) if sizes.size else 0.0
     reach = max(largest, 1.0)
@@ -84,43 +82,3 @@ def _sphere_around(box: _bounds.Box) -> tuple[NDArray[np.float64], float] | None
     high = np.where(np.isfinite(high), high, low + reach)
     radius = float(np.linalg.norm(high - low)) / 2
     return (low + high) / 2, radius or 1.0
-
-
-def found_box(prepared: Prepared) -> _bounds.Box:
-    """Searches for what is there, by grids of rays along the axes through ever larger cubes about
-    the origin. Then it looks closer around what was found."""
-    for exponent in range(-6, 13):
-        reach = 10 ** (exponent / 2)
-        box = _box_in_cube(prepared, np.zeros(3), reach)
-        if box == _bounds.NOWHERE:
-            continue
-        for _ in range(3):
-            low, high = np.array(box)
-            reach = 0.75 * float((high - low).max()) or reach / 10
-            closer = _box_in_cube(prepared, (low + high) / 2, reach)
-            box = _bounds.united([box, closer]) or box
-        return box
-    return _bounds.NOWHERE
-
-
-def _box_in_cube(prepared: Prepared, center: NDArray[np.float64], reach: float) -> _bounds.Box:
-    """Returns the box around what rays that cross a cube both ways along all three axes hit."""
-    side = 128
-    places = center[:, None] + np.linspace(-reach, reach, side)
-    box: _bounds.Box = _bounds.NOWHERE
-    for axis, way in itertools.product(range(3), (1, -1)):
-        first, second = (axis + 1) % 3, (axis + 2) % 3
-        grid = rays((side, side))
-        grid["origin"][..., first] = places[first][:, None]
-        grid["origin"][..., second] = places[second][None, :]
-        grid["origin"][..., axis] = center[axis] - way * reach
-        grid["direction"][..., axis] = way
-        grid["t_max"] = 2 * reach
-        distances, _ = prepared.distances(grid)
-        is_hit = np.isfinite(distances)
-        if is_hit.any():
-            points = grid["origin"][is_hit]
-            points[:, axis] += way * distances[is_hit]
-            around = _bounds.of_points(points.min(axis=0).tolist(), points.max(axis=0).tolist())
-            box = _bounds.united([box, around]) or box
-    return box

@@ -8,7 +8,7 @@ from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar
 import numpy as np
 from numpy.typing import ArrayLike
 
-from . import _arguments, _bounds
+from . import _arguments
 from ._arguments import Point
 from ._library import create
 from ._structs import reference
@@ -83,7 +83,6 @@ class _Primitive(Entity):
     def _create(
         self,
         function: str,
-        box: _bounds.Box,
         material: Material | None,
         id: SupportsIndex | None,
         given: dict[str, Any],
@@ -92,7 +91,6 @@ class _Primitive(Entity):
         name = type(self).__name__
         with named(name, _NAMES):
             self._take(create(function, *arguments))
-        self._box = box
         if material is not None:
             place = reference(material, "crt_material", f"{name}: material")
             with named(f"{name}: material"):
@@ -123,7 +121,7 @@ class Empty(_Primitive):
     def __init__(
         self, *, material: Material | None = None, id: SupportsIndex | None = None
     ) -> None:
-        self._create("crt_empty_create", _bounds.NOWHERE, material, id, {})
+        self._create("crt_empty_create", material, id, {})
 
 
 class Sphere(_Primitive):
@@ -143,8 +141,7 @@ class Sphere(_Primitive):
         (middle,) = self._vectors(center=center)
         size = self._positive(radius, "radius")
         shown = {"center": tuple(middle), "radius": size}
-        box = _bounds.of_ball(middle, size)
-        self._create("crt_sphere_create", box, material, id, shown, middle, size)
+        self._create("crt_sphere_create", material, id, shown, middle, size)
 
 
 class Box(_Primitive):
@@ -163,8 +160,7 @@ class Box(_Primitive):
     ) -> None:
         a, b = self._vectors(corner_a=corner_a, corner_b=corner_b)
         shown = {"corner_a": tuple(a), "corner_b": tuple(b)}
-        box = _bounds.of_points(a, b)
-        self._create("crt_box_create", box, material, id, shown, a, b)
+        self._create("crt_box_create", material, id, shown, a, b)
 
 
 class Plane(_Primitive):
@@ -183,7 +179,7 @@ class Plane(_Primitive):
     ) -> None:
         out, place = self._vectors(normal=normal, position=position)
         shown = {"normal": tuple(out), "position": tuple(place)}
-        self._create("crt_plane_create", _bounds.EVERYWHERE, material, id, shown, out, place)
+        self._create("crt_plane_create", material, id, shown, out, place)
 
 
 class HalfPlane(_Primitive):
@@ -206,8 +202,7 @@ class HalfPlane(_Primitive):
         given = {"normal": normal, "position": position, "direction": direction}
         vectors = self._vectors(**given)
         shown = dict(zip(given, map(tuple, vectors)))
-        box = _bounds.EVERYWHERE
-        self._create("crt_half_plane_create", box, material, id, shown, *vectors)
+        self._create("crt_half_plane_create", material, id, shown, *vectors)
 
 
 class Cylinder(_Primitive):
@@ -229,8 +224,7 @@ class Cylinder(_Primitive):
         a, b = self._vectors(start=start, end=end)
         size = self._positive(radius, "radius")
         shown = {"start": tuple(a), "end": tuple(b), "radius": size}
-        box = _bounds.of_round(a, b, size, size)
-        self._create("crt_cylinder_create", box, material, id, shown, a, b, size)
+        self._create("crt_cylinder_create", material, id, shown, a, b, size)
 
 
 class Cone(_Primitive):
@@ -255,8 +249,7 @@ class Cone(_Primitive):
         size = self._positive(radius, "radius")
         size2 = _arguments.number(radius2, "Cone: radius2", "0 or a positive number")
         shown = {"start": tuple(a), "end": tuple(b), "radius": size, "radius2": size2}
-        box = _bounds.of_round(a, b, size, size2)
-        self._create("crt_cone_create", box, material, id, shown, a, b, size, size2)
+        self._create("crt_cone_create", material, id, shown, a, b, size, size2)
 
 
 class Capsule(_Primitive):
@@ -278,9 +271,7 @@ class Capsule(_Primitive):
         a, b = self._vectors(start=start, end=end)
         size = self._positive(radius, "radius")
         shown = {"start": tuple(a), "end": tuple(b), "radius": size}
-        reach = [size] * 3
-        box = _bounds.of_points(*_bounds.around(a, reach), *_bounds.around(b, reach))
-        self._create("crt_capsule_create", box, material, id, shown, a, b, size)
+        self._create("crt_capsule_create", material, id, shown, a, b, size)
 
 
 class Torus(_Primitive):
@@ -306,8 +297,7 @@ class Torus(_Primitive):
         size = self._positive(radius, "radius")
         tube = self._positive(thickness, "thickness")
         shown = {"center": tuple(middle), "axis": tuple(across), "radius": size, "thickness": tube}
-        box = _bounds.of_disc(middle, across, size, tube)
-        self._create("crt_torus_create", box, material, id, shown, middle, across, size, tube)
+        self._create("crt_torus_create", material, id, shown, middle, across, size, tube)
 
 
 class Disc(_Primitive):
@@ -329,8 +319,7 @@ class Disc(_Primitive):
         middle, across = self._vectors(center=center, normal=normal)
         size = self._positive(radius, "radius")
         shown = {"center": tuple(middle), "normal": tuple(across), "radius": size}
-        box = _bounds.of_disc(middle, across, size)
-        self._create("crt_disc_create", box, material, id, shown, middle, across, size)
+        self._create("crt_disc_create", material, id, shown, middle, across, size)
 
 
 class Triangle(_Primitive):
@@ -351,8 +340,7 @@ class Triangle(_Primitive):
     ) -> None:
         corners = self._vectors(a=a, b=b, c=c)
         shown = dict(zip("abc", map(tuple, corners)))
-        box = _bounds.of_points(*corners)
-        self._create("crt_triangle_create", box, material, id, shown, *corners)
+        self._create("crt_triangle_create", material, id, shown, *corners)
 
 
 class Mesh(_Primitive):
@@ -384,6 +372,4 @@ class Mesh(_Primitive):
         corners = np.ascontiguousarray(corners, np.uint32)
         arrays = points.ctypes.data, len(points), corners.ctypes.data, len(corners)
         shown = {"positions": f"<{len(points)} x 3>", "indices": f"<{len(corners)} x 3>"}
-        low_high = (points.min(axis=0), points.max(axis=0)) if len(points) else _bounds.NOWHERE
-        box = _bounds.of_points(*(list(map(float, corner)) for corner in low_high))
-        self._create("crt_mesh_create", box, material, id, shown, *arrays)
+        self._create("crt_mesh_create", material, id, shown, *arrays)

@@ -1,7 +1,8 @@
 """Rays and hits are NumPy arrays that the library reads and writes in place.
 
-RAY and HIT are the layouts of crt_ray and crt_hit. Arrays of them may be of any shape, and have
-gaps: a field of an array of larger records will do. What would need a copy is refused.
+RAY, HIT and HIT_PART are the layouts of crt_ray, crt_hit and crt_hit_part. Arrays of them may be of
+any shape, and have gaps: a field of an array of larger records will do. What would need a copy is
+refused.
 
 crt.rays() makes rays that reach from 0 to infinity. Beware of np.zeros(n, crt.RAY): there t_max is
 0, and a ray without a t between t_min and t_max meets nothing.
@@ -37,6 +38,17 @@ HIT = np.dtype(
         ("flags", "u4"),
     ]
 )
+HIT_PART = np.dtype(
+    [
+        ("entity_id", "u4"),
+        ("part_id", "u4"),
+        ("face", "u4"),
+        ("reserved", "u4"),
+        ("u", "f8"),
+        ("v", "f8"),
+    ]
+)
+LAYOUTS = {"RAY": RAY, "HIT": HIT, "HIT_PART": HIT_PART}
 
 ENTERING = 1
 """is a flag of hits: the ray goes into the solid, or through a surface against its normal"""
@@ -45,7 +57,7 @@ BACKFACE = 2
 
 
 NO_ENTITY = 0xFFFFFFFF
-"""is the entity_id of a miss, as in the channel "id" of pictures"""
+"""is the entity_id of a miss, as in the channel "id" of pictures, and its part_id and face"""
 
 
 @overload
@@ -112,42 +124,29 @@ def ray(
 
 
 def camera_rays(camera: Camera, width: int, height: int) -> Rays:
-    """Makes the rays through the middles of a pinhole camera's pixels, height x width. Their
-    directions have a length of 1 along the view, so that a hit's t is the depth of the point."""
+    """Makes the rays through the middles of a picture's pixels and of the camera's lens, height x
+    width. Those of pinhole cameras have a length of 1 along the view, and all others one of 1. So a
+    hit's t is the depth of the point, or the distance for cameras that look around."""
     _arguments.instance(camera, Camera, "camera_rays: camera")
     width = _arguments.whole(width, "camera_rays: width")
     height = _arguments.whole(height, "camera_rays: height")
-    if camera.projection != Projection.PINHOLE:
-        raise ValueError("only a pinhole camera's rays are known here")
-    _check_view(camera, width, height)
-    forward = np.subtract(camera.pointing, camera.position)
-    forward /= np.linalg.norm(forward)
-    is_vertical = math.hypot(forward[0], forward[2]) < 1e-9
-    level_right = np.cross((0, 0, 1) if is_vertical else (0, 1, 0), forward)
-    level_right /= np.linalg.norm(level_right)
-    level_up = np.cross(forward, level_right)
-    cosine, sine = math.cos(camera.roll), math.sin(camera.roll)
-    right = cosine * level_right - sine * level_up
-    up = cosine * level_up + sine * level_right
-
-    half_height = math.tan(camera.fov / 2)
-    half_width = half_height * width / height
-    x = (2 * (np.arange(width) + 0.5) / width - 1) * half_width
-    y = (1 - 2 * (np.arange(height) + 0.5) / height) * half_height
-    result = rays((height, width))
-    result["origin"] = camera.position
-    result["direction"] = forward + x[None, :, None] * right + y[:, None, None] * up
-    return result
-
-
-def _check_view(camera: Camera, width: int, height: int) -> None:
-    """Has the library refuse what it refuses in a scene."""
     scene = Reference(create("crt_scene_create"), library.crt_scene_release)
     with named("camera_rays: camera"):
         library.crt_scene_set_camera(scene, reference(camera, "crt_camera"))
     with named("camera_rays"):
         settings = Settings(width=width, height=height)
         library.crt_scene_set_settings(scene, reference(settings, "crt_settings"))
+    prepared = Reference(create("crt_scene_prepare", scene), library.crt_prepared_release)
+    places = np.empty((height, width, 2))
+    places[..., 0] = np.arange(width) + 0.5
+    places[..., 1] = (np.arange(height) + 0.5)[:, None]
+    result = rays((height, width))
+    library.crt_camera_rays(prepared, places.ctypes.data, width * height, result.ctypes.data, 0)
+    if camera.projection == Projection.PINHOLE:
+        forward = np.subtract(camera.pointing, camera.position)
+        forward /= np.linalg.norm(forward)
+        result["direction"] /= (result["direction"] @ forward)[..., None]
+    return result
 
 
 class Batch:
@@ -155,7 +154,7 @@ class Batch:
     apart. It keeps the array."""
 
     def __init__(self, array: Ray | NDArray[Any], dtype: np.dtype[Any], name: str) -> None:
-        kind = "RAY" if dtype is RAY else "HIT"
+        kind = next(kind for kind, layout in LAYOUTS.items() if layout is dtype)
         if dtype is RAY and isinstance(array, np.void):
             array = np.asarray(array)  # one record
         if not isinstance(array, np.ndarray):

@@ -43,7 +43,8 @@ class Prepared(Handle):
         `threads` is the most threads, 0 for all cores. `region` is x, y, width, height of a part,
         from the top left. `seed` replaces the settings', unless it is 0. `passes` is the number of
         passes to render (stats.passes), unless it is 0, whatever the settings' time budget. `aovs`,
-        some of "depth", "normal", "id", "albedo", "samples" and "error", become Image.channels.
+        some of "depth", "normal", "id", "part", "albedo", "samples" and "error", become
+        Image.channels.
         `checkpoint` is a file that keeps a picture which is rendered by passes, and from which the
         next render continues. `max_ray_steps` limits the things that one ray may be tested against,
         see crt_render_options. `progress` gets the share that is done, and True
@@ -117,6 +118,18 @@ class Prepared(Handle):
             )
         _queries.intersect(self._handle, questions, answers)
         return out
+
+    def hit_parts(self, rays: Ray | NDArray[Any]) -> NDArray[np.void]:
+        """Finds on which part of an entity each ray's nearest hit is, as an array of crt.HIT_PART.
+
+        `part_id` is the innermost id around the primitive that was hit, such as that of a cutter:
+        see `id=` and Entity.with_id. Without any it is the entity's place in the scene. `face`
+        numbers the faces of the primitive. A crt.Box has 0 and 1 across x at its lower and upper
+        end, 2 and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side,
+        1 at their start and 2 at their end. Meshes have the place of the triangle among those with
+        an area. All others have 0. A miss has crt.NO_ENTITY for all three.
+        """
+        return _queries.hit_parts(self._handle, Batch(rays, RAY, "rays"))
 
     def distances(
         self, rays: Ray | NDArray[Any]

@@ -202,8 +202,7 @@ int32_t crt_entity_is_solid(const crt_entity* entity) {
   return entity != nullptr && entity->value.is_solid() ? 1 : 0;
 }
 
-crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity,
-                                  size_t* length) {
+crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacity, size_t* length) {
   return guarded([&] {
     require(entity, "entity");
     require(length, "length");
@@ -214,6 +213,19 @@ crt_status crt_entity_solid_fault(crt_entity* entity, char* text, size_t capacit
     const std::size_t fitting = std::min(fault.size(), capacity - 1);
     std::copy_n(fault.data(), fitting, text);
     text[fitting] = 0;
+  });
+}
+
+crt_status crt_entity_bounds(crt_entity* entity, double lower[3], double upper[3]) {
+  return guarded([&] {
+    require(entity, "entity");
+    require(lower, "lower");
+    require(upper, "upper");
+    const crt::BoundingBox box = crt::bounding_box(entity->value);
+    for (int axis = 0; axis < 3; ++axis) {
+      lower[axis] = box.lower[axis];
+      upper[axis] = box.upper[axis];
+    }
   });
 }
 

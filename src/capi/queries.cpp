@@ -41,6 +41,7 @@ static_assert(offsetof(crt::PlainHit, u) == offsetof(crt_hit, u));
 static_assert(offsetof(crt::PlainHit, v) == offsetof(crt_hit, v));
 static_assert(offsetof(crt::PlainHit, entity_id) == offsetof(crt_hit, entity_id));
 static_assert(offsetof(crt::PlainHit, side) == offsetof(crt_hit, flags));
+static_assert(sizeof(crt_hit_part) == 32 && offsetof(crt_hit_part, u) == 16);
 static_assert(static_cast<int>(crt::HitSide::entering) == CRT_HIT_ENTERING);
 static_assert(static_cast<int>(crt::HitSide::leaving) == CRT_HIT_BACKFACE);
 
@@ -126,18 +127,21 @@ class Rays {
     if (first_wrong < count_) throw_error_of(first_wrong);
   }
 
+  /// Checks all rays. Then it calls ask(queries, begin, rays) for pieces of them, whose answers may
+  /// take the rays' places.
+  template <class Ask>
+  void answer_in_place(const PreparedScene& scene, const Ask& ask) const {
+    validate_all(scene);
+    ask_all(scene, ask);
+  }
+
   /// Calls ask(queries, begin, rays) for pieces of all of them, some before others have been
   /// checked. The caller may use the answers only after this returns without having thrown. This
   /// saves a pass over all rays for the check.
   template <class Ask>
   void answer(const PreparedScene& scene, const Ask& ask) const {
     try {
-      query_in_parallel(
-          scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
-            for_pieces(first, last, [&](std::size_t begin, std::span<const Ray> rays) {
-              ask(queries, begin, rays);
-            });
-          });
+      ask_all(scene, ask);
     } catch (const Error&) {
       validate_all(scene);  // finds which of them is the first
       throw;
@@ -145,6 +149,14 @@ class Rays {
   }
 
  private:
+  template <class Ask>
+  void ask_all(const PreparedScene& scene, const Ask& ask) const {
+    query_in_parallel(scene, count_, [&](RayQueries& queries, std::size_t first, std::size_t last) {
+      for_pieces(first, last,
+                 [&](std::size_t begin, std::span<const Ray> rays) { ask(queries, begin, rays); });
+    });
+  }
+
   [[noreturn]] void throw_error_of(std::size_t index) const {
     try {
       validate(to_ray(places_[index]));
@@ -167,6 +179,15 @@ crt_hit to_hit(const Hit& hit) {
           .flags = hit.entering ? CRT_HIT_ENTERING : CRT_HIT_BACKFACE};
 }
 
+crt_hit_part to_part(const HitPart& part) {
+  return {.entity_id = part.entity_id,
+          .part_id = part.part_id,
+          .face = part.face,
+          .reserved = 0,
+          .u = part.u,
+          .v = part.v};
+}
+
 }  // namespace
 
 }  // namespace crt::capi
@@ -180,22 +201,19 @@ crt_status crt_intersect(crt_prepared* prepared, const crt_ray* rays, size_t ray
     const Rays questions(rays, ray_stride, count);
     const Places<std::byte> answers(reinterpret_cast<std::byte*>(hits), hit_stride, sizeof(crt_hit),
                                     count, "hits");
-    questions.validate_all(prepared->value);
-    crt::query_in_parallel(prepared->value, count,
-                           [&](crt::RayQueries& queries, std::size_t first, std::size_t last) {
-                             std::array<crt::PlainHit, piece_size> found;
-                             questions.for_pieces(first, last, [&](std::size_t begin, auto piece) {
-                               if (answers.are_array_of<crt::PlainHit>()) {
-                                 auto* place = reinterpret_cast<crt::PlainHit*>(answers[begin]);
-                                 queries.intersect(piece, std::span(place, piece.size()));
-                                 return;
-                               }
-                               queries.intersect(piece, found);
-                               for (std::size_t i = 0; i < piece.size(); ++i) {
-                                 std::memcpy(answers[begin + i], &found[i], sizeof(crt_hit));
-                               }
-                             });
-                           });
+    questions.answer_in_place(prepared->value,
+                              [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
+                                if (answers.are_array_of<crt::PlainHit>()) {
+                                  auto* place = reinterpret_cast<crt::PlainHit*>(answers[begin]);
+                                  queries.intersect(piece, std::span(place, piece.size()));
+                                  return;
+                                }
+                                std::array<crt::PlainHit, piece_size> found;
+                                queries.intersect(piece, found);
+                                for (std::size_t i = 0; i < piece.size(); ++i) {
+                                  std::memcpy(answers[begin + i], &found[i], sizeof(crt_hit));
+                                }
+                              });
   });
 }
 
@@ -244,5 +262,42 @@ crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt_hit* hi
         crt::crossings(prepared->value, to_ray(reinterpret_cast<const std::byte*>(ray)));
     for (std::size_t i = 0; i < found.size() && i < capacity; ++i) hits[i] = to_hit(found[i]);
     *count = found.size();
+  });
+}
+
+crt_status crt_hit_parts(crt_prepared* prepared, const crt_ray* rays, size_t ray_stride,
+                         size_t count, crt_hit_part* parts, size_t part_stride) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    const Rays questions(rays, ray_stride, count);
+    const Places<std::byte> answers(reinterpret_cast<std::byte*>(parts), part_stride,
+                                    sizeof(crt_hit_part), count, "parts");
+    questions.answer_in_place(prepared->value,
+                              [&](crt::RayQueries& queries, std::size_t begin, auto piece) {
+                                std::array<crt::HitPart, piece_size> found;
+                                queries.parts(piece, found);
+                                for (std::size_t i = 0; i < piece.size(); ++i) {
+                                  const crt_hit_part part = to_part(found[i]);
+                                  std::memcpy(answers[begin + i], &part, sizeof part);
+                                }
+                              });
+  });
+}
+
+crt_status crt_camera_rays(crt_prepared* prepared, const double* xy, size_t count, crt_ray* rays,
+                           size_t ray_stride) {
+  return guarded([&] {
+    require(prepared, "prepared");
+    if (count == 0) return;
+    require(xy, "xy");
+    const Places<std::byte> answers(reinterpret_cast<std::byte*>(rays), ray_stride, sizeof(crt_ray),
+                                    count, "rays");
+    std::vector<std::array<double, 2>> places(count);
+    std::memcpy(places.data(), xy, count * sizeof places[0]);
+    std::vector<crt::Ray> found(count);
+    crt::camera_rays(prepared->value, places, found);
+    for (std::size_t i = 0; i < count; ++i) {
+      std::memcpy(answers[i], &found[i], sizeof(crt_ray));
+    }
   });
 }

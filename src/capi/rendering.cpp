@@ -10,11 +10,12 @@ namespace {
 
 Aovs to_aovs(std::uint32_t bits) {
   constexpr std::uint32_t all_bits = CRT_AOV_DEPTH | CRT_AOV_NORMAL | CRT_AOV_ID | CRT_AOV_ALBEDO |
-                                     CRT_AOV_SAMPLES | CRT_AOV_ERROR;
+                                     CRT_AOV_SAMPLES | CRT_AOV_ERROR | CRT_AOV_PART;
   if ((bits & ~all_bits) != 0) reject("options->aovs", "has a bit that no CRT_AOV_* is");
   return {.depth = (bits & CRT_AOV_DEPTH) != 0,
           .normal = (bits & CRT_AOV_NORMAL) != 0,
           .id = (bits & CRT_AOV_ID) != 0,
+          .part = (bits & CRT_AOV_PART) != 0,
           .albedo = (bits & CRT_AOV_ALBEDO) != 0,
           .samples = (bits & CRT_AOV_SAMPLES) != 0,
           .error = (bits & CRT_AOV_ERROR) != 0};

@@ -74,8 +74,9 @@ struct AovName {
 };
 
 constexpr AovName aov_names[] = {
-    {"depth", &Aovs::depth},   {"normal", &Aovs::normal},   {"id", &Aovs::id},
-    {"albedo", &Aovs::albedo}, {"samples", &Aovs::samples}, {"error", &Aovs::error},
+    {"depth", &Aovs::depth}, {"normal", &Aovs::normal}, {"id", &Aovs::id},
+    {"part", &Aovs::part},   {"albedo", &Aovs::albedo}, {"samples", &Aovs::samples},
+    {"error", &Aovs::error},
 };
 
 }  // namespace

@@ -56,6 +56,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   crt_hit hit = {};
   std::uint8_t byte = 9;
   std::size_t count = 9;
+  double corner[3];
   crt_light light;
   crt_light_init(&light, sizeof light);
 
@@ -77,6 +78,15 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"indices", [&] { return crt_mesh_create(z, 1, nullptr, 1, &entity); }},
       {"path", [&] { return crt_mesh_load(nullptr, nullptr, &entity); }},
       {"entity", [&] { return crt_entity_solid_fault(nullptr, nullptr, 0, &count); }},
+      {"entity", [&] { return crt_entity_bounds(nullptr, corner, corner); }},
+      {"lower", [&] { return crt_entity_bounds(ball.get(), nullptr, corner); }},
+      {"upper", [&] { return crt_entity_bounds(ball.get(), corner, nullptr); }},
+      {"prepared", [&] { return crt_hit_parts(nullptr, nullptr, 0, 0, nullptr, 0); }},
+      {"rays", [&] { return crt_hit_parts(prepared.get(), nullptr, 0, 1, nullptr, 0); }},
+      {"parts", [&] { return crt_hit_parts(prepared.get(), &ray, 0, 1, nullptr, 0); }},
+      {"prepared", [&] { return crt_camera_rays(nullptr, nullptr, 0, nullptr, 0); }},
+      {"xy", [&] { return crt_camera_rays(prepared.get(), nullptr, 1, nullptr, 0); }},
+      {"rays", [&] { return crt_camera_rays(prepared.get(), z, 1, nullptr, 0); }},
       {"out", [&] { return crt_mesh_load("a.obj", nullptr, nullptr); }},
       {"parts", [&] { return crt_union_create(nullptr, 1, &entity); }},
       {"parts", [&] { return crt_union_create(nothing, 1, &entity); }},

@@ -1,6 +1,8 @@
 // These tests check ray queries: batches, strides, crossings, and that they see what pictures see.
+#include <cmath>
 #include <cstddef>
 #include <cstring>
+#include <limits>
 #include <random>
 #include <vector>
 
@@ -214,4 +216,89 @@ TEST_CASE("rays see what the picture sees, pixel by pixel") {
   }
   for (const int count : seen) CHECK(count > 100);
   CHECK(differing == 0);
+}
+
+TEST_CASE("parts are those of the nearest hits, and lie where the caller wants them") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  std::vector<crt_ray> rays = random_rays(3000);
+  std::vector<crt_hit> hits(rays.size());
+  std::vector<crt_hit_part> parts(rays.size());
+  REQUIRE(crt_intersect(prepared.get(), rays.data(), 0, rays.size(), hits.data(), 0) == CRT_OK);
+  REQUIRE(crt_hit_parts(prepared.get(), rays.data(), 0, rays.size(), parts.data(), 0) == CRT_OK);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const bool is_miss = hits[i].t == infinity;
+    REQUIRE(parts[i].entity_id == (is_miss ? UINT32_MAX : hits[i].entity_id));
+    REQUIRE((parts[i].part_id == UINT32_MAX) == is_miss);
+    REQUIRE((parts[i].face == UINT32_MAX) == is_miss);
+    REQUIRE(parts[i].reserved == 0);
+    REQUIRE(parts[i].u == hits[i].u);
+    REQUIRE(parts[i].v == hits[i].v);
+  }
+  // They may take the places of their own rays.
+  auto* in_place = reinterpret_cast<crt_hit_part*>(rays.data());
+  REQUIRE(crt_hit_parts(prepared.get(), rays.data(), 0, rays.size(), in_place, sizeof(crt_ray)) ==
+          CRT_OK);
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    crt_hit_part part;
+    std::memcpy(&part, &rays[i], sizeof part);
+    REQUIRE(std::memcmp(&part, &parts[i], sizeof part) == 0);
+  }
+  std::vector<crt_ray> wrong = random_rays(3);
+  wrong[2].direction[0] = std::nan("");
+  parts[0].face = 99;
+  CHECK(crt_hit_parts(prepared.get(), wrong.data(), 0, 3, parts.data(), 0) ==
+        CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(parts[0].face == 99);
+  CHECK(std::strstr(crt_error_message(), "rays[2]") != nullptr);
+}
+
+TEST_CASE("camera rays lead to what a picture shows") {
+  const SceneHandle scene = small_scene();
+  const PreparedHandle prepared = prepare(scene.get());
+  crt_settings settings;
+  crt_settings_init(&settings, sizeof settings);
+  REQUIRE(crt_scene_get_settings(scene.get(), &settings) == CRT_OK);
+  std::vector<double> places;
+  for (int y = 0; y < settings.height; ++y) {
+    for (int x = 0; x < settings.width; ++x) places.insert(places.end(), {x + 0.5, y + 0.5});
+  }
+  const std::size_t count = places.size() / 2;
+  std::vector<crt_ray> rays(count);
+  REQUIRE(crt_camera_rays(prepared.get(), places.data(), count, rays.data(), 0) == CRT_OK);
+  std::vector<double> distances(count);
+  REQUIRE(crt_distances(prepared.get(), rays.data(), 0, count, distances.data(), nullptr) ==
+          CRT_OK);
+  crt_render_options options;
+  crt_render_options_init(&options, sizeof options);
+  options.aovs = CRT_AOV_DEPTH;
+  const ImageHandle image = render(prepared.get(), &options);
+  const float* depth = crt_image_channel(image.get(), "Z");
+  REQUIRE(depth != nullptr);
+  for (std::size_t i = 0; i < count; ++i) {
+    if (distances[i] == infinity) {
+      REQUIRE(depth[i] == std::numeric_limits<float>::infinity());
+    } else {
+      REQUIRE(depth[i] == doctest::Approx(distances[i]).epsilon(1e-6));
+    }
+  }
+  const double wrong[] = {1, 1, std::nan(""), 1};
+  const crt_ray untouched = rays[0];
+  CHECK(crt_camera_rays(prepared.get(), wrong, 2, rays.data(), 0) == CRT_ERROR_INVALID_ARGUMENT);
+  CHECK(std::memcmp(&untouched, &rays[0], sizeof untouched) == 0);
+  CHECK(crt_camera_rays(prepared.get(), nullptr, 0, nullptr, 0) == CRT_OK);
+}
+
+TEST_CASE("an entity's bounds hold it") {
+  const Numbers center = {1, 2, 3};
+  const EntityHandle ball = sphere(center, 2);
+  double lower[3];
+  double upper[3];
+  REQUIRE(crt_entity_bounds(ball.get(), lower, upper) == CRT_OK);
+  for (int axis = 0; axis < 3; ++axis) {
+    CHECK(lower[axis] <= center[axis] - 2);
+    CHECK(lower[axis] == doctest::Approx(center[axis] - 2));
+    CHECK(upper[axis] >= center[axis] + 2);
+    CHECK(upper[axis] == doctest::Approx(center[axis] + 2));
+  }
 }

@@ -86,7 +86,7 @@ TEST_CASE("an AOV that there is not is refused with the names of those that ther
     CAPTURE(list);
     const Outcome run = run_crt(folder, {"render", "ball.crt", "--aov", list});
     CHECK(run.exit_code == 2);
-    CHECK(holds(run.err, "depth,normal,id,albedo,samples,error"));
+    CHECK(holds(run.err, "depth,normal,id,part,albedo,samples,error"));
   }
   CHECK(folder.names() == std::vector<std::string>{"ball.crt"});
 }

@@ -3,10 +3,13 @@
 
 #include <doctest/doctest.h>
 
+#include <cmath>
+#include <limits>
 #include <random>
 
 #include "core/compile/surface_table.hpp"
 #include "core/csg/entity_node.hpp"
+#include "crt/query.hpp"
 
 using namespace crt;
 using namespace crt::core;
@@ -196,4 +199,55 @@ TEST_CASE("parts that come apart one by one only take no longer for that") {
   const CompiledScene scene = compile(std::span(&all, 1));
   CHECK(scene.leaves.size() == parts.size());
   CHECK(scene.objects.size() > 10);
+}
+
+TEST_CASE("a bounding box holds all that rays meet of an entity") {
+  Random random;
+  std::vector<Entity> entities = {
+      csg_union(random.balls(30, 5, 0.4)),
+      csg_difference(Box{}, random.balls(10, 1, 0.4)),
+      Entity(Torus{}).transformed(rotate({20, 50, 110})).transformed(scale({1, 3, 0.2})),
+      Entity(Cone{}) ^ random.ball(0.5, 0.8),
+      Capsule{.from = {1e9, 0, 0}, .to = {1e9, 5, 3}},
+      Disc{.normal = {1, 2, 3}}};
+  for (const Entity& entity : entities) {
+    const BoundingBox box = bounding_box(entity);
+    REQUIRE(box.lower.x <= box.upper.x);
+    const Vec3 middle = (box.lower + box.upper) * 0.5;
+    Scene scene;
+    scene.entities = {entity};
+    const PreparedScene prepared = prepare(scene);
+    std::size_t found = 0;
+    for (int i = 0; i < 3000; ++i) {
+      const Vec3 origin = middle + random.point(20);
+      const Vec3 direction = middle + random.point(1) - origin;
+      for (const Hit& hit : crossings(prepared, {.origin = origin, .direction = direction})) {
+        const double rounding = 1e-15 * (std::abs(origin.x) + 100);
+        for (int axis = 0; axis < 3; ++axis) {
+          REQUIRE(hit.position[axis] >= box.lower[axis] - rounding);
+          REQUIRE(hit.position[axis] <= box.upper[axis] + rounding);
+        }
+        ++found;
+      }
+    }
+    CHECK(found > 100);
+  }
+}
+
+TEST_CASE("bounding boxes are empty or infinite where entities are, and narrow where CSG cuts") {
+  constexpr double infinity = std::numeric_limits<double>::infinity();
+  const BoundingBox nothing = bounding_box(empty_entity());
+  CHECK(nothing.lower == Vec3(infinity));
+  CHECK(nothing.upper == Vec3(-infinity));
+  const BoundingBox half = bounding_box(Plane{.position = {0, 3, 0}});
+  CHECK(half.lower.x == -infinity);
+  CHECK(half.upper.x == infinity);
+  CHECK(half.lower.y == -infinity);
+  const BoundingBox common =
+      bounding_box(Entity(Box{}) ^ Box{.corner_a = {0.5, -9, -9}, .corner_b = {9, 9, 9}});
+  CHECK(common.lower.x == doctest::Approx(0.5));
+  CHECK(common.upper.x == doctest::Approx(1));
+  const BoundingBox apart = bounding_box(Entity(Box{}) + Sphere{.center = {0, 10, 0}});
+  CHECK(apart.lower.y == doctest::Approx(-1));
+  CHECK(apart.upper.y == doctest::Approx(11));
 }

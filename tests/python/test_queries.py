@@ -317,10 +317,13 @@ class CameraRays(unittest.TestCase):
             wall.intersect(crt.camera_rays(camera, 7, 5))["t"], 5, rtol=1e-14
         )
 
-    def test_other_projections_are_refused(self):
-        camera = crt.Camera(projection=crt.Projection.ORTHOGRAPHIC)
-        with self.assertRaises(ValueError):
-            crt.camera_rays(camera, 4, 4)
+    def test_other_projections_have_directions_of_unit_length(self):
+        for projection in set(crt.Projection) - {crt.Projection.PINHOLE}:
+            camera = crt.Camera(projection=projection, fov=1)
+            rays = crt.camera_rays(camera, 5, 5)
+            lengths = np.linalg.norm(rays["direction"], axis=-1)
+            np.testing.assert_allclose(lengths, 1, rtol=1e-14)
+            np.testing.assert_allclose(rays["direction"][2, 2], (0, 0, 1), atol=1e-14)
 
     def test_what_a_scene_refuses_is_refused_in_the_same_words(self):
         for fields in (
@@ -346,3 +349,36 @@ class CameraRays(unittest.TestCase):
         rays = crt.camera_rays(scene.camera, 5, 5)
         np.testing.assert_allclose(rays[2, 2]["direction"], (0, 0, 1), atol=1e-15)
         self.assertTrue(math.isinf(rays[0, 0]["t_max"]))
+
+
+class Parts(unittest.TestCase):
+    def test_a_cut_has_the_id_of_what_cut_it(self):
+        whole = crt.Box((-1, -1, -1), (1, 1, 1), id=5) - crt.Sphere((0, 0, -1), 0.5, id=6)
+        starts = [[(0, 0, -9), (0.9, 0, -9)], [(0, 9, 0), (9, 9, 9)]]
+        rays = crt.rays(starts, [[(0, 0, 1)], [(0, -1, 0)]])
+        parts = crt.Scene([whole.with_id(7)]).prepare().hit_parts(rays)
+        self.assertEqual(parts.shape, (2, 2))
+        none = crt.NO_ENTITY
+        np.testing.assert_array_equal(parts["entity_id"], [[7, 7], [7, none]])
+        np.testing.assert_array_equal(parts["part_id"], [[6, 5], [5, none]])
+        np.testing.assert_array_equal(parts["face"], [[0, 4], [3, none]])
+
+    def test_more_rays_than_a_piece_agree_with_intersect(self):
+        rays = parallel_rays(_queries.PIECE + 99)
+        parts, hits = prepared.hit_parts(rays), prepared.intersect(rays)
+        for field in ("entity_id", "u", "v"):
+            np.testing.assert_array_equal(parts[field], hits[field])
+
+
+class Bounds(unittest.TestCase):
+    def test_they_hold_the_entity(self):
+        low, high = (crt.Sphere((1, 2, 3), 2) + crt.Box((0, 0, 0), (9, 1, 1))).bounds
+        np.testing.assert_allclose(low, (-1, 0, 0), atol=1e-13)
+        np.testing.assert_allclose(high, (9, 4, 5), rtol=1e-13)
+
+    def test_they_are_infinite_or_inverted_where_the_entity_is(self):
+        low, high = crt.Plane((0, 1, 0)).bounds
+        self.assertTrue(np.isinf(low).all())
+        self.assertTrue(math.isinf(high[0]))
+        low, high = crt.Empty().bounds
+        self.assertTrue((low > high).all())

@@ -37,3 +37,12 @@ class Tour(unittest.TestCase):
         hole = np.sqrt(0.25**2 - 0.2**2)
         expected = [4, 4 - 2 * hole, 3.5, 4 - 2 * hole, 4, 0]
         np.testing.assert_allclose(thickness, expected, rtol=1e-12)
+
+    def test_parts_of_an_entity(self):
+        rays = crt.rays([(x, 0, 0.5) for x in (0.1, 0.35, 0.6, 0.7)], (1, 0, 0.4))
+        plate = crt.Box((-2, -2, 0), (2, 2, 1), id=1)
+        drill = crt.Cylinder((0, 0, -1), (0, 0, 2), 0.5, id=2)
+        parts = crt.Scene([plate - drill]).prepare().hit_parts(rays)
+        in_hole = parts["part_id"] == 2
+        self.assertEqual(list(in_hole), [True, True, False, False])
+        self.assertEqual(list(parts["face"]), [0, 0, 5, 5])

@@ -3,6 +3,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <glm/geometric.hpp>
 #include <limits>
@@ -17,8 +18,13 @@ using namespace crt::test;
 
 namespace {
 
-constexpr Aovs all_aovs = {
-    .depth = true, .normal = true, .id = true, .albedo = true, .samples = true, .error = true};
+constexpr Aovs all_aovs = {.depth = true,
+                           .normal = true,
+                           .id = true,
+                           .part = true,
+                           .albedo = true,
+                           .samples = true,
+                           .error = true};
 constexpr float infinity = std::numeric_limits<float>::infinity();
 /// This is a float's rounding and a bit more.
 constexpr double float_rounding = 1e-6;
@@ -107,15 +113,41 @@ TEST_CASE("nobody who does not ask gets channels, and the colours are the same f
   const Image extended = render(scene, {.aovs = all_aovs});
   CHECK(same_pixels(plain, extended));
   CHECK(extended.stats().camera_rays == plain.stats().camera_rays);
-  CHECK(extended.channels().size() == 10);
+  CHECK(extended.channels().size() == 11);
+}
+
+TEST_CASE("parts of an entity have their ids in pictures, as in queries") {
+  Scene scene = scene_before_eye(61, 61);
+  const Entity block = Entity(Box{.corner_a = {-1, -1, -0.5}}).with_id(10);
+  const Entity drill = Entity(Sphere{.center = {0, 0, -0.5}, .radius = 0.5}).with_id(11);
+  scene.entities = {(block - drill).with_id(5)};
+  const PreparedScene prepared = prepare(scene);
+  const Image image = with_aovs(scene);
+  const auto ids = image.integer_channel("part");
+  RayQueries queries(prepared);
+  std::array<std::size_t, 3> counts{};
+  for (int y = 0; y < 61; ++y) {
+    for (int x = 0; x < 61; ++x) {
+      const Ray ray = camera_ray(prepared, x + 0.5, y + 0.5);
+      HitPart part;
+      queries.parts(std::span(&ray, 1), std::span(&part, 1));
+      REQUIRE(ids[index_of(image, x, y)] == part.part_id);
+      REQUIRE(id_at(image, x, y) == part.entity_id);
+      const std::size_t kind = part.part_id == no_entity_id ? 0 : part.part_id - 9;
+      REQUIRE(kind < 3);
+      ++counts[kind];
+    }
+  }
+  for (const std::size_t count : counts) CHECK(count > 100);
 }
 
 TEST_CASE("each AOV is the same by itself as with all others") {
   const PreparedScene scene = prepare(busy_scene());
   const Image all = render(scene, {.aovs = all_aovs});
   std::size_t count = 0;
-  for (const Aovs& aovs : {Aovs{.depth = true}, Aovs{.normal = true}, Aovs{.id = true},
-                           Aovs{.albedo = true}, Aovs{.samples = true}, Aovs{.error = true}}) {
+  for (const Aovs& aovs :
+       {Aovs{.depth = true}, Aovs{.normal = true}, Aovs{.id = true}, Aovs{.part = true},
+        Aovs{.albedo = true}, Aovs{.samples = true}, Aovs{.error = true}}) {
     const Image one = render(scene, {.aovs = aovs});
     for (const ImageChannel& channel : one.channels()) {
       CAPTURE(channel.name);

@@ -218,3 +218,97 @@ TEST_CASE("many rays at once find what each finds, however long they are and wha
   }
   CHECK(met > 2000);
 }
+
+TEST_CASE("parts are those of the nearest hits, alone and among many rays") {
+  const PreparedScene scene = many_kinds();
+  RayQueries queries(scene);
+  std::vector<Ray> rays;
+  std::mt19937_64 random(6);
+  std::uniform_real_distribution<double> real(-0.3, 0.3);
+  for (int i = 0; i < 3000; ++i) rays.push_back({.direction = {real(random), real(random), 1}});
+  std::vector<HitPart> parts(rays.size());
+  queries.parts(rays, parts);
+  std::size_t found = 0;
+  for (std::size_t i = 0; i < rays.size(); ++i) {
+    const std::optional<Hit> hit = queries.intersect(rays[i]);
+    HitPart alone;
+    queries.parts(std::span(&rays[i], 1), std::span(&alone, 1));
+    for (const HitPart& part : {parts[i], alone}) {
+      REQUIRE(part.entity_id == (hit ? hit->entity_id : no_entity_id));
+      REQUIRE(part.part_id == part.entity_id);
+      REQUIRE(part.u == (hit ? hit->u : 0));
+      REQUIRE(part.v == (hit ? hit->v : 0));
+    }
+    REQUIRE(alone.face == parts[i].face);
+    REQUIRE((alone.face == no_entity_id) == !hit.has_value());
+    if (hit) ++found;
+  }
+  CHECK(found > 500);
+  CHECK_THROWS_AS(queries.parts(rays, std::span(parts).first(9)), Error);
+}
+
+TEST_CASE("a part has the innermost id around it, and its faces have numbers") {
+  const Entity body = Entity(Cylinder{.from = {0, 0, 0}, .to = {0, 2, 0}}).with_id(1);
+  const Entity slot = Entity(Box{.corner_a = {-2, 1, -0.25}, .corner_b = {2, 3, 0.25}}).with_id(2);
+  Scene scene;
+  scene.entities = {Sphere{.center = {9, 0, 0}},
+                    ((body - slot).with_id(3) + Sphere{.center = {0, -5, 0}}).with_id(4)};
+  const auto part_of = [&](const Vec3& origin, const Vec3& direction) {
+    const Ray ray{.origin = origin, .direction = direction};
+    HitPart part;
+    RayQueries(prepare(scene)).parts(std::span(&ray, 1), std::span(&part, 1));
+    return part;
+  };
+  struct Expected {
+    Vec3 origin, direction;
+    std::uint32_t entity, part, face;
+  };
+  for (const Expected& expected : {
+           Expected{{9, 9, 0}, {0, -1, 0}, 0, 0, 0},    // a sphere without an id
+           Expected{{0, 9, 0}, {0, -1, 0}, 4, 2, 2},    // the floor of the slot
+           Expected{{0, 1.5, 0}, {0, 0, 1}, 4, 2, 5},   // its walls
+           Expected{{0, 1.5, 0}, {0, 0, -1}, 4, 2, 4},  //
+           Expected{{0, 9, 0.5}, {0, -1, 0}, 4, 1, 2},  // the cylinder's upper cap
+           Expected{{0, 0.5, 9}, {0, 0, -1}, 4, 1, 0},  // its side
+           Expected{{0.5, -3, 0}, {0, 1, 0}, 4, 1, 1},  // its lower cap
+           Expected{{0, -9, 0}, {0, 1, 0}, 4, 4, 0},    // a part that has no id of its own
+           Expected{{20, 20, 20}, {0, 1, 0}, no_entity_id, no_entity_id, no_entity_id},
+       }) {
+    const HitPart part = part_of(expected.origin, expected.direction);
+    CAPTURE(expected.part);
+    CHECK(part.entity_id == expected.entity);
+    CHECK(part.part_id == expected.part);
+    CHECK(part.face == expected.face);
+  }
+}
+
+TEST_CASE("camera rays lead to where the camera sees what it sees") {
+  for (const Projection projection : {Projection::pinhole, Projection::orthographic,
+                                      Projection::spherical, Projection::cylindrical}) {
+    Scene scene;
+    scene.settings.width = 40;
+    scene.settings.height = 30;
+    scene.camera = {.position = {1, 2, -7}, .pointing = {1, 2, 0}, .projection = projection};
+    const PreparedScene prepared = prepare(scene);
+    const Ray middle = camera_ray(prepared, 20, 15);
+    CHECK(middle.origin == Vec3(1, 2, -7));
+    CHECK(middle.direction == Vec3(0, 0, 1));
+    CHECK(middle.t_min == 0);
+    CHECK(middle.t_max == std::numeric_limits<double>::infinity());
+    const Ray corner = camera_ray(prepared, 0.5, 0.5);
+    const Vec3 seen = corner.origin + corner.direction;
+    CHECK(seen.x < 1);
+    CHECK(seen.y > 2);
+    const std::vector<std::array<double, 2>> places = {{20, 15}, {0.5, 0.5}, {-3, 100}};
+    std::vector<Ray> rays(3);
+    camera_rays(prepared, places, rays);
+    CHECK(rays[0].direction == middle.direction);
+    CHECK(rays[1].direction == corner.direction);
+    CHECK(rays[1].origin == corner.origin);
+    CHECK_THROWS_AS(camera_rays(prepared, places, std::span(rays).first(2)), Error);
+    for (const double wrong : {std::nan(""), std::numeric_limits<double>::infinity()}) {
+      CHECK_THROWS_AS(camera_ray(prepared, wrong, 1), Error);
+      CHECK_THROWS_AS(camera_ray(prepared, 1, -wrong), Error);
+    }
+  }
+}

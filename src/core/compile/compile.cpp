@@ -180,6 +180,7 @@ void Compiler::make_leaves() {
                  leaf.bounds = leaf.placement->bounds_to_world(leaf.shape->bounds());
                  leaf.material = source.material;
                  leaf.entity_id = source.entity_id;
+                 leaf.part_id = source.part_id;
                  leaf.complemented = source.complemented;
                  const bool is_plain = !leaf.complemented && leaf.placement->is_identity();
                  leaf.plain_sphere =

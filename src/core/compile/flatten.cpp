@@ -70,7 +70,8 @@ FlatScene Flattening::flatten(std::span<const Entity> entities) {
   result_.placements.push_back(nullptr);
   for (std::size_t i = 0; i < entities.size(); ++i) {
     if (entities[i].is_empty()) continue;
-    const Part part{.node = &entities[i].node(), .id = static_cast<std::uint32_t>(i)};
+    const auto place = static_cast<std::uint32_t>(i);
+    const Part part{.node = &entities[i].node(), .id = place, .part_id = place};
     add_entity(part.unwrapped(result_.transforms));
   }
   return std::move(result_);
@@ -171,6 +172,7 @@ void Flattening::add_leaf(const Part& part, bool complemented) {
                             .placement = placement_number(part.to_world),
                             .material = material_number(part),
                             .entity_id = part.id,
+                            .part_id = part.part_id,
                             .complemented = complemented});
   result_.programs_of_leaves.push_back(program_);
 }

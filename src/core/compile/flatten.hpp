@@ -17,6 +17,7 @@ struct LeafSource {
   std::uint32_t placement = 0;  ///< index into FlatScene::placements
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
+  std::uint32_t part_id = 0;
   bool complemented = false;
 };
 

@@ -29,7 +29,8 @@ struct Part {
   const TransformChain* to_world = nullptr;  ///< of a TransformPool or of the entity
   const SharedMaterial* material = nullptr;  ///< for leaves without one of their own
   std::uint32_t id = 0;
-  bool id_is_final = false;  ///< a with_id above overrides inner ones
+  bool id_is_final = false;   ///< a with_id above overrides inner ones
+  std::uint32_t part_id = 0;  ///< of the innermost with_id, or the entity's place in the scene
 
   /// Returns the part with the wrappers around its node removed and applied.
   Part unwrapped(TransformPool& pool) const {
@@ -43,6 +44,7 @@ struct Part {
         inner.id = *wrapper->id;
         inner.id_is_final = true;
       }
+      if (wrapper->id) inner.part_id = *wrapper->id;
     }
     return inner;
   }

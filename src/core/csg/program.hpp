@@ -54,6 +54,7 @@ struct Leaf {
   Bounds bounds;  ///< in the world, of what can matter of it
   std::uint32_t material = 0;
   std::uint32_t entity_id = 0;
+  std::uint32_t part_id = 0;
   std::uint32_t first_face = 0;  ///< of its faces in the table of face surfaces
   std::uint32_t face_count = 0;
   /// A leaf of more faces than this has its shared faces in a list, if there are any.

@@ -48,6 +48,7 @@ constexpr FloatChannel float_channels[] = {
 
 constexpr IntegerChannel integer_channels[] = {
     {"id", &Aovs::id, [](const AovPixel& pixel) { return pixel.place.entity_id; }},
+    {"part", &Aovs::part, [](const AovPixel& pixel) { return pixel.place.part_id; }},
     {"samples", &Aovs::samples, [](const AovPixel& pixel) { return pixel.measure.samples; }},
 };
 
@@ -108,7 +109,7 @@ void AovTile::take(const PixelMeasures& measures, const Region& region) {
 }
 
 void AovTile::look(const CameraRays& camera, Tracer& tracer) {
-  if (!aovs_.depth && !aovs_.id) return;
+  if (!aovs_.depth && !aovs_.id && !aovs_.part) return;
   constexpr double middle = 0.5;
   static_assert(Tiles::side == packet_size);
   std::array<PicturePlaceLanes, RayPacket::group_count> places;

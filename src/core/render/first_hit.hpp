@@ -30,6 +30,7 @@ struct FirstPlace {
   double distance =
       std::numeric_limits<double>::infinity();  ///< from the ray's origin, in the world
   std::uint32_t entity_id = no_entity_id;
+  std::uint32_t part_id = no_entity_id;
 };
 
 }  // namespace crt::core

@@ -151,7 +151,7 @@ class RayQueries::State {
     validate(ray);
     return {scene_.data(), ray, work_};
   }
-  /// Writes answers into places of std::optional<Hit>, PlainHit, or Distances.
+  /// Writes answers into places of std::optional<Hit>, PlainHit, HitPart, or Distances.
   template <class Answers>
   void intersect(std::span<const Ray> rays, const Answers& answers) {
     const core::FloatEnvironment ieee;
@@ -192,6 +192,10 @@ void RayQueries::intersect(std::span<const Ray> rays, std::span<std::optional<Hi
 
 void RayQueries::intersect(std::span<const Ray> rays, std::span<PlainHit> hits) {
   state_->intersect(rays, hits);
+}
+
+void RayQueries::parts(std::span<const Ray> rays, std::span<HitPart> parts) {
+  state_->intersect(rays, parts);
 }
 
 void RayQueries::distances(std::span<const Ray> rays, std::span<double> distances,

@@ -9,6 +9,7 @@
 #include <limits>
 #include <optional>
 #include <span>
+#include <type_traits>
 
 #include "core/prepare/prepared_data.hpp"
 #include "core/render/hit_faces.hpp"
@@ -27,6 +28,15 @@ Hit described(double t, const Point& point, std::uint32_t entity_id, bool enteri
           .v = point.v,
           .entity_id = entity_id,
           .entering = entering};
+}
+
+/// Returns what a hit is on. `point` is a SurfacePoint.
+inline HitPart part_of(const Leaf& leaf, std::uint32_t face, const SurfacePoint& point) {
+  return {.entity_id = leaf.entity_id,
+          .part_id = leaf.part_id,
+          .face = face,
+          .u = point.u,
+          .v = point.v};
 }
 
 /// Distances are where distances are written, and the ids of what was hit, if anybody asks.
@@ -62,7 +72,7 @@ class QueryPacket {
     take_each(rays.subspan(done), done);
   }
 
-  /// Finds nearest hits. An answer is an std::optional<Hit> or a PlainHit.
+  /// Finds nearest hits. An answer is an std::optional<Hit>, a PlainHit or a HitPart.
   template <class Answer>
   void nearest(std::span<Answer> answers) {
     data_.intersect_each(rays_, all(), hits_, work_);
@@ -72,7 +82,11 @@ class QueryPacket {
       find_distances(first, count);
       find_sides(first);
       find_points(first);
-      write(answers.subspan(first, count));
+      if constexpr (std::is_same_v<Answer, HitPart>) {
+        write_parts(first, answers.subspan(first, count));
+      } else {
+        write(answers.subspan(first, count));
+      }
     }
   }
 
@@ -187,6 +201,15 @@ class QueryPacket {
         answers[lane] = described(t_[lane], lane_of(points_, lane),
                                   static_cast<std::uint32_t>(ids_[lane]), entering);
       }
+    }
+  }
+
+  void write_parts(std::size_t first, std::span<HitPart> answers) const {
+    for (std::size_t lane = 0; lane < answers.size(); ++lane) {
+      const RayHit& hit = hits_[first + lane];
+      answers[lane] = (found_ >> lane & 1u) == 0
+                          ? HitPart{}
+                          : part_of(data_.leaf(hit), hit.face, lane_of(points_, lane));
     }
   }
 

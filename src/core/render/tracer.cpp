@@ -82,7 +82,9 @@ void Tracer::look(std::span<const RayLanes> camera_rays, std::span<FirstPlace> p
     if (!hits.hits[i].found()) continue;
     HitPoint point;
     context_.data.hit_point(rays.batch.ray(i), hits.hits[i], false, point);
-    places[i] = {.distance = point.t, .entity_id = point.entity_id};
+    places[i] = {.distance = point.t,
+                 .entity_id = point.entity_id,
+                 .part_id = context_.data.leaf(hits.hits[i]).part_id};
   }
 }
 
