@@ -169,7 +169,8 @@ class FlatBoxList {
 
   /// Returns a bit for each box that some ray may meet, and sets a time before which none is in
   /// there.
-  std::uint64_t boxes_met(const IntervalPacket& intervals, BoxTimes& enter) const {
+  [[gnu::always_inline]] std::uint64_t boxes_met(const IntervalPacket& intervals,
+                                                 BoxTimes& enter) const {
     std::uint64_t missed = 0;
     for (std::size_t i = 0; i < groups_.size(); ++i) {
       Spans of_any{lanes_of(intervals.begin()), lanes_of(intervals.end())};
@@ -183,7 +184,8 @@ class FlatBoxList {
     return ~missed & all_boxes();
   }
 
-  RayMask rays_meeting(std::uint32_t box, const RayPacket& packet, RayMask rays) const {
+  [[gnu::always_inline]] RayMask rays_meeting(std::uint32_t box, const RayPacket& packet,
+                                              RayMask rays) const {
     const Group& boxes = groups_[box / lane_count];
     const std::size_t i = box % lane_count;
     Group same;

@@ -12,7 +12,7 @@ namespace crt::core {
 /// An Extent is the least and the greatest of some numbers that come by lanes.
 class Extent {
  public:
-  void include(const Lanes& values, const LaneMask& lanes) {
+  [[gnu::always_inline]] void include(const Lanes& values, const LaneMask& lanes) {
     low_ = min(low_, select(lanes, values, low_));
     high_ = max(high_, select(lanes, values, high_));
   }
@@ -35,19 +35,19 @@ class Extent {
 /// any ray can be in there.
 class IntervalPacket {
  public:
-  IntervalPacket(const RayPacket& packet, RayMask rays) {
+  [[gnu::always_inline]] IntervalPacket(const RayPacket& packet, RayMask rays) {
     Extent begins;
     std::array<Extent, 3> origins;
     std::array<Extent, 3> directions;
-    RayPacket::for_each_group(rays, [&](std::size_t group, RayMask some) {
-      const LaneMask lanes = lanes_with(some);
+    for (std::size_t group = 0; group < RayPacket::group_count; ++group) {
+      const LaneMask lanes = lanes_with(RayPacket::lanes(rays, group));
       const FilterLine<Lanes>& lines = packet.groups[group];
       begins.include(lines.begin, lanes);
       for (std::size_t axis = 0; axis < 3; ++axis) {
         origins[axis].include(lines.origin[axis], lanes);
         directions[axis].include(lines.direction[axis], lanes);
       }
-    });
+    }
     begin_ = begins.low();
     end_ = last_limit(packet, rays);
     for (std::size_t axis = 0; axis < 3; ++axis)
