@@ -20,7 +20,15 @@ struct CrossedWall {
   Crossing crossing;
   ShiftMask shifts = 0;  ///< the lines that cross it
   bool along_normal = false;
+  const Vec3* corner = nullptr;  ///< where the line passes exactly through an end of the wall
 };
+
+/// Returns the end of a piece that is exactly on the line, if there is just one.
+const Vec3* corner_on_line(const Profile::Piece& piece, const CornerSide& from,
+                           const CornerSide& to) {
+  if (from.is_on_line() == to.is_on_line()) return nullptr;
+  return from.is_on_line() ? &piece.from : &piece.to;
+}
 
 /// CrossedWalls makes one list of crossings.
 class CrossedWalls {
@@ -39,8 +47,9 @@ class CrossedWalls {
   void clip_at_end(std::uint32_t end);
   void find();
   void meet(std::uint32_t piece);
-  void add_flat(std::uint32_t piece, std::uint32_t wall, ShiftMask shifts, bool goes_right);
-  void add_round(std::uint32_t arc, const ArcCut& cut);
+  void add_flat(std::uint32_t wall, ShiftMask shifts, const CornerSide& from, const CornerSide& to);
+  void add_round(std::uint32_t arc, const ArcCut& cut, const Vec3* corner);
+  void unite_at_corners();
   std::array<Crossing, 2> meet_circle(std::uint32_t arc) const;
   int order(const Crossing& a, const Crossing& b) const;
   using Walls = std::pmr::vector<CrossedWall>;
@@ -74,6 +83,7 @@ void CrossedWalls::append() {
   constexpr std::size_t most_at_first = 32;
   walls_.reserve(most_at_first);
   find();
+  unite_at_corners();
   std::sort(walls_.begin(), walls_.end(), [this](const CrossedWall& a, const CrossedWall& b) {
     const int by_place = order(a.crossing, b.crossing);
     return by_place != 0 ? by_place < 0 : a.crossing.face < b.crossing.face;
@@ -122,34 +132,35 @@ void CrossedWalls::meet(std::uint32_t number) {
   const CornerSide to = line_.side_of(piece.to);
   if (piece.arc == Profile::no_arc) {
     const ShiftMask shifts = from.left ^ to.left;
-    if (shifts != 0) add_flat(number, number, shifts, PlaneLine::goes_right(from, to));
+    if (shifts != 0) add_flat(number, shifts, from, to);
     return;
   }
   const ArcCut cut = line_.cut(profile_.arcs()[piece.arc], piece, from, to);
-  if (cut.chord != 0) {
-    add_flat(number, profile_.chord_of(piece.arc), cut.chord, PlaneLine::goes_right(from, to));
-  }
-  if ((cut.enter | cut.leave) != 0) add_round(piece.arc, cut);
+  if (cut.chord != 0) add_flat(profile_.chord_of(piece.arc), cut.chord, from, to);
+  if ((cut.enter | cut.leave) != 0) add_round(piece.arc, cut, corner_on_line(piece, from, to));
 }
 
-void CrossedWalls::add_flat(std::uint32_t piece, std::uint32_t wall, ShiftMask shifts,
-                            bool goes_right) {
+void CrossedWalls::add_flat(std::uint32_t wall, ShiftMask shifts, const CornerSide& from,
+                            const CornerSide& to) {
+  const Profile::Piece& piece = profile_.pieces()[profile_.wall(wall).piece];
   Crossing crossing{.face = face_of_wall(wall, false)};
-  if (!starts_on(crossing.face) && !tier_.meet(profile_.pieces()[piece].first, crossing)) {
-    const Vec3 offset = profile_.pieces()[piece].from - ray_.origin;
+  if (!starts_on(crossing.face) && !tier_.meet(piece.first, crossing)) {
+    const Vec3 offset = piece.from - ray_.origin;
     const double ahead = offset.x * ray_.direction.x + offset.y * ray_.direction.y;
     crossing.t = std::copysign(infinity, ahead);
   }
-  walls_.push_back({crossing, shifts, goes_right});
+  walls_.push_back(
+      {crossing, shifts, PlaneLine::goes_right(from, to), corner_on_line(piece, from, to)});
   largest_error_ = std::max(largest_error_, crossing.error);
 }
 
-void CrossedWalls::add_round(std::uint32_t arc, const ArcCut& cut) {
+void CrossedWalls::add_round(std::uint32_t arc, const ArcCut& cut, const Vec3* corner) {
   const std::uint32_t face = face_of_wall(profile_.arcs()[arc].piece, false);
   const std::array<Crossing, 2> met = meet_circle(arc);
   const auto add = [&](const Crossing& crossing, ShiftMask shifts, bool leaves) {
     if (shifts == 0) return;
-    walls_.push_back({crossing, shifts, leaves});
+    // Only one of both lines crosses an arc where the corner is exactly on its circle.
+    walls_.push_back({crossing, shifts, leaves, shifts != both_shifts ? corner : nullptr});
     walls_.back().crossing.face = face;
     walls_.back().crossing.root = leaves ? 1 : 0;
     largest_error_ = std::max(largest_error_, crossing.error);
@@ -181,6 +192,21 @@ std::array<Crossing, 2> CrossedWalls::meet_circle(std::uint32_t arc_number) cons
   if (!std::isfinite(met[0].t)) met[0] = enter;
   if (!std::isfinite(met[1].t)) met[1] = leave;
   return met;
+}
+
+/// Gives walls that the line crosses in one corner one place there, whatever rounding says.
+void CrossedWalls::unite_at_corners() {
+  for (auto wall = walls_.begin(); wall != walls_.end(); ++wall) {
+    if (wall->corner == nullptr) continue;
+    const auto first = std::find_if(walls_.begin(), wall, [&](const CrossedWall& earlier) {
+      return earlier.corner != nullptr && *earlier.corner == *wall->corner;
+    });
+    if (first == wall || starts_on(wall->crossing.face)) continue;
+    const double error = std::max(first->crossing.error, wall->crossing.error);
+    wall->crossing.t = first->crossing.t;
+    wall->crossing.t_low = first->crossing.t_low;
+    if (!starts_on(first->crossing.face)) wall->crossing.error = error;
+  }
 }
 
 int CrossedWalls::order(const Crossing& a, const Crossing& b) const {

@@ -47,6 +47,8 @@ struct CornerSide {
   ShiftMask left = 0;  ///< the lines that it is to the left of
   double value = 0;    ///< its distance to the left, times the length of some direction
   double error = 0;
+
+  bool is_on_line() const { return left == 1; }
 };
 
 /// An ArcCut says where a line crosses what bounds the segment of an arc. Each bit is 1 if that
