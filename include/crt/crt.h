@@ -145,6 +145,8 @@ typedef struct crt_image crt_image;
 typedef struct crt_buffer crt_buffer;
 /** A crt_diagnostics is a list of messages about a script. It is immutable. */
 typedef struct crt_diagnostics crt_diagnostics;
+/** A crt_profile is a region of a plane, which you put together of contours. */
+typedef struct crt_profile crt_profile;
 
 /** Adds a reference to an entity and returns it. */
 CRT_API crt_entity* crt_entity_retain(crt_entity* entity);
@@ -177,6 +179,11 @@ CRT_API void crt_buffer_release(crt_buffer* buffer);
 CRT_API crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics);
 /** Drops a reference to diagnostics, and with the last one all their texts. */
 CRT_API void crt_diagnostics_release(crt_diagnostics* diagnostics);
+
+/** Adds a reference to a profile and returns it. */
+CRT_API crt_profile* crt_profile_retain(crt_profile* profile);
+/** Removes a reference. */
+CRT_API void crt_profile_release(crt_profile* profile);
 
 /** @} */
 
@@ -522,6 +529,37 @@ CRT_API crt_status crt_triangle_create(const double a[3], const double b[3], con
 CRT_API crt_status crt_mesh_create(const double* positions, size_t vertex_count,
                                    const uint32_t* indices, size_t triangle_count,
                                    crt_entity** out);
+
+/**
+ * Makes a profile without a contour. Add contours, each by crt_profile_move_to() and then by
+ * pieces, before you make entities of it: these keep what it is at the time. A contour is closed by
+ * a straight piece, unless its last corner repeats the first. The even-odd rule says what is
+ * inside: all points from which a line to infinity crosses an odd number of pieces. So a contour
+ * within another is a hole, whichever way round either goes.
+ */
+CRT_API crt_status crt_profile_create(crt_profile** out);
+/** Begins a contour at a corner. */
+CRT_API crt_status crt_profile_move_to(crt_profile* profile, double x, double y);
+/** Adds a straight piece from the last corner to another. It fails before a contour begins. */
+CRT_API crt_status crt_profile_line_to(crt_profile* profile, double x, double y);
+/**
+ * Adds an arc of a circle from the last corner to another. It is an error before a contour begins.
+ * @param bulge  the tangent of a quarter of the arc's angle: above 0 for an arc that turns from x
+ *               to y, and below 0 for one that turns from y to x. It is 1 for half a circle, and
+ *               sqrt(2) - 1 for a quarter. 0 makes a straight piece.
+ */
+CRT_API crt_status crt_profile_arc_to(crt_profile* profile, double x, double y, double bulge);
+/**
+ * Makes an extrusion: a profile that is drawn out from its own plane, which goes through `from`, to
+ * `to`. The profile's origin is at `from`. Its x axis is where angles about the axis begin: along z
+ * as far as that is across the axis, or along x if the axis is mostly along z. Its y axis is a
+ * quarter of a turn from there about the axis. So from (0, 0, a) to (0, 0, b), with a < b, x and y
+ * are those of the scene, and nothing is rounded. Straight pieces make flat faces, and arcs make
+ * parts of cylinders. Errors of the profile are reported here, with the numbers of the contour and
+ * the corner.
+ */
+CRT_API crt_status crt_extrusion_create(const crt_profile* profile, const double from[3],
+                                        const double to[3], crt_entity** out);
 
 /**
  * Makes the solid without a point, such as what is left of a sphere whose radius shrinks to 0. No
@@ -1263,8 +1301,9 @@ typedef struct crt_hit_part {
                           as a cutter; without any the entity's place in the scene */
   uint32_t face;     /**< of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
                           and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for
-                          the side, 1 at `from`, 2 at `to`. Meshes have the place of the triangle
-                          among those with an area. All others have 0. */
+                          the side, 1 at `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and
+                          the upper end, and further numbers for their sides. Meshes have the place
+                          of the triangle among those with an area. All others have 0. */
   uint32_t reserved; /**< 0 */
   double u, v;       /**< as in crt_hit */
 } crt_hit_part;

@@ -12,6 +12,7 @@
 #include <optional>
 #include <span>
 #include <variant>
+#include <vector>
 
 namespace crt {
 
@@ -135,8 +136,55 @@ struct Mesh {
 std::shared_ptr<const MeshTriangles> mesh_triangles(std::span<const Vec3> positions,
                                                     std::span<const TriangleIndices> triangles);
 
+/// A ProfilePoint is a corner of a contour. `bulge` says how the contour comes here from the corner
+/// before: straight for 0, and otherwise by an arc of a circle through an angle, of which the bulge
+/// is the tangent of a quarter. The arc is counterclockwise (from x to y) for a bulge above 0. So 1
+/// is a half circle, and sqrt(2) - 1 a quarter of one.
+struct ProfilePoint {
+  double x = 0;
+  double y = 0;
+  double bulge = 0;
+
+  friend bool operator==(const ProfilePoint&, const ProfilePoint&) = default;
+};
+
+/// A Contour is a closed line. The bulge of its first corner is that of the piece from the last
+/// corner back to the first. A last corner that repeats the first is that piece.
+using Contour = std::vector<ProfilePoint>;
+
+class Profile;
+
+/// Makes a profile: the region that contours enclose by the even-odd rule. A point is in it if a
+/// line from it to infinity crosses an odd number of their pieces. So a contour within another is a
+/// hole, whichever way round either goes, and contours may cross themselves and each other.
+///
+/// An arc lies on a circle whose center and radius are doubles. They are the nearest to those that
+/// the corners and the bulge say. But an arc that is a quarter or three quarters of a circle to
+/// 2^-48, from one axis to the other, has its center exactly at the coordinates of its corners.
+/// What an arc adds to a polygon, or takes away, is the part of its disc beyond the straight line
+/// through its corners. If rounding has put the circle beside a corner, that line closes the gap.
+///
+/// It takes O(n log n) on the calling thread. Throws Error (invalid_argument) naming the contour
+/// and the corner (both count from 0) if a number is not finite or above 1e100 in magnitude, if two
+/// corners that follow one another are closer than 1e-100 in both coordinates, if a contour
+/// encloses no area, and if an arc is so flat, or so small at its place, that doubles cannot say
+/// its circle.
+std::shared_ptr<const Profile> make_profile(std::span<const Contour> contours);
+
+/// An Extrusion has all points (x, y, z) for which (x, y) is in the profile and z is between `from`
+/// and `to`, which differ by at least 1e-100. A straight piece of the profile makes a flat face, an
+/// arc a part of a cylinder. Copies share the profile. On the sides u is the way along the contour
+/// and v the height above the lower end. On the ends (u, v) run along x and y across the profile's
+/// bounds. All are in [0, 1].
+struct Extrusion {
+  std::shared_ptr<const Profile> profile{};  ///< from make_profile(); must be given
+  double from = 0;
+  double to = 1;
+  std::optional<SharedMaterial> material{};
+};
+
 /// A Primitive is any of the primitives. A new one is added here; nothing else lists them all.
 using Primitive = std::variant<Sphere, Box, Plane, HalfPlane, Cylinder, Cone, Torus, Disc, Triangle,
-                               Capsule, Mesh>;
+                               Capsule, Mesh, Extrusion>;
 
 }  // namespace crt

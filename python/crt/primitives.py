@@ -3,6 +3,7 @@ Entity.with_material and Entity.with_id do."""
 
 import ctypes
 import os
+from collections.abc import Sequence
 from typing import Any, Generic, NoReturn, SupportsFloat, SupportsIndex, TypeVar, overload
 
 import numpy as np
@@ -10,7 +11,8 @@ from numpy.typing import ArrayLike
 
 from . import _arguments
 from ._arguments import Point
-from ._library import create
+from ._handles import Reference
+from ._library import create, library
 from ._structs import reference
 from .entities import Entity
 from .errors import named
@@ -23,6 +25,7 @@ __all__ = [
     "Cylinder",
     "Disc",
     "Empty",
+    "Extrusion",
     "HalfPlane",
     "Mesh",
     "Plane",
@@ -272,6 +275,56 @@ class Capsule(_Primitive):
         size = self._positive(radius, "radius")
         shown = {"start": tuple(a), "end": tuple(b), "radius": size}
         self._create("crt_capsule_create", material, id, shown, a, b, size)
+
+
+def _contours(profile: Sequence[Any]) -> list[list[tuple[float, ...]]]:
+    """Returns the contours of a profile, which may be one or a sequence of several."""
+    wanted = "corners (x, y) or (x, y, bulge), or a sequence of contours of such corners"
+    try:
+        is_one = len(profile) == 0 or np.ndim(profile[0][0]) == 0
+        contours = [profile] if is_one else profile
+        made = [[tuple(map(float, corner)) for corner in contour] for contour in contours]
+    except (TypeError, ValueError, IndexError, KeyError):
+        raise _arguments.refusal("Extrusion: profile", wanted, profile) from None
+    if not all(len(corner) in (2, 3) for contour in made for corner in contour):
+        raise ValueError(f"Extrusion: profile must be {wanted}")
+    return made
+
+
+class Extrusion(_Primitive):
+    """An Extrusion is a profile that is drawn out from the start to the end. The profile is a
+    sequence of corners, (x, y) or (x, y, bulge), or a sequence of such contours. A corner with a
+    bulge is joined to the one before it by an arc, of whose angle the bulge is the tangent of a
+    quarter. What is inside says the even-odd rule. The profile's origin is at the start. Its x is
+    along z as far as that is across the axis, or along x if the axis is mostly along z, and its y
+    is a quarter of a turn from there about the axis."""
+
+    profile = _Given[Any]()
+    start = _Given[Vector]()
+    end = _Given[Vector]()
+
+    def __init__(
+        self,
+        profile: Sequence[Any],
+        start: Point,
+        end: Point,
+        *,
+        material: Material | None = None,
+        id: SupportsIndex | None = None,
+    ) -> None:
+        a, b = self._vectors(start=start, end=end)
+        contours = _contours(profile)
+        handle = Reference(create("crt_profile_create"), library.crt_profile_release)
+        for contour in contours:
+            for i, (x, y, *bulge) in enumerate(contour):
+                if i == 0:
+                    library.crt_profile_move_to(handle, x, y)
+                else:
+                    library.crt_profile_arc_to(handle, x, y, *bulge or (0.0,))
+            if contour and len(contour[0]) == 3:
+                library.crt_profile_arc_to(handle, *contour[0])
+        shown = {"profile": contours, "start": tuple(a), "end": tuple(b)}
+        self._create("crt_extrusion_create", material, id, shown, handle, a, b)
 
 
 class Torus(_Primitive):

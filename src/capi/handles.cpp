@@ -52,3 +52,10 @@ crt_diagnostics* crt_diagnostics_retain(crt_diagnostics* diagnostics) {
 void crt_diagnostics_release(crt_diagnostics* diagnostics) {
   release(diagnostics);
 }
+
+crt_profile* crt_profile_retain(crt_profile* profile) {
+  return retain(profile);
+}
+void crt_profile_release(crt_profile* profile) {
+  release(profile);
+}

@@ -13,6 +13,7 @@
 #include "crt/image.hpp"
 #include "crt/job.hpp"
 #include "crt/prepared_scene.hpp"
+#include "crt/primitives.hpp"
 #include "crt/scene.hpp"
 #include "crt/script.hpp"
 
@@ -94,6 +95,10 @@ struct crt_diagnostics : crt::capi::Counted {
   std::vector<crt::Diagnostic> list;
   std::string text;
   std::string json;
+};
+
+struct crt_profile : crt::capi::Counted {
+  std::vector<crt::Contour> contours;
 };
 
 struct crt_file_content {

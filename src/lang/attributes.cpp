@@ -77,6 +77,41 @@ const Pattern& copied(const Given& given, Context& context, const Pattern& patte
   return pattern;
 }
 
+/// Reads a corner of a contour: [x, y] or [x, y, bulge].
+std::optional<ProfilePoint> corner_of(const Value& value) {
+  const List* list = std::get_if<List>(&value);
+  if (!list || (*list)->items.size() < 2 || (*list)->items.size() > 3) return std::nullopt;
+  std::array<double, 3> numbers{};
+  for (std::size_t i = 0; i < (*list)->items.size(); ++i) {
+    double storage = 0;
+    const double* number = as_float((*list)->items[i], storage);
+    if (!number) return std::nullopt;
+    numbers[i] = *number;
+  }
+  return ProfilePoint{.x = numbers[0], .y = numbers[1], .bulge = numbers[2]};
+}
+
+/// The memory of a corner of a profile, with what a prepared scene makes of it, is paid for by so
+/// many steps.
+constexpr std::size_t steps_per_corner = 64;
+
+Contour contour_of(const Given& given, Context& context, const std::vector<Value>& items) {
+  context.spend(given.value_span, steps_per_corner * items.size());
+  Contour contour;
+  contour.reserve(items.size());
+  for (const Value& item : items) {
+    const std::optional<ProfilePoint> corner = corner_of(item);
+    if (!corner) {
+      reject(given,
+             fmt::format("must have corners such as [0, 1], or [0, 1, 0.5] with the bulge of an "
+                         "arc; it has {} in it",
+                         type_with_article(item)));
+    }
+    contour.push_back(*corner);
+  }
+  return contour;
+}
+
 /// An optional field takes what the field itself takes.
 template <class Field>
 void convert_optional(const Given& given, Context& context, std::optional<Field>& field) {
@@ -182,6 +217,23 @@ void convert(const Given& given, Context& context, std::shared_ptr<const Entity>
   const std::string& name = get<String>(given)->text;
   const std::filesystem::path& directory = context.sources.source_of(given.value_span).directory;
   field = context.files.mesh(name, directory, given.value_span);
+}
+
+void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field) {
+  const std::vector<Value>& items = get<List>(given)->items;
+  const auto is_contour = [](const Value& item) {
+    const List* list = std::get_if<List>(&item);
+    return list && !(*list)->items.empty() && std::holds_alternative<List>((*list)->items[0]);
+  };
+  std::vector<Contour> contours;
+  if (!items.empty() && std::all_of(items.begin(), items.end(), is_contour)) {
+    for (const Value& item : items) {
+      contours.push_back(contour_of(given, context, std::get<List>(item)->items));
+    }
+  } else {
+    contours.push_back(contour_of(given, context, items));
+  }
+  field = make_profile(contours);
 }
 
 void convert(const Given& given, Context&, Projection& field) {

@@ -13,6 +13,7 @@
 #include "crt/camera.hpp"
 #include "crt/light.hpp"
 #include "crt/material.hpp"
+#include "crt/primitives.hpp"
 #include "crt/settings.hpp"
 #include "lang/context.hpp"
 #include "lang/objects.hpp"
@@ -34,6 +35,7 @@ void convert(const Given& given, Context& context, ImageMapping& field);
 void convert(const Given& given, Context& context, SharedMaterial& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Image>& field);
 void convert(const Given& given, Context& context, std::shared_ptr<const Entity>& field);
+void convert(const Given& given, Context& context, std::shared_ptr<const Profile>& field);
 void convert(const Given& given, Context& context, Projection& field);
 void convert(const Given& given, Context& context, PanoramaProjection& field);
 void convert(const Given& given, Context& context, ApertureShape& field);
@@ -96,6 +98,9 @@ constexpr std::string_view type_text(const std::shared_ptr<const Image>*) {
 }
 constexpr std::string_view type_text(const std::shared_ptr<const Entity>*) {
   return "String";
+}
+constexpr std::string_view type_text(const std::shared_ptr<const Profile>*) {
+  return "List of corners";
 }
 constexpr std::string_view type_text(const Projection*) {
   return "String";

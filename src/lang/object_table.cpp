@@ -78,6 +78,8 @@ std::vector<ObjectType> entities() {
                             required("radius", &Disc::radius)}),
       entity<Triangle>("Triangle", {required("a", &Triangle::a), required("b", &Triangle::b),
                                     required("c", &Triangle::c)}),
+      entity<Extrusion>("Extrusion", {required("profile", &Extrusion::profile),
+                                      required("height", &Extrusion::to)}),
       object<MeshOfFile>("Mesh",
                          {required("file", &MeshOfFile::file),
                           attribute("material", &MeshOfFile::material, "a grey of 0.5")},

@@ -28,6 +28,15 @@ const Numbers zero = {0, 0, 0};
 const Numbers one = {1, 1, 1};
 const Numbers up = {0, 1, 0};
 
+ProfileHandle square_profile() {
+  ProfileHandle profile = new_profile();
+  CHECK(crt_profile_move_to(profile.get(), 0, 0) == CRT_OK);
+  CHECK(crt_profile_line_to(profile.get(), 1, 0) == CRT_OK);
+  CHECK(crt_profile_line_to(profile.get(), 1, 1) == CRT_OK);
+  CHECK(crt_profile_line_to(profile.get(), 0, 1) == CRT_OK);
+  return profile;
+}
+
 /// Returns the indices of the only triangle of a mesh.
 const std::uint32_t* triangle_indices() {
   static constexpr std::uint32_t indices[] = {0, 1, 2};
@@ -59,6 +68,7 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
   double corner[3];
   crt_light light;
   crt_light_init(&light, sizeof light);
+  const ProfileHandle square = square_profile();
 
   check_all({
       {"out", [&] { return crt_sphere_create(z, 1, nullptr); }},
@@ -71,6 +81,14 @@ TEST_CASE("every pointer that is needed is refused if it is NULL, with its name"
       {"from", [&] { return crt_cylinder_create(nullptr, o, 1, &entity); }},
       {"to", [&] { return crt_cone_create(z, nullptr, 1, 0, &entity); }},
       {"to", [&] { return crt_capsule_create(z, nullptr, 1, &entity); }},
+      {"profile", [&] { return crt_extrusion_create(nullptr, z, o, &entity); }},
+      {"from", [&] { return crt_extrusion_create(square.get(), nullptr, o, &entity); }},
+      {"to", [&] { return crt_extrusion_create(square.get(), z, nullptr, &entity); }},
+      {"out", [&] { return crt_extrusion_create(square.get(), z, o, nullptr); }},
+      {"out", [&] { return crt_profile_create(nullptr); }},
+      {"profile", [&] { return crt_profile_move_to(nullptr, 0, 0); }},
+      {"profile", [&] { return crt_profile_line_to(nullptr, 0, 0); }},
+      {"profile", [&] { return crt_profile_arc_to(nullptr, 0, 0, 1); }},
       {"axis", [&] { return crt_torus_create(z, nullptr, 1, 0.1, &entity); }},
       {"center", [&] { return crt_disc_create(nullptr, o, 1, &entity); }},
       {"c", [&] { return crt_triangle_create(z, o, nullptr, &entity); }},
@@ -194,11 +212,14 @@ TEST_CASE("what has no status answers NULL with nothing") {
   crt_image_release(nullptr);
   crt_buffer_release(nullptr);
   crt_diagnostics_release(nullptr);
+  CHECK(crt_profile_retain(nullptr) == nullptr);
+  crt_profile_release(nullptr);
 }
 
 TEST_CASE("a number that is not finite is refused in every place, with its name") {
   const EntityHandle ball = sphere(zero, 1);
   const SceneHandle scene = new_scene();
+  const ProfileHandle square = square_profile();
   for (const double bad : {not_a_number, infinity, -infinity}) {
     for (int axis = 0; axis < 3; ++axis) {
       Numbers v = {1, 2, 3};
@@ -219,6 +240,8 @@ TEST_CASE("a number that is not finite is refused in every place, with its name"
           {"from", [&] { return crt_cylinder_create(p, z, 1, &out); }},
           {"to", [&] { return crt_cone_create(z, p, 1, 0, &out); }},
           {"from", [&] { return crt_capsule_create(p, z, 1, &out); }},
+          {"from", [&] { return crt_extrusion_create(square.get(), p, z, &out); }},
+          {"to", [&] { return crt_extrusion_create(square.get(), z, p, &out); }},
           {"axis", [&] { return crt_torus_create(z, p, 1, 0.1, &out); }},
           {"normal", [&] { return crt_disc_create(z, p, 1, &out); }},
           {"b", [&] { return crt_triangle_create(z, p, u, &out); }},

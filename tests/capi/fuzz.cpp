@@ -144,7 +144,7 @@ void Session::make_primitive() {
   const auto c = input_.vector();
   const double r = input_.number();
   const double s = input_.number();
-  const std::uint32_t kind = input_.below(12);
+  const std::uint32_t kind = input_.below(13);
   entities_.make([&](crt_entity** out) {
     switch (kind) {
       case 0:
@@ -169,6 +169,19 @@ void Session::make_primitive() {
         return crt_empty_create(out);
       case 10:
         return crt_capsule_create(a.data(), b.data(), r, out);
+      case 11: {
+        crt_profile* profile = nullptr;
+        if (crt_profile_create(&profile) != CRT_OK) return CRT_ERROR_OUT_OF_MEMORY;
+        if (input_.below(8) != 0) crt_profile_move_to(profile, a[0], a[1]);
+        crt_profile_line_to(profile, b[0], b[1]);
+        crt_profile_arc_to(profile, c[0], c[1], r);
+        if (input_.below(2) != 0) crt_profile_move_to(profile, b[2], s);
+        crt_profile_arc_to(profile, c[2], a[0], s);
+        crt_profile_line_to(profile, b[1], r);
+        const crt_status status = crt_extrusion_create(profile, a.data(), c.data(), out);
+        crt_profile_release(profile);
+        return status;
+      }
       default: {
         const double positions[9] = {a[0], a[1], a[2], b[0], b[1], b[2], c[0], c[1], c[2]};
         const std::uint32_t indices[6] = {0, 1, 2, 2, input_.below(4), 0};

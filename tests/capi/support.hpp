@@ -27,6 +27,7 @@ using PreparedHandle = std::unique_ptr<crt_prepared, Releaser<crt_prepared_relea
 using JobHandle = std::unique_ptr<crt_job, Releaser<crt_job_release>>;
 using ImageHandle = std::unique_ptr<crt_image, Releaser<crt_image_release>>;
 using BufferHandle = std::unique_ptr<crt_buffer, Releaser<crt_buffer_release>>;
+using ProfileHandle = std::unique_ptr<crt_profile, Releaser<crt_profile_release>>;
 using DiagnosticsHandle = std::unique_ptr<crt_diagnostics, Releaser<crt_diagnostics_release>>;
 
 using Numbers = std::array<double, 3>;
@@ -59,6 +60,10 @@ inline EntityHandle difference(crt_entity* from, crt_entity* cutter) {
 
 inline SceneHandle new_scene() {
   return made<SceneHandle>([](crt_scene** out) { return crt_scene_create(out); });
+}
+
+inline ProfileHandle new_profile() {
+  return made<ProfileHandle>([](crt_profile** out) { return crt_profile_create(out); });
 }
 
 inline PreparedHandle prepare(crt_scene* scene) {

@@ -27,6 +27,7 @@
 #include "geometry/exact_tools.hpp"
 #include "geometry/meshes.hpp"
 #include "geometry/oracle.hpp"
+#include "geometry/profiles.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -49,6 +50,13 @@ void set_at_random(Description& description, std::size_t bytes, Random& random) 
 void set_at_random(Mesh& mesh, std::size_t /*bytes*/, Random& random) {
   const TriangleList list = random_mesh(random);
   mesh.triangles = mesh_triangles(list.positions, list.triangles);
+}
+
+void set_at_random(Extrusion& extrusion, std::size_t /*bytes*/, Random& random) {
+  extrusion.profile =
+      make_profile(random.one_in(2) ? whole_contours(random) : random_contours(random, 2));
+  extrusion.from = random_field(random);
+  extrusion.to = random_field(random);
 }
 
 /// Returns a valid instance of the primitive that stands at this place in the list.

@@ -3,6 +3,7 @@
 
 #include "geometry/oracle.hpp"
 #include "geometry/scaled_mesh.hpp"
+#include "geometry/scaled_profile.hpp"
 
 namespace crt::test {
 
@@ -117,6 +118,12 @@ Disc times(Disc s, double k) {
 }
 Mesh times(const Mesh& s, double k) {
   return scaled_mesh(s, k);
+}
+Extrusion times(Extrusion s, double k) {
+  s.profile = scaled_profile(*s.profile, k);
+  s.from *= k;
+  s.to *= k;
+  return s;
 }
 Triangle times(Triangle s, double k) {
   s.a *= k;

@@ -9,6 +9,7 @@
 #include "crt/error.hpp"
 #include "crt/validate.hpp"
 #include "geometry/meshes.hpp"
+#include "geometry/profiles.hpp"
 
 using namespace crt;
 using namespace crt::test;
@@ -36,14 +37,16 @@ std::string argument(const Primitive& primitive) {
 }  // namespace
 
 TEST_CASE(
-    "every primitive but a mesh is valid by default and makes a shape that agrees on being a "
-    "solid") {
+    "every primitive that is made of numbers is valid by default and makes a shape that agrees on "
+    "being a solid") {
   CHECK(argument(Mesh{}) == "triangles");
+  CHECK(argument(Extrusion{}) == "profile");
   Random random(1);
   const TriangleList list = ball_mesh(random, 1, 0);
   const Mesh mesh{.triangles = mesh_triangles(list.positions, list.triangles)};
+  const Extrusion extrusion{.profile = profile_of({rectangle(0, 0, 1, 1)})};
   const Primitive all[] = {Sphere{}, Box{},  Plane{},    HalfPlane{}, Cylinder{}, Cone{},
-                           Torus{},  Disc{}, Triangle{}, Capsule{},   mesh};
+                           Torus{},  Disc{}, Triangle{}, Capsule{},   mesh,       extrusion};
   CHECK(std::size(all) == std::variant_size_v<Primitive>);
   for (const Primitive& primitive : all) {
     CHECK(fault(primitive) == "");
@@ -102,6 +105,10 @@ TEST_CASE("every field of every primitive is checked") {
   CHECK(argument(Capsule{.from = {1, 1, 1}, .to = {1, 1, 1}}) == "to");
   CHECK(argument(Capsule{.radius = 0}) == "radius");
   CHECK_THROWS_AS(mesh_triangles(std::array{bad}, {}), Error);
+  const auto square = profile_of({rectangle(0, 0, 1, 1)});
+  CHECK(argument(Extrusion{.profile = square, .from = inf}) == "from");
+  CHECK(argument(Extrusion{.profile = square, .to = 1e101}) == "to");
+  CHECK(argument(Extrusion{.profile = square, .from = 1, .to = 1}) == "to");
   CHECK(argument(Torus{.center = bad}) == "center");
   CHECK(argument(Torus{.axis = Vec3(0.0)}) == "axis");
   CHECK(argument(Torus{.radius = 0}) == "radius");

@@ -187,7 +187,8 @@ Subject make_crowd(Counted& random, const Vec3& at, double size) {
     Primitive part = solid_part(random, middle, size);
     // A mesh may not have found its place.
     const bool is_elsewhere =
-        std::holds_alternative<Mesh>(part) && !(glm::length(center_of(part) - middle) <= 2 * size);
+        (std::holds_alternative<Mesh>(part) || std::holds_alternative<Extrusion>(part)) &&
+        !(glm::length(center_of(part) - middle) <= 2 * size);
     if (std::holds_alternative<Plane>(part) || is_elsewhere)
       part = Sphere{.center = middle, .radius = size};
     crowd.parts.push_back(part);

@@ -127,7 +127,8 @@ using Equations = Few<Polynomial<Number>, most_equations>;
 /// A cylinder has the equations of its side and of its caps.
 inline constexpr std::ptrdiff_t cylinder_equations = 3;
 
-// A solid is where all its polynomials are negative, except the torus and the capsule.
+// A solid is where all its polynomials are negative, except the torus, the capsule and the
+// extrusion.
 
 // A truncated cone about `axis` = to - from, A = axis . axis, k = radius2 - radius, w = p - from,
 // h = w . axis: F = |w x axis|^2 A - (radius A + k h)^2 < 0 and 0 < h < A.
@@ -220,9 +221,42 @@ Equations<Number> equations(const Mesh& mesh, const ExactLine<Number>& line) {
   return result;
 }
 
+// An extrusion has the equations of the sides, which are positive to the right, of the disc and of
+// both ends.
+template <class Number>
+Equations<Number> equations(const Extrusion& extrusion, const ExactLine<Number>& line) {
+  const ArchedTriangle profile(*extrusion.profile);
+  Equations<Number> result;
+  for (std::size_t side = 0; side < 3; ++side) {
+    result.push_back(
+        Relative(line, profile.from(side)).along(profile.template normal<Number>(side)));
+  }
+  const NumberVec<Number> z = exactly<Number>(Vec3(0, 0, 1));
+  result.push_back(Relative(line, profile.center).squared_distance_from_axis(z) -
+                   Polynomial<Number>{square(Number(profile.radius))});
+  result.push_back(-Relative(line, Vec3(0, 0, lower_end(extrusion))).along(z));
+  result.push_back(Relative(line, Vec3(0, 0, upper_end(extrusion))).along(z));
+  return result;
+}
+
 template <class Number>
 Equations<Number> equations(const Primitive& primitive, const ExactLine<Number>& line) {
   return std::visit([&](const auto& p) { return equations(p, line); }, primitive);
+}
+
+/// Says whether the profile of an extrusion is all around a point, by the signs of the equations of
+/// its sides and its disc. Where one is 0, that is both sides of it.
+inline bool is_around(bool segment_is_right, std::array<int, 4> signs) {
+  for (std::size_t i = 0; i < signs.size(); ++i) {
+    if (signs[i] != 0) continue;
+    std::array<int, 4> other = signs;
+    signs[i] = 1;
+    other[i] = -1;
+    return is_around(segment_is_right, signs) && is_around(segment_is_right, other);
+  }
+  const bool in_triangle = signs[0] == signs[1] && signs[1] == signs[2];
+  const bool in_segment = signs[3] < 0 && (signs[2] > 0) == segment_is_right;
+  return in_triangle != in_segment;
 }
 
 /// Says whether a point is inside a solid, by the signs of its equations there.
@@ -235,6 +269,11 @@ bool is_inside(const Primitive& solid, const Signs& signs) {
     const auto spheres = signs.begin() + cylinder_equations;
     return std::all_of(signs.begin(), spheres, negative) ||
            std::any_of(spheres, signs.end(), negative);
+  }
+  if (const auto* extrusion = std::get_if<Extrusion>(&solid)) {
+    return signs[4] < 0 && signs[5] < 0 &&
+           is_around(ArchedTriangle(*extrusion->profile).is_right,
+                     {signs[0], signs[1], signs[2], signs[3]});
   }
   return std::all_of(signs.begin(), signs.end(), negative);
 }

@@ -83,6 +83,14 @@ double gradient(const Mesh& mesh, std::size_t which, const ExactLine<Number>&, c
   return glm::length(rounded(normal_of<Number>(triangles_of(mesh)[which])));
 }
 
+template <class Number>
+double gradient(const Extrusion& extrusion, std::size_t which, const ExactLine<Number>&,
+                const Number&) {
+  const ArchedTriangle profile(*extrusion.profile);
+  if (which < 3) return glm::length(profile.to(which) - profile.from(which));
+  return which == 3 ? 2 * profile.radius : 1;
+}
+
 /// Returns where a line meets a surface's plane, relative to its position, times `w` (so that it is
 /// exact).
 template <class Number>

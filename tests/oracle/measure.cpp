@@ -14,6 +14,7 @@
 #include "core/geometry/mesh/triangles.hpp"
 #include "core/render/input_rays.hpp"
 #include "oracle/naive.hpp"
+#include "oracle/number_vec.hpp"
 
 namespace crt::test {
 namespace {
@@ -315,7 +316,12 @@ std::string description(const TestRay& ray) {
                          p.thickness);
     else if constexpr (std::is_same_v<P, Disc>)
       return fmt::format("disc {} {} {:a}", text(p.center), text(p.normal), p.radius);
-    else if constexpr (std::is_same_v<P, Mesh>)
+    else if constexpr (std::is_same_v<P, Extrusion>) {
+      const ArchedTriangle profile(*p.profile);
+      const auto& [a, b, c] = profile.corners;
+      return fmt::format("extrusion {} {} {} bulge {:a} from {:a} to {:a}", text(a), text(b),
+                         text(c), p.profile->contours()[0][0].bulge, p.from, p.to);
+    } else if constexpr (std::is_same_v<P, Mesh>)
       return fmt::format("mesh of {} triangles", p.triangles->size());
     else
       return fmt::format("triangle {} {} {}", text(p.a), text(p.b), text(p.c));

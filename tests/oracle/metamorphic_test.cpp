@@ -8,6 +8,7 @@
 
 #include "crt/query.hpp"
 #include "geometry/scaled_mesh.hpp"
+#include "geometry/scaled_profile.hpp"
 #include "oracle/measure.hpp"
 #include "oracle/prepared_tree.hpp"
 
@@ -39,6 +40,10 @@ Primitive scaled(Primitive primitive, double factor) {
           p.center *= factor;
           p.radius *= factor;
           p.thickness *= factor;
+        } else if constexpr (std::is_same_v<P, Extrusion>) {
+          p.profile = scaled_profile(*p.profile, factor);
+          p.from *= factor;
+          p.to *= factor;
         } else if constexpr (std::is_same_v<P, Mesh>) {
           p = scaled_mesh(p, factor);
         } else {

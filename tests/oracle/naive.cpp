@@ -7,6 +7,7 @@
 #include <glm/geometric.hpp>
 #include <limits>
 #include <utility>
+#include <vector>
 
 #include "oracle/number_vec.hpp"
 
@@ -99,6 +100,47 @@ bool meet(const Triangle& triangle, const Vec3& o, const Vec3& d, core::Crossing
 bool meet(const Mesh& mesh, const Vec3& o, const Vec3& d, core::CrossingList& out) {
   for (const Triangle& triangle : triangles_of(mesh)) meet(triangle, o, d, out);
   std::sort(out.begin(), out.end(), [](const auto& a, const auto& b) { return a.t < b.t; });
+  return false;
+}
+
+/// Looks at what is between all places where the line meets a surface.
+bool meet(const Extrusion& extrusion, const Vec3& o, const Vec3& d, core::CrossingList& out) {
+  const ArchedTriangle profile(*extrusion.profile);
+  std::vector<double> places = {(lower_end(extrusion) - o.z) / d.z,
+                                (upper_end(extrusion) - o.z) / d.z};
+  for (std::size_t side = 0; side < 3; ++side) {
+    const Vec3 along = profile.to(side) - profile.from(side);
+    places.push_back(plane_t({along.y, -along.x, 0}, profile.from(side), o, d));
+  }
+  const Vec3 f = o - profile.center;
+  const double a = d.x * d.x + d.y * d.y;
+  const double b = 2 * (f.x * d.x + f.y * d.y);
+  const double c = f.x * f.x + f.y * f.y - profile.radius * profile.radius;
+  const double discriminant = b * b - 4 * a * c;
+  if (discriminant > 0) {
+    places.push_back((-b - std::sqrt(discriminant)) / (2 * a));
+    places.push_back((-b + std::sqrt(discriminant)) / (2 * a));
+  }
+  std::erase_if(places, [](double t) { return !std::isfinite(t); });
+  std::sort(places.begin(), places.end());
+  const auto is_inside = [&](double t) {
+    const Vec3 p = o + t * d;
+    std::array<bool, 3> right{};
+    for (std::size_t side = 0; side < 3; ++side) {
+      right[side] = glm::cross(profile.to(side) - profile.from(side), p - profile.from(side)).z < 0;
+    }
+    const Vec3 g = p - profile.center;
+    const bool in_disc = g.x * g.x + g.y * g.y < profile.radius * profile.radius;
+    const bool in_triangle = right[0] == right[1] && right[1] == right[2];
+    return in_triangle != (in_disc && right[2] == profile.is_right) && p.z > lower_end(extrusion) &&
+           p.z < upper_end(extrusion);
+  };
+  bool inside = false;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const bool after = i + 1 < places.size() && is_inside((places[i] + places[i + 1]) / 2);
+    if (after != inside) out.push_back({.t = places[i], .entering = after});
+    inside = after;
+  }
   return false;
 }
 

@@ -1,11 +1,13 @@
 // The parts of the oracle share this: vectors of numbers, and which primitives are what.
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <type_traits>
 #include <vector>
 
 #include "core/geometry/mesh/triangles.hpp"
+#include "core/geometry/profile/profile.hpp"
 #include "crt/error.hpp"
 #include "crt/primitives.hpp"
 #include "oracle/interval.hpp"
@@ -106,6 +108,49 @@ inline Mesh tetrahedron(const std::array<Vec3, 4>& corners) {
     // No side has an area.
   }
   return {};
+}
+
+/// Returns a profile of a triangle whose last side is an arc, or none if that has no area.
+inline std::shared_ptr<const Profile> arched_triangle(const std::array<Vec3, 3>& corners,
+                                                      double bulge) {
+  const auto& [a, b, c] = corners;
+  const Contour contour = {{a.x, a.y, bulge}, {b.x, b.y}, {c.x, c.y}};
+  try {
+    return make_profile(std::array{contour});
+  } catch (const Error&) {
+    return nullptr;
+  }
+}
+
+/// An ArchedTriangle is the profile of the extrusions of this oracle: a triangle, and the segment
+/// of a disc that is added to it or taken away.
+struct ArchedTriangle {
+  std::array<Vec3, 3> corners;
+  Vec3 center;
+  double radius;
+  bool is_right;  ///< the segment is to the right of the side from the last corner to the first
+
+  explicit ArchedTriangle(const Profile& profile)
+      : center(profile.arcs()[0].center),
+        radius(profile.arcs()[0].radius),
+        is_right(profile.arcs()[0].is_right) {
+    for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = profile.pieces()[i].from;
+  }
+  const Vec3& from(std::size_t side) const { return corners[side]; }
+  const Vec3& to(std::size_t side) const { return corners[(side + 1) % 3]; }
+  /// Returns the normal of a side to its right.
+  template <class Number>
+  NumberVec<Number> normal(std::size_t side) const {
+    const NumberVec<Number> along = exactly<Number>(to(side)) - exactly<Number>(from(side));
+    return {along[1], -along[0], Number(0.0)};
+  }
+};
+
+inline double lower_end(const Extrusion& e) {
+  return std::min(e.from, e.to);
+}
+inline double upper_end(const Extrusion& e) {
+  return std::max(e.from, e.to);
 }
 
 /// Holds for the primitives without an inside.

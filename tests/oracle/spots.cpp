@@ -259,6 +259,59 @@ Vec3 edge(Counted& random, const Mesh& mesh) {
   return edge(random, any_triangle(random, mesh));
 }
 
+void make(Counted& random, const Vec3& at, double size, Extrusion& extrusion) {
+  std::array<Vec3, 3> offsets{};
+  for (Vec3& offset : offsets) offset = size * random.in_cube();
+  std::array<Vec3, 3> corners{};
+  for (std::size_t i = 0; i < corners.size(); ++i) corners[i] = at + offsets[i];
+  const double bulge = random.sign() * random.uniform(0.3, 1.2);
+  extrusion.profile = arched_triangle(corners, bulge);
+  if (extrusion.profile == nullptr) extrusion.profile = arched_triangle(offsets, bulge);
+  extrusion.from = at.z;
+  extrusion.to = at.z + size * random.uniform(0.05, 1);
+}
+/// Returns a random height between the ends.
+double height(Counted& random, const Extrusion& extrusion) {
+  return extrusion.from + random.uniform(0, 1) * (extrusion.to - extrusion.from);
+}
+/// Returns a spot on one of the three walls, or on an end.
+Spot spot(Counted& random, const Extrusion& extrusion) {
+  const ArchedTriangle profile(*extrusion.profile);
+  const auto side = static_cast<std::size_t>(random.integer(0, 3));
+  const double share = random.uniform(0, 1);
+  const Vec3 up(0, 0, 1);
+  const auto lifted = [](Vec3 point, double z) {
+    point.z = z;
+    return point;
+  };
+  if (side == 3) {
+    const Vec3 within = profile.corners[0] + share * (profile.corners[1] - profile.corners[0]);
+    const Vec3 point = within + random.uniform(0, 1) * (profile.corners[2] - within);
+    return {lifted(point, random.integer(0, 1) == 0 ? extrusion.from : extrusion.to), up,
+            glm::normalize(profile.corners[1] - profile.corners[0])};
+  }
+  const Vec3 along = profile.to(side) - profile.from(side);
+  const Vec3 point = profile.from(side) + share * along;
+  if (side < 2) {
+    return {lifted(point, height(random, extrusion)), glm::normalize(glm::cross(along, up)),
+            random.integer(0, 1) == 0 ? up : glm::normalize(along)};
+  }
+  Vec3 out = glm::normalize(point - profile.center);
+  const bool is_right = glm::dot(out, glm::cross(along, up)) > 0;
+  if (is_right != profile.is_right) out = -out;
+  return {lifted(profile.center + profile.radius * out, height(random, extrusion)), out, up};
+}
+/// Returns a point of an edge between two walls, or of one between a wall and an end.
+Vec3 edge(Counted& random, const Extrusion& extrusion) {
+  Vec3 point =
+      ArchedTriangle(*extrusion.profile).corners[static_cast<std::size_t>(random.integer(0, 2))];
+  point.z = height(random, extrusion);
+  if (random.integer(0, 1) == 0) return point;
+  point = spot(random, extrusion).point;
+  point.z = random.integer(0, 1) == 0 ? extrusion.from : extrusion.to;
+  return point;
+}
+
 }  // namespace
 
 void make(Counted& random, const Vec3& at, double size, Primitive& primitive) {

@@ -100,6 +100,28 @@ double outside(const Mesh& mesh, const IntervalVec& p) {
   return farthest;
 }
 
+double outside(const Extrusion& extrusion, const IntervalVec& p) {
+  const ArchedTriangle profile(*extrusion.profile);
+  double right = infinity;
+  double left = infinity;
+  std::array<double, 3> sides{};
+  for (std::size_t side = 0; side < 3; ++side) {
+    const IntervalVec normal = profile.normal<Interval>(side);
+    sides[side] = (dot(p - exactly<Interval>(profile.from(side)), normal) / length(normal)).value();
+    right = std::min(right, sides[side]);
+    left = std::min(left, -sides[side]);
+  }
+  const double triangle = -std::max(right, left);
+  IntervalVec from_center = p - exactly<Interval>(profile.center);
+  from_center[2] = Interval(0.0);
+  const double disc = (length(from_center) - Interval(profile.radius)).value();
+  const double segment = std::max(disc, profile.is_right ? -sides[2] : sides[2]);
+  const double aside = std::max(std::min(triangle, segment), -std::max(triangle, segment));
+  const double below = (Interval(lower_end(extrusion)) - p[2]).value();
+  const double above = (p[2] - Interval(upper_end(extrusion))).value();
+  return std::max({aside, below, above});
+}
+
 Vec3 middle(const Vec3& a, const Vec3& b) {
   return a / 2.0 + b / 2.0;
 }
@@ -140,6 +162,14 @@ Ball ball_of(const Triangle& t) {
   const Vec3 center = t.a / 3.0 + t.b / 3.0 + t.c / 3.0;
   return {center, std::max({glm::length(t.a - center), glm::length(t.b - center),
                             glm::length(t.c - center)})};
+}
+Ball ball_of(const Extrusion& extrusion) {
+  core::Bounds box = extrusion.profile->bounds();
+  box.lower.z = lower_end(extrusion);
+  box.upper.z = upper_end(extrusion);
+  // The radius of an arc counts like that of a cylinder.
+  return {middle(box.lower, box.upper),
+          std::max(glm::length(box.upper - box.lower) / 2, extrusion.profile->arcs()[0].radius)};
 }
 Ball ball_of(const Mesh& mesh) {
   const core::Bounds& box = mesh.triangles->bounds();

@@ -52,6 +52,13 @@ std::vector<Entity> one_of_each(double scale) {
                .radius = 0.6 * scale,
                .radius2 = 0.1 * scale},
           Capsule{.from = v(-0.3, 0.5, 0.1), .to = v(0.4, -0.4, 0.3), .radius = 0.25 * scale},
+          Extrusion{.profile = make_profile(
+                        std::array{Contour{{-0.5 * scale, -0.4 * scale},
+                                           {0.7 * scale, -0.3 * scale},
+                                           {0.2 * scale, 0.8 * scale, 0.5}},
+                                   Contour{{0.3 * scale, 0, 1}, {-0.1 * scale, 0, 1}}}),
+                    .from = -0.3 * scale,
+                    .to = 0.6 * scale},
           Torus{.center = v(0.1, 0.2, 0.1),
                 .axis = {0.2, 1, 0.3},
                 .radius = 0.8 * scale,

@@ -231,6 +231,7 @@ CanonicalSurface canonical_surface(const Surface& surface, const Placement& plac
     result.flipped = plane.flipped;
     return result;
   }
+  result.flipped = surface.is_hollow;
   const Transform& map = placement.to_world();
   Vec3 position = surface.position;
   if (placement.is_translation()) {

@@ -14,7 +14,8 @@
 namespace crt::core {
 
 /// A CanonicalSurface is a surface in a canonical form in the world. Surfaces are equal if their
-/// forms are, bit for bit. Opposite planes are the same surface, one of them turned round.
+/// forms are, bit for bit. Opposite planes are the same surface, one of them turned round. So are
+/// the insides and outsides of round surfaces.
 struct CanonicalSurface {
   /// A Key has the kind, then up to 8 numbers of the surface and 12 of a placement that does more
   /// than move.

@@ -9,6 +9,7 @@
 #include "core/geometry/cylinder/cylinder.hpp"
 #include "core/geometry/disc/disc.hpp"
 #include "core/geometry/exact_shape.hpp"
+#include "core/geometry/extrusion/extrusion.hpp"
 #include "core/geometry/half_plane/half_plane.hpp"
 #include "core/geometry/mesh/mesh.hpp"
 #include "core/geometry/plane/plane.hpp"

@@ -20,6 +20,8 @@ struct Surface {
   /// where there is none.
   Vec3 direction{0, 0, 0};
   std::array<double, 2> sizes{0, 0};  ///< radii, thickness, or slope
+  /// The face's normal points into what the round surface encloses. A plane has its `direction`.
+  bool is_hollow = false;
 };
 
 }  // namespace crt::core

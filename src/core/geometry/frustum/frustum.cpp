@@ -59,7 +59,7 @@ bool FrustumShape::crossings(const ObjectRay& ray, CrossingList& out) const {
     if (caps_[cap]) caps_[cap]->clip(ray, cap + 1, span);
   }
   if (ray.start.face == side_face) {
-    clip_side_from_surface(ray, span);
+    clip_side_from_surface(side_start(ray, span), ray.start, span);
     return span.finish(out);
   }
   // Squares of what is farther away could overflow. The closest point is known to a few units.
@@ -206,9 +206,21 @@ void FrustumShape::clip_side(const ObjectRay& ray, NearLine& line, const SideRat
   }
 }
 
-/// Clips the span of a ray that starts on the side. The root at the origin is known, so c is 0
-/// whatever rounding made of the origin. The other root is -2 b / a, and is on this nappe if a > 0.
-void FrustumShape::clip_side_from_surface(const ObjectRay& ray, ClippedSpan& span) const {
+std::array<Crossing, 2> FrustumShape::side_crossings(const ObjectRay& ray, ClippedSpan span) const {
+  NearLine line = NearLine::at_closest(ray, narrow_, unit_);
+  const SideRates rates = side_rates(line);
+  move_to_least(ray, line, rates, span);
+  SideEquation side = side_equation(line, rates);
+  center_on_grazing(ray, line, rates, side);
+  const auto [low, high] = SideRoots<double>(side);
+  const Crossing enter = polished(ray, line, side, {low, true, 0}, span);
+  span.enter(enter);
+  return {enter, polished(ray, line, side, {high, false, 1}, span)};
+}
+
+/// The root at the origin is known, so c is 0 whatever rounding made of the origin. The other root
+/// is -2 b / a, and is on this nappe if a > 0.
+SideStart FrustumShape::side_start(const ObjectRay& ray, const ClippedSpan& span) const {
   const NearLine line = NearLine::at_origin(ray, narrow_, unit_);
   SideEquation side = side_equation(line, side_rates(line));
   side.discriminant = side.b * side.b;
@@ -227,12 +239,11 @@ void FrustumShape::clip_side_from_surface(const ObjectRay& ray, ClippedSpan& spa
       other.error += line.to_t_length(start_error(side.c, side.a, side.b));
     }
   }
-  core::clip_side_from_surface({.a = sign_of(side.a),
-                                .b = sign_of(side.b),
-                                .radius = ray.start.on_face ? 1 : sign_of(side.radius),
-                                .radius_rate = sign_of(side.radius_rate),
-                                .other = other},
-                               ray.start, span);
+  return {.a = sign_of(side.a),
+          .b = sign_of(side.b),
+          .radius = ray.start.on_face ? 1 : sign_of(side.radius),
+          .radius_rate = sign_of(side.radius_rate),
+          .other = other};
 }
 
 /// Returns the crossing next to the apex of a line that also crosses the side where it is much
@@ -295,6 +306,10 @@ void FrustumShape::write_cap_point(const Vec3Of<Real>& offset, std::size_t end, 
   if (with_uv) set_polar(relative, frame_, radii_[end], point);
 }
 
+template void FrustumShape::write_point<double>(const Vec3&, const Vec3&, std::uint32_t, bool,
+                                                SurfacePoint&) const;
+template void FrustumShape::write_point<Lanes>(const VectorLanes&, const VectorLanes&,
+                                               std::uint32_t, bool, SurfacePointLanes&) const;
 template class ShapeOfPoints<FrustumShape>;
 
 Surface FrustumShape::surface(std::uint32_t face) const {

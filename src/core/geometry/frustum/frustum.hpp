@@ -30,6 +30,7 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <optional>
 
 #include "core/geometry/angles.hpp"
@@ -39,6 +40,8 @@
 #include "core/geometry/shape.hpp"
 
 namespace crt::core {
+
+struct SideStart;
 
 /// A FrustumEntry is where a line, or as many as a Real has lanes, enters a cylinder or cone
 /// through its side.
@@ -72,6 +75,11 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
   /// plainly on the side. A ray is an ObjectRay or a PlainRay, or as many side by side.
   template <class Real, class Ray>
   FrustumEntry<Real> first_entry(const Ray& ray) const;
+  /// Finds where a line crosses the whole surface of a cylinder's side, which it is known to do.
+  /// Within `span` both crossings are those of crossings(), to the last bit.
+  std::array<Crossing, 2> side_crossings(const ObjectRay& ray, ClippedSpan span) const;
+  /// Returns the signs for a line that starts on the side.
+  SideStart side_start(const ObjectRay& ray, const ClippedSpan& span) const;
   Vec3 anchor(std::uint32_t face) const final {
     return face == side_face ? narrow_ : caps_[face - 1]->position();
   }
@@ -163,7 +171,6 @@ class FrustumShape : public ShapeOfPoints<FrustumShape> {
                          SideEquation& side) const;
   void clip_side(const ObjectRay& ray, NearLine& line, const SideRates& rates,
                  ClippedSpan& span) const;
-  void clip_side_from_surface(const ObjectRay& ray, ClippedSpan& span) const;
   Crossing root_next_to_apex(const ObjectRay& ray, bool entering, const ClippedSpan& span) const;
   /// A SidePoint is the point of the side at `offset` from the middle of the narrow end, or next to
   /// it.

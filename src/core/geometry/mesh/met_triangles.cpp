@@ -1,12 +1,10 @@
 #include "core/geometry/mesh/met_triangles.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
-#include <vector>
 
-#include "core/geometry/ray_slabs.hpp"
+#include "core/geometry/open_nodes.hpp"
 #include "core/math/vector.hpp"
 
 namespace crt::core {
@@ -14,33 +12,6 @@ namespace crt::core {
 namespace {
 
 constexpr double infinity = std::numeric_limits<double>::infinity();
-
-/// OpenNodes are the nodes of a tree that are still to be looked at. They allocate only for trees
-/// that are far deeper than usual.
-class OpenNodes {
- public:
-  bool empty() const { return count_ == 0; }
-  void push(std::uint32_t node) {
-    if (count_ < first_.size()) {
-      first_[count_] = node;
-    } else {
-      more_.push_back(node);
-    }
-    ++count_;
-  }
-  std::uint32_t pop() {
-    --count_;
-    if (count_ < first_.size()) return first_[count_];
-    const std::uint32_t node = more_.back();
-    more_.pop_back();
-    return node;
-  }
-
- private:
-  std::array<std::uint32_t, 128> first_;
-  std::size_t count_ = 0;
-  std::vector<std::uint32_t> more_;
-};
 
 /// MetTriangles makes one list of crossings.
 class MetTriangles {
@@ -103,25 +74,14 @@ double MetTriangles::start_slack() const {
 void MetTriangles::find() {
   const RaySlabs slabs(ray_.origin, ray_.direction, line_.origin_error());
   LineSpan part{ray_.begin - start_slack(), infinity};
-  OpenNodes open;
-  open.push(0);
-  const Bvh& tree = mesh_.tree();
   const bool first_is_enough = !mesh_.is_closed() && ray_.first_above < infinity;
-  while (!open.empty()) {
-    tree.visit(open.pop(), slabs, part, [&](Bvh::Child child, double) {
-      if (!child.is_leaf()) {
-        open.push(child.index());
-        return;
-      }
-      for (const std::uint32_t triangle : tree.order().subspan(child.index(), child.count())) {
-        meet(triangle);
-      }
-      if (first_is_enough && list_.size() > begin_) {
-        const Crossing& met = list_.back();
-        if (ray_.is_first_asked(met)) part.leave = std::min(part.leave, met.t + met.error);
-      }
-    });
-  }
+  for_leaves(mesh_.tree(), slabs, part, [&](std::span<const std::uint32_t> triangles) {
+    for (const std::uint32_t triangle : triangles) meet(triangle);
+    if (first_is_enough && list_.size() > begin_) {
+      const Crossing& met = list_.back();
+      if (ray_.is_first_asked(met)) part.leave = std::min(part.leave, met.t + met.error);
+    }
+  });
 }
 
 void MetTriangles::meet(std::uint32_t triangle) {
