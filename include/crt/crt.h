@@ -1297,13 +1297,16 @@ CRT_API crt_status crt_crossings(crt_prepared* prepared, const crt_ray* ray, crt
  */
 typedef struct crt_hit_part {
   uint32_t entity_id; /**< as in crt_hit */
-  uint32_t part_id;  /**< the innermost crt_entity_with_id() around the primitive that was hit, such
-                          as a cutter; without any the entity's place in the scene */
-  uint32_t face;     /**< of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
-                          and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for
-                          the side, 1 at `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and
-                          the upper end, and further numbers for their sides. Meshes have the place
-                          of the triangle among those with an area. All others have 0. */
+  uint32_t part_id; /**< the innermost crt_entity_with_id() around the primitive that was hit, such
+                         as a cutter; without any the entity's place in the scene */
+  /**
+   * Numbers the faces of the primitive. A box has 0 and 1 across x at its lower and upper end, 2
+   * and 3 across y, 4 and 5 across z. Cylinders, cones and capsules have 0 for the side, 1 at
+   * `from`, 2 at `to`. Extrusions have 0 and 1 for the lower and the upper end, and further numbers
+   * for their sides. Meshes have the place of the triangle among those with an area. All others
+   * have 0.
+   */
+  uint32_t face;
   uint32_t reserved; /**< 0 */
   double u, v;       /**< as in crt_hit */
 } crt_hit_part;

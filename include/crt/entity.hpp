@@ -118,4 +118,12 @@ Entity empty_entity();
 /// closed, and else a surface.
 Entity triangle_mesh(std::span<const Vec3> positions, std::span<const TriangleIndices> triangles);
 
+/// Makes an Extrusion of a profile from one point to another, at least 1e-100 apart. The profile's
+/// origin is at `from`, and its plane is across the axis. Its x axis is where angles about the axis
+/// begin: along z as far as that is across the axis, or along x if the axis is mostly along z. Its
+/// y axis is a quarter of a turn from there about the axis. So from (0, 0, a) to (0, 0, b), with a
+/// < b, x and y are those of the scene, and nothing is rounded. Throws Error (invalid_argument) as
+/// the primitives do.
+Entity extruded(const std::shared_ptr<const Profile>& profile, const Vec3& from, const Vec3& to);
+
 }  // namespace crt

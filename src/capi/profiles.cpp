@@ -1,8 +1,5 @@
 // This file implements profiles of the C interface, and what is made of them.
 #include "capi/structs.hpp"
-#include "core/geometry/angles.hpp"
-#include "core/geometry/checks.hpp"
-#include "core/math/direction_and_length.hpp"
 
 namespace crt::capi {
 
@@ -16,29 +13,6 @@ crt_status add_piece(crt_profile* profile, const ProfilePoint& corner) {
     }
     profile->contours.back().push_back(corner);
   });
-}
-
-/// Makes an extrusion along z, and puts it where it is wanted.
-Entity to_extrusion(const crt_profile& profile, const Vec3& from, const Vec3& to) {
-  core::check_coordinates("from", from);
-  core::check_coordinates("to", to);
-  core::check_end("to", from, to);
-  const core::AxisFrame frame = core::frame_about(to - from);
-  Extrusion extrusion{.profile = make_profile(profile.contours)};
-  if (frame.along == Vec3(0, 0, 1)) {
-    extrusion.from = from.z;
-    extrusion.to = to.z;
-    const Entity upright(extrusion);
-    if (from.x == 0 && from.y == 0) return upright;
-    return upright.transformed({.translation = {from.x, from.y, 0}});
-  }
-  extrusion.from = 0;
-  extrusion.to = core::direction_and_length(to - from).length;
-  const auto& [x, y, z] = frame;
-  return Entity(extrusion).transformed({.row_x = {x.x, y.x, z.x},
-                                        .row_y = {x.y, y.y, z.y},
-                                        .row_z = {x.z, y.z, z.z},
-                                        .translation = from});
 }
 
 }  // namespace
@@ -74,6 +48,7 @@ crt_status crt_extrusion_create(const crt_profile* profile, const double from[3]
   return guarded([&] {
     require(profile, "profile");
     require(out, "out");
-    *out = new crt_entity(to_extrusion(*profile, to_vec3(from, "from"), to_vec3(to, "to")));
+    const auto made = crt::make_profile(profile->contours);
+    *out = new crt_entity(crt::extruded(made, to_vec3(from, "from"), to_vec3(to, "to")));
   });
 }
